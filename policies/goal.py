@@ -1,0 +1,44 @@
+"""What a good grasp is, in numbers; the teacher and the language model's advice data share it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Band:
+    """A closed interval; the unit is in the name of what it bounds.
+
+    Raises:
+        ValueError: Not finite, or ``low`` above ``high``.
+    """
+
+    low: float
+    high: float
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low <= self.high):
+            raise ValueError(f"a band needs finite low <= high, got {self.low} .. {self.high}")
+
+    def __contains__(self, value: float) -> bool:
+        return self.low <= value <= self.high
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Goal:
+    """Bands that a contact must lie in to be called a good grasp.
+
+    Attributes:
+        force_n: Normal force that the touch suggests [N].
+        depth_mm: Largest indentation of the gel [mm]; its upper end guards against bruises.
+        area_share: Share of the field in contact, 0 to 1.
+        x_mm: Position of the contact along the pad's x [mm].
+        y_mm: Along the pad's y [mm].
+    """
+
+    force_n: Band
+    depth_mm: Band
+    area_share: Band
+    x_mm: Band
+    y_mm: Band
