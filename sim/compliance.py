@@ -1,0 +1,216 @@
+"""How far a surface yields to pressure: half-space, bonded elastic layer, and their convolution.
+
+Every compliance is a real-space kernel, the displacement [mm] at the centre of a grid element
+for 1 MPa on one square element, so that the grid ends where it ends: nothing is periodic. The
+kernels are made once in float64 and applied by zero-padded FFT.
+
+Not here: which pressure a contact makes (``sim.contact``), friction (frictionless normal contact
+throughout).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import torch
+from scipy.fft import next_fast_len
+from torch import Tensor
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GelMaterial:
+    """A linear elastic layer bonded to a rigid back.
+
+    Attributes:
+        thickness_mm: Thickness [mm]; ``math.inf`` makes it a half-space.
+        young_mpa: Young's modulus [MPa].
+        poisson: Poisson's ratio, 0 <= nu < 0.5. At 0.5 itself the bonded layer conserves volume
+            exactly and a uniform load has no answer; 0.4999 is as close as one needs.
+    """
+
+    thickness_mm: float
+    young_mpa: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        if not self.thickness_mm > 0:
+            raise ValueError(f"gel thickness must be > 0 mm, got {self.thickness_mm}")
+        if not 0 < self.young_mpa < math.inf:
+            raise ValueError(
+                f"Young's modulus must be finite and > 0 MPa, got {self.young_mpa}; "
+                "soft silicone gels have 0.05 to 0.5 MPa"
+            )
+        if not 0 <= self.poisson < 0.5:
+            raise ValueError(
+                f"Poisson's ratio must be in [0, 0.5), got {self.poisson}; "
+                "use 0.4999 for an incompressible gel"
+            )
+
+    @property
+    def plane_strain_mpa(self) -> float:
+        """E* = E / (1 - nu²) [MPa]."""
+        return self.young_mpa / (1.0 - self.poisson**2)
+
+
+def layer_compliance(q_per_mm: Tensor, material: GelMaterial) -> Tensor:
+    """Surface displacement over pressure of a bonded layer for a sinusoidal pressure.
+
+    Numerator and denominator are divided by e^(2qh), so that thick layers and fine waves do not
+    overflow.
+
+    Args:
+        q_per_mm: Wavenumbers, any shape, >= 0 [rad/mm].
+        material: The layer.
+
+    Returns:
+        Compliance, same shape [mm/MPa].
+
+    Source: the plane-strain solution of a layer with zero displacement at its back; shared notes,
+        'Simulators'. At q = 0 it is the confined compression h (1 - 2nu)(1 + nu) / (E (1 - nu)).
+    """
+    nu, e_star = material.poisson, material.plane_strain_mpa
+    kappa = 3.0 - 4.0 * nu
+    a = q_per_mm * material.thickness_mm
+    e2, e4 = torch.exp(-2.0 * a), torch.exp(-4.0 * a)
+    top = kappa * (1.0 - e4) - 4.0 * a * e2
+    bottom = kappa * (1.0 + e4) + (4.0 * a * a + 1.0 + kappa * kappa) * e2
+    uniform = material.thickness_mm * (1 - 2 * nu) * (1 + nu) / (material.young_mpa * (1 - nu))
+    waves = 2.0 * top / (e_star * q_per_mm.clamp(min=1e-300) * bottom)
+    # Below a = 1e-4 the top is a difference of equal numbers; the limit is exact to 1e-8 there.
+    return torch.where(a > 1e-4, waves, torch.full_like(a, uniform))
+
+
+def love_kernel(rows: int, columns: int, pitch_mm: float) -> Tensor:
+    """Half-space with E* = 1 MPa under uniform pressure on one square element.
+
+    Returns:
+        Displacement at lag (i, j) elements, i in 0..rows-1 and j in 0..columns-1, shape
+        (rows, columns), float64 [mm/MPa]. Negative lags follow by symmetry.
+
+    Source: Love (1929), the closed form for a rectangle; written with asinh, which is the
+        logarithm of the usual form without its cancellation.
+    """
+    half = 0.5 * pitch_mm
+    y = torch.arange(rows, dtype=torch.float64)[:, None] * pitch_mm
+    x = torch.arange(columns, dtype=torch.float64)[None, :] * pitch_mm
+
+    def corner(u: Tensor, v: Tensor) -> Tensor:
+        return u * torch.asinh(v / u.abs()) + v * torch.asinh(u / v.abs())
+
+    near_x, far_x, near_y, far_y = x - half, x + half, y - half, y + half
+    total = corner(far_x, far_y) - corner(far_x, near_y)
+    total = total - corner(near_x, far_y) + corner(near_x, near_y)
+    return total / math.pi
+
+
+def layer_kernel(rows: int, columns: int, pitch_mm: float, material: GelMaterial) -> Tensor:
+    """Bonded layer under uniform pressure on one square element.
+
+    The layer's kernel is singular like a half-space's at the origin and short at a distance, so
+    neither space alone gives it well. It is split: Love's closed form less the smooth far part
+    erf(r/s)/r of a half-space, in real space; and the layer less the near part of a half-space,
+    whose transform is (2/E*q) erf(qs/2), in Fourier space. That remainder is smooth in both
+    spaces, so a sampled transform on a domain twelve thicknesses wider than the lags is exact.
+
+    Returns:
+        As ``love_kernel``, for this material [mm/MPa].
+
+    Source: the split is Ewald's; our choice for this kernel, with s = h.
+    """
+    e_star, h = material.plane_strain_mpa, material.thickness_mm
+    near = love_kernel(rows, columns, pitch_mm) / e_star
+    if math.isinf(h):
+        return near
+    y = torch.arange(rows, dtype=torch.float64)[:, None] * pitch_mm
+    x = torch.arange(columns, dtype=torch.float64)[None, :] * pitch_mm
+    r = torch.hypot(x, y)
+    far = torch.where(
+        r > 0, torch.special.erf(r / h) / r.clamp(min=1e-300), 2.0 / (h * math.sqrt(math.pi))
+    )
+    near = near - far * pitch_mm**2 / (math.pi * e_star)
+
+    margin = math.ceil(12.0 * h / pitch_mm)
+    num_y, num_x = next_fast_len(2 * rows + margin), next_fast_len(2 * columns + margin)
+    q_y = 2.0 * math.pi * torch.fft.fftfreq(num_y, pitch_mm, dtype=torch.float64)[:, None]
+    q_x = 2.0 * math.pi * torch.fft.rfftfreq(num_x, pitch_mm, dtype=torch.float64)[None, :]
+    q = torch.hypot(q_x, q_y)
+    split = torch.where(
+        q > 0, torch.special.erf(0.5 * q * h) / q.clamp(min=1e-300), h / math.sqrt(math.pi)
+    )
+    smooth = layer_compliance(q, material) - 2.0 / e_star * split
+    return near + torch.fft.irfft2(smooth, s=(num_y, num_x))[:rows, :columns]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spectrum:
+    """A kernel ready for zero-padded convolution on one grid.
+
+    Attributes:
+        rows: Rows of the grid.
+        columns: Columns of the grid.
+        padded_rows: Rows of the transform, >= 2 rows - 1.
+        padded_columns: Columns of the transform, >= 2 columns - 1.
+        values: Transform of the kernel, real because the kernel is even. Shape
+            (padded_rows, padded_columns // 2 + 1), or with a leading batch (B, ...) [mm/MPa].
+    """
+
+    rows: int
+    columns: int
+    padded_rows: int
+    padded_columns: int
+    values: Tensor
+
+    def apply(self, pressure_mpa: Tensor) -> Tensor:
+        """Displacement (B, rows, columns) [mm] under ``pressure_mpa`` of the same shape."""
+        # Axis by axis: the padded rows are zero before and unwanted after, so the transforms
+        # along x run over the real rows only.
+        wave = torch.fft.rfft(pressure_mpa, n=self.padded_columns, dim=-1)
+        wave = torch.fft.fft(wave, n=self.padded_rows, dim=-2)
+        wave *= self.values
+        wave = torch.fft.ifft(wave, dim=-2)[..., : self.rows, :]
+        return torch.fft.irfft(wave, n=self.padded_columns, dim=-1)[..., : self.columns]
+
+    def select(self, index: Tensor) -> Spectrum:
+        """The same convolution for some elements of the batch only."""
+        if self.values.ndim == 2:
+            return self
+        return Spectrum(
+            rows=self.rows,
+            columns=self.columns,
+            padded_rows=self.padded_rows,
+            padded_columns=self.padded_columns,
+            values=self.values[index],
+        )
+
+
+@lru_cache(maxsize=32)
+def spectrum_of(
+    material: GelMaterial | None,
+    rows: int,
+    columns: int,
+    pitch_mm: float,
+    dtype: torch.dtype,
+    device: torch.device,
+) -> Spectrum:
+    """Spectrum of a material's kernel; ``None`` is the half-space with E* = 1 MPa."""
+    if material is None:
+        kernel = love_kernel(rows, columns, pitch_mm)
+    else:
+        kernel = layer_kernel(rows, columns, pitch_mm, material)
+    padded_rows, padded_columns = next_fast_len(2 * rows - 1), next_fast_len(2 * columns - 1)
+    padded = torch.zeros(padded_rows, padded_columns, dtype=torch.float64)
+    padded[:rows, :columns] = kernel
+    if rows > 1:
+        padded[-(rows - 1) :] = padded[1:rows].flip(0)
+    if columns > 1:
+        padded[:, -(columns - 1) :] = padded[:, 1:columns].flip(1)
+    values = torch.fft.rfft2(padded).real.to(device=device, dtype=dtype).contiguous()
+    return Spectrum(
+        rows=rows,
+        columns=columns,
+        padded_rows=padded_rows,
+        padded_columns=padded_columns,
+        values=values,
+    )

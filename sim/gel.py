@@ -1,0 +1,311 @@
+"""The gel of a tactile sensor: press a shape into it, get surface, pressure and force.
+
+The gel is a linear elastic layer bonded to a rigid back; what presses may be rigid or a soft
+half-space of its own. Contact is frictionless and quasi-static.
+
+Inside mm, N and MPa (N/mm²); pressures go out in kPa. Surfaces are in the gel frame, positive
+into the gel; the gel that rises around a contact is negative.
+
+Not here: what presses (``sim.strawberry`` and others), noise, points.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+import torch
+from torch import Tensor
+
+from sim.compliance import GelMaterial, Spectrum, layer_compliance, spectrum_of
+from sim.contact import Solution, solve
+
+# A gap beyond this is no body at all; keeps infinities out of the arithmetic.
+NO_BODY_MM = 1e3
+
+# GelSight Mini: thickness and Poisson's ratio fitted to real presses of a 6.31 mm ball, modulus
+# as Tacchi uses for its elastomer (shared notes). DIGIT, GelStereo: not published; the same
+# material, thickness as in cltp.sensors, our assumption.
+GEL_MATERIALS: dict[str, GelMaterial] = {
+    "gelsight_mini": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
+    "digit": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
+    "gelstereo": GelMaterial(thickness_mm=4.0, young_mpa=0.145, poisson=0.495),
+}
+
+
+def gel_of(sensor_name: str) -> GelMaterial:
+    """Return the gel of the sensor called ``sensor_name``.
+
+    Raises:
+        ValueError: No gel is known for it; the message lists those that are.
+    """
+    try:
+        return GEL_MATERIALS[sensor_name]
+    except KeyError:
+        known = ", ".join(sorted(GEL_MATERIALS))
+        raise ValueError(f"no gel known for sensor {sensor_name!r}; known: {known}") from None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Press:
+    """A batch of contacts, solved.
+
+    Attributes:
+        pressure_kpa: Normal pressure, (B, H, W) [kPa].
+        height_mm: Surface of the gel, positive into the gel, (B, H, W) [mm].
+        force_n: Normal force, (B,) [N]. Less than asked for only where nothing lies over the
+            field: then 0.
+        depth_mm: Lowest point of the undeformed body below the undeformed surface, (B,) [mm];
+            where the body is soft it has flattened by part of this. +inf where no depth gives
+            the force; where the force is 0, the depth that just touches.
+        iterations: Of the contact solver, (B,) int64.
+        converged: (B,) bool. False: the iteration bound ended it, the residual is above ``tol``.
+    """
+
+    pressure_kpa: Tensor
+    height_mm: Tensor
+    force_n: Tensor
+    depth_mm: Tensor
+    iterations: Tensor
+    converged: Tensor
+
+
+class ElasticLayer:
+    """A gel on one grid, ready to be pressed.
+
+    Args:
+        material: The gel; infinite thickness makes it a half-space.
+        rows: Rows of the grid, H.
+        columns: Columns of the grid, W.
+        pitch_mm: Edge of a (square) element [mm].
+        body_modulus_mpa: E* = E / (1 - nu²) of the body that presses, as a half-space [MPa]:
+            None is rigid, a number holds for all, a tensor (B,) gives one for each of the batch.
+        dtype: float32 or float64.
+        device: Where to compute.
+
+    Raises:
+        ValueError: A size, pitch, modulus or dtype makes no sense.
+    """
+
+    def __init__(
+        self,
+        material: GelMaterial,
+        *,
+        rows: int,
+        columns: int,
+        pitch_mm: float,
+        body_modulus_mpa: float | Tensor | None = None,
+        dtype: torch.dtype = torch.float32,
+        device: torch.device | str = "cpu",
+    ) -> None:
+        if rows < 1 or columns < 1 or not 0 < pitch_mm < math.inf:
+            raise ValueError(
+                f"a gel's grid needs rows and columns >= 1 and pitch_mm > 0, "
+                f"got {rows} x {columns} at {pitch_mm} mm"
+            )
+        if dtype not in (torch.float32, torch.float64):
+            raise ValueError(f"a gel computes in float32 or float64, got {dtype}")
+        self.material, self.rows, self.columns, self.pitch_mm = material, rows, columns, pitch_mm
+        self.dtype, self.device = dtype, torch.device(device)
+        self._gel = spectrum_of(material, rows, columns, pitch_mm, dtype, self.device)
+        self._both = self._gel
+        if body_modulus_mpa is not None:
+            self._both = self._with_body(body_modulus_mpa)
+        # Stiffness of the layer to a wave as long as itself (a half-space: as the grid), for
+        # first guesses only.
+        size = min(material.thickness_mm, 0.5 * pitch_mm * max(rows, columns))
+        wave = torch.tensor(2.0 / size, dtype=torch.float64)
+        if math.isinf(material.thickness_mm):
+            self._stiffness = float(material.plane_strain_mpa * wave / 2.0)
+        else:
+            self._stiffness = 1.0 / float(layer_compliance(wave, material))
+
+    def _with_body(self, modulus_mpa: float | Tensor) -> Spectrum:
+        """Gel and body in series."""
+        modulus = torch.as_tensor(modulus_mpa, dtype=self.dtype, device=self.device)
+        if modulus.ndim > 1 or not bool((modulus > 0).all()):
+            raise ValueError(
+                f"body_modulus_mpa must be > 0, one number or (B,), got {modulus_mpa}; "
+                "None is a rigid body"
+            )
+        unit = spectrum_of(
+            None, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
+        ).values
+        inverse = 1.0 / modulus
+        if modulus.ndim == 1:
+            inverse = inverse[:, None, None]
+        return replace(self._gel, values=self._gel.values + inverse * unit)
+
+    def surface(self, pressure_kpa: Tensor) -> Tensor:
+        """Displacement of the gel's surface, positive into the gel.
+
+        Args:
+            pressure_kpa: (B, H, W) [kPa].
+
+        Returns:
+            (B, H, W) [mm].
+        """
+        return self._gel.apply(self._field(pressure_kpa, "pressure_kpa") * 1e-3)
+
+    def press_to_force(
+        self,
+        gap_mm: Tensor,
+        force_n: Tensor,
+        *,
+        start: Press | Tensor | None = None,
+        mask: Tensor | None = None,
+        tol: float = 1e-4,
+        max_iterations: int = 300,
+    ) -> Press:
+        """Press a body with a given normal force.
+
+        Args:
+            gap_mm: Height of the undeformed body above its lowest point, (B, H, W), >= 0 [mm];
+                +inf (or above ``NO_BODY_MM``) where there is no body.
+            force_n: (B,) or one number, >= 0 [N].
+            start: A similar press, or its pressure (B, H, W) [kPa], to start from.
+            mask: Where the pad can carry pressure, bool (H, W) or (B, H, W); all if None.
+            tol: Residual gap over the mean displacement in contact, root mean square.
+            max_iterations: Bound of the solver; see ``Press.converged``.
+
+        Raises:
+            ValueError: A shape, sign or value makes no sense.
+        """
+        gap, allowed = self._body(gap_mm, mask)
+        force = self._per_element(force_n, gap.shape[0], "force_n")
+        if not bool(((force >= 0) & torch.isfinite(force)).all()):
+            raise ValueError(f"force_n must be finite and >= 0 N, got {force.tolist()}")
+        target = force / self.pitch_mm**2
+        guess = self._start(start, gap, allowed, self._winkler_depth(gap, allowed, target))
+        total = guess.flatten(1).sum(1).clamp(min=1e-30)
+        solution = solve(
+            self._compliance(gap.shape[0]),
+            gap,
+            allowed,
+            target,
+            by_force=True,
+            start_mpa=guess * (target / total)[:, None, None],
+            stiffness=self._stiffness,
+            tol=tol,
+            max_iterations=max_iterations,
+        )
+        return self._press(solution)
+
+    def press_to_depth(
+        self,
+        gap_mm: Tensor,
+        depth_mm: Tensor,
+        *,
+        start: Press | Tensor | None = None,
+        mask: Tensor | None = None,
+        tol: float = 1e-4,
+        max_iterations: int = 300,
+    ) -> Press:
+        """Press a body until its undeformed lowest point is ``depth_mm`` below the surface.
+
+        Args:
+            gap_mm: As for ``press_to_force``.
+            depth_mm: (B,) or one number [mm]; not touching where it is below the smallest gap.
+            start: As for ``press_to_force``.
+            mask: As for ``press_to_force``.
+            tol: As for ``press_to_force``.
+            max_iterations: As for ``press_to_force``.
+
+        Raises:
+            ValueError: A shape, sign or value makes no sense.
+        """
+        gap, allowed = self._body(gap_mm, mask)
+        depth = self._per_element(depth_mm, gap.shape[0], "depth_mm")
+        if not bool(torch.isfinite(depth).all()):
+            raise ValueError(f"depth_mm must be finite, got {depth.tolist()}")
+        solution = solve(
+            self._compliance(gap.shape[0]),
+            gap,
+            allowed,
+            depth,
+            by_force=False,
+            start_mpa=self._start(start, gap, allowed, depth),
+            stiffness=self._stiffness,
+            tol=tol,
+            max_iterations=max_iterations,
+        )
+        return self._press(solution)
+
+    def _press(self, solution: Solution) -> Press:
+        pressure = solution.pressure_mpa
+        return Press(
+            pressure_kpa=pressure * 1e3,
+            height_mm=self._gel.apply(pressure),
+            force_n=pressure.flatten(1).sum(1) * self.pitch_mm**2,
+            depth_mm=solution.approach_mm,
+            iterations=solution.iterations,
+            converged=solution.converged,
+        )
+
+    def _compliance(self, batch: int) -> Spectrum:
+        values = self._both.values
+        if values.ndim == 3 and values.shape[0] != batch:
+            raise ValueError(
+                f"body_modulus_mpa was given for {values.shape[0]} bodies, "
+                f"but {batch} are pressed; give as many of both"
+            )
+        return self._both
+
+    def _field(self, value: Tensor, name: str) -> Tensor:
+        field = torch.as_tensor(value, dtype=self.dtype, device=self.device)
+        if field.ndim != 3 or tuple(field.shape[1:]) != (self.rows, self.columns):
+            raise ValueError(
+                f"{name} must have shape (B, {self.rows}, {self.columns}), got {tuple(field.shape)}"
+            )
+        return field
+
+    def _per_element(self, value: Tensor | float, batch: int, name: str) -> Tensor:
+        values = torch.as_tensor(value, dtype=self.dtype, device=self.device)
+        if values.ndim > 1 or values.numel() not in (1, batch):
+            raise ValueError(f"{name} must be one number or ({batch},), got {tuple(values.shape)}")
+        return values.reshape(-1).expand(batch)
+
+    def _body(self, gap_mm: Tensor, mask: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Checked gap without infinities, and where pressure may act."""
+        gap = self._field(gap_mm, "gap_mm")
+        if not bool((gap >= -1e-5).all()):
+            raise ValueError(
+                "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
+                f"own lowest point; the smallest is {gap.min().item()} mm"
+            )
+        allowed = gap < NO_BODY_MM
+        if mask is not None:
+            field = torch.as_tensor(mask, device=self.device)
+            if field.dtype != torch.bool or tuple(field.shape[-2:]) != (self.rows, self.columns):
+                raise ValueError(
+                    f"mask must be bool (H, W) or (B, H, W) with H, W = {self.rows}, "
+                    f"{self.columns}; got {field.dtype} {tuple(field.shape)}"
+                )
+            allowed = allowed & field
+        return gap.clamp(max=NO_BODY_MM), allowed
+
+    def _winkler_depth(self, gap: Tensor, allowed: Tensor, target: Tensor) -> Tensor:
+        """Depth at which springs of the guessed stiffness carry ``target``; by bisection."""
+        open_gap = torch.where(allowed, gap, torch.inf)
+        low = open_gap.flatten(1).amin(1).clamp(max=NO_BODY_MM)
+        high = low + target / self._stiffness
+        for _ in range(12):
+            middle = 0.5 * (low + high)
+            carried = (middle[:, None, None] - open_gap).clamp_(min=0).flatten(1).sum(1)
+            enough = carried * self._stiffness > target
+            low, high = torch.where(enough, low, middle), torch.where(enough, middle, high)
+        return high
+
+    def _start(
+        self, start: Press | Tensor | None, gap: Tensor, allowed: Tensor, depth: Tensor
+    ) -> Tensor:
+        """First pressures [MPa]: what was given where it presses at all, else springs."""
+        springs = ((depth[:, None, None] - gap) * self._stiffness).clamp_(min=0) * allowed
+        if start is None:
+            return springs
+        given = start.pressure_kpa if isinstance(start, Press) else start
+        warm = (self._field(given, "start") * 1e-3).clamp(min=0) * allowed
+        if warm.shape != gap.shape:
+            raise ValueError(f"start has {warm.shape[0]} presses, gap_mm has {gap.shape[0]}")
+        pressed = (warm > 0).flatten(1).any(1)
+        return torch.where(pressed[:, None, None], warm, springs)
