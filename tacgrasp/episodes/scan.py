@@ -1,0 +1,165 @@
+"""Read the records of an MCAP file from its start, as far as they are whole.
+
+The stock reader starts at the summary at a file's end, which a killed run never wrote. A scan needs
+no summary: it takes each record whose bytes are all there and whose checksum fits, and stops at the
+first that is not.
+
+Not here: what the records mean (``tacgrasp.episodes.reader``).
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+import zlib
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import lz4.frame
+import zstandard
+from mcap.data_stream import ReadDataStream
+from mcap.exceptions import McapError
+from mcap.opcode import Opcode
+from mcap.records import Channel, Chunk, McapRecord, Message, Metadata, Schema
+from mcap.writer import MCAP0_MAGIC
+
+from tacgrasp.episodes.errors import EpisodeError
+
+_PREFIX = struct.Struct("<BQ")  # opcode, length of what follows
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scan:
+    """What a file holds.
+
+    Attributes:
+        groups: Schemas, channels, messages and metadata in the order of the file; the records of
+            one chunk are one group.
+        finished: True when footer and closing magic are there.
+        problem: Why the scan stopped early, for people; empty when finished.
+    """
+
+    groups: tuple[tuple[McapRecord, ...], ...]
+    finished: bool
+    problem: str
+
+    @property
+    def records(self) -> Iterator[McapRecord]:
+        """All records in order."""
+        return (record for group in self.groups for record in group)
+
+
+class _DamagedError(Exception):
+    """The next record is not whole."""
+
+
+def scan_file(path: Path) -> Scan:
+    """Scan ``path``.
+
+    Raises:
+        EpisodeError: It can't be read, is empty, or is not an MCAP file.
+    """
+    try:
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise EpisodeError(
+            f"{path} does not exist; `tacgrasp episodes ls` lists those that do"
+        ) from None
+    except OSError as error:
+        raise EpisodeError(f"can't read {path}: {error.strerror or error}") from None
+    if not data:
+        raise EpisodeError(
+            f"{path} is empty: the run was killed before it recorded anything; delete it"
+        )
+    if not data.startswith(MCAP0_MAGIC):
+        if MCAP0_MAGIC.startswith(data):
+            raise EpisodeError(f"{path} ends inside its first {len(MCAP0_MAGIC)} bytes; delete it")
+        raise EpisodeError(f"{path} is not an MCAP file; expected an episode (.mcap) of tacgrasp")
+    return _scan(data)
+
+
+def _scan(data: bytes) -> Scan:
+    groups: list[tuple[McapRecord, ...]] = []
+    offset = len(MCAP0_MAGIC)
+    in_summary = False
+    try:
+        while True:
+            opcode, payload = _next_record(data, offset)
+            offset += _PREFIX.size + len(payload)
+            if opcode == Opcode.FOOTER:
+                if data[offset:] != MCAP0_MAGIC:
+                    raise _DamagedError("the closing bytes are missing or followed by others")
+                return Scan(groups=tuple(groups), finished=True, problem="")
+            in_summary = in_summary or opcode == Opcode.DATA_END
+            if not in_summary and (group := _group(opcode, payload)):
+                groups.append(group)
+    except _DamagedError as damage:
+        lost = len(data) - offset
+        problem = f"{damage} at byte {offset} of {len(data)} ({lost} bytes are not used)"
+        return Scan(groups=tuple(groups), finished=False, problem=problem)
+
+
+def _next_record(data: bytes, offset: int) -> tuple[int, bytes]:
+    if len(data) - offset < _PREFIX.size:
+        raise _DamagedError("it ends without a summary")
+    opcode, length = _PREFIX.unpack_from(data, offset)
+    start = offset + _PREFIX.size
+    if opcode == 0:  # a power cut can leave zeros where data had not reached the disk
+        raise _DamagedError("it holds zeros instead of a record")
+    if length > len(data) - start:
+        raise _DamagedError("it ends inside a record")
+    return opcode, data[start : start + length]
+
+
+def _group(opcode: int, payload: bytes) -> tuple[McapRecord, ...]:
+    """Records of a chunk, or a single record that counts; nothing for the others (indexes)."""
+    try:
+        if opcode == Opcode.CHUNK:
+            return tuple(_chunk_records(Chunk.read(_stream(payload))))
+        record = _record(opcode, payload)
+    except (McapError, ValueError, struct.error) as error:
+        raise _DamagedError(f"a record can't be read ({error or type(error).__name__})") from None
+    return () if record is None else (record,)
+
+
+def _record(opcode: int, payload: bytes) -> McapRecord | None:
+    stream = _stream(payload)
+    if opcode == Opcode.MESSAGE:
+        return Message.read(stream, len(payload))
+    if opcode == Opcode.SCHEMA:
+        return Schema.read(stream)
+    if opcode == Opcode.CHANNEL:
+        return Channel.read(stream)
+    if opcode == Opcode.METADATA:
+        return Metadata.read(stream)
+    return None
+
+
+def _chunk_records(chunk: Chunk) -> Iterator[McapRecord]:
+    data = _decompressed(chunk)
+    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
+        raise _DamagedError("a chunk's checksum does not fit")
+    offset = 0
+    while offset < len(data):
+        opcode, payload = _next_record(data, offset)
+        offset += _PREFIX.size + len(payload)
+        record = _record(opcode, payload)
+        if record is not None:
+            yield record
+
+
+def _decompressed(chunk: Chunk) -> bytes:
+    try:
+        if chunk.compression == "zstd":
+            return zstandard.ZstdDecompressor().decompress(chunk.data, chunk.uncompressed_size)
+        if chunk.compression == "lz4":
+            unpacked: bytes = lz4.frame.decompress(chunk.data)
+            return unpacked
+    except (zstandard.ZstdError, RuntimeError) as error:
+        raise _DamagedError(f"a chunk can't be unpacked ({error})") from None
+    return chunk.data
+
+
+def _stream(payload: bytes) -> ReadDataStream:
+    return ReadDataStream(io.BytesIO(payload))
