@@ -1,8 +1,8 @@
 """Read the records of an MCAP file from its start, as far as they are whole.
 
 The stock reader starts at the summary at a file's end, which a killed run never wrote. A scan needs
-no summary: it takes each record whose bytes are all there and whose checksum fits, and stops at the
-first that is not.
+no summary: it takes each record whose bytes are all there, leaves out a chunk whose checksum does
+not fit, and stops where the bytes end.
 
 Not here: what the records mean (``tacgrasp.episodes.reader``).
 """
@@ -36,8 +36,8 @@ class Scan:
     Attributes:
         groups: Schemas, channels, messages and metadata in the order of the file; the records of
             one chunk are one group.
-        finished: True when footer and closing magic are there.
-        problem: Why the scan stopped early, for people; empty when finished.
+        finished: True when footer and closing magic are there and everything between is whole.
+        problem: What is missing or damaged, for people; empty when finished.
     """
 
     groups: tuple[tuple[McapRecord, ...], ...]
@@ -81,23 +81,29 @@ def scan_file(path: Path) -> Scan:
 
 def _scan(data: bytes) -> Scan:
     groups: list[tuple[McapRecord, ...]] = []
+    problems: list[str] = []
     offset = len(MCAP0_MAGIC)
-    in_summary = False
-    try:
-        while True:
+    in_summary = finished = False
+    while not finished:
+        try:
             opcode, payload = _next_record(data, offset)
-            offset += _PREFIX.size + len(payload)
-            if opcode == Opcode.FOOTER:
-                if data[offset:] != MCAP0_MAGIC:
-                    raise _DamagedError("the closing bytes are missing or followed by others")
-                return Scan(groups=tuple(groups), finished=True, problem="")
-            in_summary = in_summary or opcode == Opcode.DATA_END
-            if not in_summary and (group := _group(opcode, payload)):
+        except _DamagedError as damage:
+            problems.append(f"{damage} at byte {offset} of {len(data)}")
+            break
+        start, offset = offset, offset + _PREFIX.size + len(payload)
+        finished = opcode == Opcode.FOOTER
+        in_summary = in_summary or opcode == Opcode.DATA_END
+        if in_summary:
+            continue
+        try:
+            if group := _group(opcode, payload):
                 groups.append(group)
-    except _DamagedError as damage:
-        lost = len(data) - offset
-        problem = f"{damage} at byte {offset} of {len(data)} ({lost} bytes are not used)"
-        return Scan(groups=tuple(groups), finished=False, problem=problem)
+        except _DamagedError as damage:  # its length is right: what follows can still be read
+            problems.append(f"{damage} at byte {start} of {len(data)}, left out")
+    if finished and data[offset:] != MCAP0_MAGIC:
+        problems.append("the closing bytes are missing or followed by others")
+    finished = finished and not problems
+    return Scan(groups=tuple(groups), finished=finished, problem="; ".join(problems))
 
 
 def _next_record(data: bytes, offset: int) -> tuple[int, bytes]:

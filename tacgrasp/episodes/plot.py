@@ -1,0 +1,253 @@
+"""An episode as one picture: every touch, and how force, depth and position went.
+
+Not here: live viewers.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.gridspec import GridSpec
+from matplotlib.patches import Rectangle
+
+from cltp.cloud import TactileCloud
+from cltp.sensors import SensorSpec
+from tacgrasp.episodes.errors import EpisodeError
+from tacgrasp.episodes.places import refused
+from tacgrasp.episodes.reader import read_episode
+from tacgrasp.episodes.record import Episode, Phase, TickRecord
+
+MAX_PICTURES = 24
+"""More touches than this are thinned out evenly, the first and the last kept. Our choice."""
+
+SCALE_TOP_MM = 0.9
+"""Top of the fixed colour scale [mm], where 'very deep' begins (``cltp.states``)."""
+
+_COLUMNS = 6
+_HEAT = "magma_r"  # the untouched gel is light
+_FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
+_SHORT_PHASE = {Phase.VERIFY_BEFORE: "before the lift", Phase.VERIFY_AFTER: "after the lift"}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Touch:
+    """What the picture shows of a cloud: largest indentation and where the pressed part is [mm]."""
+
+    depth_mm: float
+    x_mm: float
+    y_mm: float
+
+
+def plot_episode(path: Path, png_path: Path) -> None:
+    """Draw the episode in ``path`` to ``png_path``.
+
+    Raises:
+        EpisodeError: The episode can't be read or has no touch, or the picture can't be written.
+    """
+    episode = read_episode(path)
+    if not episode.ticks:
+        raise EpisodeError(f"{path} has no touch to draw: the run ended before its first tick")
+    figure = draw_episode(episode, path.name)
+    try:
+        figure.savefig(png_path, format="png", dpi=110, facecolor="white")
+    except OSError as error:
+        raise EpisodeError(refused(png_path, "write", error)) from None
+
+
+def draw_episode(episode: Episode, name: str) -> Figure:
+    """The picture as a figure; ``name`` goes into the title. The episode has at least one tick."""
+    shown = _thinned(episode.ticks)
+    rows = math.ceil(len(shown) / _COLUMNS)
+    height_in = 1.0 + 1.75 * rows + 4.2
+    figure = Figure(figsize=(13, height_in))
+    FigureCanvasAgg(figure)
+    top = 1 - 0.95 / height_in
+    split = 4.4 / height_in
+    pictures = GridSpec(
+        rows, _COLUMNS, figure, 0.04, split + 0.1 / height_in, 0.93, top, wspace=0.08, hspace=0.32
+    )
+    curves = GridSpec(
+        2,
+        2,
+        figure,
+        0.07,
+        0.6 / height_in,
+        0.97,
+        split - 0.55 / height_in,
+        width_ratios=(1.7, 1),
+        hspace=0.16,
+        wspace=0.12,
+    )
+    _title(figure, episode, name, height_in)
+    scale = Normalize(0.0, SCALE_TOP_MM)
+    for place, tick in enumerate(shown):
+        _draw_cloud(figure.add_subplot(pictures[place // _COLUMNS, place % _COLUMNS]), tick, scale)
+    bar = figure.add_axes((0.945, split + 0.1 / height_in, 0.012, top - split - 0.1 / height_in))
+    figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, extend="max", label="indentation [mm]")
+    touches = [_touch(tick.cloud) for tick in episode.ticks]
+    _draw_curves(figure, curves, episode, touches)
+    _draw_path(figure.add_subplot(curves[:, 1]), episode, touches)
+    return figure
+
+
+def _thinned(ticks: Sequence[TickRecord]) -> list[TickRecord]:
+    if len(ticks) <= MAX_PICTURES:
+        return list(ticks)
+    return [ticks[i] for i in np.linspace(0, len(ticks) - 1, MAX_PICTURES).round().astype(int)]
+
+
+def _touch(cloud: TactileCloud) -> _Touch:
+    """Centre of the points pressed at least half as deep as the deepest one."""
+    points = cloud.points_mm
+    depth = float(points[:, 2].max())
+    pressed = points[points[:, 2] >= depth / 2]
+    x, y = pressed[:, :2].mean(axis=0)
+    return _Touch(depth_mm=max(depth, 0.0), x_mm=float(x), y_mm=float(y))
+
+
+def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> None:
+    header, end = episode.header, episode.end
+    outcome = f"{end.reason}: {end.message}" if end else "no end recorded"
+    if not episode.complete:
+        outcome += " (unfinished file)"
+    seed = "" if header.seed is None else f", seed {header.seed}"
+    figure.text(
+        0.04,
+        1 - 0.36 / height_in,
+        f"{header.task}, {header.policy}{seed} → {outcome}",
+        fontsize=15,
+        weight="bold",
+    )
+    said = f"“{header.instruction}”   {name}"
+    if len(episode.ticks) > MAX_PICTURES:
+        said += f"   ({MAX_PICTURES} of {len(episode.ticks)} touches shown)"
+    figure.text(0.04, 1 - 0.62 / height_in, said, fontsize=10, color=_MUTED)
+
+
+def _draw_cloud(axes: Axes, tick: TickRecord, scale: Normalize) -> None:
+    x, y, z = tick.cloud.points_mm.astype(np.float64).T
+    axes.tripcolor(x, y, z, cmap=_HEAT, norm=scale, shading="gouraud")
+    axes.set_facecolor(colormaps[_HEAT](0.0))  # between the outermost points and the pad's edge
+    _outline_pad(axes, tick.cloud.sensor)
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.set_title(f"{tick.index}  {_caption(tick)}", fontsize=9.5, pad=4)
+
+
+def _caption(tick: TickRecord) -> str:
+    if tick.phase != Phase.TICK:
+        return _SHORT_PHASE[tick.phase]
+    decision = tick.decision
+    if decision is None:
+        return "no decision"
+    if decision.action is not None:
+        return f"→ {decision.action.value}"
+    return "success declared" if decision.success else "no action"
+
+
+def _outline_pad(axes: Axes, sensor: SensorSpec) -> None:
+    corner = (-sensor.width_mm / 2, -sensor.height_mm / 2)
+    axes.add_patch(
+        Rectangle(corner, sensor.width_mm, sensor.height_mm, fill=False, lw=1.2, ec="#333333")
+    )
+    axes.set_aspect("equal")
+    axes.set_xlim(-0.505 * sensor.width_mm, 0.505 * sensor.width_mm)
+    axes.set_ylim(-0.505 * sensor.height_mm, 0.505 * sensor.height_mm)
+    for side in axes.spines.values():
+        side.set_visible(False)
+
+
+def _draw_curves(
+    figure: Figure, grid: GridSpec, episode: Episode, touches: Sequence[_Touch]
+) -> None:
+    """Commanded force and felt depth over time, with the actions between them."""
+    start_s = episode.header.stamp.monotonic_s
+    time_s = [tick.stamp.monotonic_s - start_s for tick in episode.ticks]
+    force = figure.add_subplot(grid[0, 0])
+    depth = figure.add_subplot(grid[1, 0], sharex=force)
+    commanded = [tick.gripper.force_n for tick in episode.ticks]
+    force.step(time_s, commanded, where="post", color=_FORCE, lw=2)
+    force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
+    force.set_ylabel("commanded\nforce [N]")
+    force.set_ylim(0, 1.35 * max(*commanded, 0.1))
+    depth.plot(time_s, [touch.depth_mm for touch in touches], "o-", color=_DEPTH, lw=2, ms=5)
+    depth.set_ylabel("largest\nindentation [mm]")
+    depth.set_ylim(0, 1.3 * max(*(touch.depth_mm for touch in touches), 0.1))
+    depth.set_xlabel("time since start [s]")
+    force.tick_params(labelbottom=False)
+    for axes in (force, depth):
+        axes.grid(alpha=0.25)
+        axes.spines[["top", "right"]].set_visible(False)
+        for at_s, tick in zip(time_s, episode.ticks, strict=True):
+            axes.axvline(at_s, color=_MUTED, lw=0.6, alpha=0.5, ls=":")
+            if axes is force and len(episode.ticks) <= MAX_PICTURES:
+                _label_time(axes, at_s, tick)
+
+
+def _label_time(axes: Axes, at_s: float, tick: TickRecord) -> None:
+    words = _caption(tick).removeprefix("→ ").replace("_", " ")
+    axes.annotate(
+        words,
+        (at_s, 0.99),
+        xycoords=("data", "axes fraction"),
+        xytext=(2, 0),
+        textcoords="offset points",
+        fontsize=8,
+        rotation=30,
+        va="bottom",
+        color="#444444",
+    )
+
+
+def _draw_path(axes: Axes, episode: Episode, touches: Sequence[_Touch]) -> None:
+    """Where on the pad the contact was, touch after touch."""
+    _outline_pad(axes, episode.header.sensor)
+    sensor = episode.header.sensor
+    for third in (-1, 1):  # the nine cells of the position words
+        axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
+        axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
+    felt = [(t, i) for t, i in zip(touches, episode.ticks, strict=True) if t.depth_mm > 0.05]
+    x, y = [t.x_mm for t, _ in felt], [t.y_mm for t, _ in felt]
+    axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
+    axes.scatter(x, y, c=range(len(felt)), cmap="viridis", s=60, zorder=3, ec="white")
+    for words, touch in _labels(felt):
+        axes.annotate(
+            words,
+            (touch.x_mm, touch.y_mm),
+            xytext=(6, 5),
+            textcoords="offset points",
+            fontsize=9,
+        )
+    axes.set_title("contact on the pad [mm], +y towards the palm", fontsize=10)
+    axes.tick_params(labelsize=8)
+
+
+def _labels(felt: Sequence[tuple[_Touch, TickRecord]]) -> list[tuple[str, _Touch]]:
+    """Numbers of the touches; those at one place share a label, and none covers another."""
+    runs: list[list[tuple[_Touch, TickRecord]]] = []
+    for touch, tick in felt:
+        if runs and _apart_mm(runs[-1][0][0], touch) < 0.6:
+            runs[-1].append((touch, tick))
+        else:
+            runs.append([(touch, tick)])
+    placed: list[tuple[str, _Touch]] = []
+    for run in runs:
+        (touch, first), (_, last) = run[0], run[-1]
+        if all(_apart_mm(touch, other) > 1.2 for _, other in placed):
+            words = str(first.index) if first is last else f"{first.index}–{last.index}"
+            placed.append((words, touch))
+    return placed
+
+
+def _apart_mm(a: _Touch, b: _Touch) -> float:
+    return math.hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm)
