@@ -1,0 +1,231 @@
+"""The model that a run is configured by; where its values come from is in ``config_layers``.
+
+Nothing is guessed: an unknown field, a wrong type or a number outside the range that its unit
+allows is refused (metres where millimetres are meant fall outside that range).
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from policies.goal import Band, Goal
+
+Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
+Interval = tuple[Number, Number]
+Vector = tuple[Number, Number, Number]
+AtTheEnd = Literal["hold", "release"]
+
+
+class Section(BaseModel):
+    """A part of the configuration: refuses fields that it does not know."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class GoalConfig(Section):
+    """What a good grasp is; each band is [low, high].
+
+    Attributes:
+        force_n: Normal force that the touch suggests [N].
+        depth_mm: Largest indentation of the gel [mm].
+        area_share: Share of the pad's field in contact, 0 to 1.
+        x_mm: Position of the contact along the pad's x [mm].
+        y_mm: Position of the contact along the pad's y [mm].
+    """
+
+    force_n: Interval
+    depth_mm: Interval
+    area_share: Interval
+    x_mm: Interval
+    y_mm: Interval
+
+    @model_validator(mode="after")
+    def _bands_are_ordered(self) -> GoalConfig:
+        for name in type(self).model_fields:
+            low, high = getattr(self, name)
+            if low > high:
+                raise ValueError(f"{name} must be [low, high], got [{low}, {high}]")
+        if not 0 <= self.area_share[0] <= self.area_share[1] <= 1:
+            raise ValueError(f"area_share must lie in 0 to 1, got {list(self.area_share)}")
+        return self
+
+    def goal(self) -> Goal:
+        """The same bands as the policies know them."""
+
+        def band(interval: tuple[float, float]) -> Band:
+            return Band(low=interval[0], high=interval[1])
+
+        return Goal(
+            force_n=band(self.force_n),
+            depth_mm=band(self.depth_mm),
+            area_share=band(self.area_share),
+            x_mm=band(self.x_mm),
+            y_mm=band(self.y_mm),
+        )
+
+
+class PrimitivesConfig(Section):
+    """Sizes of the seven primitives.
+
+    Attributes:
+        clear_mm: How far the gripper opens before a move, so that nothing is carried along [mm].
+        move_step_mm: Length of one move [mm].
+        increase_factor: What ``increase_force`` multiplies the commanded force by.
+        decrease_factor: What ``decrease_force`` multiplies it by.
+    """
+
+    clear_mm: Number = Field(default=2.0, ge=0.2, le=50)
+    move_step_mm: Number = Field(default=3.0, ge=0.1, le=20)
+    increase_factor: Number = Field(default=1.5, gt=1, le=3)
+    decrease_factor: Number = Field(default=0.65, ge=0.2, lt=1)
+
+
+class LoopConfig(Section):
+    """Bounds of the loop; each has its named end.
+
+    Attributes:
+        max_steps: Actions carried out before the end ``max_steps``.
+        timeout_s: Time before the end ``timeout`` [s]; includes simulated motion.
+        max_asks: Times in a row that a text may name no action, or two, before ``no_action``.
+        max_faults: Times in a row that touch or policy may fail before ``fault``.
+        wait_s: Pause before reading and asking again [s].
+    """
+
+    max_steps: int = Field(default=25, ge=1, le=1000, strict=True)
+    timeout_s: Number = Field(default=180.0, ge=1, le=3600)
+    max_asks: int = Field(default=3, ge=1, le=20, strict=True)
+    max_faults: int = Field(default=3, ge=1, le=20, strict=True)
+    wait_s: Number = Field(default=0.1, ge=0, le=10)
+
+
+class VerifyConfig(Section):
+    """How a declared success is checked, by touch alone.
+
+    Attributes:
+        lift_mm: Height of the lift [mm].
+        acceleration_m_s2: Acceleration of lift and shake [m/s²].
+        speed_m_s: Speed of lift and shake [m/s].
+        shake_mm: Length of one sideways move along the pad's x [mm]; 0 for none.
+        shakes: How many there and back.
+        hold_s: Time that the grasp is then held [s].
+        max_shift_mm: How far the contact may have moved on the pad [mm].
+        min_area_ratio: Smallest share of the area that must be left.
+        min_depth_ratio: Smallest share of the depth that must be left.
+    """
+
+    lift_mm: Number = Field(default=40.0, ge=5, le=300)
+    acceleration_m_s2: Number = Field(default=2.5, gt=0, le=10)
+    speed_m_s: Number = Field(default=0.1, gt=0, le=0.5)
+    shake_mm: Number = Field(default=10.0, ge=0, le=50)
+    shakes: int = Field(default=2, ge=0, le=10, strict=True)
+    hold_s: Number = Field(default=2.0, ge=0, le=60)
+    max_shift_mm: Number = Field(default=1.0, gt=0, le=10)
+    min_area_ratio: Number = Field(default=0.6, ge=0, le=1)
+    min_depth_ratio: Number = Field(default=0.6, ge=0, le=1)
+
+
+class ArmConfig(Section):
+    """Limits of the arm that every command is held to.
+
+    Attributes:
+        max_step_mm: Longest single move of a primitive [mm].
+        max_travel_mm: Total travel of an episode's primitives before the end ``limit`` [mm].
+        reach_mm: Half the edges of the box around the start pose that the TCP stays in [mm].
+        speed_m_s: Speed of the primitives' moves [m/s].
+        acceleration_m_s2: Their acceleration [m/s²].
+    """
+
+    max_step_mm: Number = Field(default=5.0, ge=0.1, le=50)
+    max_travel_mm: Number = Field(default=120.0, ge=1, le=2000)
+    reach_mm: Vector = (60.0, 60.0, 80.0)
+    speed_m_s: Number = Field(default=0.05, gt=0, le=0.5)
+    acceleration_m_s2: Number = Field(default=0.5, gt=0, le=10)
+
+
+class GripperConfig(Section):
+    """Limits of the gripper.
+
+    Attributes:
+        min_force_n: Smallest force that it is asked for [N].
+        max_force_n: Largest [N].
+        first_force_n: Force of the first grasp [N]; none: the simulated world draws it.
+    """
+
+    min_force_n: Number = Field(default=0.1, gt=0, le=100)
+    max_force_n: Number = Field(default=12.0, gt=0, le=200)
+    first_force_n: Number | None = Field(default=None, gt=0, le=200)
+
+    @model_validator(mode="after")
+    def _range_is_ordered(self) -> GripperConfig:
+        if self.min_force_n > self.max_force_n:
+            raise ValueError(
+                f"min_force_n {self.min_force_n} is above max_force_n {self.max_force_n} [N]"
+            )
+        return self
+
+
+class PadConfig(Section):
+    """How the pad sits on the TCP: perpendicular unit vectors in the TCP's frame.
+
+    Attributes:
+        x_axis: Direction of the pad's +x ('right').
+        y_axis: Direction of the pad's +y ('top', towards the palm).
+    """
+
+    x_axis: Vector
+    y_axis: Vector
+
+    @model_validator(mode="after")
+    def _axes_are_a_frame(self) -> PadConfig:
+        x, y = self.x_axis, self.y_axis
+        for name, axis in (("x_axis", x), ("y_axis", y)):
+            if abs(math.hypot(*axis) - 1) > 1e-6:
+                raise ValueError(f"{name} must be a unit vector, got {list(axis)}")
+        if abs(sum(a * b for a, b in zip(x, y, strict=True))) > 1e-6:
+            raise ValueError(f"x_axis {list(x)} and y_axis {list(y)} must be perpendicular")
+        return self
+
+
+class RunConfig(Section):
+    """Everything that a run is configured by.
+
+    Attributes:
+        task: Name of a task, or the path of its YAML file.
+        rig: Name of a rig, or the path of its YAML file.
+        devices: Which drivers the rig has; its file has to say it.
+        policy: Who decides: rules, fixed_force or random.
+        instruction: What a person asks for, in words; the task's own when not given.
+        object: What the simulator puts between the fingers.
+        object_mesh: A mesh [mm] to grasp instead (simulation only).
+        seed: Of everything drawn at random.
+        sensor: Which tactile sensor it is.
+        on_success: What the gripper does after a verified grasp.
+        on_failure: What it does after any other end.
+        dry_run: Feel and decide once, send nothing.
+        record: Folder that the episode is written to.
+    """
+
+    task: str = "strawberry"
+    rig: str = "sim"
+    devices: Literal["sim"]
+    policy: str = "rules"
+    instruction: str = Field(min_length=1)
+    object: str = Field(min_length=1)
+    object_mesh: Path | None = None
+    seed: int = Field(default=0, ge=0, lt=2**63)
+    sensor: str = "gelsight_mini"
+    goal: GoalConfig
+    primitives: PrimitivesConfig = PrimitivesConfig()
+    loop: LoopConfig = LoopConfig()
+    verify: VerifyConfig = VerifyConfig()
+    arm: ArmConfig = ArmConfig()
+    gripper: GripperConfig = GripperConfig()
+    pad: PadConfig
+    on_success: AtTheEnd = "hold"
+    on_failure: AtTheEnd = "release"
+    dry_run: bool = False
+    record: Path = Path("episodes")

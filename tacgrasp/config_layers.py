@@ -1,0 +1,205 @@
+"""Fill the configuration: defaults < task file < rig file < environment (< flags, ``cli.flags``).
+
+Not here: the fields and their ranges (``tacgrasp.config``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
+
+from tacgrasp.config import RunConfig, Section
+from tacgrasp.errors import UsageError
+
+ENV_PREFIX = "TACGRASP_"
+"""``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
+
+UNITS = {
+    "mm": "mm",
+    "m": "m",
+    "n": "N",
+    "s": "s",
+    "m_s": "m/s",
+    "m_s2": "m/s²",
+    "share": "share of 0 to 1",
+}
+"""What the end of a field's name says about its unit."""
+
+Sources = dict[str, str]
+"""Where each value came from: dotted path of a field -> 'default', a file, a variable, a flag."""
+
+
+def load(
+    task: str | None = None,
+    rig: str | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> tuple[RunConfig, Sources]:
+    """Fill the model from the task's file, the rig's file and the environment, in this order.
+
+    Args:
+        task: Name or path; None takes ``TACGRASP_TASK``, and without it the strawberry.
+        rig: Name or path; None takes ``TACGRASP_RIG``, and without it the simulated one.
+        environment: Variables; only those with our prefix are read.
+
+    Raises:
+        UsageError: No such task or rig, not YAML, an unknown field, or a value that doesn't fit.
+    """
+    variables = {k: v for k, v in (environment or {}).items() if k.startswith(ENV_PREFIX)}
+    sources: Sources = {}
+    merged: dict[str, Any] = {}
+    for kind, flag, default in (("task", task, "strawberry"), ("rig", rig, "sim")):
+        variable = f"{ENV_PREFIX}{kind.upper()}"
+        from_env = variables.pop(variable, None)
+        merged[kind] = flag or from_env or default
+        if from_env and not flag:
+            sources[kind] = f"environment variable {variable}"
+    for kind in ("task", "rig"):
+        where, fields = _read_layer(kind, merged[kind])
+        _merge(merged, fields, where, sources)
+    for variable, value in sorted(variables.items()):
+        layer: Any = _yaml_value(value)
+        for key in reversed(variable.removeprefix(ENV_PREFIX).lower().split("__")):
+            layer = {key: layer}
+        _merge(merged, layer, f"environment variable {variable}", sources)
+    config = _complete(merged)
+    return config, {path: sources.get(path, "default") for path in leaves(config)}
+
+
+def leaves(config: Section, prefix: str = "") -> dict[str, Any]:
+    """Every value of a configuration by its dotted path, in the order of the models."""
+    flat: dict[str, Any] = {}
+    for name in type(config).model_fields:
+        value = getattr(config, name)
+        if isinstance(value, Section):
+            flat |= leaves(value, f"{prefix}{name}.")
+        else:
+            flat[prefix + name] = value
+    return flat
+
+
+def names(kind: str) -> list[str]:
+    """Names of the tasks or rigs that come with the package (``kind`` is 'task' or 'rig')."""
+    folder = resources.files("tacgrasp") / f"{kind}s"
+    files = [f.name for f in folder.iterdir() if f.name.endswith(".yaml")]
+    return sorted(name.removesuffix(".yaml") for name in files)
+
+
+def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any]]:
+    if name.endswith((".yaml", ".yml")):
+        where, path = name, Path(name)
+        if not path.is_file():
+            raise UsageError(f"{kind} file {name} does not exist")
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
+    elif name in names(kind):
+        where = f"{kind}s/{name}.yaml"
+        text = (resources.files("tacgrasp") / f"{kind}s" / f"{name}.yaml").read_text("utf-8")
+    else:
+        raise UsageError(
+            f"unknown {kind} {name!r}; known: {', '.join(names(kind))}, or the path of a .yaml file"
+        )
+    try:
+        fields = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"{where} is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(fields, dict):
+        raise UsageError(f"{where} must hold fields such as 'instruction: ...', got {fields!r:.60}")
+    for own in ("task", "rig"):
+        if own in fields:
+            raise UsageError(f"{where}: {own} can't be set in a file; give --{own} instead")
+    return where, fields
+
+
+def _yaml_value(text: str) -> Any:
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError:
+        return text
+
+
+def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: Sources) -> None:
+    """Lay ``layer`` over ``merged`` (changed in place), check it, note where values came from.
+
+    A later layer may still bring what is missing; all else that is wrong is this layer's doing.
+    """
+    _overlay(merged, layer)
+    try:
+        RunConfig.model_validate(merged)
+    except ValidationError as error:
+        for wrong in error.errors():
+            if wrong["type"] != "missing" or len(wrong["loc"]) > 1:
+                raise UsageError(f"{where}: {explain(wrong)}") from None
+    sources |= dict.fromkeys(_paths(layer), where)
+
+
+def _complete(merged: dict[str, Any]) -> RunConfig:
+    try:
+        return RunConfig.model_validate(merged)
+    except ValidationError as error:
+        field = str(error.errors()[0]["loc"][0])
+    kind = "rig" if field in ("devices", "pad") else "task"
+    raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
+
+
+def _overlay(below: dict[str, Any], above: dict[str, Any]) -> None:
+    for key, value in above.items():
+        if isinstance(value, dict) and isinstance(below.get(key), dict):
+            _overlay(below[key], value)
+        else:
+            below[key] = value
+
+
+def _paths(layer: Mapping[str, Any], prefix: str = "") -> list[str]:
+    paths: list[str] = []
+    for key, value in layer.items():
+        nested = isinstance(value, dict)
+        paths += _paths(value, f"{prefix}{key}.") if nested else [f"{prefix}{key}"]
+    return paths
+
+
+def unit_of(field: str) -> str:
+    """Unit that the end of a field's name stands for, '' when it names none."""
+    endings = [e for e in UNITS if field.endswith(f"_{e}")]
+    return UNITS[max(endings, key=len)] if endings else ""
+
+
+def explain(first: ErrorDetails) -> str:
+    """One thing that is wrong with a configuration, in a line: field, expected, got."""
+    path = ".".join(str(part) for part in first["loc"] if not isinstance(part, int))
+    got = first["input"]
+    kind = first["type"]
+    if kind == "extra_forbidden":
+        return f"unknown field {path}; {_known_beside(first['loc'])}"
+    if kind == "missing" and isinstance(first["loc"][-1], int):
+        return f"{path} has too few values, got {got!r}"
+    if kind == "missing":
+        return f"{path} is missing"
+    if kind == "model_type":
+        return f"{path} must be a section with fields of its own, got {got!r}"
+    if kind == "value_error":
+        return f"{path}: {first['msg'].removeprefix('Value error, ')}"
+    message = first["msg"].removeprefix("Input should be ").removeprefix("Value should be ")
+    unit = unit_of(path.rsplit(".", 1)[-1])
+    return f"{path} must be {message}{f' [{unit}]' if unit else ''}, got {got!r}"
+
+
+def _known_beside(loc: tuple[int | str, ...]) -> str:
+    """What fields there are beside an unknown one, the closest names first."""
+    model: type[BaseModel] = RunConfig
+    for part in loc[:-1]:
+        annotation = model.model_fields[str(part)].annotation
+        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+            model = annotation
+    known = list(model.model_fields)
+    close = get_close_matches(str(loc[-1]), known, n=1, cutoff=0.6)
+    hint = f"did you mean {close[0]}? " if close else ""
+    return f"{hint}known here: {', '.join(known)}"
