@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import dataclasses
 import inspect
+import math
 import re
 import types
 import typing
@@ -57,6 +58,18 @@ def to_json(value: object) -> Any:
     if isinstance(value, (set, frozenset)):
         return sorted(to_json(item) for item in value)
     raise TypeError(f"an episode can't carry a {type(value).__name__}: {value!r}")
+
+
+def not_finite(data: Any, where: str) -> str:
+    """Name and value of the first number in ``data`` that JSON has no word for; '' without one."""
+    if isinstance(data, float) and not math.isfinite(data):
+        return f"{where} is {data}"
+    inner: list[tuple[str, Any]] = []
+    if isinstance(data, dict):
+        inner = [(f"{where}.{key}", item) for key, item in data.items()]
+    elif isinstance(data, list):
+        inner = [(f"{where}[{i}]", item) for i, item in enumerate(data)]
+    return next((found for name, item in inner if (found := not_finite(item, name))), "")
 
 
 def from_json(kind: type[T], data: object) -> T:

@@ -93,6 +93,8 @@ def _scan(data: bytes) -> Scan:
         start, offset = offset, offset + _PREFIX.size + len(payload)
         finished = opcode == Opcode.FOOTER
         in_summary = in_summary or opcode == Opcode.DATA_END
+        if opcode == Opcode.STATISTICS:
+            problems += _missing(payload, groups)
         if in_summary:
             continue
         try:
@@ -104,6 +106,13 @@ def _scan(data: bytes) -> Scan:
         problems.append("the closing bytes are missing or followed by others")
     finished = finished and not problems
     return Scan(groups=tuple(groups), finished=finished, problem="; ".join(problems))
+
+
+def _missing(payload: bytes, groups: list[tuple[McapRecord, ...]]) -> list[str]:
+    """What the file's own count of its messages says of those that were found."""
+    found = sum(isinstance(record, Message) for group in groups for record in group)
+    (written,) = struct.unpack_from("<Q", payload.ljust(8, b"\0"))  # first field of Statistics
+    return [] if found == written else [f"{found} messages were found where {written} were written"]
 
 
 def _next_record(data: bytes, offset: int) -> tuple[int, bytes]:
@@ -123,7 +132,8 @@ def _group(opcode: int, payload: bytes) -> tuple[McapRecord, ...]:
     try:
         if opcode == Opcode.CHUNK:
             return tuple(_chunk_records(Chunk.read(_stream(payload))))
-        record = _record(opcode, payload)
+        # Outside chunks nothing has a checksum; our schemas, channels and messages are all inside.
+        record = _record(opcode, payload) if opcode == Opcode.METADATA else None
     except (McapError, ValueError, struct.error) as error:
         raise _DamagedError(f"a record can't be read ({error or type(error).__name__})") from None
     return () if record is None else (record,)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import fcntl
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from io import BufferedWriter
 from pathlib import Path
@@ -25,7 +25,7 @@ from mcap.writer import CompressionType, Writer
 from mcap_protobuf.schema import build_file_descriptor_set
 
 from cltp.cloud import Stamp
-from tacgrasp.episodes.codec import json_schema, to_json
+from tacgrasp.episodes.codec import json_schema, not_finite, to_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.interrupts import interrupts_held
 from tacgrasp.episodes.places import refused, sync_directory
@@ -77,6 +77,7 @@ class EpisodeWriter:
         self._channels: dict[str, int] = {}
         self._file: BufferedWriter | None = None
         self._finished = False
+        self._holds_something = False
 
     def __enter__(self) -> Self:
         """Create the file and write the header durably.
@@ -84,6 +85,7 @@ class EpisodeWriter:
         Raises:
             EpisodeError: The directory is missing, read-only or full, or the file exists.
         """
+        header = self._json(self._header)
         try:
             self._file = _create(self.path)
         except OSError as error:
@@ -95,7 +97,7 @@ class EpisodeWriter:
                 self._mcap.start(profile="", library="tacgrasp")
                 self._mcap.add_metadata(METADATA_NAME, _metadata(self._header))
                 self._register()
-                self._add(TOPIC_EPISODE, self._header.stamp, to_json(self._header))
+                self._add(self._header.stamp, {TOPIC_EPISODE: header})
             sync_directory(self.path.parent)
         except BaseException:
             self._drop()
@@ -108,7 +110,8 @@ class EpisodeWriter:
 
         Raises:
             EpisodeError: The disk refused it (full, gone); the ticks before are safe in the file,
-                and nothing more can be written. Or the record can't be stored (not finite).
+                and nothing more can be written. Or a number in it is not finite; then nothing was
+                written, and the next tick can be.
         """
         state = TickState(
             index=record.index,
@@ -120,20 +123,18 @@ class EpisodeWriter:
             gripper=record.gripper,
             note=record.note,
         )
+        messages = {TOPIC_CLOUD: encode_cloud(record.cloud, record.stamp)}
+        if record.decision is not None:
+            messages[TOPIC_DECISION] = self._json(
+                DecisionMessage(index=record.index, stamp=record.stamp, decision=record.decision)
+            )
+        if record.executed is not None:
+            messages[TOPIC_ACTION] = self._json(
+                ActionMessage(index=record.index, stamp=record.stamp, executed=record.executed)
+            )
+        messages[TOPIC_STATE] = self._json(state)
         with self._durably(f"tick {record.index}"):
-            self._sequence += 1
-            self._add_bytes(TOPIC_CLOUD, record.stamp, encode_cloud(record.cloud, record.stamp))
-            if record.decision is not None:
-                decision = DecisionMessage(
-                    index=record.index, stamp=record.stamp, decision=record.decision
-                )
-                self._add(TOPIC_DECISION, record.stamp, to_json(decision))
-            if record.executed is not None:
-                action = ActionMessage(
-                    index=record.index, stamp=record.stamp, executed=record.executed
-                )
-                self._add(TOPIC_ACTION, record.stamp, to_json(action))
-            self._add(TOPIC_STATE, record.stamp, to_json(state))
+            self._add(record.stamp, messages)
 
     def finish(self, end: EpisodeEnd) -> None:
         """Write how the episode ended. The file is closed when the context is left.
@@ -143,9 +144,9 @@ class EpisodeWriter:
         """
         if self._finished:
             raise EpisodeError(f"{self.path} has been finished already; an episode ends once")
+        message = self._json(end)
         with self._durably("its end"):
-            self._sequence += 1
-            self._add(TOPIC_END, end.stamp, to_json(end))
+            self._add(end.stamp, {TOPIC_END: message})
             self._finished = True
 
     def __exit__(
@@ -183,14 +184,13 @@ class EpisodeWriter:
                 yield
                 self._mcap.flush()
                 os.fsync(self._file.fileno())
+                self._holds_something = True
             except BaseException as error:
                 # Part of a chunk may be in the file and the MCAP writer no longer knows where it
                 # is: anything added now would hide behind the damage.
                 self._drop()
                 if isinstance(error, OSError):
                     raise EpisodeError(self._lost(what, error)) from None
-                if isinstance(error, (TypeError, ValueError)):
-                    raise EpisodeError(f"{self.path}: {what} can't be stored: {error}") from error
                 raise
 
     def _register(self) -> None:
@@ -208,19 +208,27 @@ class EpisodeWriter:
             schema = self._mcap.register_schema(f"tacgrasp.{kind.__name__}", "jsonschema", text)
             self._channels[topic] = self._mcap.register_channel(topic, "json", schema)
 
-    def _add(self, topic: str, stamp: Stamp, message: Any) -> None:
-        text = json.dumps(message, ensure_ascii=False, allow_nan=False)
-        self._add_bytes(topic, stamp, text.encode())
+    def _json(self, message: Any) -> bytes:
+        """Encode before anything is added: a record that can't be stored leaves the file whole."""
+        kind = type(message).__name__
+        try:
+            data = to_json(message)
+        except TypeError as error:
+            raise EpisodeError(f"{self.path}: {kind} can't be recorded: {error}") from error
+        if found := not_finite(data, kind):
+            raise EpisodeError(f"{self.path}: {found}; expected a finite number")
+        return json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
 
-    def _add_bytes(self, topic: str, stamp: Stamp, data: bytes) -> None:
+    def _add(self, stamp: Stamp, messages: Mapping[str, bytes]) -> None:
+        """Add the messages of one record, which share its sequence number."""
         when = wall_ns(stamp)
-        self._mcap.add_message(
-            self._channels[topic], when, data, publish_time=when, sequence=self._sequence
-        )
+        for topic, data in messages.items():
+            self._mcap.add_message(self._channels[topic], when, data, when, self._sequence)
+        self._sequence += 1
 
     def _lost(self, what: str, error: OSError) -> str:
         line = refused(self.path, f"write {what} to", error)
-        if self._sequence == 0:
+        if not self._holds_something:
             return line
         return (
             f"{line}. What was recorded before is safe: `tacgrasp episodes recover {self.path}` "
