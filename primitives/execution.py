@@ -1,0 +1,310 @@
+"""Carries out a primitive on an arm and a gripper, inside the limits.
+
+What each primitive does, on every rig alike (our choice, since the paper leaves it open): a move
+opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes to the last
+commanded force, since a closed gripper would carry the object along; ``increase_force`` and
+``decrease_force`` multiply the last force by 1.5 and 0.65; ``reset`` opens, goes back to the start
+pose and grasps again with the first force. Not here: how many resets an episode may have, or what
+to do after an error (the loop).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from primitives.devices import Arm, Gripper, GripperState, Pose
+from primitives.errors import LimitError
+from primitives.limits import (
+    Limits,
+    check_travel,
+    check_workspace,
+    clamp_force,
+    clamp_step,
+    distance_mm,
+)
+from primitives.primitive import PAD_DIRECTION, Primitive
+
+INCREASE_FACTOR = 1.5
+DECREASE_FACTOR = 0.65
+"""Our choice: 1.5 * 0.65 is just below 1, so that an increase and a decrease do not cycle exactly."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PadAxes:
+    """The pad's axes in the frame of the tool centre point (TCP); the rig's configuration.
+
+    Attributes:
+        x_tcp: Unit vector of the pad's +x (right), three numbers, TCP frame.
+        y_tcp: Unit vector of the pad's +y (towards the palm), TCP frame.
+
+    Raises:
+        LimitError: Not finite, not of unit length or not perpendicular (within 1e-6).
+    """
+
+    x_tcp: tuple[float, float, float]
+    y_tcp: tuple[float, float, float]
+
+    def __post_init__(self) -> None:
+        for name in ("x_tcp", "y_tcp"):
+            axis = tuple(float(v) for v in getattr(self, name))
+            norm = math.hypot(*axis)
+            if len(axis) != 3 or not math.isfinite(norm) or abs(norm - 1) > 1e-6:
+                raise LimitError(f"{name} must be a unit vector of three numbers, got {axis}")
+            object.__setattr__(self, name, axis)
+        dot = sum(a * b for a, b in zip(self.x_tcp, self.y_tcp, strict=True))
+        if abs(dot) > 1e-6:
+            raise LimitError(f"x_tcp and y_tcp must be perpendicular, their product is {dot:.3g}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Executed:
+    """What became of one primitive, or of the first grasp.
+
+    Attributes:
+        primitive: What was carried out; None for the first grasp.
+        asked: In words and numbers, before the limits.
+        sent: In words and numbers, after the limits; 'nothing' when nothing was sent.
+        reached: Pose of the TCP afterwards, measured [base frame].
+        force_n: Force last commanded, afterwards [N]; 0 before any grip.
+        width_m: Opening afterwards, as the gripper reports it [m].
+        clamped: What the limits changed, one note each.
+        opened: The gripper was opened on the way, so that the next contact is a new one.
+        travel_mm: Way of the TCP over the episode so far, measured [mm].
+        dry_run: Nothing was sent; everything but ``sent`` describes the robot as it stands.
+        started_s, ended_s: On the clock given to the executor, monotonic [s].
+    """
+
+    primitive: Primitive | None
+    asked: str
+    sent: str
+    reached: Pose
+    force_n: float
+    width_m: float
+    clamped: tuple[str, ...]
+    opened: bool
+    travel_mm: float
+    dry_run: bool
+    started_s: float
+    ended_s: float
+
+
+def rotated(rotvec_rad: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn a vector by a rotation vector.
+
+    Args:
+        rotvec_rad: Shape (3,) [rad].
+        vector: Shape (3,), any unit.
+
+    Returns:
+        Shape (3,), same unit.
+
+    Source: Rodrigues' rotation formula.
+    """
+    angle = float(np.linalg.norm(rotvec_rad))
+    if angle < 1e-12:
+        return np.array(vector, dtype=np.float64)
+    axis = np.asarray(rotvec_rad, dtype=np.float64) / angle
+    along = axis * float(axis @ vector) * (1 - math.cos(angle))
+    return vector * math.cos(angle) + np.cross(axis, vector) * math.sin(angle) + along
+
+
+class Executor:
+    """Carries out primitives for one episode; counts travel and remembers the force."""
+
+    def __init__(
+        self,
+        arm: Arm,
+        gripper: Gripper,
+        limits: Limits,
+        *,
+        clear_mm: float,
+        move_step_mm: float,
+        first_force_n: float,
+        start_pose: Pose,
+        pad_axes: PadAxes,
+        clock: Callable[[], float],
+        dry_run: bool = False,
+    ) -> None:
+        """Take the devices; nothing is sent yet.
+
+        Args:
+            arm: Connected arm.
+            gripper: Connected gripper.
+            limits: Bounds of everything that will be sent.
+            clear_mm: Opening before a move [mm].
+            move_step_mm: Length of a move [mm]; clamped like every step.
+            first_force_n: Force of the first grasp and of a reset [N]; clamped likewise.
+            start_pose: Where ``reset`` goes [base frame].
+            pad_axes: The pad's axes in the TCP frame.
+            clock: Monotonic [s].
+            dry_run: Read the devices, send them nothing.
+
+        Raises:
+            LimitError: A size is not finite and positive, or the start is outside the workspace.
+        """
+        for name, value in (("clear_mm", clear_mm), ("move_step_mm", move_step_mm)):
+            if not (math.isfinite(value) and value > 0):
+                raise LimitError(f"{name} must be finite and above 0, got {value}")
+        check_workspace(start_pose, limits)
+        clamp_force(first_force_n, limits)
+        self._arm, self._gripper, self._limits = arm, gripper, limits
+        self._clear_m = clear_mm * 1e-3
+        self._move_step_mm = move_step_mm
+        self._first_force_n = first_force_n
+        self._start_pose = start_pose
+        self._axes = np.array([pad_axes.x_tcp, pad_axes.y_tcp])
+        self._clock = clock
+        self._dry_run = dry_run
+        self._force_n = 0.0
+        self._travel_mm = 0.0
+
+    @property
+    def force_n(self) -> float:
+        """Force last commanded [N]; 0 before the first grasp."""
+        return self._force_n
+
+    @property
+    def travel_mm(self) -> float:
+        """Way of the TCP over the episode so far, measured [mm]."""
+        return self._travel_mm
+
+    def grasp(self) -> Executed:
+        """Close with the first force where the arm stands.
+
+        Raises:
+            RobotError: A device failed.
+        """
+        started = self._clock()
+        force = clamp_force(self._first_force_n, self._limits)
+        if not self._dry_run:
+            self._grip(force.value)
+        return self._done(
+            None,
+            asked=f"close with {self._first_force_n:.3g} N",
+            sent=f"close with {force.value:.3g} N",
+            notes=(force.note,),
+            opened=False,
+            started=started,
+        )
+
+    def execute(self, primitive: Primitive) -> Executed:
+        """Carry out one primitive.
+
+        Raises:
+            LimitError: It would leave the workspace or the allowed travel, or there was no grasp
+                yet. Nothing was sent.
+            RobotError: A device failed; the loop stops it.
+        """
+        if not self._dry_run and self._force_n <= 0:
+            raise LimitError(f"{primitive} before the first grasp: call grasp() first")
+        started = self._clock()
+        if primitive in PAD_DIRECTION:
+            return self._move(primitive, started)
+        if primitive is Primitive.RESET:
+            return self._reset(started)
+        return self._change_force(primitive, started)
+
+    def _move(self, primitive: Primitive, started: float) -> Executed:
+        step = clamp_step(self._move_step_mm, self._limits)
+        here = self._arm.pose()
+        pad_x, pad_y = PAD_DIRECTION[primitive]
+        direction_tcp = pad_x * self._axes[0] + pad_y * self._axes[1]
+        direction_base = rotated(here.rotvec_rad, direction_tcp)
+        target = Pose(
+            position_m=here.position_m + direction_base * step.value * 1e-3,
+            rotvec_rad=here.rotvec_rad,
+        )
+        check_workspace(target, self._limits)
+        check_travel(self._travel_mm, step.value, self._limits)
+        if not self._dry_run:
+            self._gripper.open_by(self._clear_m)
+            self._go(here, target)
+            self._grip(self._force_n)
+        x, y, z = direction_base * step.value
+        return self._done(
+            primitive,
+            asked=f"{self._move_step_mm:.3g} mm",
+            sent=f"{step.value:.3g} mm, ({x:.2f}, {y:.2f}, {z:.2f}) mm in the base frame",
+            notes=(step.note,),
+            opened=not self._dry_run,
+            started=started,
+        )
+
+    def _reset(self, started: float) -> Executed:
+        here = self._arm.pose()
+        way_mm = distance_mm(here, self._start_pose)
+        check_travel(self._travel_mm, way_mm, self._limits)
+        force = clamp_force(self._first_force_n, self._limits)
+        if not self._dry_run:
+            self._gripper.open_by(self._clear_m)
+            self._go(here, self._start_pose)
+            self._grip(force.value)
+        return self._done(
+            Primitive.RESET,
+            asked=f"start pose, close with {self._first_force_n:.3g} N",
+            sent=f"{way_mm:.3g} mm to the start pose, close with {force.value:.3g} N",
+            notes=(force.note,),
+            opened=not self._dry_run,
+            started=started,
+        )
+
+    def _change_force(self, primitive: Primitive, started: float) -> Executed:
+        increase = primitive is Primitive.INCREASE_FORCE
+        before = self._force_n or clamp_force(self._first_force_n, self._limits).value
+        asked = before * (INCREASE_FACTOR if increase else DECREASE_FACTOR)
+        force = clamp_force(asked, self._limits)
+        unchanged = math.isclose(force.value, before, rel_tol=1e-9)
+        notes = (force.note, "the force is already at its limit" if unchanged else "")
+        if not self._dry_run and not unchanged:
+            self._grip(force.value)
+        return self._done(
+            primitive,
+            asked=f"{asked:.3g} N",
+            sent="nothing" if unchanged else f"{force.value:.3g} N",
+            notes=notes,
+            opened=False,
+            started=started,
+        )
+
+    def _grip(self, force_n: float) -> None:
+        self._gripper.grip(force_n)
+        self._force_n = force_n
+
+    def _go(self, here: Pose, target: Pose) -> None:
+        try:
+            reached = self._arm.move_to(target, speed_m_s=self._limits.max_speed_m_s)
+        except LimitError:
+            self._grip(self._force_n)  # refused by the device, which did not move: hold again
+            raise
+        self._travel_mm += distance_mm(here, reached)
+
+    def _done(
+        self,
+        primitive: Primitive | None,
+        *,
+        asked: str,
+        sent: str,
+        notes: tuple[str, ...],
+        opened: bool,
+        started: float,
+    ) -> Executed:
+        state: GripperState = self._gripper.state()
+        return Executed(
+            primitive=primitive,
+            asked=asked,
+            sent="nothing" if self._dry_run else sent,
+            reached=self._arm.pose(),
+            force_n=self._force_n,
+            width_m=state.width_m,
+            clamped=tuple(n for n in notes if n),
+            opened=opened,
+            travel_mm=self._travel_mm,
+            dry_run=self._dry_run,
+            started_s=started,
+            ended_s=self._clock(),
+        )
