@@ -1,0 +1,119 @@
+"""Read one touch from a file: a cloud (.ply .pcd .xyz .npy .npz) or a height map (.npy .npz).
+
+Clouds are (N, 3) in mm in the gel frame; height maps are (H, W) indentations in mm over the
+sensor's whole field, row 0 at the top. Nothing is guessed, scaled or repaired.
+
+Not here: datasets of many contacts (``cltp.dataset``), episodes (``tacgrasp.episodes``).
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.cloud import TactileCloud, cloud_from_heights
+from cltp.cloud_formats import read_pcd, read_ply, read_xyz
+from cltp.errors import TouchError
+from cltp.sensors import SensorSpec
+
+ASPECT_TOLERANCE = 0.05
+"""A height map's aspect may differ this much from the sensor's; transposed, it is 80 % off."""
+
+METRES_MM = 2e-3
+"""A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
+
+
+def read_touch(path: Path, sensor: SensorSpec) -> TactileCloud:
+    """Read a cloud, or sample a height map at the centres of 1024 cells.
+
+    Args:
+        path: File; its suffix says the format.
+        sensor: Whose field and gel the numbers refer to.
+
+    Raises:
+        TouchError: Missing, empty, truncated or foreign file; no numbers where they should be;
+            or numbers that can't be a touch of this sensor.
+    """
+    readers: dict[str, Callable[[Path], NDArray[np.float64]]] = {
+        ".ply": read_ply,
+        ".pcd": read_pcd,
+        ".xyz": read_xyz,
+        ".npy": _read_npy,
+        ".npz": _read_npz,
+    }
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise TouchError(
+            f"{path}: expected a file ending in {', '.join(readers)}, got {path.suffix or 'none'!r}"
+        )
+    if not path.is_file():
+        raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
+    if path.stat().st_size == 0:
+        raise TouchError(f"{path} is empty; expected a cloud or a height map")
+    try:
+        array = reader(path)
+        return _touch(array, sensor)
+    except OSError as error:
+        raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _touch(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
+    if array.ndim != 2:
+        raise TouchError(
+            f"expected a cloud (N, 3) or a height map (H, W), got an array of shape {array.shape}"
+        )
+    if array.shape[1] == 3:
+        return TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
+    rows, columns = array.shape
+    expected = sensor.columns / sensor.rows
+    if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:
+        raise TouchError(
+            f"a height map of {rows} × {columns} doesn't fit {sensor.name}, whose field is "
+            f"{sensor.rows} × {sensor.columns} px (rows × columns, or any map as wide as that)"
+        )
+    if np.isfinite(array).all() and 0 < np.ptp(array) < METRES_MM:
+        raise TouchError(
+            f"the height map's whole relief is {np.ptp(array):.2g}, below a gel's noise in mm; "
+            "is it in metres? Multiply by 1000"
+        )
+    if np.isfinite(array).all() and np.abs(array).max() > sensor.gel_mm:
+        raise TouchError(
+            f"heights reach {np.abs(array).max():.3g} mm, more than the {sensor.gel_mm} mm gel of "
+            f"{sensor.name}; is it in mm, with the untouched gel at 0?"
+        )
+    return cloud_from_heights(array, sensor)
+
+
+def _read_npy(path: Path) -> NDArray[np.float64]:
+    try:
+        return _numbers(np.load(path, allow_pickle=False), path.name)
+    except (ValueError, EOFError) as error:
+        raise TouchError(f"not a whole .npy array of numbers: {error}") from None
+
+
+def _read_npz(path: Path) -> NDArray[np.float64]:
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            names = list(archive.files)
+            wanted = [n for n in ("points_mm", "height_mm") if n in names] or names
+            if len(wanted) != 1:
+                raise TouchError(
+                    "expected one array, or one named points_mm or height_mm; the file has "
+                    f"{', '.join(names) or 'none'}"
+                )
+            return _numbers(archive[wanted[0]], wanted[0])
+    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise TouchError(f"not a whole .npz of arrays of numbers: {error}") from None
+
+
+def _numbers(array: object, name: str) -> NDArray[np.float64]:
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
+        kind = getattr(array, "dtype", type(array).__name__)
+        raise TouchError(f"expected real numbers in {name}, got {kind}")
+    return array.astype(np.float64)
