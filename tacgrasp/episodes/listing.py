@@ -154,7 +154,11 @@ def _ticks_in_words(episode: Episode) -> str:
 
 
 def _actions_in_words(episode: Episode) -> str:
-    counts = Counter(tick.executed.primitive.value for tick in episode.ticks if tick.executed)
+    counts = Counter(
+        tick.executed.primitive.value
+        for tick in episode.ticks
+        if tick.executed is not None and tick.executed.primitive is not None
+    )
     return ", ".join(f"{count} × {name}" for name, count in counts.items())
 
 

@@ -10,6 +10,7 @@ from cltp.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.sensors import sensor_named
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
+from primitives.execution import Executed
 from primitives.primitive import Primitive
 from tacgrasp.episodes import EpisodeEnd, EpisodeHeader, EpisodeWriter, Phase, TickRecord
 from tacgrasp.episodes.codec import to_json
@@ -42,6 +43,23 @@ def press(x_mm: float, y_mm: float, depth_mm: float, *, seed: int = 0) -> Tactil
     return cloud_from_heights(heights, SENSOR, rng=rng, stamp=stamp(seed))
 
 
+def executed(primitive: Primitive | None) -> Executed:
+    return Executed(
+        primitive=primitive,
+        asked="3 mm",
+        sent="2.5 mm, (0.00, 0.00, -2.50) mm in the base frame",
+        reached=Pose(position_m=np.array([0.1, 0.2, 1 / 7]), rotvec_rad=np.array([0, np.pi, 0])),
+        force_n=0.1 + 0.2,
+        width_m=0.03,
+        clamped=("a step of 3 mm was cut to 2.5 mm",),
+        opened=True,
+        travel_mm=7.5,
+        dry_run=False,
+        started_s=1000.25,
+        ended_s=1000.75,
+    )
+
+
 def tick(
     index: int,
     *,
@@ -62,7 +80,7 @@ def tick(
         phase=phase,
         cloud=press(5.0 - index, -4.0, 0.4, seed=index),
         decision=decision if phase == Phase.TICK else None,
-        executed=None,
+        executed=None if action is None or phase != Phase.TICK else executed(action),
         tcp_pose=Pose(position_m=np.array([0.1, 1 / 3, 0.2]), rotvec_rad=np.array([0, np.pi, 0])),
         gripper=GripperState(width_m=0.03, force_n=1 / 3, closed=True),
         stamp=stamp(index + 0.5),

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from episode_samples import SENSOR, end, header, press, record, same, stamp, tick
+from episode_samples import SENSOR, end, executed, header, press, record, same, stamp, tick
 from hypothesis import given
 from hypothesis import strategies as st
 from mcap.reader import make_reader
@@ -18,6 +18,7 @@ from mcap_protobuf.decoder import DecoderFactory
 
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
+from primitives.execution import Executed
 from primitives.primitive import Primitive
 from tacgrasp.episodes import (
     EpisodeEnd,
@@ -50,6 +51,7 @@ def test_what_is_recorded_is_read_again_to_the_last_bit(tmp_path: Path) -> None:
     assert same(episode.header, header())
     assert same(episode.end, end())
     assert len(episode.ticks) == 4
+    assert same(episode.ticks[0].executed, executed(Primitive.MOVE_DOWN))
     for read, written in zip(episode.ticks, ticks, strict=True):
         assert same(read, written)
         assert read.cloud.points_mm.dtype == np.float32
@@ -96,6 +98,13 @@ def test_any_cloud_survives_its_message(seed: int, count: int) -> None:
     cloud = type(press(0, 0, 0))(points_mm=points.astype(np.float32), sensor=SENSOR)
     read = decode_cloud(encode_cloud(cloud, stamp(0)), SENSOR, None)
     assert read.points_mm.tobytes() == cloud.points_mm.tobytes()
+
+
+@pytest.mark.parametrize("primitive", [None, *Primitive])
+def test_any_executed_action_survives_json(primitive: Primitive | None) -> None:
+    read = from_json(Executed, json.loads(json.dumps(to_json(executed(primitive)))))
+    assert same(read, executed(primitive)) and type(read.primitive) is type(primitive)
+    assert read.clamped == ("a step of 3 mm was cut to 2.5 mm",)
 
 
 def test_truth_keeps_the_types_of_its_facts() -> None:
@@ -178,7 +187,7 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
             points = np.frombuffer(cloud.data, "<f4").reshape(-1, 3)
             assert points.tobytes() == tick(clouds).cloud.points_mm.tobytes()
             clouds += 1
-    assert (clouds, checked) == (2, 1 + 2 * 2 + 1)  # header, two of decision and state, end
+    assert (clouds, checked) == (2, 1 + 2 * 3 + 1)  # header, two of decision, action, state; end
 
 
 def test_a_loop_that_raises_leaves_a_finished_file_without_an_end(tmp_path: Path) -> None:

@@ -51,6 +51,7 @@ def test_info_tells_the_instruction_the_end_and_what_to_do(tmp_path: Path) -> No
     assert "hold the 'berry' – gently" in text
     assert "2 and 1 touches of verification" in text
     assert "Grasp completed successfully" in text
+    assert "2 × move_down" in text
     path.write_bytes(path.read_bytes()[: sizes[1]])
     text = shown(info(path))
     assert "tacgrasp episodes recover" in text and "not recorded" in text
