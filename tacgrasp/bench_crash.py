@@ -1,23 +1,27 @@
 """Kill recordings at random moments and count what was lost: ``tacgrasp bench crash --kills 50``.
 
-Each kill is SIGKILL to a real process that records ticks back to back, so that many kills strike in
-the middle of a write (a real run spends most of its time elsewhere). The process acknowledges each
-tick on a pipe when ``write_tick`` has returned. Afterwards the file is recovered, opened with the
-stock mcap reader, and every cloud in it compared with the one that was written.
+Every fifth kill strikes a real ``tacgrasp run --task strawberry``; the others strike a process that
+records ticks back to back, so that most of them hit the middle of a write (a real run is elsewhere
+nearly all the time). Both acknowledge each tick on a pipe of their own, with a checksum of its
+cloud, when ``write_tick`` has returned. Afterwards the file is recovered, opened with the stock
+mcap reader, and its clouds compared with the checksums.
 
-Not here: what a loop does after a crash of its own code (``tacgrasp.episodes.writer`` closes the
-file then).
+Not here: what a crash of the loop's own code leaves (``tacgrasp.episodes.writer`` closes the file).
 """
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import random
+import struct
 import subprocess
 import sys
 import tempfile
 import time
+import zlib
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -42,9 +46,11 @@ from tacgrasp.errors import UsageError
 LONGEST_S = 0.6
 """Kills come at a uniformly random moment this long from when the process is ready [s]."""
 
-_READY = b"r"
-_TICK = b"t"
-_START_TIMEOUT_S = 60.0
+REAL_EVERY = 5
+"""One kill in so many strikes a whole run, which takes seconds to start. Our choice."""
+
+_READY = 0xFFFF_FFFF_FFFF_FFFF
+_WORD = struct.Struct("<Q")  # on the pipe: ready, or the checksum of an acknowledged cloud
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,14 +58,16 @@ class KillResult:
     """What one kill did.
 
     Attributes:
+        real_run: It struck ``tacgrasp run``, not the process that only records.
         acknowledged: Ticks whose writing had returned when the process died.
         recovered: Ticks in the recovered file.
         mid_write: The kill struck while a tick was being written: it is in the file but was not
             acknowledged, or only a part of it is.
-        intact: Every recovered tick is the one that was written, without a gap.
+        intact: Every acknowledged cloud is there as it was written, and no index is missing.
         stock_reader: The stock mcap reader opens the recovered file and counts the same ticks.
     """
 
+    real_run: bool
     acknowledged: int
     recovered: int
     mid_write: bool
@@ -92,12 +100,15 @@ def run(kills: int, json_path: Path | None) -> None:
     with tempfile.TemporaryDirectory() as directory, Progress(console=console) as progress:
         task = progress.add_task("killing recordings", total=kills)
         for number in range(kills):
-            path = Path(directory) / f"crash-{number}.mcap"
-            results.append(kill_once(path, draw.uniform(0, LONGEST_S)))
+            folder = Path(directory) / str(number)
+            folder.mkdir()
+            real = number % REAL_EVERY == REAL_EVERY - 1
+            results.append(kill_once(folder, draw.uniform(0, LONGEST_S), real_run=real))
             progress.advance(task)
     report = summarise(results)
     console.print(
-        f"{kills} × SIGKILL: {report['ticks_acknowledged']} ticks acknowledged, "
+        f"{kills} × SIGKILL ({report['real_runs']} to real runs): "
+        f"{report['ticks_acknowledged']} ticks acknowledged, "
         f"{report['ticks_recovered']} recovered, {report['ticks_lost']} lost "
         f"(at most {report['most_lost_by_one_kill']} by one kill); "
         f"{report['struck_mid_write']} kills struck in mid-write; "
@@ -116,6 +127,7 @@ def summarise(results: list[KillResult]) -> dict[str, object]:
     """The report of ``--json``; counts are of ticks unless the name says otherwise."""
     return {
         "kills": len(results),
+        "real_runs": sum(r.real_run for r in results),
         "ticks_acknowledged": sum(r.acknowledged for r in results),
         "ticks_recovered": sum(r.recovered for r in results),
         "ticks_lost": sum(r.lost for r in results),
@@ -128,55 +140,70 @@ def summarise(results: list[KillResult]) -> dict[str, object]:
     }
 
 
-def kill_once(path: Path, after_s: float) -> KillResult:
-    """Record to ``path`` in a process of its own, kill that after ``after_s`` [s], look at it.
+def kill_once(folder: Path, after_s: float, *, real_run: bool = False) -> KillResult:
+    """Record into an empty ``folder`` in another process, kill that after ``after_s`` [s], look.
 
     Raises:
         EpisodeError: The process did not start to record.
     """
-    acknowledged = _record_and_kill(path, after_s)
-    before = read_episode(path)
-    torn = "inside a record" in before.problem
+    acknowledged = _record_and_kill(folder, after_s, real_run)
+    (path,) = folder.glob("*.mcap")
+    torn = "inside a record" in read_episode(path).problem
     recover(path)
     after = read_episode(path)
-    intact = after.complete and all(
-        tick.index == i and np.array_equal(tick.cloud.points_mm, cloud_of(i).points_mm)
-        for i, tick in enumerate(after.ticks)
-    )
+    clouds = [_checksum(tick.cloud) for tick in after.ticks]
+    indexes = [tick.index for tick in after.ticks]
     return KillResult(
-        acknowledged=acknowledged,
-        recovered=len(after.ticks),
-        mid_write=torn or len(after.ticks) > acknowledged,
-        intact=intact,
-        stock_reader=_count_with_stock_reader(path) == len(after.ticks),
+        real_run=real_run,
+        acknowledged=len(acknowledged),
+        recovered=len(clouds),
+        mid_write=torn or len(clouds) > len(acknowledged),
+        intact=after.complete
+        and clouds[: len(acknowledged)] == acknowledged
+        and indexes == list(range(len(indexes))),
+        stock_reader=_count_with_stock_reader(path) == len(clouds),
     )
 
 
-def _record_and_kill(path: Path, after_s: float) -> int:
-    """Returns how many ticks the process acknowledged before it died."""
-    command = [sys.executable, "-c", "from tacgrasp import bench_crash; bench_crash.record()"]
-    # Unbuffered, and its own pipe: what the process wrote before it died stays in it.
-    process = subprocess.Popen(
-        [*command, str(path)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, bufsize=0
-    )
-    assert process.stdout is not None and process.stderr is not None
+def _record_and_kill(folder: Path, after_s: float, real_run: bool) -> list[int]:
+    """Checksums of the clouds that the process acknowledged before it died."""
+    theirs, ours = os.pipe()
+    code = "from tacgrasp import bench_crash; bench_crash.child()"
+    kind = "run" if real_run else "record"
+    with (folder / "output.txt").open("wb") as output:
+        process = subprocess.Popen(
+            [sys.executable, "-c", code, kind, str(folder), str(ours)],
+            stdout=output,
+            stderr=output,
+            pass_fds=[ours],
+        )
+    os.close(ours)
     try:
-        if process.stdout.read(1) != _READY:
-            raise EpisodeError(f"the recording did not start: {process.stderr.read().decode()}")
+        said = os.read(theirs, _WORD.size)  # nothing at all when it ends before it is ready
+        if not said:
+            text = (folder / "output.txt").read_text(errors="replace").strip()
+            raise EpisodeError(f"the recording to be killed did not start; it said: {text}")
         deadline = time.monotonic() + after_s
-        acknowledged = 0
-        os.set_blocking(process.stdout.fileno(), False)
-        while (left_s := deadline - time.monotonic()) > 0:
-            acknowledged += len(process.stdout.read(65536) or b"")
+        os.set_blocking(theirs, False)
+        while (left_s := deadline - time.monotonic()) > 0 and process.poll() is None:
+            with suppress(BlockingIOError):
+                said += os.read(theirs, 65536)
             time.sleep(min(left_s, 0.01))
+        process.kill()
+        process.wait()
+        os.set_blocking(theirs, True)
+        while more := os.read(theirs, 65536):
+            said += more
     finally:
         process.kill()
-        process.wait(_START_TIMEOUT_S)
-    os.set_blocking(process.stdout.fileno(), True)
-    acknowledged += len(process.stdout.read())
-    process.stdout.close()
-    process.stderr.close()
-    return acknowledged
+        process.wait()
+        os.close(theirs)
+    words = [word for (word,) in _WORD.iter_unpack(said)]
+    return words[1:]  # the first is ready
+
+
+def _checksum(cloud: TactileCloud) -> int:
+    return zlib.crc32(cloud.points_mm.tobytes())
 
 
 def _count_with_stock_reader(path: Path) -> int:
@@ -185,9 +212,33 @@ def _count_with_stock_reader(path: Path) -> int:
         return sum(1 for _ in reader.iter_messages(topics=[TOPIC_STATE]))
 
 
-def record() -> None:
-    """What the process does: record to ``sys.argv[1]`` until killed, a byte on stdout a tick."""
-    path = Path(sys.argv[1])
+def child() -> None:
+    """What the killed process does: ``run`` or ``record``, the folder, the pipe to acknowledge on.
+
+    The writer is wrapped rather than given a hook, since nothing but this bench needs one.
+    """
+    kind, folder, pipe = sys.argv[1], Path(sys.argv[2]), int(sys.argv[3])
+    enter, write_tick = EpisodeWriter.__enter__, EpisodeWriter.write_tick
+
+    def enter_and_tell(self: EpisodeWriter) -> EpisodeWriter:
+        entered = enter(self)
+        os.write(pipe, _WORD.pack(_READY))
+        return entered
+
+    def write_and_tell(self: EpisodeWriter, record: TickRecord) -> None:
+        write_tick(self, record)
+        os.write(pipe, _WORD.pack(_checksum(record.cloud)))
+
+    EpisodeWriter.__enter__ = enter_and_tell  # type: ignore
+    EpisodeWriter.write_tick = write_and_tell  # type: ignore[method-assign]
+    if kind == "run":
+        from tacgrasp.__main__ import main
+
+        sys.exit(main(["run", "--task", "strawberry", "--record", str(folder)]))
+    _record_until_killed(folder / "crash.mcap")
+
+
+def _record_until_killed(path: Path) -> None:
     header = EpisodeHeader(
         task="crash",
         instruction="record until killed",
@@ -199,15 +250,11 @@ def record() -> None:
         stamp=_now(),
     )
     with EpisodeWriter(path, header) as writer:
-        os.write(sys.stdout.fileno(), _READY)
-        index = 0
-        while True:
+        for index in itertools.count():
             writer.write_tick(_tick(index))
-            os.write(sys.stdout.fileno(), _TICK)
-            index += 1
 
 
-def cloud_of(index: int) -> TactileCloud:
+def _cloud(index: int) -> TactileCloud:
     """The cloud of tick ``index``: a ball's cap that wanders over the pad, with fine noise."""
     sensor = sensor_named("gelsight_mini")
     rng = np.random.default_rng(index)
@@ -222,7 +269,7 @@ def _tick(index: int) -> TickRecord:
     return TickRecord(
         index=index,
         phase=Phase.TICK,
-        cloud=cloud_of(index),
+        cloud=_cloud(index),
         decision=Decision(
             text=f"This is touch {index}. The grasp is off centre; I will move_down.",
             action=Primitive.MOVE_DOWN,

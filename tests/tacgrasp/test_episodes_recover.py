@@ -256,22 +256,37 @@ def test_a_path_without_a_file_is_named(tmp_path: Path) -> None:
 
 def test_a_killed_recording_loses_no_acknowledged_tick(tmp_path: Path) -> None:
     for number, after_s in enumerate([0.05, 0.15, 0.3]):
-        result = bench_crash.kill_once(tmp_path / f"{number}.mcap", after_s)
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        result = bench_crash.kill_once(folder, after_s)
         assert result.acknowledged > 0
         assert result.passed, result
 
 
 def test_the_crash_bench_counts_what_one_kill_lost() -> None:
     good = bench_crash.KillResult(
-        acknowledged=5, recovered=6, mid_write=True, intact=True, stock_reader=True
+        real_run=False, acknowledged=5, recovered=6, mid_write=True, intact=True, stock_reader=True
     )
     bad = bench_crash.KillResult(
-        acknowledged=9, recovered=7, mid_write=False, intact=True, stock_reader=True
+        real_run=False, acknowledged=9, recovered=7, mid_write=False, intact=True, stock_reader=True
     )
     assert (good.lost, good.passed, bad.lost, bad.passed) == (0, True, 2, False)
     report = bench_crash.summarise([good, bad])
     assert report["ticks_lost"] == report["most_lost_by_one_kill"] == 2
     assert report["passed"] is False and report["struck_mid_write"] == 1
+
+
+def test_the_crash_bench_notices_a_changed_tick(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def record_another(folder: Path, _after_s: float, _real_run: bool) -> list[int]:
+        record(folder / "e.mcap", TICKS)
+        sums = [bench_crash._checksum(t.cloud) for t in TICKS]
+        return [*sums[:-1], sums[-1] ^ 1]
+
+    monkeypatch.setattr(bench_crash, "_record_and_kill", record_another)
+    result = bench_crash.kill_once(tmp_path, 0.0)
+    assert not result.intact and not result.passed
 
 
 def test_the_crash_bench_refuses_no_kills() -> None:
