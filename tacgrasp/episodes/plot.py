@@ -6,6 +6,7 @@ Not here: live viewers.
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -120,6 +121,7 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
     outcome = f"{end.reason}: {end.message}" if end else "no end recorded"
     if not episode.complete:
         outcome += " (unfinished file)"
+    outcome = textwrap.shorten(outcome, 85, placeholder=" …")
     seed = "" if header.seed is None else f", seed {header.seed}"
     figure.text(
         0.04,
@@ -151,7 +153,7 @@ def _caption(tick: TickRecord) -> str:
     if decision is None:
         return "no decision"
     if decision.action is not None:
-        return f"→ {decision.action.value}"
+        return f"→ {decision.action.value}" + ("" if tick.executed else " (not done)")
     return "success declared" if decision.success else "no action"
 
 

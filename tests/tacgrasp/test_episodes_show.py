@@ -1,4 +1,5 @@
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -65,15 +66,19 @@ def test_the_duration_is_measured_on_the_monotonic_clock(tmp_path: Path) -> None
 
 
 def test_the_picture_has_a_panel_for_each_touch_and_says_what_was_done(tmp_path: Path) -> None:
-    actions = [Primitive.MOVE_DOWN, Primitive.DECREASE_FORCE, None]
-    ticks = [tick(i, action=action) for i, action in enumerate(actions)]
-    record(tmp_path / "e.mcap", [*ticks, tick(3, phase=Phase.VERIFY_AFTER)])
+    ticks = [
+        tick(0),
+        replace(tick(1, action=Primitive.RESET), executed=None),
+        tick(2, action=None),
+        tick(3, phase=Phase.VERIFY_AFTER),
+    ]
+    record(tmp_path / "e.mcap", ticks)
     figure = draw_episode(read_episode(tmp_path / "e.mcap"), "e.mcap")
     titles = [axes.get_title() for axes in figure.axes]
     panels = [t for t in titles if t[:1].isdigit()]
     assert panels == [
         "0  → move_down",
-        "1  → decrease_force",
+        "1  → reset (not done)",
         "2  success declared",
         "3  after the lift",
     ]
