@@ -19,6 +19,9 @@ from torch import Tensor
 
 from sim.compliance import Spectrum
 
+# A gap from here on is no body at all; keeps infinities out of the arithmetic.
+NO_BODY_MM = 1e3
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Solution:
@@ -39,12 +42,11 @@ class Solution:
 
 @dataclass(slots=True, kw_only=True)
 class _Active:
-    """The contacts that are still being solved; every tensor has the same leading size."""
+    """The contacts that are still being solved; fields are flat, (B, H·W)."""
 
     index: Tensor
     pressure: Tensor
     gap: Tensor
-    allowed: Tensor
     target: Tensor
     direction: Tensor
     norm: Tensor
@@ -54,24 +56,56 @@ class _Active:
     def keep(self, rest: Tensor) -> None:
         """Drop every contact whose ``rest`` is False."""
         self.index, self.pressure, self.gap = self.index[rest], self.pressure[rest], self.gap[rest]
-        self.allowed, self.target = self.allowed[rest], self.target[rest]
-        self.direction, self.norm = self.direction[rest], self.norm[rest]
-        self.conjugate = self.conjugate[rest]
+        self.target, self.direction = self.target[rest], self.direction[rest]
+        self.norm, self.conjugate = self.norm[rest], self.conjugate[rest]
         self.compliance = self.compliance.select(rest)
 
+    def displacement(self, pressure: Tensor) -> Tensor:
+        """Displacement under ``pressure``, both flat."""
+        grid = pressure.unflatten(1, (self.compliance.rows, self.compliance.columns))
+        return self.compliance.apply(grid).flatten(1)
 
-def _total(x: Tensor) -> Tensor:
-    return x.flatten(1).sum(1)
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Residual:
+    """How far a contact's pressures are from solving it.
+
+    Attributes:
+        gap: Deformed gap where there is pressure, overlap where there is none, else 0.
+        contact: 1 where there is pressure, else 0.
+        count: Number of elements with pressure, at least 1.
+        level: Approach.
+        norm: Sum of the squared gap.
+        mean: Mean displacement in contact.
+    """
+
+    gap: Tensor
+    contact: Tensor
+    count: Tensor
+    level: Tensor
+    norm: Tensor
+    mean: Tensor
+
+    def keep(self, rest: Tensor) -> _Residual:
+        """The residual of those contacts whose ``rest`` is True."""
+        return _Residual(
+            gap=self.gap[rest],
+            contact=self.contact[rest],
+            count=self.count[rest],
+            level=self.level[rest],
+            norm=self.norm[rest],
+            mean=self.mean[rest],
+        )
 
 
-def _wide(x: Tensor) -> Tensor:
-    return x[:, None, None]
+def _dot(a: Tensor, b: Tensor) -> Tensor:
+    # Not bmm: its rounding depends on the size of the batch.
+    return (a * b).sum(1)
 
 
 def solve(
     compliance: Spectrum,
     gap_mm: Tensor,
-    allowed: Tensor,
     target: Tensor,
     *,
     by_force: bool,
@@ -84,11 +118,10 @@ def solve(
 
     Args:
         compliance: Of the two surfaces together.
-        gap_mm: Undeformed gap, finite, (B, H, W) [mm].
-        allowed: Where pressure may act, bool (B, H, W).
+        gap_mm: Undeformed gap, (B, H, W) [mm]; ``NO_BODY_MM`` where no pressure can act.
         target: (B,) sum of the pressures [MPa] if ``by_force``, else the approach [mm].
         by_force: Which of the two is given.
-        start_mpa: First guess, >= 0, zero where not allowed, (B, H, W) [MPa].
+        start_mpa: First guess, >= 0, zero where no pressure can act, (B, H, W) [MPa].
         stiffness: Pressure per gap of the first step where no contact exists [MPa/mm].
         tol: Root mean square of the residual gap over the mean displacement in contact.
         max_iterations: Bound.
@@ -97,75 +130,84 @@ def solve(
         The solution; contacts with nothing to carry have zero pressure.
     """
     batch = gap_mm.shape[0]
-    free_gap = torch.where(allowed, gap_mm, torch.inf).flatten(1).amin(1)
-    pressure = torch.zeros_like(gap_mm)
-    approach = free_gap.clone() if by_force else target.clone()
-    iterations = torch.zeros(batch, dtype=torch.int64, device=gap_mm.device)
-    converged = torch.ones(batch, dtype=torch.bool, device=gap_mm.device)
-    loaded = (target > 0) & torch.isfinite(free_gap) if by_force else target > free_gap
-    zeros = torch.zeros_like(target)
+    flat = gap_mm.flatten(1)
+    lowest = flat.amin(1)
+    pressure = torch.zeros_like(flat)
+    approach = torch.where(lowest < NO_BODY_MM, lowest, torch.inf) if by_force else target.clone()
+    iterations = torch.zeros(batch, dtype=torch.int64, device=flat.device)
+    converged = torch.ones(batch, dtype=torch.bool, device=flat.device)
+    loaded = (target > 0) & (lowest < NO_BODY_MM) & (by_force | (target > lowest))
     act = _Active(
-        index=torch.arange(batch, device=gap_mm.device),
-        pressure=start_mpa,
-        gap=gap_mm,
-        allowed=allowed,
+        index=torch.arange(batch, device=flat.device),
+        pressure=start_mpa.flatten(1),
+        gap=flat,
         target=target,
-        direction=torch.zeros_like(gap_mm),
-        norm=torch.ones_like(zeros),
-        conjugate=zeros,
+        direction=torch.zeros_like(flat),
+        norm=torch.ones_like(target),
+        conjugate=torch.zeros_like(target),
         compliance=compliance,
     )
-    act.keep(loaded)
+    if not bool(loaded.all()):
+        act.keep(loaded)
     for step in range(max_iterations + 1):
         if act.index.numel() == 0:
             break
-        displacement = act.compliance.apply(act.pressure)
-        contact = act.pressure > 0
-        count = _total(contact).clamp(min=1)
-        gap = displacement + act.gap
-        level = _total(gap * contact) / count if by_force else act.target
-        gap -= _wide(level)
-        overlap = act.allowed & ~contact & (gap < 0)
-        wrong = _total(gap * gap * (contact | overlap)) / count
-        done = wrong.sqrt() <= tol * (_total(displacement * contact) / count)
+        left = _residual(act, by_force=by_force)
+        done = left.norm <= left.count * (tol * left.mean) ** 2
         if step == max_iterations:
             converged[act.index] = done
             done = torch.ones_like(done)
         if bool(done.any()):
             ended = act.index[done]
-            pressure[ended], approach[ended] = act.pressure[done], level[done]
+            pressure[ended], approach[ended] = act.pressure[done], left.level[done]
             iterations[ended] = step
             rest = ~done
             act.keep(rest)
-            gap, contact = gap[rest], contact[rest]
+            left = left.keep(rest)
             if act.index.numel() == 0:
                 break
-        _advance(act, gap, contact, by_force=by_force, stiffness=stiffness)
+        _advance(act, left, by_force=by_force, stiffness=stiffness)
     return Solution(
-        pressure_mpa=pressure, approach_mm=approach, iterations=iterations, converged=converged
+        pressure_mpa=pressure.view_as(gap_mm),
+        approach_mm=approach,
+        iterations=iterations,
+        converged=converged,
     )
 
 
-def _advance(
-    act: _Active, gap: Tensor, contact: Tensor, *, by_force: bool, stiffness: float
-) -> None:
+def _residual(act: _Active, *, by_force: bool) -> _Residual:
+    displacement = act.displacement(act.pressure)
+    pressed = act.pressure > 0
+    contact = pressed.to(displacement.dtype)
+    count = contact.sum(1).clamp(min=1)
+    mean = _dot(displacement, contact) / count
+    gap = displacement.add_(act.gap)
+    level = _dot(gap, contact) / count if by_force else act.target
+    gap -= level[:, None]
+    gap = torch.where(pressed, gap, gap.clamp(max=0))
+    return _Residual(
+        gap=gap, contact=contact, count=count, level=level, norm=_dot(gap, gap), mean=mean
+    )
+
+
+def _advance(act: _Active, left: _Residual, *, by_force: bool, stiffness: float) -> None:
     """One conjugate-gradient step, in place: direction, step length, projection, force."""
-    gap_in = gap * contact
-    norm = _total(gap_in * gap_in)
+    gap_in = left.gap * left.contact
+    norm = _dot(gap_in, gap_in)
     beta = act.conjugate * norm / act.norm.clamp(min=1e-30)
-    act.direction = (gap_in + _wide(beta) * act.direction) * contact
+    act.direction = torch.addcmul(gap_in, act.direction * left.contact, beta[:, None])
     act.norm = norm
-    response = act.compliance.apply(act.direction)
+    response = act.displacement(act.direction)
+    curvature = _dot(response, act.direction)
     if by_force:
-        mean = _total(response * contact) / _total(contact).clamp(min=1)
-        response = response - _wide(mean)
-    curvature = _total(response * act.direction)
-    ratio = _total(gap_in * act.direction) / curvature.clamp(min=1e-30)
-    length = torch.where(curvature > 0, ratio, stiffness)
-    pressure = (act.pressure - _wide(length) * act.direction).clamp_(min=0)
-    entering = act.allowed & (pressure == 0) & (gap < 0)
-    pressure -= _wide(length) * gap * entering
-    act.conjugate = 1.0 - entering.flatten(1).any(1).to(norm.dtype)
+        mean = _dot(response, left.contact) / left.count
+        curvature -= mean * act.direction.sum(1)
+    ratio = _dot(gap_in, act.direction) / curvature.clamp(min=1e-30)
+    length = torch.where(curvature > 0, ratio, stiffness)[:, None]
+    overlap = left.gap - gap_in
+    pressure = act.pressure.addcmul(act.direction, length, value=-1.0).clamp_(min=0)
+    pressure = pressure.addcmul_(overlap, length, value=-1.0)
+    act.conjugate = (overlap.amin(1) >= 0).to(norm.dtype)
     if by_force:
-        pressure *= _wide(act.target / _total(pressure).clamp(min=1e-30))
+        pressure *= (act.target / pressure.sum(1).clamp(min=1e-30))[:, None]
     act.pressure = pressure

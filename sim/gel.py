@@ -18,10 +18,7 @@ import torch
 from torch import Tensor
 
 from sim.compliance import GelMaterial, Spectrum, layer_compliance, spectrum_of
-from sim.contact import Solution, solve
-
-# A gap beyond this is no body at all; keeps infinities out of the arithmetic.
-NO_BODY_MM = 1e3
+from sim.contact import NO_BODY_MM, Solution, solve
 
 # GelSight Mini: thickness and Poisson's ratio fitted to real presses of a 6.31 mm ball, modulus
 # as Tacchi uses for its elastomer (shared notes). DIGIT, GelStereo: not published; the same
@@ -165,23 +162,24 @@ class ElasticLayer:
             force_n: (B,) or one number, >= 0 [N].
             start: A similar press, or its pressure (B, H, W) [kPa], to start from.
             mask: Where the pad can carry pressure, bool (H, W) or (B, H, W); all if None.
-            tol: Residual gap over the mean displacement in contact, root mean square.
+            tol: Residual gap over the mean displacement in contact, root mean square. The worst
+                height is then off by about 0.1 µm at 1e-4 and 1 µm at 1e-3, which takes half
+                the time (measured by ``tacgrasp bench gel``).
             max_iterations: Bound of the solver; see ``Press.converged``.
 
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap, allowed = self._body(gap_mm, mask)
+        gap = self._body(gap_mm, mask)
         force = self._per_element(force_n, gap.shape[0], "force_n")
         if not bool(((force >= 0) & torch.isfinite(force)).all()):
             raise ValueError(f"force_n must be finite and >= 0 N, got {force.tolist()}")
         target = force / self.pitch_mm**2
-        guess = self._start(start, gap, allowed, self._winkler_depth(gap, allowed, target))
+        guess = self._start(start, gap, self._springs_depth(gap, target))
         total = guess.flatten(1).sum(1).clamp(min=1e-30)
         solution = solve(
             self._compliance(gap.shape[0]),
             gap,
-            allowed,
             target,
             by_force=True,
             start_mpa=guess * (target / total)[:, None, None],
@@ -214,17 +212,16 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap, allowed = self._body(gap_mm, mask)
+        gap = self._body(gap_mm, mask)
         depth = self._per_element(depth_mm, gap.shape[0], "depth_mm")
         if not bool(torch.isfinite(depth).all()):
             raise ValueError(f"depth_mm must be finite, got {depth.tolist()}")
         solution = solve(
             self._compliance(gap.shape[0]),
             gap,
-            allowed,
             depth,
             by_force=False,
-            start_mpa=self._start(start, gap, allowed, depth),
+            start_mpa=self._start(start, gap, depth),
             stiffness=self._stiffness,
             tol=tol,
             max_iterations=max_iterations,
@@ -265,15 +262,15 @@ class ElasticLayer:
             raise ValueError(f"{name} must be one number or ({batch},), got {tuple(values.shape)}")
         return values.reshape(-1).expand(batch)
 
-    def _body(self, gap_mm: Tensor, mask: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Checked gap without infinities, and where pressure may act."""
+    def _body(self, gap_mm: Tensor, mask: Tensor | None) -> Tensor:
+        """Checked gap, ``NO_BODY_MM`` where no pressure can act."""
         gap = self._field(gap_mm, "gap_mm")
         if not bool((gap >= -1e-5).all()):
             raise ValueError(
                 "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
                 f"own lowest point; the smallest is {gap.min().item()} mm"
             )
-        allowed = gap < NO_BODY_MM
+        gap = gap.clamp(max=NO_BODY_MM)
         if mask is not None:
             field = torch.as_tensor(mask, device=self.device)
             if field.dtype != torch.bool or tuple(field.shape[-2:]) != (self.rows, self.columns):
@@ -281,30 +278,32 @@ class ElasticLayer:
                     f"mask must be bool (H, W) or (B, H, W) with H, W = {self.rows}, "
                     f"{self.columns}; got {field.dtype} {tuple(field.shape)}"
                 )
-            allowed = allowed & field
-        return gap.clamp(max=NO_BODY_MM), allowed
+            gap = torch.where(field, gap, NO_BODY_MM)
+        return gap
 
-    def _winkler_depth(self, gap: Tensor, allowed: Tensor, target: Tensor) -> Tensor:
-        """Depth at which springs of the guessed stiffness carry ``target``; by bisection."""
-        open_gap = torch.where(allowed, gap, torch.inf)
-        low = open_gap.flatten(1).amin(1).clamp(max=NO_BODY_MM)
-        high = low + target / self._stiffness
-        for _ in range(12):
-            middle = 0.5 * (low + high)
-            carried = (middle[:, None, None] - open_gap).clamp_(min=0).flatten(1).sum(1)
-            enough = carried * self._stiffness > target
-            low, high = torch.where(enough, low, middle), torch.where(enough, middle, high)
-        return high
+    def _springs_depth(self, gap: Tensor, target: Tensor) -> Tensor:
+        """Depth at which springs of the guessed stiffness carry ``target``.
 
-    def _start(
-        self, start: Press | Tensor | None, gap: Tensor, allowed: Tensor, depth: Tensor
-    ) -> Tensor:
+        Newton's method from above, where it cannot overshoot: what springs carry is convex in
+        depth. Six steps are plenty for a guess.
+        """
+        flat = gap.flatten(1)
+        carried = target / self._stiffness
+        depth = (flat.amin(1) + carried).clamp(max=NO_BODY_MM)
+        for _ in range(6):
+            sunk = (depth[:, None] - flat).clamp_(min=0)
+            pressed = (sunk > 0).sum(1).clamp(min=1)
+            depth = depth - (sunk.sum(1) - carried).clamp(min=0) / pressed
+        return depth
+
+    def _start(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
         """First pressures [MPa]: what was given where it presses at all, else springs."""
-        springs = ((depth[:, None, None] - gap) * self._stiffness).clamp_(min=0) * allowed
+        limit = depth.clamp(max=NO_BODY_MM)[:, None, None]
+        springs = ((limit - gap) * self._stiffness).clamp_(min=0)
         if start is None:
             return springs
         given = start.pressure_kpa if isinstance(start, Press) else start
-        warm = (self._field(given, "start") * 1e-3).clamp(min=0) * allowed
+        warm = (self._field(given, "start") * 1e-3).clamp(min=0) * (gap < NO_BODY_MM)
         if warm.shape != gap.shape:
             raise ValueError(f"start has {warm.shape[0]} presses, gap_mm has {gap.shape[0]}")
         pressed = (warm > 0).flatten(1).any(1)

@@ -153,9 +153,9 @@ def test_pressure_is_positive_gaps_are_open_and_the_forces_balance():
 def test_the_surface_is_the_one_that_the_pressure_makes():
     gel = field(body_modulus_mpa=0.2)
     press = gel.press_to_force(ball(15.0, 76, 102, 0.2), 1.0)
-    assert torch.equal(gel.surface(press.pressure_kpa), press.height_mm) or torch.allclose(
-        gel.surface(press.pressure_kpa), press.height_mm, atol=1e-6
-    )
+    assert torch.allclose(gel.surface(press.pressure_kpa), press.height_mm, atol=1e-6)
+    double = gel.surface(2 * press.pressure_kpa)
+    assert torch.allclose(double, 2 * press.height_mm, atol=2e-6)
 
 
 def test_a_finer_grid_changes_the_force_less_and_less():
@@ -189,8 +189,9 @@ def test_a_contact_does_not_depend_on_its_company():
             gap[k : k + 1], force[k : k + 1]
         )
         assert alone.iterations.item() == together.iterations[k].item()
-        assert torch.allclose(alone.height_mm[0], together.height_mm[k], atol=2e-6)
-        assert torch.allclose(alone.pressure_kpa[0], together.pressure_kpa[k], atol=1e-2)
+        # Reductions and transforms run along one contact at a time, so even rounding agrees.
+        assert torch.allclose(alone.height_mm[0], together.height_mm[k], atol=1e-6)
+        assert torch.allclose(alone.pressure_kpa[0], together.pressure_kpa[k], atol=1e-3)
 
 
 def test_pressure_stays_inside_the_mask_while_the_surface_moves_outside():
@@ -208,11 +209,12 @@ def test_a_warm_start_gives_the_same_contact_sooner():
     gel = field(dtype=torch.float64)
     gap = ball(8.0, 76, 102, 0.2)
     before = gel.press_to_force(gap, 1.0)
-    warm = gel.press_to_force(gap, 1.02, start=before)
-    cold = gel.press_to_force(gap, 1.02)
+    warm = gel.press_to_force(gap, 1.02, start=before, tol=1e-6)
+    cold = gel.press_to_force(gap, 1.02, tol=1e-6)
     assert warm.iterations.item() < cold.iterations.item()
-    assert torch.allclose(warm.height_mm, cold.height_mm, atol=2e-4)
-    loose = gel.press_to_force(gap, 1.02, start=torch.zeros_like(before.pressure_kpa))
+    assert torch.allclose(warm.height_mm, cold.height_mm, atol=1e-5)
+    none = torch.zeros_like(before.pressure_kpa)
+    loose = gel.press_to_force(gap, 1.02, start=none, tol=1e-6)
     assert torch.equal(loose.height_mm, cold.height_mm)
 
 
