@@ -173,7 +173,9 @@ def _normal(text: str) -> str:
     text = text.casefold()
     text = re.sub(r"[‘’ʼ′`´＇‛]", "'", text)
     text = re.sub(r"[‐‑‒–−⁃]", "-", text)
-    text = re.sub(r"\b(is|are|was|were|do|does|did|could|would|should|has|have)n t\b", r"\1n't", text)
+    text = re.sub(
+        r"\b(is|are|was|were|do|does|did|could|would|should|has|have)n t\b", r"\1n't", text
+    )
     text = re.sub(r"\be\.\s?g\.|\bi\.\s?e\.", " ", text)
     text = re.sub(r"(?<=[a-z])-\s*[\r\n]+\s*(?=[a-z])", "-", text)  # a word broken over lines
     text = re.sub(r"[-=]+>|--+|(?<!\S)-+(?!\S)|\.\.+", " , ", text)
@@ -212,5 +214,7 @@ def _expanded(token: str) -> list[str]:
             return [token[: -len(tail)], word]
     if token.endswith("'s"):
         owner = token[:-2]
-        return [owner, "is"] if owner in _IS_OWNERS else ([owner, "us"] if owner == "let" else [owner])
+        return (
+            [owner, "is"] if owner in _IS_OWNERS else ([owner, "us"] if owner == "let" else [owner])
+        )
     return [token.replace("'", "")]

@@ -91,9 +91,7 @@ def _words(sentence: Sentence, mention: Mention) -> str:
     return " ".join(sentence.words[mention.start : mention.end])
 
 
-def _reason(
-    action: Primitive | None, said: Verdict, explicit_none: bool, notes: list[str]
-) -> str:
+def _reason(action: Primitive | None, said: Verdict, explicit_none: bool, notes: list[str]) -> str:
     if action is not None:
         head = f"asks for {action}"
     else:

@@ -90,7 +90,19 @@ DIRECTION: dict[str, Primitive] = {
 }
 _NOT_A_SIDE = frozenset(
     {"now", "away", "ahead", "place", "spot", "amount", "force", "way", "one", "finger", "fingers"}
-    | {"position", "pose", "moment", "pad", "sensor", "jaw", "gripper", "hand", "arm", "on", "before"}
+    | {
+        "position",
+        "pose",
+        "moment",
+        "pad",
+        "sensor",
+        "jaw",
+        "gripper",
+        "hand",
+        "arm",
+        "on",
+        "before",
+    }
 )
 HAND = frozenset(
     {"gripper", "grippers", "hand", "arm", "fingers", "finger", "fingertips", "fingertip", "robot"}
@@ -131,7 +143,23 @@ _MORE_GRIP = _MORE | {"tighter", "harder"}
 _LESS = frozenset({"less", "lower", "smaller", "reduced", "weaker", "gentler", "lighter", "softer"})
 _LESS_GRIP = _LESS | {"looser"}
 _ADJECTIVE_AFTER = frozenset(
-    {"a", "an", "the", "its", "is", "are", "be", "at", "with", "in", "on", "of", "no", "much", "far"}
+    {
+        "a",
+        "an",
+        "the",
+        "its",
+        "is",
+        "are",
+        "be",
+        "at",
+        "with",
+        "in",
+        "on",
+        "of",
+        "no",
+        "much",
+        "far",
+    }
     | {"even", "any", "too", "was", "from", "this", "that"}
 )
 
@@ -180,8 +208,10 @@ def _object(words: tuple[str, ...], i: int, heads: frozenset[str]) -> int | None
         elif words[i] == "and" and head is not None:
             break
         i += 1
-    if head is None or _word(words, head) in _NOT_FORCE or any(
-        w in _NOT_FORCE for w in words[head:i]
+    if (
+        head is None
+        or _word(words, head) in _NOT_FORCE
+        or any(w in _NOT_FORCE for w in words[head:i])
     ):
         return None
     return head
@@ -371,11 +401,11 @@ def _move(words: tuple[str, ...], i: int) -> list[Mention]:
             forbidden = False
         elif word in DIRECTION and not _is_adjective(words, j):
             if not forbidden:
-                found.append(
-                    Mention(primitive=DIRECTION[word], start=i, end=j + 1, form=form)
-                )
+                found.append(Mention(primitive=DIRECTION[word], start=i, end=j + 1, form=form))
         elif found or forbidden:
-            after = _skip(words, j, {",", "and", "or", "nor", "then", "to", "the", "also", "a", "bit"})
+            after = _skip(
+                words, j, {",", "and", "or", "nor", "then", "to", "the", "also", "a", "bit"}
+            )
             linked = any(w in (",", "and", "or", "nor", "then") for w in words[j:after])
             if not (linked and _word(words, after) in (*DIRECTION, "not")):
                 break

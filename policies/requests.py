@@ -14,7 +14,16 @@ from policies.mentions import Form, Mention
 
 GOAL_LABELS = frozenset(
     {"goal", "task", "instruction", "instructions", "aim", "target", "objective", "prompt", "user"}
-    | {"question", "requirement", "example", "human", "previous", "previously", "history", "earlier"}
+    | {
+        "question",
+        "requirement",
+        "example",
+        "human",
+        "previous",
+        "previously",
+        "history",
+        "earlier",
+    }
 )
 """What comes after 'goal:' is somebody's wish, not what is felt or advised."""
 
@@ -34,11 +43,39 @@ class Status(StrEnum):
 _NO_VERBS = frozenset(
     {"avoid", "avoiding", "avoids", "refrain", "refraining", "prevent", "prevents", "preventing"}
     | {"stop", "stops", "stopping", "quit", "cease", "skip", "skipping", "against", "cancel"}
-    | {"abort", "forbid", "forbids", "forbidden", "prohibited", "prohibits", "prohibit", "instead_of"}
+    | {
+        "abort",
+        "forbid",
+        "forbids",
+        "forbidden",
+        "prohibited",
+        "prohibits",
+        "prohibit",
+        "instead_of",
+    }
     | {"unable", "impossible", "unnecessary", "needless", "pointless", "useless", "fail", "fails"}
-    | {"failed", "wrong", "dangerous", "harmful", "unwise", "bad", "mistake", "inadvisable", "refuse"}
+    | {
+        "failed",
+        "wrong",
+        "dangerous",
+        "harmful",
+        "unwise",
+        "bad",
+        "mistake",
+        "inadvisable",
+        "refuse",
+    }
     | {"risky", "unsafe", "foolish", "premature", "inappropriate", "undesirable", "discouraged"}
-    | {"lest", "cannot", "disallowed", "banned", "counterproductive", "excluded", "ignore", "reject"}
+    | {
+        "lest",
+        "cannot",
+        "disallowed",
+        "banned",
+        "counterproductive",
+        "excluded",
+        "ignore",
+        "reject",
+    }
     | {"disregard", "unadvisable", "unhelpful", "rejected", "ignored", "omit", "forgo", "withhold"}
     | {"resist", "beware", "false", "untrue", "overkill", "superfluous", "redundant", "incorrect"}
     | {"no-one", "few", "unwarranted", "unneeded", "avoided", "oppose", "opposed", "decline"}
@@ -61,7 +98,9 @@ _SUPPOSING = frozenset(
 )
 _ANYWHERE = frozenset({"if", "unless", "whenever", "suppose", "supposing", "assuming", "depending"})
 _ANYWHERE |= {UNKNOWN, "lest", "hypothetically"}
-_PAST = frozenset({"was", "were", "had", "did", "previously", "previous", "earlier", "ago", "already"})
+_PAST = frozenset(
+    {"was", "were", "had", "did", "previously", "previous", "earlier", "ago", "already"}
+)
 _PAST |= {"yesterday"}
 _ASK_PASSIVE = frozenset({"be"})
 _NEEDED = frozenset(
@@ -78,7 +117,20 @@ _FELT = frozenset(
     | {"gel", "deepest", "patch", "slip", "load", "weight", "stem", "imprint", "centre", "center"}
 )
 _LINKS = frozenset(
-    {"should", "must", "to", "be", "needs", "need", "has", "have", "ought", "tends", "starts", "may"}
+    {
+        "should",
+        "must",
+        "to",
+        "be",
+        "needs",
+        "need",
+        "has",
+        "have",
+        "ought",
+        "tends",
+        "starts",
+        "may",
+    }
     | {"begins", "continues", "about", "going", "likely", "is", "are", "will", "can", "shall", "it"}
     | {"also", "then", "now", "seems", "appears", "threatens", "wants", "bit", "keeps", "could"}
     | {"might", "would", "does", "did", "was", "were", "been"}
@@ -88,7 +140,21 @@ _PLACE = frozenset(
     | {"corner", "upper", "lower", "middle", "its", "a", "point", "position", "area"}
 )
 _COPULA = frozenset(
-    {"is", "are", "was", "would", "must", "should", "does", "do", "will", "can", "be", "has", "have"}
+    {
+        "is",
+        "are",
+        "was",
+        "would",
+        "must",
+        "should",
+        "does",
+        "do",
+        "will",
+        "can",
+        "be",
+        "has",
+        "have",
+    }
     | {"may", "could", "seems", "looks", "remains", "makes", "shall", "might", ":", "been", "feels"}
 )
 _RESUME = frozenset({"but", "however", "therefore", "thus", "hence", "so"})
@@ -204,8 +270,10 @@ def _carried(
             inside = [m for m in earlier if sentence.segment_index(m.start) == back]
             after = [m for m in inside if m.start >= sentence.segments[back].start + at]
             tail = words[at + 1 :]
-            dangling = not after and (len(tail) <= 1 or lead in ("or", "nor")) and (
-                words[at] != "no" or len(words) > 1
+            dangling = (
+                not after
+                and (len(tail) <= 1 or lead in ("or", "nor"))
+                and (words[at] != "no" or len(words) > 1)
             )
             open_end = not after and (left[:1] in (("to",), ("that",), ("whether",)))
             open_end |= not after and not left and mention.form is Form.GERUND
@@ -232,7 +300,14 @@ def _refused_after(sentence: Sentence, mention: Mention) -> bool:
     if index + 1 < len(sentence.segments) and not sentence.segments[index + 1].lead == "but":
         following = sentence.of(index + 1)
         if len(following) <= 2 and following[0] in ("no", "not", "never", "nope", "false"):
-            return following[1:] in ((), ("now",), ("yet",), ("needed",), ("allowed",), ("required",))
+            return following[1:] in (
+                (),
+                ("now",),
+                ("yet",),
+                ("needed",),
+                ("allowed",),
+                ("required",),
+            )
     return False
 
 
@@ -281,7 +356,19 @@ def _described(sentence: Sentence, mention: Mention, left: tuple[str, ...]) -> b
         return not (rest & _NEEDED or rest <= _FRAGMENT)
     plain = [w for w in left if not w.endswith("ly")]
     if mention.form is Form.GERUND:
-        progressive = {"is", "are", "be", "been", "starts", "begins", "keeps", "was", "were", "a", "an"}
+        progressive = {
+            "is",
+            "are",
+            "be",
+            "been",
+            "starts",
+            "begins",
+            "keeps",
+            "was",
+            "were",
+            "a",
+            "an",
+        }
         return plain[-1:] != [] and plain[-1] in progressive | _FELT
     if plain[-1:] and plain[-1] in ("a", "an", "the", "any", "this", "such", "small", "slight"):
         around = sentence.of(sentence.segment_index(mention.start))

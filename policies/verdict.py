@@ -35,7 +35,18 @@ _WHOLE = _GRASP | frozenset(
     {"it", "this", "that", "everything", "all", "things", "state", "status", "result", "verdict"}
     | {"assessment", "evaluation", "object", "berry", "strawberry", "fruit", "egg", "tomato", "peg"}
     | {"cherry", "apple", "marker", "item", "situation", "condition", "configuration", "quality"}
-    | {"i", "we", "conclusion", "judgment", "judgement", "judgement", "setup", "they", "both", "now"}
+    | {
+        "i",
+        "we",
+        "conclusion",
+        "judgment",
+        "judgement",
+        "judgement",
+        "setup",
+        "they",
+        "both",
+        "now",
+    }
     | {"here", "outcome", "there", "kiwi", "body", "part", "piece", "workpiece", "which", "success"}
 )
 _PART = frozenset(
@@ -43,7 +54,17 @@ _PART = frozenset(
     | {"tightness", "strength", "indentation", "pose", "posture", "level", "forces", "distribution"}
 )
 _FOREIGN = frozenset(
-    {"sensor", "sensors", "reading", "readings", "signal", "measurement", "data", "estimate", "image"}
+    {
+        "sensor",
+        "sensors",
+        "reading",
+        "readings",
+        "signal",
+        "measurement",
+        "data",
+        "estimate",
+        "image",
+    }
     | {"camera", "table", "robot", "arm", "network", "connection", "policy", "model", "action"}
     | {"move", "movement", "motion", "step", "adjustment", "option", "choice", "plan", "approach"}
     | {"strategy", "goal", "aim", "target", "task", "requirement", "response", "answer", "command"}
@@ -72,7 +93,9 @@ _PAST_VERBS = frozenset(
     {"was", "were", "had", "did", "became", "used", "went", "turned", "kept", "felt", "looked"}
     | {"seemed", "appeared", "stayed", "remained", "got"}
 )
-_PAST_WORDS = frozenset({"previously", "formerly", "initially", "originally", "earlier", "yesterday"})
+_PAST_WORDS = frozenset(
+    {"previously", "formerly", "initially", "originally", "earlier", "yesterday"}
+)
 _PAST_WORDS |= {"before", "once", "formerly", "past"}
 _ANYWHERE = frozenset(
     {"if", "unless", "until", "till", "provided", "providing", "assuming", "supposing", "suppose"}
@@ -86,15 +109,80 @@ _ANYWHERE = frozenset(
 )
 _BEFORE_IT = frozenset(
     {"will", "would", "should", "could", "might", "may", "must", "shall", "ought", "be", "become"}
-    | {"becoming", "getting", "turning", "growing", "get", "gets", "keep", "keeping", "keeps", "make"}
+    | {
+        "becoming",
+        "getting",
+        "turning",
+        "growing",
+        "get",
+        "gets",
+        "keep",
+        "keeping",
+        "keeps",
+        "make",
+    }
     | {"makes", "making", "made", "let", "lets", "want", "wants", "need", "needs", "require", "aim"}
-    | {"requires", "aiming", "try", "trying", "seek", "seeks", "attempt", "expect", "expected", "got"}
-    | {"prefer", "desire", "desired", "target", "goal", "plan", "toward", "towards", "improve", "being"}
+    | {
+        "requires",
+        "aiming",
+        "try",
+        "trying",
+        "seek",
+        "seeks",
+        "attempt",
+        "expect",
+        "expected",
+        "got",
+    }
+    | {
+        "prefer",
+        "desire",
+        "desired",
+        "target",
+        "goal",
+        "plan",
+        "toward",
+        "towards",
+        "improve",
+        "being",
+    }
     | {"ensure", "ensures", "ensuring", "check", "verify", "promises", "guarantee", "guarantees"}
-    | {"looking", "toward", "said", "says", "claim", "claims", "claimed", "told", "asked", "reported"}
+    | {
+        "looking",
+        "toward",
+        "said",
+        "says",
+        "claim",
+        "claims",
+        "claimed",
+        "told",
+        "asked",
+        "reported",
+    }
     | {"instruction", "word", "words", "term", "descriptor", "descriptors", "example", "define"}
-    | {"definition", "means", "then", "so_that", "so-called", "called", "like", "instead_of", "stay"}
-    | {"lack", "lacks", "lacking", "fail", "fails", "failed", "failing", "missing", "ceases", "cease"}
+    | {
+        "definition",
+        "means",
+        "then",
+        "so_that",
+        "so-called",
+        "called",
+        "like",
+        "instead_of",
+        "stay",
+    }
+    | {
+        "lack",
+        "lacks",
+        "lacking",
+        "fail",
+        "fails",
+        "failed",
+        "failing",
+        "missing",
+        "ceases",
+        "cease",
+    }
     | {"ceased", "stopped", "stops", "loses", "lost", "losing", "lose", "absence", "deny", "denies"}
     | {"refuse", "less", "least", "most", "impossible", "unable", "insufficiently", "inadequately"}
     | {"almost", "nearly", "near", "nearing", "partly", "partially", "somewhat", "only", "half"}
@@ -102,22 +190,70 @@ _BEFORE_IT = frozenset(
     | {"few", "too", "more", "despite", "opposite", "contrary", "devoid", "would-be", "anything"}
     | {"away", "prevent", "prevents", "disagree", "dispute", "cannot", "until", "yields", "gives"}
     | {"hold", "bring", "brings", "restore", "restores", "help", "helps", "achieve", "tends"}
-    | {"without", "supposed", "thought", "assumed", "believed", "hoped", "wanted", "demanded", "sure"}
+    | {
+        "without",
+        "supposed",
+        "thought",
+        "assumed",
+        "believed",
+        "hoped",
+        "wanted",
+        "demanded",
+        "sure",
+    }
     | {"starts", "begins", "beginning", "starting", "threatens", "stop", "avoid", "sort", "kind"}
     | {"borderline", "once", "formerly", "un", "if", "when", "ready", "enable", "enables", "allow"}
-    | {"allows", "confirm", "see", "produce", "produces", "create", "creates", "give", "ex", "never"}
+    | {
+        "allows",
+        "confirm",
+        "see",
+        "produce",
+        "produces",
+        "create",
+        "creates",
+        "give",
+        "ex",
+        "never",
+    }
 )
 _BEFORE_OK_SUBJECT = frozenset({"hold", "sure", "goal", "made"})
 _JUDGED = frozenset(
     {"called", "considered", "described", "deemed", "regarded", "declared", "judged", "rated"}
     | {"classified", "trusted", "said", "found", "seems", "appears", "proves", "known", "termed"}
-    | {"labelled", "labeled", "seen", "viewed", "assessed", "evaluated", "rate", "classify", "regard"}
+    | {
+        "labelled",
+        "labeled",
+        "seen",
+        "viewed",
+        "assessed",
+        "evaluated",
+        "rate",
+        "classify",
+        "regard",
+    }
     | {"describe", "counts", "classed", "qualifies", "assess"}
 )
 _SURE_LY = frozenset(
     {"perfectly", "fully", "completely", "entirely", "totally", "truly", "really", "clearly"}
-    | {"certainly", "definitely", "absolutely", "firmly", "sufficiently", "adequately", "reasonably"}
-    | {"fairly", "extremely", "highly", "finally", "currently", "presently", "undoubtedly", "surely"}
+    | {
+        "certainly",
+        "definitely",
+        "absolutely",
+        "firmly",
+        "sufficiently",
+        "adequately",
+        "reasonably",
+    }
+    | {
+        "fairly",
+        "extremely",
+        "highly",
+        "finally",
+        "currently",
+        "presently",
+        "undoubtedly",
+        "surely",
+    }
     | {"evidently", "visibly", "noticeably", "nicely", "properly", "remarkably", "exceptionally"}
     | {"consistently", "thoroughly", "genuinely", "equally", "simply", "obviously", "demonstrably"}
     | {"satisfactorily", "evenly", "mechanically", "physically", "already", "wonderfully", "overly"}
@@ -129,7 +265,9 @@ _FOLLOWERS = frozenset(
     | {"from", "against", "across", "of", "over", "given", "within", "right", "still", "is", "are"}
     | {"both", "also", "surely", "everywhere", "no", "not", "i", "here", "currently", "inside"}
 )
-_ADJECTIVES = frozenset({"two", "finger", "firm", "good", "centred", "centered", "gentle", "parallel"})
+_ADJECTIVES = frozenset(
+    {"two", "finger", "firm", "good", "centred", "centered", "gentle", "parallel"}
+)
 _ADJECTIVES |= {"overall", "well", "balanced", "safe", "soft", "current", "gripper", "pinch"}
 _ACHIEVED = frozenset(
     {"achieved", "reached", "confirmed", "obtained", "established", "detected", "found", "made"}
@@ -137,8 +275,33 @@ _ACHIEVED = frozenset(
 )
 _RETRACT = frozenset(
     {"no", "not", "nope", "never", "really", "at", "all", "quite", "far", "from", "it", "that"}
-    | {"this", "is", "was", "i", "think", "do", "does", "so", "true", "the", "case", "yet", "correct"}
-    | {"false", "wrong", "untrue", "a", "lie", "hardly", "just", "actually", "statement", "incorrect"}
+    | {
+        "this",
+        "is",
+        "was",
+        "i",
+        "think",
+        "do",
+        "does",
+        "so",
+        "true",
+        "the",
+        "case",
+        "yet",
+        "correct",
+    }
+    | {
+        "false",
+        "wrong",
+        "untrue",
+        "a",
+        "lie",
+        "hardly",
+        "just",
+        "actually",
+        "statement",
+        "incorrect",
+    }
 )
 _DENY = frozenset({"no", "not", "nope", "never", "false", "wrong", "untrue", "hardly", "lie"})
 _DENY |= {"incorrect"}
@@ -203,9 +366,14 @@ def _inverted(left: tuple[str, ...]) -> bool:
     asking = {"is", "are", "does", "do", "can", "could", "will", "would", "should", "has", "was"}
     asking |= {"were", "may", "might", "am", "did", "have"}
     rest = [w for w in left[1:] if not w.endswith("ly") and w not in ("now", "very", "both", "not")]
-    return bool(left[:1]) and left[0] in asking and bool(rest) and rest[0] in (
-        _WHOLE | {"the", "my", "our", "a", "you", "he", "any", "your", "its"}
-    ) - {"both", "all", "now", "here"}
+    return (
+        bool(left[:1])
+        and left[0] in asking
+        and bool(rest)
+        and rest[0]
+        in (_WHOLE | {"the", "my", "our", "a", "you", "he", "any", "your", "its"})
+        - {"both", "all", "now", "here"}
+    )
 
 
 def _has_own_clause(left: tuple[str, ...]) -> bool:
@@ -295,8 +463,10 @@ def _timed(sentence: Sentence, index: int, left: tuple[str, ...]) -> bool:
         return True
     for i, other in enumerate(sentence.segments):
         words = sentence.of(i)
-        if i != index and other.lead in ("once", "when", "before") and not (
-            other.lead == "before" and i < index and len(words) <= 3
+        if (
+            i != index
+            and other.lead in ("once", "when", "before")
+            and not (other.lead == "before" and i < index and len(words) <= 3)
         ):
             return True
         if i != index and other.lead == "after":
@@ -336,9 +506,7 @@ def _retracted(sentence: Sentence, index: int, following: Sentence | None) -> bo
     return any(set(w) <= _RETRACT and set(w) & _DENY for w in later)
 
 
-def _reserved(
-    sentence: Sentence, index: int, left: tuple[str, ...], right: tuple[str, ...]
-) -> str:
+def _reserved(sentence: Sentence, index: int, left: tuple[str, ...], right: tuple[str, ...]) -> str:
     """A comparison or an adverb that takes the statement back."""
     lead = sentence.segments[index].lead
     before = sentence.of(index - 1) if index and lead == "as" else ()
@@ -359,16 +527,16 @@ def _of_the_grasp(
     noun = next((i for i, w in enumerate(right) if w not in _ADJECTIVES | DESCRIPTORS), None)
     if noun is not None and right[noun] in _GRASP:
         return _attributive(context, left, right[noun + 1 :])
-    if right and right[0] not in _FOLLOWERS | _ACHIEVED and not (
-        right[0] in _SURE_LY or right[0][0].isdigit()
+    if (
+        right
+        and right[0] not in _FOLLOWERS | _ACHIEVED
+        and not (right[0] in _SURE_LY or right[0][0].isdigit())
     ):
         return False
     return _subject_fits(context, whole=whole)
 
 
-def _attributive(
-    context: tuple[str, ...], left: tuple[str, ...], rest: tuple[str, ...]
-) -> bool:
+def _attributive(context: tuple[str, ...], left: tuple[str, ...], rest: tuple[str, ...]) -> bool:
     """'this is a stable grasp', 'secure grip achieved'; not 'a stable grasp needs more force'."""
     if {"for", "of", "into", "towards", "toward", "to"} & set(left[-3:]) or _GOALS & set(context):
         return False
@@ -382,7 +550,19 @@ def _attributive(
 def _subject_fits(context: tuple[str, ...], *, whole: bool) -> bool:
     verbs = [i for i, w in enumerate(context) if w in _VERBS]
     subject = context[: verbs[-1]] if verbs else context
-    prepositions = {"of", "on", "in", "at", "between", "around", "with", "by", "from", "for", "under"}
+    prepositions = {
+        "of",
+        "on",
+        "in",
+        "at",
+        "between",
+        "around",
+        "with",
+        "by",
+        "from",
+        "for",
+        "under",
+    }
     at = next((i for i, w in enumerate(subject) if w in prepositions), None)
     if at == 0:
         last = max((i for i, w in enumerate(subject) if w in ("the", "this", "it", "a")), default=0)

@@ -31,7 +31,7 @@ from primitives.primitive import PAD_DIRECTION, Primitive
 
 INCREASE_FACTOR = 1.5
 DECREASE_FACTOR = 0.65
-"""Our choice: 1.5 * 0.65 is just below 1, so that an increase and a decrease do not cycle exactly."""
+"""Our choice: 1.5 × 0.65 is just below 1, so that one of each ends a little gentler."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

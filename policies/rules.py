@@ -1,0 +1,76 @@
+"""The policy of rules: measure the contact, ask the teacher, say it, read what was said.
+
+Its words go through the same extraction as a language model's, so the loop can't tell them apart.
+Loads no torch.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+from cltp.cloud import TactileCloud
+from cltp.states import ContactState
+from policies.extract import extract
+from policies.goal import Goal
+from policies.policy import Decision
+from policies.speech import speak
+from policies.teacher import teacher
+
+
+class RulesPolicy:
+    """The teacher on the computed contact state; the instruction is not read, its goal is."""
+
+    def __init__(
+        self,
+        goal: Goal,
+        measure: Callable[[TactileCloud], ContactState] | None = None,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        """Take a goal.
+
+        Args:
+            goal: What a good grasp is.
+            measure: From a cloud to a state; None takes ``cltp.measure.contact_state``.
+            clock: For the durations of the stages [s].
+        """
+        if measure is None:
+            from cltp.measure import contact_state
+
+            measure = contact_state
+        self._goal, self._measure, self._clock = goal, measure, clock
+
+    @property
+    def name(self) -> str:
+        """'rules'."""
+        return "rules"
+
+    def start(self) -> None:
+        """Nothing to forget: every touch is judged by itself."""
+
+    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+        """Say what the contact is and what to do.
+
+        Raises:
+            TouchError: The cloud can't be measured.
+        """
+        marks = [self._clock()]
+        state = self._measure(cloud)
+        marks.append(self._clock())
+        advice = teacher(state, self._goal)
+        marks.append(self._clock())
+        text = speak(state, advice)
+        marks.append(self._clock())
+        found = extract(text)
+        marks.append(self._clock())
+        stages = ("measure", "teacher", "speak", "extract")
+        return Decision(
+            text=text,
+            action=found.action,
+            success=found.success,
+            reason=f"{found.reason} ({advice.why})",
+            stage_ms={
+                stage: 1e3 * (end - begin)
+                for stage, begin, end in zip(stages, marks, marks[1:], strict=False)
+            },
+        )
