@@ -74,14 +74,10 @@ class PrimitivesConfig(Section):
     Attributes:
         clear_mm: How far the gripper opens before a move, so that nothing is carried along [mm].
         move_step_mm: Length of one move [mm].
-        increase_factor: What ``increase_force`` multiplies the commanded force by.
-        decrease_factor: What ``decrease_force`` multiplies it by.
     """
 
     clear_mm: Number = Field(default=2.0, ge=0.2, le=50)
     move_step_mm: Number = Field(default=3.0, ge=0.1, le=20)
-    increase_factor: Number = Field(default=1.5, gt=1, le=3)
-    decrease_factor: Number = Field(default=0.65, ge=0.2, lt=1)
 
 
 class LoopConfig(Section):
@@ -132,18 +128,28 @@ class ArmConfig(Section):
     """Limits of the arm that every command is held to.
 
     Attributes:
+        workspace_low_m: Corner of the box that the TCP stays in [m, base frame].
+        workspace_high_m: Its opposite corner [m, base frame].
         max_step_mm: Longest single move of a primitive [mm].
         max_travel_mm: Total travel of an episode's primitives before the end ``limit`` [mm].
-        reach_mm: Half the edges of the box around the start pose that the TCP stays in [mm].
-        speed_m_s: Speed of the primitives' moves [m/s].
-        acceleration_m_s2: Their acceleration [m/s²].
+        max_speed_m_s: Speed of the primitives' moves, and the most of any move [m/s].
     """
 
+    workspace_low_m: Vector
+    workspace_high_m: Vector
     max_step_mm: Number = Field(default=5.0, ge=0.1, le=50)
     max_travel_mm: Number = Field(default=120.0, ge=1, le=2000)
-    reach_mm: Vector = (60.0, 60.0, 80.0)
-    speed_m_s: Number = Field(default=0.05, gt=0, le=0.5)
-    acceleration_m_s2: Number = Field(default=0.5, gt=0, le=10)
+    max_speed_m_s: Number = Field(default=0.1, gt=0, le=0.5)
+
+    @model_validator(mode="after")
+    def _box_is_not_empty(self) -> ArmConfig:
+        low, high = self.workspace_low_m, self.workspace_high_m
+        if any(a >= b for a, b in zip(low, high, strict=True)):
+            raise ValueError(
+                f"workspace_low_m {list(low)} must be below workspace_high_m {list(high)} "
+                "in x, y and z"
+            )
+        return self
 
 
 class GripperConfig(Section):
@@ -222,10 +228,19 @@ class RunConfig(Section):
     primitives: PrimitivesConfig = PrimitivesConfig()
     loop: LoopConfig = LoopConfig()
     verify: VerifyConfig = VerifyConfig()
-    arm: ArmConfig = ArmConfig()
+    arm: ArmConfig
     gripper: GripperConfig = GripperConfig()
     pad: PadConfig
     on_success: AtTheEnd = "hold"
     on_failure: AtTheEnd = "release"
     dry_run: bool = False
     record: Path = Path("episodes")
+
+    @model_validator(mode="after")
+    def _parts_fit(self) -> RunConfig:
+        if self.verify.speed_m_s > self.arm.max_speed_m_s:
+            raise ValueError(
+                f"verify.speed_m_s {self.verify.speed_m_s} is above arm.max_speed_m_s "
+                f"{self.arm.max_speed_m_s}"
+            )
+        return self

@@ -146,7 +146,7 @@ def _complete(merged: dict[str, Any]) -> RunConfig:
         return RunConfig.model_validate(merged)
     except ValidationError as error:
         field = str(error.errors()[0]["loc"][0])
-    kind = "rig" if field in ("devices", "pad") else "task"
+    kind = "rig" if field in ("devices", "arm", "pad") else "task"
     raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
 
 
@@ -174,7 +174,7 @@ def unit_of(field: str) -> str:
 
 def explain(first: ErrorDetails) -> str:
     """One thing that is wrong with a configuration, in a line: field, expected, got."""
-    path = ".".join(str(part) for part in first["loc"] if not isinstance(part, int))
+    path = ".".join(str(part) for part in first["loc"] if not isinstance(part, int)) or "the run"
     got = first["input"]
     kind = first["type"]
     if kind == "extra_forbidden":

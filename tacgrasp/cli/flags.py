@@ -1,0 +1,101 @@
+"""Read a command's flags with tyro over a model or dataclass; errors become one line.
+
+Not here: what the flags mean.
+"""
+
+from __future__ import annotations
+
+import io
+import os
+import re
+from collections.abc import Sequence
+from contextlib import redirect_stderr, redirect_stdout
+from typing import TypeVar
+
+import tyro
+
+from tacgrasp.config_layers import unit_of
+from tacgrasp.errors import UsageError
+
+T = TypeVar("T")
+
+
+def parse(kind: type[T], argv: Sequence[str], *, prog: str, default: T | None = None) -> T:
+    """Parse ``argv`` into ``kind``; ``--help`` prints and exits with 0.
+
+    Raises:
+        UsageError: A flag or value that doesn't fit, in one line.
+    """
+    if any(flag in argv for flag in ("-h", "--help")):
+        return _parse(kind, argv, prog, default)
+    printed = io.StringIO()
+    columns = os.environ.get("COLUMNS")
+    os.environ["COLUMNS"] = "4000"  # tyro wraps its boxes to the terminal; we take the box off
+    try:
+        with redirect_stderr(printed), redirect_stdout(printed):
+            return _parse(kind, argv, prog, default)
+    except SystemExit:
+        raise UsageError(f"{_unboxed(printed.getvalue())} (see {prog} --help)") from None
+    finally:
+        if columns is None:
+            del os.environ["COLUMNS"]
+        else:
+            os.environ["COLUMNS"] = columns
+
+
+def _parse(kind: type[T], argv: Sequence[str], prog: str, default: T | None) -> T:
+    if default is None:
+        return tyro.cli(kind, args=argv, prog=prog)
+    return tyro.cli(kind, args=argv, prog=prog, default=default)
+
+
+def _unboxed(text: str) -> str:
+    """What tyro says (title, rule, message, rule, hints), on one line and without references."""
+    blocks: list[list[str]] = [[]]
+    for line in (raw.strip() for raw in text.splitlines()):
+        if line and set(line) == {"-"}:
+            blocks.append([])
+        elif line:
+            blocks[-1].append(line)
+    message = " ".join(blocks[1] if len(blocks) > 1 else blocks[0])
+    message = re.sub(r"For further information visit \S+", "", message)
+    message = re.sub(r" \[type=value_error.*", "", message)
+    message = re.sub(r"\[type=\w+, input_value=(.*?), input_type=\w+\]", r"(got \1)", message)
+    guesses = [block[1] for block in blocks if len(block) > 1 and block[0].startswith("Perhaps")]
+    message = _VALIDATION.sub(_plain, " ".join(message.split()))
+    hint = f"; did you mean {guesses[0].split()[0]}?" if guesses else ""
+    return message + hint
+
+
+_VALIDATION = re.compile(
+    r"Error parsing (?P<section>\S+): \d+ validation errors? for (?P<model>\w+) "
+    r"((?P<field>[\w.]+) (?=Input|Value|String|Assert))?(Value error, |Input |Value |String )"
+)
+"""How tyro passes on what pydantic said."""
+
+
+def _plain(found: re.Match[str]) -> str:
+    """The flag that pydantic's message is about, with its unit."""
+    section = "" if found["section"] == found["model"] else f"{found['section']}."
+    if found["field"] is None:
+        return f"--{section[:-1]}: " if section else ""
+    unit = unit_of(found["field"])
+    flag = f"--{section}{found['field']}".replace("_", "-")
+    return f"{flag}{f' [{unit}]' if unit else ''} "
+
+
+def flag_value(argv: Sequence[str], flag: str) -> str | None:
+    """Value of one flag, needed before the others can be read; None when it is not given.
+
+    Raises:
+        UsageError: The flag stands without a value.
+    """
+    value = None
+    for place, token in enumerate(argv):
+        if token == flag:
+            if place + 1 == len(argv) or argv[place + 1].startswith("--"):
+                raise UsageError(f"{flag} needs a value")
+            value = argv[place + 1]
+        elif token.startswith(f"{flag}="):
+            value = token.removeprefix(f"{flag}=")
+    return value

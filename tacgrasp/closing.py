@@ -1,0 +1,110 @@
+"""The end of every episode: the robot in the task's state, the episode ended, on every path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from typing import TypeVar
+
+from primitives import RobotError
+from tacgrasp.config import RunConfig
+from tacgrasp.episodes import EpisodeEnd, EpisodeError
+from tacgrasp.episodes.interrupts import interrupts_held
+from tacgrasp.outcome import EndOfEpisode, EndReason, Outcome
+from tacgrasp.rig import Rig, truth_of
+from tacgrasp.turns import Recorder, Turns
+
+T = TypeVar("T")
+
+INTERRUPTS_SURVIVED = 3
+"""How often a step of making safe is taken up again when it is interrupted."""
+
+
+def close(
+    rig: Rig,
+    config: RunConfig,
+    recorder: Recorder,
+    turns: Turns,
+    end: EndOfEpisode,
+    declared: bool,
+    verified: bool | None,
+    steps: int,
+) -> Outcome:
+    """Stop the arm, hold or release as the task says, and write how the episode ended.
+
+    A failure here turns the end into ``fault``. Ctrl-C waits until it is done.
+
+    Raises:
+        Exception: A bug in a device; the record is ended all the same.
+    """
+    with interrupts_held():
+        try:
+            truth = truth_of(rig)  # before the gripper opens
+        finally:
+            safe_state, released = _make_safe(rig, config, end.reason)
+        problems = [] if released else [safe_state]
+        if end.reason is not EndReason.FAULT:  # which may be the recorder's own
+            problems += _refusals(lambda: turns.record(None, note=f"cut short: {end.message}"))
+        outcome = Outcome(
+            reason=EndReason.FAULT if problems else end.reason,
+            message="; ".join([end.message, *problems]),
+            declared=declared,
+            verified=verified,
+            steps=steps,
+            turns=turns.count,
+            duration_s=turns.elapsed_s,
+            safe_state=safe_state,
+            truth=truth,
+        )
+        late = _refusals(lambda: recorder.finish(_episode_end(rig, outcome)))
+    if late and outcome.reason is not EndReason.FAULT:
+        message = "; ".join([outcome.message, *late])
+        outcome = replace(outcome, reason=EndReason.FAULT, message=message)
+    return outcome
+
+
+def _make_safe(rig: Rig, config: RunConfig, reason: EndReason) -> tuple[str, bool]:
+    """Stop, then hold or release; returns how the gripper was left, and whether that was wanted."""
+    wanted = config.on_success if reason is EndReason.SUCCESS else config.on_failure
+    _despite_interrupts(rig.arm.stop)
+    _despite_interrupts(rig.gripper.stop)
+    if wanted == "hold":
+        return "the gripper keeps its grip", True
+    try:
+        if not _despite_interrupts(rig.gripper.state).closed:
+            return "the gripper is open", True
+        _despite_interrupts(lambda: rig.gripper.open_by(config.primitives.clear_mm / 1000))
+    except RobotError as error:
+        return f"the gripper could not be opened: {error}", False
+    except KeyboardInterrupt:
+        return "the gripper could not be opened: interrupted again and again", False
+    return "the gripper has released", True
+
+
+def _refusals(write: Callable[[], None]) -> list[str]:
+    """Write to the record; says why when it can't be, which must not keep the robot from safety."""
+    try:
+        write()
+    except EpisodeError as error:
+        return [str(error)]
+    return []
+
+
+def _episode_end(rig: Rig, outcome: Outcome) -> EpisodeEnd:
+    return EpisodeEnd(
+        reason=outcome.reason.value,
+        declared_success=outcome.declared,
+        verified_success=outcome.verified,
+        message=outcome.message,
+        stamp=rig.clock.stamp(),
+        truth=outcome.truth,
+    )
+
+
+def _despite_interrupts(step: Callable[[], T]) -> T:
+    """Take a step of making safe up again when Ctrl-C cuts it short."""
+    for _ in range(INTERRUPTS_SURVIVED):
+        with suppress(KeyboardInterrupt):
+            return step()
+    return step()

@@ -1,0 +1,88 @@
+"""One recorded episode: rig, policy, executor, verification and record put together.
+
+Not here: the loop itself (``tacgrasp.loop``), flags and printing (``tacgrasp.cli.run``).
+"""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib import metadata
+from pathlib import Path
+
+import yaml
+
+from policies import Policy
+from tacgrasp import __version__
+from tacgrasp.config import RunConfig
+from tacgrasp.episodes import (
+    EpisodeError,
+    EpisodeHeader,
+    EpisodeWriter,
+    episode_path,
+    record_directory,
+)
+from tacgrasp.loop import run_episode
+from tacgrasp.outcome import EndReason, Observer, Outcome
+from tacgrasp.rig import Rig, make_executor
+from tacgrasp.verify import not_lifted, verify_by_lifting
+
+
+def run_recorded(
+    rig: Rig, policy: Policy, config: RunConfig, observers: Sequence[Observer] = ()
+) -> tuple[Outcome, Path]:
+    """Run an episode and record it in ``config.record``; the file is closed on every path.
+
+    Raises:
+        EpisodeError: The record can't be begun; nothing has moved.
+        LimitError: The rig starts outside its workspace; nothing has moved.
+    """
+    header = _header(rig, policy, config)
+    executor = make_executor(rig, config)
+    directory = record_directory(config.record)
+    path = episode_path(directory, Path(config.task).stem, header.stamp, config.seed)
+    outcome: Outcome | None = None
+    try:
+        with EpisodeWriter(path, header) as recorder:
+            outcome = run_episode(
+                rig,
+                executor,
+                policy,
+                config,
+                verify=not_lifted if config.dry_run else verify_by_lifting,
+                recorder=recorder,
+                observers=observers,
+            )
+    except EpisodeError as error:
+        if outcome is None:
+            raise
+        message = f"{outcome.message}; {error}"
+        outcome = replace(outcome, reason=EndReason.FAULT, message=message)
+    return outcome, path
+
+
+def config_yaml(config: RunConfig) -> str:
+    """The whole configuration as YAML, after all overrides."""
+    return yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
+
+
+def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
+    return EpisodeHeader(
+        task=Path(config.task).stem,
+        instruction=config.instruction,
+        policy=policy.name,
+        seed=config.seed,
+        sensor=rig.sensor.spec,
+        config_yaml=config_yaml(config),
+        versions=_versions(),
+        rig=Path(config.rig).stem,
+        dry_run=config.dry_run,
+        stamp=rig.clock.stamp(),
+    )
+
+
+def _versions() -> dict[str, str]:
+    packages = ("numpy", "scipy", "torch", "mcap")
+    found = {name: metadata.version(name) for name in packages}
+    return {"tacgrasp": __version__, "python": platform.python_version(), **found}
