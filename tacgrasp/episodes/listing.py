@@ -68,7 +68,8 @@ def duration_s(episode: Episode) -> float:
 def table(summaries: Sequence[EpisodeSummary]) -> Table:
     """One row per episode."""
     shown = Table(header_style="bold", expand=False)
-    for column in ("episode", "task", "policy"):
+    shown.add_column("episode", no_wrap=True)
+    for column in ("task", "policy"):
         shown.add_column(column, overflow="fold")
     shown.add_column("ticks", justify="right")
     for column in ("end", "declared", "verified", "truth"):
@@ -137,7 +138,7 @@ def _row(summary: EpisodeSummary) -> list[str]:
         f"[{colour}]{escape(outcome)}[/{colour}]",
         _yes_no(end.declared_success) if end else "",
         _yes_no(end.verified_success) if end else "",
-        escape(_truth(end)),
+        escape(_truth_in_short(end)),
         f"{duration_s(episode):.1f} s",
         size,
     ]
@@ -175,6 +176,13 @@ def _truth(end: EpisodeEnd | None) -> str:
         elif value is not None:
             words.append(f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}")
     return ", ".join(words)
+
+
+def _truth_in_short(end: EpisodeEnd | None) -> str:
+    """The facts that hold; when none does, that the first does not."""
+    facts = {k: v for k, v in (end.truth or {}).items() if isinstance(v, bool)} if end else {}
+    held = [name for name, value in facts.items() if value]
+    return ", ".join(held or [f"not {name}" for name in list(facts)[:1]])
 
 
 def _yes_no(value: bool | None) -> str:

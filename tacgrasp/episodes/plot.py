@@ -190,10 +190,19 @@ def _draw_curves(
     for axes in (force, depth):
         axes.grid(alpha=0.25)
         axes.spines[["top", "right"]].set_visible(False)
-        for at_s, tick in zip(time_s, episode.ticks, strict=True):
+        for at_s in time_s:
             axes.axvline(at_s, color=_MUTED, lw=0.6, alpha=0.5, ls=":")
-            if axes is force and len(episode.ticks) <= MAX_PICTURES:
-                _label_time(axes, at_s, tick)
+    if len(episode.ticks) <= MAX_PICTURES:
+        _label_times(force, time_s, episode.ticks)
+
+
+def _label_times(axes: Axes, time_s: Sequence[float], ticks: Sequence[TickRecord]) -> None:
+    """Words above the curves, but none on top of another."""
+    free_s = -math.inf
+    for at_s, tick in zip(time_s, ticks, strict=True):
+        if at_s >= free_s:
+            _label_time(axes, at_s, tick)
+            free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
 
 
 def _label_time(axes: Axes, at_s: float, tick: TickRecord) -> None:
