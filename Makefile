@@ -1,0 +1,45 @@
+# make run   set up what is missing, then close the loop on a simulated strawberry
+# make test  set up what is missing, then ruff, mypy and the tests
+# Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
+
+PYTHON ?= $(shell command -v python3.11 || command -v python3)
+BIN := .venv/bin
+STAMPS := .venv/stamps
+PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
+
+.PHONY: run test setup clean
+.DELETE_ON_ERROR:
+
+run: setup
+	$(BIN)/tacgrasp run --task strawberry
+
+test: setup
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest
+
+setup: $(STAMPS)/app
+
+$(STAMPS)/app: $(STAMPS)/packages pyproject.toml
+	$(PIP) --quiet --no-deps --no-build-isolation --editable .
+	@touch $@
+
+# torch alone first, exactly: whatever comes after has to fit it, not the other way round
+$(STAMPS)/packages: $(STAMPS)/venv $(STAMPS)/system requirements.lock
+	$(PIP) "$$(grep '^torch==' requirements.lock)"
+	$(PIP) --requirement requirements.lock
+	@touch $@
+
+$(STAMPS)/venv:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "expected Python 3.11 or later, got $$($(PYTHON) --version); set PYTHON=..."; exit 1; }
+	scripts/make-venv $(PYTHON) .venv
+	@mkdir -p $(STAMPS) && touch $@
+
+$(STAMPS)/system: $(STAMPS)/venv scripts/system-libraries
+	scripts/system-libraries
+	@touch $@
+
+clean:
+	rm -rf .venv
