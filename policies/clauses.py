@@ -44,6 +44,7 @@ _JOINED = (
     *((p, "instead_of") for p in ("instead of", "rather than", "in place of", "in lieu of")),
     *((p, "not") for p in ("except for", "other than")),
     ("as soon as", "once"),
+    ("so called", "allegedly"),
     ("so as to", "to"),
     ("so that", "so_that"),
     ("once more", "again"),
@@ -145,7 +146,7 @@ def _sentence(words: list[str], *, question: bool) -> Sentence:
     segments: list[Segment] = []
     lead, start = "", 0
     for index, word in enumerate([*words, ","]):
-        if word not in SEPARATORS:
+        if word not in SEPARATORS or _adverb(words, index):
             continue
         if index > start:
             segments.append(Segment(lead=lead, start=start, end=index))
@@ -154,6 +155,12 @@ def _sentence(words: list[str], *, question: bool) -> Sentence:
             lead = word if lead in ("", ",", ":", "and", "so") else lead
         start = index + 1
     return Sentence(words=tuple(words), segments=tuple(segments), question=question)
+
+
+def _adverb(words: list[str], index: int) -> bool:
+    """'it was stable before, ...': a conjunction with nothing after it is none."""
+    ends = index + 1 >= len(words) or words[index + 1] in (",", "and", "but")
+    return ends and words[index : index + 1] in (["before"], ["after"], ["once"])
 
 
 def _plain_words(text: str) -> list[str]:

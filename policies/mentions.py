@@ -142,6 +142,7 @@ _MORE = frozenset({"more", "greater", "higher", "additional", "extra", "stronger
 _MORE_GRIP = _MORE | {"tighter", "harder"}
 _LESS = frozenset({"less", "lower", "smaller", "reduced", "weaker", "gentler", "lighter", "softer"})
 _LESS_GRIP = _LESS | {"looser"}
+_SAID_OF = frozenset({"is", "was", "would", "could", "has", "will", "can", "might", "may", "are"})
 _ADJECTIVE_AFTER = frozenset(
     {
         "a",
@@ -261,6 +262,8 @@ def _force_verb(words: tuple[str, ...], i: int) -> Mention | None:
         after = _skip(words, i + 1, {"in", "of", "off", "up"})
         plain = words[i] not in ("lower", "raise", "drop", "cut", "add", "up", "moderate")
         end = _object(words, after, _GRIP if plain else _FORCE)
+        if end is not None and form is Form.BASE and _word(words, end) in _SAID_OF:
+            continue  # 'lower force was measured'
         if end is not None:
             return Mention(primitive=primitive, start=i, end=end, form=form)
         if words[i][:8] in ("increase", "increasi", "decrease", "decreasi", "reduce", "reducing"):

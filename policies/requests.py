@@ -157,6 +157,8 @@ _COPULA = frozenset(
     }
     | {"may", "could", "seems", "looks", "remains", "makes", "shall", "might", ":", "been", "feels"}
 )
+_EMPTY = frozenset({"ever", "even", "please", "now", "yet", "just", "at", "all", "ever", "to", "try"})
+_EMPTY |= {"slightly", "again", "here", "attempt", "dare", "think", "believe", "recommend"}
 _RESUME = frozenset({"but", "however", "therefore", "thus", "hence", "so"})
 _RESUME_WORDS = frozenset({"instead", "rather", "just", "simply", "only", "better"})
 _ASKING = frozenset({"should", "shall", "can", "could", "do", "does", "is", "are", "will", "would"})
@@ -270,11 +272,8 @@ def _carried(
             inside = [m for m in earlier if sentence.segment_index(m.start) == back]
             after = [m for m in inside if m.start >= sentence.segments[back].start + at]
             tail = words[at + 1 :]
-            dangling = (
-                not after
-                and (len(tail) <= 1 or lead in ("or", "nor"))
-                and (words[at] != "no" or len(words) > 1)
-            )
+            dangling = not after and (set(tail) <= _EMPTY or lead in ("or", "nor"))
+            dangling &= words[at] != "no" or len(words) > 1
             open_end = not after and (left[:1] in (("to",), ("that",), ("whether",)))
             open_end |= not after and not left and mention.form is Form.GERUND
             joined = bool(after) and (follower in ("and", "or", "nor") or listed)
@@ -297,7 +296,7 @@ def _refused_after(sentence: Sentence, mention: Mention) -> bool:
         more = after[at + 1 : at + 2] in (("more",), ("further",))
         if (set(after[:at]) & _COPULA or at == 0) and not (to or more):
             return after[at] not in ("without", "against", "avoid", "prevent", "stop")
-    if index + 1 < len(sentence.segments) and not sentence.segments[index + 1].lead == "but":
+    if index + 1 < len(sentence.segments) and sentence.segments[index + 1].lead != "but":
         following = sentence.of(index + 1)
         if len(following) <= 2 and following[0] in ("no", "not", "never", "nope", "false"):
             return following[1:] in (

@@ -219,7 +219,7 @@ _BEFORE_IT = frozenset(
 _BEFORE_OK_SUBJECT = frozenset({"hold", "sure", "goal", "made"})
 _JUDGED = frozenset(
     {"called", "considered", "described", "deemed", "regarded", "declared", "judged", "rated"}
-    | {"classified", "trusted", "said", "found", "seems", "appears", "proves", "known", "termed"}
+    | {"classified", "trusted", "found", "judge", "consider", "deem", "seems", "appears", "proves", "known", "termed"}
     | {
         "labelled",
         "labeled",
@@ -424,6 +424,7 @@ def _unreal(
         hedge = word in _BEFORE_IT and word not in ignored
         hedge |= word == "hold" and i == 0
         hedge |= word == "sure" and context[i - 1 : i] in (("make",), ("be",))
+        hedge &= not (word == "become" and context[i - 1 : i] in (("has",), ("have",)))
         hedge |= word == "made" and context[i - 1 : i] not in (("been",), ("is",))
         hedge |= word == "to" and not judged and _infinitive(context, i)
         if word in ("less", "more", "least", "most", "too", "only"):
@@ -444,7 +445,7 @@ def _judged(context: tuple[str, ...]) -> bool:
         return False
     if "be" in context and not {"can", "to"} & set(context):
         return False
-    return not ({"to", "said"} <= set(context) and "be" not in context)
+    return True
 
 
 def _infinitive(context: tuple[str, ...], i: int) -> bool:
