@@ -1,0 +1,116 @@
+"""The frozen, pre-aligned towers E_L and E_I: any CLIP in transformers' format, or our small one.
+
+Not here: how the small one is aligned (``cltp.train.clip``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import torch
+from safetensors import SafetensorError
+from torch import Tensor, nn
+from transformers import CLIPConfig, CLIPModel
+
+from cltp.errors import TouchError
+from cltp.render import IMAGE_PX
+from cltp.tokenizer import Words
+
+TEXT_LENGTH = 40
+"""Longest text of the small CLIP, in tokens; captions of contact states take about 25."""
+
+
+def small_clip(words: Words, *, dim: int = 128, layers: int = 2) -> CLIPModel:
+    """A CLIP to be aligned here, with random weights. 1 M parameters by default."""
+    tower = {
+        "hidden_size": dim,
+        "intermediate_size": 3 * dim,
+        "num_hidden_layers": layers,
+        "num_attention_heads": max(1, dim // 32),
+        "projection_dim": dim,
+    }
+    config = CLIPConfig(
+        text_config={
+            **tower,
+            "vocab_size": len(words),
+            "max_position_embeddings": TEXT_LENGTH,
+            "bos_token_id": words.bos,
+            "eos_token_id": words.eos,
+            "pad_token_id": words.pad,
+        },
+        vision_config={**tower, "image_size": IMAGE_PX, "patch_size": 8},
+        projection_dim=dim,
+    )
+    return CLIPModel(config)
+
+
+class Towers(nn.Module):
+    """E_L and E_I of a CLIP, frozen, with texts and images going in as they are.
+
+    Args:
+        clip: The model.
+        words: Its tokenizer.
+    """
+
+    def __init__(self, clip: CLIPModel, words: Words) -> None:
+        super().__init__()
+        self.clip = clip.eval().requires_grad_(False)
+        self.words = words
+
+    @property
+    def feature_dim(self) -> int:
+        """Width of the shared space."""
+        return int(self.clip.config.projection_dim)
+
+    @torch.no_grad()
+    def texts(self, texts: Sequence[str]) -> Tensor:
+        """Features of texts, shape (B, F), normalised."""
+        return text_features(self.clip, self.words, texts)
+
+    @torch.no_grad()
+    def images(self, pixels: Tensor) -> Tensor:
+        """Features of images (B, 3, 64, 64), shape (B, F), normalised."""
+        return image_features(self.clip, pixels)
+
+
+def text_features(clip: CLIPModel, words: Words, texts: Sequence[str]) -> Tensor:
+    """E_L: features of texts, shape (B, F), normalised."""
+    longest = clip.text_model.embeddings.position_embedding.num_embeddings
+    rows = [[words.bos, *words.encode(text)[: longest - 2], words.eos] for text in texts]
+    width = max(len(row) for row in rows)
+    ids = torch.tensor([row + [words.pad] * (width - len(row)) for row in rows])
+    mask = torch.tensor([[1] * len(row) + [0] * (width - len(row)) for row in rows])
+    found = clip.get_text_features(
+        input_ids=ids.to(clip.device), attention_mask=mask.to(clip.device)
+    )
+    return torch.nn.functional.normalize(found.pooler_output, dim=-1)
+
+
+def image_features(clip: CLIPModel, pixels: Tensor) -> Tensor:
+    """E_I: features of images, shape (B, F), normalised."""
+    size = int(clip.vision_model.embeddings.image_size)
+    if pixels.shape[-1] != size:
+        pixels = torch.nn.functional.interpolate(pixels, (size, size), mode="bilinear")
+    found = clip.get_image_features(pixel_values=(pixels.to(clip.device) - 0.5) / 0.25)
+    return torch.nn.functional.normalize(found.pooler_output, dim=-1)
+
+
+def load_towers(folder: Path) -> Towers:
+    """Towers of a local CLIP directory in transformers' layout, frozen.
+
+    Raises:
+        TouchError: The directory, its weights or its tokenizer are missing or don't fit.
+    """
+    try:
+        loaded: Any = CLIPModel.from_pretrained(
+            folder, local_files_only=True, output_loading_info=True
+        )
+        clip, info = loaded
+    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
+        raise TouchError(f"no CLIP could be read from {folder}: {error}") from error
+    wrong = [*info["missing_keys"], *info["unexpected_keys"]]
+    if wrong:
+        raise TouchError(f"CLIP in {folder} lacks or adds weights: {', '.join(sorted(wrong)[:5])}")
+    return Towers(clip, Words.load(folder))

@@ -1,0 +1,220 @@
+"""What learning sees of a data set: noisy clouds with their targets, drawn anew at every pass.
+
+Not here: models and losses. Loads no torch.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.contacts import Contact
+from cltp.dataset import ContactDataset
+from cltp.inputs import LATTICE, scaled
+from cltp.noise import GAIN_LOG_RATIO, NoiseUnit
+from cltp.sensors import SensorSpec, sensor_named
+from cltp.states import (
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Side,
+    Texture,
+    position_word,
+)
+
+CLASSES: dict[str, list[str]] = {
+    "shape": [s.value for s in Shape],
+    "texture": [s.value for s in Texture],
+    "depth": [s.value for s in Depth],
+    "position": [s.value for s in Position],
+    "area": [s.value for s in Area],
+}
+"""The five slots of a contact state and their classes, in the order of a classifier's outputs."""
+
+MIRROR = {
+    Side.LEFT: Side.RIGHT,
+    Side.RIGHT: Side.LEFT,
+    Side.TOP: Side.BOTTOM,
+    Side.BOTTOM: Side.TOP,
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Batch:
+    """Samples for one step of learning.
+
+    Attributes:
+        index: Shape (B,), the contacts in their data set.
+        points: Shape (B, 1024, 3), float32, scaled, in the order of ``cltp.inputs``.
+        height_mm: The clean heights behind each cloud, mirrored alike; for rendering.
+        states: Their labels, mirrored alike.
+    """
+
+    index: NDArray[np.int64]
+    points: NDArray[np.float32]
+    height_mm: list[NDArray[np.float32]]
+    states: list[ContactState]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Augmentation:
+    """How contacts are varied.
+
+    Attributes:
+        noise_level: Of ``NoiseUnit.draw``; 0 leaves the heights clean.
+        uncalibrated: Share of samples whose unit also has unequal gradient gains.
+        mirror: Whether contacts are mirrored along x, along y and along both.
+    """
+
+    noise_level: float = 1.0
+    uncalibrated: float = 0.25
+    mirror: bool = True
+
+
+CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0, mirror=False)
+NOISY = Augmentation(uncalibrated=0.0, mirror=False)
+"""Noise of a calibrated unit, as the simulated sensor has it: for validation and evaluation."""
+
+
+class Sampler:
+    """Draws batches from a data set; the same seed gives the same batches.
+
+    Args:
+        dataset: Where contacts come from.
+        augmentation: How they are varied.
+        seed: Of everything that is drawn.
+    """
+
+    def __init__(
+        self, dataset: ContactDataset, augmentation: Augmentation | None = None, *, seed: int = 0
+    ) -> None:
+        self.dataset = dataset
+        self.augmentation = augmentation or Augmentation()
+        self.seed = seed
+
+    def batch(self, indices: NDArray[np.int64], step: int) -> Batch:
+        """The samples of the given contacts, varied as step ``step`` of this seed varies them."""
+        rng = np.random.default_rng([self.seed, step])
+        points, heights, states = [], [], []
+        for index in indices:
+            height_mm, state, sensor = self._contact(int(index), rng)
+            points.append(self.cloud(height_mm, sensor, rng))
+            heights.append(height_mm)
+            states.append(state)
+        return Batch(
+            index=np.asarray(indices), points=np.stack(points), height_mm=heights, states=states
+        )
+
+    def training(self, batch_size: int, first_step: int = 0) -> Iterator[Batch]:
+        """Batches without end: every contact once in an order of its own, then again.
+
+        Args:
+            batch_size: Contacts in a batch.
+            first_step: Where to go on; step ``n`` is the same wherever one starts.
+        """
+        size = len(self.dataset)
+        step = first_step
+        while True:
+            places = np.arange(step * batch_size, (step + 1) * batch_size)
+            orders = {e: self._order(e) for e in {int(p) // size for p in places}}
+            yield self.batch(
+                np.array([orders[int(p) // size][int(p) % size] for p in places]), step
+            )
+            step += 1
+
+    def _order(self, epoch: int) -> NDArray[np.int64]:
+        return np.random.default_rng([self.seed, 1_000_003, epoch]).permutation(len(self.dataset))
+
+    def evaluation(self, batch_size: int, limit: int | None = None) -> Iterator[Batch]:
+        """Every contact once, in order; the last batch may be smaller."""
+        size = len(self.dataset) if limit is None else min(limit, len(self.dataset))
+        for step, start in enumerate(range(0, size, batch_size)):
+            yield self.batch(np.arange(start, min(start + batch_size, size)), step)
+
+    def _contact(
+        self, index: int, rng: np.random.Generator
+    ) -> tuple[NDArray[np.float32], ContactState, SensorSpec]:
+        height_mm, state = self.dataset.height_mm(index), self.dataset.state(index)
+        sensor = sensor_named(self.dataset.column("sensor")[index])
+        if self.augmentation.mirror:
+            along_x, along_y = rng.random(2) < 0.5
+            height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
+            state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
+        return height_mm, state, sensor
+
+    def cloud(
+        self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
+    ) -> NDArray[np.float32]:
+        """One noisy cloud of clean heights: shape (1024, 3), scaled, in lattice order."""
+        how = self.augmentation
+        gain = GAIN_LOG_RATIO if rng.random() < how.uncalibrated else 0.0
+        if how.noise_level > 0:
+            unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain)
+            height_mm = unit.apply(height_mm, sensor, rng)
+        else:
+            height_mm = height_mm - np.median(height_mm)
+        return scaled(_sampled(height_mm, sensor, rng), sensor)
+
+
+def mirrored(
+    state: ContactState, sensor: SensorSpec, *, along_x: bool, along_y: bool
+) -> ContactState:
+    """The state of the mirror image of a contact; no shape or texture has a handedness."""
+    if not state.in_contact or not (along_x or along_y):
+        return state
+    x_mm = -state.x_mm if along_x else state.x_mm
+    y_mm = -state.y_mm if along_y else state.y_mm
+    flipped = set()
+    for side in state.cut:
+        turns = along_x if side in (Side.LEFT, Side.RIGHT) else along_y
+        flipped.add(MIRROR[side] if turns else side)
+    return dataclasses.replace(
+        state,
+        x_mm=x_mm,
+        y_mm=y_mm,
+        position=position_word(x_mm, y_mm, sensor),
+        cut=frozenset(flipped),
+    )
+
+
+_ROW, _COLUMN = (a.ravel().astype(np.float32) for a in np.mgrid[0:LATTICE, 0:LATTICE])
+
+
+def _sampled(
+    height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """``cltp.cloud.cloud_from_heights`` without its checks, in float32: it runs at every pass."""
+    rows, columns = height_mm.shape
+    jitter = rng.random((2, LATTICE * LATTICE), np.float32)
+    u = (_COLUMN + jitter[0]) / LATTICE
+    v = (_ROW + jitter[1]) / LATTICE
+    row = np.clip(v * rows - 0.5, 0, rows - 1)
+    column = np.clip(u * columns - 0.5, 0, columns - 1)
+    r0 = np.minimum(row.astype(np.int32), rows - 2)
+    c0 = np.minimum(column.astype(np.int32), columns - 2)
+    fr, fc = row - r0, column - c0
+    flat = np.ascontiguousarray(height_mm).ravel()
+    at = r0 * columns + c0
+    top = flat[at] * (1 - fc) + flat[at + 1] * fc
+    bottom = flat[at + columns] * (1 - fc) + flat[at + columns + 1] * fc
+    z = top + (bottom - top) * fr
+    return np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
+
+
+def contact_batch(contacts: list[Contact], augmentation: Augmentation, seed: int = 0) -> Batch:
+    """A batch of contacts in hand, without a data set."""
+    rng = np.random.default_rng(seed)
+    sampler = Sampler.__new__(Sampler)
+    sampler.augmentation = augmentation
+    return Batch(
+        index=np.arange(len(contacts)),
+        points=np.stack([sampler.cloud(c.height_mm, c.sensor, rng) for c in contacts]),
+        height_mm=[c.height_mm for c in contacts],
+        states=[c.state for c in contacts],
+    )

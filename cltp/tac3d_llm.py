@@ -1,0 +1,93 @@
+"""Tac3D-LLM: encoder tokens, projected into a causal language model's input space.
+
+Source: paper, section 5.3, after LLaVA: a small MLP maps the encoder's tokens to embeddings, which
+stand before the prompt. Not here: how replies are generated (``cltp.talk``).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from cltp.encoder import TactileEncoder
+from cltp.language import Language
+from cltp.packing import NOT_LEARNED, Packed
+
+
+class Projector(nn.Module):
+    """Two layers from the encoder's width to the language model's.
+
+    Args:
+        encoder_dim: Width C of the encoder's tokens.
+        lm_dim: Width D of the language model's inputs.
+    """
+
+    def __init__(self, encoder_dim: int, lm_dim: int) -> None:
+        super().__init__()
+        self.encoder_dim, self.lm_dim = encoder_dim, lm_dim
+        self.first = nn.Linear(encoder_dim, lm_dim)
+        self.second = nn.Linear(lm_dim, lm_dim)
+
+    def forward(self, tokens: Tensor) -> Tensor:
+        """Tokens (B, G + 1, C) to embeddings (B, G + 1, D)."""
+        return self.second(F.gelu(self.first(tokens)))
+
+
+class Tac3dLlm(nn.Module):
+    """The whole model.
+
+    Args:
+        encoder: E_T.
+        projector: The MLP between.
+        language: The causal language model.
+    """
+
+    lm: Any
+
+    def __init__(self, encoder: TactileEncoder, projector: Projector, language: Language) -> None:
+        super().__init__()
+        self.encoder, self.projector = encoder, projector
+        self.lm = language.lm
+        self.language = language
+
+    @property
+    def num_touch(self) -> int:
+        """Touch tokens in front of a prompt: the groups and the class token."""
+        return self.encoder.config.num_groups + 1
+
+    def touch(self, points: Tensor) -> Tensor:
+        """Embeddings of scaled points (B, 1024, 3): shape (B, G + 1, D)."""
+        return self.projector(self.encoder(points).tokens)
+
+    def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
+        """Loss of packed exchanges behind touch embeddings, or of text alone.
+
+        Only replies are learned. Returns the weighted mean as ``language``, and for people
+        ``action_right``: the share of actions that come first among the eight.
+        """
+        embedded = self.lm.get_input_embeddings()(packed.ids)
+        num_touch = 0
+        if touch is not None:
+            num_touch = touch.shape[1]
+            embedded = torch.cat([touch, embedded], dim=1)
+        hidden = self.lm.model(
+            inputs_embeds=embedded,
+            attention_mask=packed.mask,
+            position_ids=packed.positions,
+            use_cache=False,
+        ).last_hidden_state[:, num_touch:]
+        learned = packed.labels != NOT_LEARNED
+        logits = self.lm.get_output_embeddings()(hidden[learned])
+        labels, weights = packed.labels[learned], packed.weights[learned]
+        each = F.cross_entropy(logits, labels, reduction="none")
+        terms = {"language": (each * weights).sum() / weights.sum()}
+        if self.language.words is not None:
+            actions = torch.tensor(self.language.words.actions, device=labels.device)
+            place = torch.isin(labels, actions)
+            if place.any():
+                chosen = actions[logits[place][:, actions].argmax(dim=1)]
+                terms["action_right"] = (chosen == labels[place]).float().mean().detach()
+        return terms

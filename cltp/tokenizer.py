@@ -1,0 +1,124 @@
+"""Text to tokens: a byte-level BPE of our own sentences, with one token for each action.
+
+Digits stand alone ('0.42' is four tokens) so that numbers are read and written digit by digit. Any
+text can be encoded: what the vocabulary lacks falls apart into pieces, in the end into bytes.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
+
+from cltp.errors import TouchError
+
+PAD, BOS, EOS, USER, REPLY = "<pad>", "<bos>", "<eos>", "<user>", "<reply>"
+CONTROL = (PAD, BOS, EOS, USER, REPLY)
+
+ACTIONS = (
+    "<move_up>",
+    "<move_down>",
+    "<move_left>",
+    "<move_right>",
+    "<increase_force>",
+    "<decrease_force>",
+    "<reset>",
+    "<none>",
+)
+"""The eight choices at the action's place in D_t. ``cltp`` knows them as words, no more."""
+
+FILE = "tokenizer.json"
+
+
+class Words:
+    """A tokenizer.
+
+    Args:
+        tokenizer: With all of ``CONTROL`` and ``ACTIONS`` as single tokens.
+
+    Raises:
+        TouchError: It lacks one of them.
+    """
+
+    def __init__(self, tokenizer: Tokenizer) -> None:
+        self._tokenizer = tokenizer
+        found = {token: tokenizer.token_to_id(token) for token in (*CONTROL, *ACTIONS)}
+        ids = {token: number for token, number in found.items() if number is not None}
+        lacking = [token for token in found if token not in ids]
+        if lacking:
+            raise TouchError(
+                f"the tokenizer lacks {' '.join(lacking)}; it belongs to another version of weights"
+            )
+        self.pad, self.bos, self.eos, self.user, self.reply = (ids[t] for t in CONTROL)
+        self.actions = [ids[token] for token in ACTIONS]
+
+    @classmethod
+    def train(cls, texts: Iterable[str], size: int = 1024) -> Words:
+        """Learn a vocabulary of at most ``size`` tokens from texts. Deterministic."""
+        tokenizer = Tokenizer(models.BPE())
+        tokenizer.pre_tokenizer = pre_tokenizers.Sequence(
+            [
+                pre_tokenizers.Split(Regex(r"\d"), behavior="isolated"),
+                pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=True),
+            ]
+        )
+        tokenizer.decoder = decoders.ByteLevel()
+        trainer = trainers.BpeTrainer(
+            vocab_size=size,
+            min_frequency=2,
+            special_tokens=[AddedToken(token, special=True) for token in (*CONTROL, *ACTIONS)],
+            initial_alphabet=pre_tokenizers.ByteLevel.alphabet(),
+            show_progress=False,
+        )
+        tokenizer.train_from_iterator(texts, trainer)
+        return cls(tokenizer)
+
+    @classmethod
+    def load(cls, folder: Path) -> Words:
+        """Read ``tokenizer.json`` of a folder.
+
+        Raises:
+            TouchError: It is missing, damaged, or lacks the tokens of this program.
+        """
+        path = Path(folder) / FILE
+        try:
+            return cls(Tokenizer.from_file(str(path)))
+        except TouchError:
+            raise
+        except Exception as error:  # the library raises bare Exception for anything it can't read
+            raise TouchError(f"no tokenizer could be read from {path}: {error}") from error
+
+    def save(self, folder: Path) -> None:
+        """Write ``tokenizer.json`` into a folder."""
+        Path(folder).mkdir(parents=True, exist_ok=True)
+        self._tokenizer.save(str(Path(folder) / FILE))
+
+    def __len__(self) -> int:
+        return self._tokenizer.get_vocab_size()
+
+    def encode(self, text: str, *, trusted: bool = True) -> list[int]:
+        """Tokens of a text.
+
+        Args:
+            text: Any text.
+            trusted: False for what a person wrote: control tokens and actions spelled out in it
+                are then taken as letters and never become the tokens themselves.
+        """
+        if not trusted:
+            for token in (*CONTROL, *ACTIONS):
+                text = text.replace(token, token.strip("<>"))
+        return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
+
+    def decode(self, ids: Sequence[int]) -> str:
+        """Text of tokens; actions appear as they are spelled, control tokens don't."""
+        control = {self.pad, self.bos, self.eos, self.user, self.reply}
+        kept = [i for i in ids if i not in control]
+        return self._tokenizer.decode(kept, skip_special_tokens=False)
+
+    def fingerprint(self) -> str:
+        """SHA-256 of the vocabulary: weights name the tokenizer that they were trained with."""
+        vocabulary = sorted(self._tokenizer.get_vocab().items(), key=lambda item: item[1])
+        return hashlib.sha256(json.dumps(vocabulary).encode()).hexdigest()
