@@ -49,7 +49,7 @@ LONGEST_S = 0.6
 REAL_EVERY = 5
 """One kill in so many strikes a whole run, which takes seconds to start. Our choice."""
 
-REAL_LONGEST_S = 3.0
+REAL_LONGEST_S = 1.2
 """The same for a whole run, from its first tick on; each takes a fraction of a second [s]."""
 
 _READY = 0xFFFF_FFFF_FFFF_FFFF
