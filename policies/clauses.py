@@ -14,19 +14,24 @@ from dataclasses import dataclass
 
 from primitives import Primitive
 
+
+def word_set(text: str) -> frozenset[str]:
+    """A vocabulary, written as the words of a text."""
+    return frozenset(text.split())
+
+
 IDENTIFIERS: dict[str, Primitive] = {p.value: p for p in Primitive}
 NONE_TOKEN = "<none>"
 UNKNOWN = "<unk>"
 """Stands for a word that can't be read; a sentence with one declares nothing."""
 
-SEPARATORS = frozenset(
-    {",", ":", "and", "or", "nor", "but", "so", "so_that", "then", "because", "since", "while"}
-    | {"as", "although", "though", "however", "therefore", "thus", "hence", "whereas", "yet"}
-    | {"which", "if", "unless", "until", "till", "once", "when", "whenever", "before", "after"}
+SEPARATORS = word_set(
+    ", : and or nor but so so_that then because since while as although though however therefore "
+    "thus hence whereas yet which if unless until till once when whenever before after"
 )
-NEGATORS = frozenset(
-    {"not", "never", "no", "none", "neither", "nor", "nothing", "nobody", "noone", "nowhere"}
-    | {"without", "hardly", "scarcely", "barely", "rarely", "seldom", "non", "un", "except"}
+NEGATORS = word_set(
+    "not never no none neither nor nothing nobody noone nowhere without hardly scarcely barely "
+    "rarely seldom non un except"
 )
 
 _JOINED = (
@@ -45,6 +50,8 @@ _JOINED = (
     *((p, "not") for p in ("except for", "other than")),
     ("as soon as", "once"),
     ("so called", "allegedly"),
+    ("or so it seems", "maybe"),
+    ("or so it appears", "maybe"),
     ("so as to", "to"),
     ("so that", "so_that"),
     ("once more", "again"),
@@ -62,7 +69,7 @@ _BARE = "isnt arent wasnt werent dont doesnt didnt cant couldnt wont wouldnt sho
 _BARE += "havent hadnt neednt aint shant mightnt"
 _STEM = {"ca": "can", "wo": "will", "sha": "shall", "ai": "is"}
 _TAILS = {"'ll": "will", "'d": "would", "'re": "are", "'ve": "have", "'m": "am"}
-_IS_OWNERS = frozenset({"it", "that", "there", "here", "this", "what", "everything", "he", "she"})
+_IS_OWNERS = word_set("it that there here this what everything he she")
 
 _CONTROL = re.compile(r"</?\|?(?:s|eos|bos|pad|sep|cls|im_start|im_end|endoftext|end|begin)\|?>")
 _SPECIAL = re.compile(r"<[^<>\s]{1,40}>")

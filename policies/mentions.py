@@ -10,23 +10,13 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import StrEnum
 
+from policies import mention_words as lex
 from policies.clauses import IDENTIFIERS, Sentence
+from policies.mention_words import Form
 from primitives import Primitive
 
 INC, DEC = Primitive.INCREASE_FORCE, Primitive.DECREASE_FORCE
-
-
-class Form(StrEnum):
-    """How the mention is put, which decides what can negate it."""
-
-    NAME = "name"  # move_down
-    BASE = "base"  # move down
-    GERUND = "gerund"  # moving down
-    PAST = "past"  # moved down
-    FINITE = "finite"  # moves down
-    WANT = "want"  # more force: needs a 'needed' around it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -37,132 +27,6 @@ class Mention:
     start: int
     end: int
     form: Form
-
-
-def _forms(verbs: str) -> dict[str, Form]:
-    """Regular forms of verbs, as 'base' or 'base/gerund/past' where they are irregular."""
-    table: dict[str, Form] = {}
-    for entry in verbs.split():
-        base, gerund, past = ([*entry.split("/"), "", ""])[:3]
-        stem = base[:-1] if base.endswith("e") else base
-        table |= {gerund or f"{stem}ing": Form.GERUND, past or f"{stem}ed": Form.PAST}
-        table |= {f"{base}{'es' if base.endswith(('ss', 'sh', 'x', 'o')) else 's'}": Form.FINITE}
-        table[base] = Form.BASE
-    return table
-
-
-MOTION = _forms(
-    "move shift go/going/went slide/sliding/slid translate step/stepping/stepped nudge displace "
-    "adjust reposition bring/bringing/brought head jog advance travel steer relocate guide come"
-)
-RISE = _forms("raise elevate lift")
-FALL = _forms("lower")
-CLIMB = _forms("ascend climb")
-SINK = _forms("descend")
-MORE = _forms("increase boost strengthen intensify amplify raise add/adding/added up/upping/upped")
-LESS = _forms(
-    "decrease reduce lower lessen ease relax loosen soften weaken lighten diminish slacken "
-    "drop/dropping/dropped cut/cutting/cut moderate"
-)
-TIGHTEN = _forms("tighten firm strengthen")
-LOOSEN = _forms("loosen slacken ease relax soften")
-SQUEEZE = _forms("squeeze grip/gripping/gripped grasp hold/holding/held press clamp pinch push")
-TURN = _forms(
-    "bring/bringing/brought turn dial scale take/taking/took ramp push step/stepping/stepped back "
-    "throttle crank let/letting/let ease"
-)
-GIVE = _forms("apply/applying/applied use exert give/giving/gave add/adding/added need require")
-RESET = _forms(
-    "reset/resetting/reset regrasp regrip/regripping/regripped restart retry/retrying/retried redo"
-)
-AGAIN = _forms("start begin/beginning/began grasp grip/gripping/gripped try/trying/tried")
-RETURN = _forms("go/going/went return move come/coming/came")
-
-_UP = frozenset({"up", "upward", "upwards", "higher", "top", "upper", "palm", "palmward"})
-_DOWN = frozenset({"down", "downward", "downwards", "lower", "bottom", "fingertip", "fingertips"})
-_LEFT = frozenset({"left", "leftward", "leftwards"})
-_RIGHT = frozenset({"right", "rightward", "rightwards"})
-DIRECTION: dict[str, Primitive] = {
-    **dict.fromkeys(_UP, Primitive.MOVE_UP),
-    **dict.fromkeys(_DOWN, Primitive.MOVE_DOWN),
-    **dict.fromkeys(_LEFT, Primitive.MOVE_LEFT),
-    **dict.fromkeys(_RIGHT, Primitive.MOVE_RIGHT),
-}
-_NOT_A_SIDE = frozenset(
-    {"now", "away", "ahead", "place", "spot", "amount", "force", "way", "one", "finger", "fingers"}
-    | {
-        "position",
-        "pose",
-        "moment",
-        "pad",
-        "sensor",
-        "jaw",
-        "gripper",
-        "hand",
-        "arm",
-        "on",
-        "before",
-    }
-)
-HAND = frozenset(
-    {"gripper", "grippers", "hand", "arm", "fingers", "finger", "fingertips", "fingertip", "robot"}
-    | {"tool", "tcp", "effector", "grip", "grasp", "pad", "sensor", "wrist", "jaws", "it"}
-    | {"position", "pose", "yourself", "point", "manipulator"}
-)
-_HAND_ONLY = HAND - {"it", "grip", "grasp", "position", "pose", "point", "sensor", "pad"}
-_FORCE = frozenset({"force", "forces", "pressure", "strength", "tightness", "firmness", "squeeze"})
-_GRIP = _FORCE | {"grip", "grasp", "hold", "clamp"}
-_JAWS = _GRIP | {"gripper", "fingers", "jaws", "hand"}
-_NOT_FORCE = frozenset(
-    {"sensor", "sensors", "reading", "readings", "limit", "limits", "threshold", "width", "opening"}
-    | {"area", "time", "estimate", "range", "band", "scale", "gauge", "noise", "point", "position"}
-    | {"pose", "depth", "angle", "height", "control", "controller", "map", "speed", "frequency"}
-    | {"stability", "quality", "duration", "resolution", "rate", "bound", "bounds", "plate"}
-)
-_ADVERBS = frozenset(
-    {"slightly", "gently", "slowly", "carefully", "bit", "little", "step", "steps", "two", "three"}
-    | {"single", "small", "tiny", "further", "more", "again", "now", "just", "by", "mm", "some"}
-    | {"straight", "directly", "about", "approximately", "around", "distance", "one", "cm", "of"}
-    | {"millimetre", "millimetres", "millimeter", "millimeters", "somewhat", "touch", "please"}
-    | {"a", "an", "the", "its", "your", "our", "my", "this", "that", "whole", "entire", "back"}
-    | {"there", "considerably", "significantly", "much", "all", "only", "bit", "notch", "shade"}
-)
-_MODIFIERS = frozenset(
-    {"gripping", "grip", "grasp", "grasping", "clamping", "normal", "contact", "applied", "current"}
-    | {"commanded", "finger", "gripper", "gripper's", "overall", "total", "squeezing", "holding"}
-    | {"closing", "pressing", "grippers", "fingers", "robot", "robots", "end", "tool", "center"}
-    | {"amount", "on", "and", "pinch", "present", "existing", "exerted", "level"}
-)
-_TOWARDS = frozenset({"to", "toward", "towards", "in", "direction", "into", "for", "on", "side"})
-_HARDER = frozenset({"harder", "tighter", "firmer", "stronger"})
-_SOFTER = frozenset({"softer", "gentler", "lighter", "looser", "less", "easier", "weaker"})
-_HARD = frozenset({"firmly", "tightly", "strongly", "hard", "securely", "force", "pressure"})
-_SOFT = frozenset({"gently", "softly", "lightly", "loosely", "delicately", "carefully", "tenderly"})
-_MORE = frozenset({"more", "greater", "higher", "additional", "extra", "stronger", "firmer"})
-_MORE_GRIP = _MORE | {"tighter", "harder"}
-_LESS = frozenset({"less", "lower", "smaller", "reduced", "weaker", "gentler", "lighter", "softer"})
-_LESS_GRIP = _LESS | {"looser"}
-_SAID_OF = frozenset({"is", "was", "would", "could", "has", "will", "can", "might", "may", "are"})
-_ADJECTIVE_AFTER = frozenset(
-    {
-        "a",
-        "an",
-        "the",
-        "its",
-        "is",
-        "are",
-        "be",
-        "at",
-        "with",
-        "in",
-        "on",
-        "of",
-        "no",
-        "much",
-        "far",
-    }
-    | {"even", "any", "too", "was", "from", "this", "that"}
-)
 
 
 def mentions(sentence: Sentence) -> tuple[Mention, ...]:
@@ -204,15 +68,15 @@ def _object(words: tuple[str, ...], i: int, heads: frozenset[str]) -> int | None
     while i < len(words):
         if words[i] in heads:
             head = i + 1
-        elif not (words[i] in _ADVERBS or words[i] in _MODIFIERS or re.match(r"\d", words[i])):
-            break
-        elif words[i] == "and" and head is not None:
+        elif not (
+            words[i] in lex.ADVERBS or words[i] in lex.MODIFIERS or re.match(r"\d", words[i])
+        ) or (words[i] == "and" and head is not None):
             break
         i += 1
     if (
         head is None
-        or _word(words, head) in _NOT_FORCE
-        or any(w in _NOT_FORCE for w in words[head:i])
+        or _word(words, head) in lex.NOT_FORCE
+        or any(w in lex.NOT_FORCE for w in words[head:i])
     ):
         return None
     return head
@@ -220,34 +84,40 @@ def _object(words: tuple[str, ...], i: int, heads: frozenset[str]) -> int | None
 
 def _verb(table: dict[str, Form], words: tuple[str, ...], i: int) -> Form | None:
     form = table.get(words[i])
-    if form is Form.BASE and words[i] == "lower" and _word(words, i - 1) in _ADJECTIVE_AFTER:
+    if form is Form.BASE and words[i] == "lower" and _word(words, i - 1) in lex.ADJECTIVE_AFTER:
         return None
     return form
 
 
 def _reset(words: tuple[str, ...], i: int) -> Mention | None:
-    form = RESET.get(words[i])
+    form = lex.RESET.get(words[i])
     if form is not None:
         if words[i] == "reset" and _word(words, i - 1) in ("was", "were", "been"):
             form = Form.PAST
-        rest = _skip(words, i + 1, _ADVERBS - {"of"})
-        allowed = HAND | {"everything", "hold"}
+        rest = _skip(words, i + 1, lex.ADVERBS - {"of"})
+        allowed = lex.HAND | {"everything", "hold"}
         noun = _word(words, rest)
-        named = rest > i + 1 or noun in _NOT_FORCE | _FORCE
-        blocked = noun in _NOT_FORCE | _FORCE | {"button", "timer", "clock", "camera", "counter"}
-        blocked |= _word(words, rest + 1) in _NOT_FORCE | _FORCE and noun in allowed
+        named = rest > i + 1 or noun in lex.NOT_FORCE | lex.FORCE
+        blocked = noun in lex.NOT_FORCE | lex.FORCE | {
+            "button",
+            "timer",
+            "clock",
+            "camera",
+            "counter",
+        }
+        blocked |= _word(words, rest + 1) in lex.NOT_FORCE | lex.FORCE and noun in allowed
         if named and blocked and noun not in ("position", "pose"):
             return None
         return Mention(primitive=Primitive.RESET, start=i, end=i + 1, form=form)
-    form = AGAIN.get(words[i])
+    form = lex.AGAIN.get(words[i])
     if form is not None:
         end = _skip(words, i + 1, {"all", "it", "the", "to", "object", "berry", "strawberry"})
         end += _word(words, end) in ("grasp", "grip", "grasping", "gripping") and end > i
         if _word(words, end) in ("over", "again", "afresh", "anew"):
             return Mention(primitive=Primitive.RESET, start=i, end=end + 1, form=form)
-    form = RETURN.get(words[i])
+    form = lex.RETURN.get(words[i])
     if form is not None:
-        end = _skip(words, i + 1, HAND | {"the", "back", "to", "its"})
+        end = _skip(words, i + 1, lex.HAND | {"the", "back", "to", "its"})
         if words[end - 1] in ("the", "to", "its") and _word(words, end) in ("start", "starting"):
             return Mention(primitive=Primitive.RESET, start=i, end=end + 1, form=form)
     return None
@@ -255,14 +125,15 @@ def _reset(words: tuple[str, ...], i: int) -> Mention | None:
 
 def _force_verb(words: tuple[str, ...], i: int) -> Mention | None:
     """'increase the gripping force', 'decrease it', 'the force should increase'."""
-    for table, primitive in ((MORE, INC), (LESS, DEC)):
+    for table, primitive in ((lex.MORE, INC), (lex.LESS, DEC)):
         form = _verb(table, words, i)
         if form is None:
             continue
         after = _skip(words, i + 1, {"in", "of", "off", "up"})
         plain = words[i] not in ("lower", "raise", "drop", "cut", "add", "up", "moderate")
-        end = _object(words, after, _GRIP if plain else _FORCE)
-        if end is not None and form is Form.BASE and _word(words, end) in _SAID_OF:
+        end = _object(words, after, lex.GRIP if plain else lex.FORCE)
+        verb = _word(words, i - 1) not in ("a", "an", "the", "any", "no", "slight", "small")
+        if end is not None and verb and form is Form.BASE and _word(words, end) in lex.SAID_OF:
             continue  # 'lower force was measured'
         if end is not None:
             return Mention(primitive=primitive, start=i, end=end, form=form)
@@ -284,20 +155,20 @@ def _force_subject(words: tuple[str, ...], i: int) -> bool:
     j = i - 1
     while j >= 0 and words[j] in links:
         j -= 1
-    return j < i - 1 and _word(words, j) in _GRIP - {"hold"}
+    return j < i - 1 and _word(words, j) in lex.GRIP - {"hold"}
 
 
 def _force_turned(words: tuple[str, ...], i: int) -> Mention | None:
     """'bring the force down', 'turn up the pressure', 'the force should go down'."""
-    form = TURN.get(words[i])
+    form = lex.TURN.get(words[i])
     downs, ups = {"down", "back", "off"}, {"up"}
     if form is not None:
         first = _word(words, i + 1)
         if first in downs | ups:
-            end = _object(words, i + 2, _FORCE)
+            end = _object(words, i + 2, lex.FORCE)
             if end is not None:
                 return Mention(primitive=INC if first in ups else DEC, start=i, end=end, form=form)
-        end = _object(words, i + 1, _FORCE)
+        end = _object(words, i + 1, lex.FORCE)
         if end is not None:
             last = _skip(words, end, {"slightly", "a", "bit", "little"})
             if _word(words, last) in downs | ups:
@@ -313,15 +184,15 @@ def _force_turned(words: tuple[str, ...], i: int) -> Mention | None:
 
 def _tighten(words: tuple[str, ...], i: int) -> Mention | None:
     """'tighten', 'loosen the grip a little'."""
-    for table, primitive in ((TIGHTEN, INC), (LOOSEN, DEC)):
+    for table, primitive in ((lex.TIGHTEN, INC), (lex.LOOSEN, DEC)):
         form = table.get(words[i])
         if form is None or (words[i] == "firm" and _word(words, i + 1) != "up"):
             continue
         start = _skip(words, i + 1, {"up", "off"})
-        end = _object(words, start, _JAWS)
+        end = _object(words, start, lex.JAWS)
         if end is not None:
             return Mention(primitive=primitive, start=i, end=end, form=form)
-        rest = _skip(words, start, _ADVERBS - {"the", "its", "your", "that", "this", "my"})
+        rest = _skip(words, start, lex.ADVERBS - {"the", "its", "your", "that", "this", "my"})
         alone = rest == len(words) or words[rest] in (",", ":", "and", "then", "but", "it", "until")
         alone |= words[rest - 1] in ("off", "bit", "little", "slightly")
         if alone and words[i] not in ("soften", "relax", "strengthen", "firm"):
@@ -333,20 +204,20 @@ def _tighten(words: tuple[str, ...], i: int) -> Mention | None:
 
 def _squeeze(words: tuple[str, ...], i: int) -> Mention | None:
     """'squeeze harder', 'grip it more firmly', 'hold the berry less tightly'."""
-    form = SQUEEZE.get(words[i])
+    form = lex.SQUEEZE.get(words[i])
     if form is None:
         return None
     things = {"it", "the", "berry", "strawberry", "object", "fruit", "egg", "tomato", "peg", "on"}
     things |= {"cherry", "a", "bit", "little", "slightly", "with", "much", "down", "item", "even"}
     j = _skip(words, i + 1, things)
     way, what = _word(words, j), _word(words, j + 1)
-    if way in _HARDER or (way in ("more", "greater") and what in _HARD):
+    if way in lex.HARDER or (way in ("more", "greater") and what in lex.HARD):
         end, primitive = j + 1 + (way in ("more", "greater")), INC
-    elif way == "less" and what in _HARD:
+    elif way == "less" and what in lex.HARD:
         end, primitive = j + 2, DEC
-    elif way in _SOFTER:
+    elif way in lex.SOFTER:
         end, primitive = j + 1, DEC
-    elif way == "more" and what in _SOFT:
+    elif way == "more" and what in lex.SOFT:
         end, primitive = j + 2, DEC
     else:
         return None
@@ -355,13 +226,13 @@ def _squeeze(words: tuple[str, ...], i: int) -> Mention | None:
 
 def _raise(words: tuple[str, ...], i: int) -> Mention | None:
     """'raise the gripper', 'lower the hand a little', 'descend'."""
-    for table, primitive in ((RISE, Primitive.MOVE_UP), (FALL, Primitive.MOVE_DOWN)):
+    for table, primitive in ((lex.RISE, Primitive.MOVE_UP), (lex.FALL, Primitive.MOVE_DOWN)):
         form = _verb(table, words, i)
         if form is not None:
-            end = _object(words, i + 1, _HAND_ONLY)
-            if end is not None and not any(w in _GRIP - {"hold"} for w in words[end : end + 1]):
+            end = _object(words, i + 1, lex.HAND_ONLY)
+            if end is not None and not any(w in lex.GRIP - {"hold"} for w in words[end : end + 1]):
                 return Mention(primitive=primitive, start=i, end=end, form=form)
-    for table, primitive in ((CLIMB, Primitive.MOVE_UP), (SINK, Primitive.MOVE_DOWN)):
+    for table, primitive in ((lex.CLIMB, Primitive.MOVE_UP), (lex.SINK, Primitive.MOVE_DOWN)):
         form = table.get(words[i])
         if form is not None:
             return Mention(primitive=primitive, start=i, end=i + 1, form=form)
@@ -371,18 +242,18 @@ def _raise(words: tuple[str, ...], i: int) -> Mention | None:
 def _wanted(words: tuple[str, ...], i: int) -> Mention | None:
     """'more force', 'a tighter grip', 'the grip should be firmer': asked for only where needed."""
     ways = (
-        (_MORE, _FORCE, INC),
-        (_MORE_GRIP - {"more", "extra", "additional"}, _GRIP, INC),
-        (_LESS, _FORCE, DEC),
-        (_LESS_GRIP - {"less"}, _GRIP, DEC),
+        (lex.MORE_OF, lex.FORCE, INC),
+        (lex.MORE_GRIP - {"more", "extra", "additional"}, lex.GRIP, INC),
+        (lex.LESS_OF, lex.FORCE, DEC),
+        (lex.LESS_GRIP - {"less"}, lex.GRIP, DEC),
     )
     for adjectives, heads, primitive in ways:
         if words[i] in adjectives and _word(words, i - 1) not in ("too", "not"):
             end = _object(words, i + 1, heads)
-            if end is not None and not any(w in _ADVERBS - {"a"} for w in words[i + 1 : end]):
+            if end is not None and not any(w in lex.ADVERBS - {"a"} for w in words[i + 1 : end]):
                 return Mention(primitive=primitive, start=i, end=end, form=Form.WANT)
-    changed = {**dict.fromkeys(_MORE_GRIP - {"more", "extra", "additional"}, INC)}
-    changed |= dict.fromkeys(_LESS_GRIP - {"less", "reduced"}, DEC)
+    changed = {**dict.fromkeys(lex.MORE_GRIP - {"more", "extra", "additional"}, INC)}
+    changed |= dict.fromkeys(lex.LESS_GRIP - {"less", "reduced"}, DEC)
     if words[i] in changed and _word(words, i - 1) == "be" and _force_subject(words, i):
         return Mention(primitive=changed[words[i]], start=i, end=i + 1, form=Form.BASE)
     return None
@@ -390,10 +261,10 @@ def _wanted(words: tuple[str, ...], i: int) -> Mention | None:
 
 def _move(words: tuple[str, ...], i: int) -> list[Mention]:
     """'move the gripper slightly downward', 'go up and to the right'."""
-    form = MOTION.get(words[i])
+    form = lex.MOTION.get(words[i])
     if form is None:
         return []
-    fillers = (HAND | _ADVERBS | _TOWARDS | _MODIFIERS) - {"center", "contact", "and"}
+    fillers = (lex.HAND | lex.ADVERBS | lex.TOWARDS | lex.MODIFIERS) - {"center", "contact", "and"}
     found: list[Mention] = []
     j, forbidden = i + 1, False
     while j < len(words):
@@ -402,15 +273,15 @@ def _move(words: tuple[str, ...], i: int) -> list[Mention]:
             forbidden = True
         elif word in ("but", "instead") and forbidden:
             forbidden = False
-        elif word in DIRECTION and not _is_adjective(words, j):
+        elif word in lex.DIRECTION and not _is_adjective(words, j):
             if not forbidden:
-                found.append(Mention(primitive=DIRECTION[word], start=i, end=j + 1, form=form))
+                found.append(Mention(primitive=lex.DIRECTION[word], start=i, end=j + 1, form=form))
         elif found or forbidden:
             after = _skip(
                 words, j, {",", "and", "or", "nor", "then", "to", "the", "also", "a", "bit"}
             )
             linked = any(w in (",", "and", "or", "nor", "then") for w in words[j:after])
-            if not (linked and _word(words, after) in (*DIRECTION, "not")):
+            if not (linked and _word(words, after) in (*lex.DIRECTION, "not")):
                 break
             j = after
             continue
@@ -424,7 +295,7 @@ def _is_adjective(words: tuple[str, ...], j: int) -> bool:
     """'the right place', 'the left finger', 'up to 3 mm': no direction."""
     after = _word(words, j + 1)
     if words[j] in ("left", "right", "top", "upper", "lower", "bottom"):
-        return after in _NOT_A_SIDE or re.match(r"[a-z]+ly$", after) is not None
+        return after in lex.NOT_A_SIDE or re.match(r"[a-z]+ly$", after) is not None
     if words[j] in ("up", "down"):
         return after == "to" and (_word(words, j + 2)[:1].isdigit() or _word(words, j + 2) == "a")
     return False

@@ -9,21 +9,12 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from policies.clauses import NEGATORS, UNKNOWN, Sentence
+from policies.clauses import NEGATORS, UNKNOWN, Sentence, word_set
 from policies.mentions import Form, Mention
 
-GOAL_LABELS = frozenset(
-    {"goal", "task", "instruction", "instructions", "aim", "target", "objective", "prompt", "user"}
-    | {
-        "question",
-        "requirement",
-        "example",
-        "human",
-        "previous",
-        "previously",
-        "history",
-        "earlier",
-    }
+GOAL_LABELS = word_set(
+    "goal task instruction instructions aim target objective prompt user question requirement "
+    "example human previous previously history earlier"
 )
 """What comes after 'goal:' is somebody's wish, not what is felt or advised."""
 
@@ -40,129 +31,68 @@ class Status(StrEnum):
     DESCRIBED = "a description"
 
 
-_NO_VERBS = frozenset(
-    {"avoid", "avoiding", "avoids", "refrain", "refraining", "prevent", "prevents", "preventing"}
-    | {"stop", "stops", "stopping", "quit", "cease", "skip", "skipping", "against", "cancel"}
-    | {
-        "abort",
-        "forbid",
-        "forbids",
-        "forbidden",
-        "prohibited",
-        "prohibits",
-        "prohibit",
-        "instead_of",
-    }
-    | {"unable", "impossible", "unnecessary", "needless", "pointless", "useless", "fail", "fails"}
-    | {
-        "failed",
-        "wrong",
-        "dangerous",
-        "harmful",
-        "unwise",
-        "bad",
-        "mistake",
-        "inadvisable",
-        "refuse",
-    }
-    | {"risky", "unsafe", "foolish", "premature", "inappropriate", "undesirable", "discouraged"}
-    | {
-        "lest",
-        "cannot",
-        "disallowed",
-        "banned",
-        "counterproductive",
-        "excluded",
-        "ignore",
-        "reject",
-    }
-    | {"disregard", "unadvisable", "unhelpful", "rejected", "ignored", "omit", "forgo", "withhold"}
-    | {"resist", "beware", "false", "untrue", "overkill", "superfluous", "redundant", "incorrect"}
-    | {"no-one", "few", "unwarranted", "unneeded", "avoided", "oppose", "opposed", "decline"}
+_NO_VERBS = word_set(
+    "avoid avoiding avoids refrain refraining prevent prevents preventing stop stops stopping "
+    "quit cease skip skipping against cancel abort forbid forbids forbidden prohibited prohibits "
+    "prohibit instead_of unable impossible unnecessary needless pointless useless fail fails "
+    "failed wrong dangerous harmful unwise bad mistake inadvisable refuse risky unsafe foolish "
+    "premature inappropriate undesirable discouraged lest cannot disallowed banned "
+    "counterproductive excluded ignore reject disregard unadvisable unhelpful rejected ignored "
+    "omit forgo withhold resist beware false untrue overkill superfluous redundant incorrect no- "
+    "one few unwarranted unneeded avoided oppose opposed decline"
 )
-_FIRST_ONLY = frozenset(
-    {"instead_of", "avoid", "avoiding", "without", "against", "skip", "stop", "prevent", "refrain"}
+_FIRST_ONLY = word_set("instead_of avoid avoiding without against skip stop prevent refrain")
+_UNBOUND_NO = word_set(
+    "need reason point cause use benefit sense further more action necessity way advantage call "
+    "case longer justification grounds good idea one additional extra other request requirement "
+    "excuse"
 )
-_UNBOUND_NO = frozenset(
-    {"need", "reason", "point", "cause", "use", "benefit", "sense", "further", "more", "action"}
-    | {"necessity", "way", "advantage", "call", "case", "longer", "justification", "grounds"}
-    | {"good", "idea", "one", "additional", "extra", "other", "request", "requirement", "excuse"}
+_UNDO = word_set("hesitate forget neglect delay")
+_SUPPOSING = word_set(
+    "if unless whenever suppose supposing assuming would could might may perhaps maybe possibly "
+    "hypothetically whether otherwise depending asked told said says instruction instructions "
+    "imagine wonder doubt meaning means called options choices possible available wish wished "
+    "unclear unsure uncertain undecided example"
+) | {UNKNOWN}
+_ANYWHERE = word_set(
+    "if unless whenever suppose supposing assuming depending lest hypothetically"
+) | {UNKNOWN}
+_PAST = word_set("was were had did previously previous earlier ago already yesterday")
+_ASK_PASSIVE = word_set("be")
+_NEEDED = word_set(
+    "perform do execute suggest recommend request need needs needed require requires required "
+    "necessary recommended advised apply applying use using exert give add adding wanted called "
+    "call calls demands want wants demanded exerting advisable"
 )
-_UNDO = frozenset({"hesitate", "forget", "neglect", "delay"})
-_SUPPOSING = frozenset(
-    {"if", "unless", "whenever", "suppose", "supposing", "assuming", "would", "could", "might"}
-    | {"may", "perhaps", "maybe", "possibly", "hypothetically", "whether", "otherwise", "depending"}
-    | {"asked", "told", "said", "says", "instruction", "instructions", "imagine", "wonder"}
-    | {"doubt", "meaning", "means", "called", "options", "choices", "possible", "available"}
-    | {"wish", "wished", "unclear", "unsure", "uncertain", "undecided", "example", UNKNOWN}
+_FRAGMENT = word_set(
+    "slightly a bit little please action now with use some much advice next next_action decision "
+    "the answer recommendation"
 )
-_ANYWHERE = frozenset({"if", "unless", "whenever", "suppose", "supposing", "assuming", "depending"})
-_ANYWHERE |= {UNKNOWN, "lest", "hypothetically"}
-_PAST = frozenset(
-    {"was", "were", "had", "did", "previously", "previous", "earlier", "ago", "already"}
+_FELT = word_set(
+    "contact object berry strawberry fruit egg tomato peg cherry item gel deepest patch slip load "
+    "weight stem imprint centre center"
 )
-_PAST |= {"yesterday"}
-_ASK_PASSIVE = frozenset({"be"})
-_NEEDED = frozenset(
-    {"need", "needs", "needed", "require", "requires", "required", "necessary", "recommended"}
-    | {"advised", "apply", "applying", "use", "using", "exert", "give", "add", "adding", "wanted"}
-    | {"called", "call", "calls", "demands", "want", "wants", "demanded", "exerting", "advisable"}
+_LINKS = word_set(
+    "should must to be needs need has have ought tends starts may begins continues about going "
+    "likely is are will can shall it also then now seems appears threatens wants bit keeps could "
+    "might would does did was were been"
 )
-_FRAGMENT = frozenset(
-    {"slightly", "a", "bit", "little", "please", "action", "now", "with", "use", "some", "much"}
-    | {"advice", "next", "next_action", "decision", "the", "answer", "recommendation"}
+_PLACE = word_set(
+    "bottom top left right edge pad at the of on in side near corner upper lower middle its a "
+    "point position area"
 )
-_FELT = frozenset(
-    {"contact", "object", "berry", "strawberry", "fruit", "egg", "tomato", "peg", "cherry", "item"}
-    | {"gel", "deepest", "patch", "slip", "load", "weight", "stem", "imprint", "centre", "center"}
+_COPULA = word_set(
+    "is are was would must should does do will can be has have may could seems looks remains "
+    "makes shall might : been feels"
 )
-_LINKS = frozenset(
-    {
-        "should",
-        "must",
-        "to",
-        "be",
-        "needs",
-        "need",
-        "has",
-        "have",
-        "ought",
-        "tends",
-        "starts",
-        "may",
-    }
-    | {"begins", "continues", "about", "going", "likely", "is", "are", "will", "can", "shall", "it"}
-    | {"also", "then", "now", "seems", "appears", "threatens", "wants", "bit", "keeps", "could"}
-    | {"might", "would", "does", "did", "was", "were", "been"}
+_EMPTY = word_set(
+    "ever even please now yet just at all to try slightly again here attempt dare think believe "
+    "recommend"
 )
-_PLACE = frozenset(
-    {"bottom", "top", "left", "right", "edge", "pad", "at", "the", "of", "on", "in", "side", "near"}
-    | {"corner", "upper", "lower", "middle", "its", "a", "point", "position", "area"}
-)
-_COPULA = frozenset(
-    {
-        "is",
-        "are",
-        "was",
-        "would",
-        "must",
-        "should",
-        "does",
-        "do",
-        "will",
-        "can",
-        "be",
-        "has",
-        "have",
-    }
-    | {"may", "could", "seems", "looks", "remains", "makes", "shall", "might", ":", "been", "feels"}
-)
-_EMPTY = frozenset({"ever", "even", "please", "now", "yet", "just", "at", "all", "ever", "to", "try"})
-_EMPTY |= {"slightly", "again", "here", "attempt", "dare", "think", "believe", "recommend"}
-_RESUME = frozenset({"but", "however", "therefore", "thus", "hence", "so"})
-_RESUME_WORDS = frozenset({"instead", "rather", "just", "simply", "only", "better"})
-_ASKING = frozenset({"should", "shall", "can", "could", "do", "does", "is", "are", "will", "would"})
-_PERSONS = frozenset({"i", "we", "you", "it", "the", "they", "this"})
+_RESUME = word_set("but however therefore thus hence so")
+_RESUME_WORDS = word_set("instead rather just simply only better")
+_ASKING = word_set("should shall can could do does is are will would")
+_PERSONS = word_set("i we you it the they this")
 
 
 def status(sentence: Sentence, mention: Mention, earlier: tuple[Mention, ...]) -> Status:
@@ -295,7 +225,7 @@ def _refused_after(sentence: Sentence, mention: Mention) -> bool:
         to = after[at - 1 : at] == ("to",) or after[at + 1 : at + 2] == ("to",)
         more = after[at + 1 : at + 2] in (("more",), ("further",))
         if (set(after[:at]) & _COPULA or at == 0) and not (to or more):
-            return after[at] not in ("without", "against", "avoid", "prevent", "stop")
+            return after[at] not in ("without", "against", "avoid", "prevent", "stop", "instead_of")
     if index + 1 < len(sentence.segments) and sentence.segments[index + 1].lead != "but":
         following = sentence.of(index + 1)
         if len(following) <= 2 and following[0] in ("no", "not", "never", "nope", "false"):
@@ -310,9 +240,18 @@ def _refused_after(sentence: Sentence, mention: Mention) -> bool:
     return False
 
 
+def _unpraised(left: tuple[str, ...]) -> tuple[str, ...]:
+    """Without the 'would' of 'it would be better to', which advises."""
+    praise = ("better", "best", "good", "wise", "advisable", "sensible", "right", "helpful")
+    advises = any(left[i : i + 2] == ("would", "be") for i in range(len(left)))
+    if advises and set(praise) & set(left):
+        return tuple(w for w in left if w != "would")
+    return left
+
+
 def _supposed(sentence: Sentence, index: int, left: tuple[str, ...]) -> bool:
     segment = sentence.segments[index]
-    if _ANYWHERE & set(sentence.words) or set(left) & _SUPPOSING:
+    if _ANYWHERE & set(sentence.words) or _SUPPOSING & set(_unpraised(left)):
         return True
     if segment.lead in ("when", "once") and index == 0:
         return True
