@@ -1,10 +1,10 @@
 """Contact states in the paper's words, in numbers, and back.
 
-The template is the paper's, section 3.2: 'a [Texture] [Shape] object, pressed [Depth] in [Position]
-with [Area] contact area.' The slots hold the words of ``cltp.states`` as they stand ('pressed slight
-in top-left'), not inflected, so that every slot reads back exactly. Ours, where the paper is silent:
-a shape or texture that nobody named is left out ('an object, pressed ...'), 'a' becomes 'an' before
-a vowel, and without contact the caption is ``NO_CONTACT``.
+The template is the paper's, section 3.2: 'a [Texture] [Shape] object, pressed [Depth] in
+[Position] with [Area] contact area.' The slots hold the words of ``cltp.states`` as they stand
+('pressed slight in top-left'), not inflected, so that every slot reads back exactly. Ours, where
+the paper is silent: a shape or texture that nobody named is left out ('an object, pressed ...'),
+'a' becomes 'an' before a vowel, and without contact the caption is ``NO_CONTACT``.
 """
 
 from __future__ import annotations
