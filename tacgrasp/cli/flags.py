@@ -8,7 +8,8 @@ from __future__ import annotations
 import io
 import os
 import re
-from collections.abc import Sequence
+import sys
+from collections.abc import Mapping, Sequence
 from contextlib import redirect_stderr, redirect_stdout
 from typing import TypeVar
 
@@ -99,3 +100,22 @@ def flag_value(argv: Sequence[str], flag: str) -> str | None:
         elif token.startswith(f"{flag}="):
             value = token.removeprefix(f"{flag}=")
     return value
+
+
+def subcommand(
+    command: str, argv: Sequence[str], known: Mapping[str, str]
+) -> tuple[str | None, Sequence[str]]:
+    """The subcommand and its own arguments; None when only help was asked for (it is printed).
+
+    Raises:
+        UsageError: None was given, or it is not known.
+    """
+    if argv[:1] in (["-h"], ["--help"]):
+        lines = [f"  {name:12}{what.splitlines()[0]}" for name, what in known.items()]
+        usage = f"usage: tacgrasp {command} {{{','.join(known)}}} [OPTIONS]\n\n"
+        sys.stdout.write(usage + "\n".join(lines) + "\n")
+        return None, []
+    if not argv or argv[0] not in known:
+        got = repr(argv[0]) if argv else "nothing"
+        raise UsageError(f"tacgrasp {command} expects one of {', '.join(known)}, got {got}")
+    return argv[0], argv[1:]

@@ -31,15 +31,15 @@ class RunFlags(RunConfig):
 
 def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
-    config, sources = configure(argv)
-    if config.print_config:
+    config, sources, print_config = configure(argv)
+    if print_config:
         _print_config(config, sources)
         return 0
     return _exit_code(_run(config), dry_run=config.dry_run)
 
 
-def configure(argv: Sequence[str]) -> tuple[RunFlags, Sources]:
-    """The configuration after flags, and where each value came from.
+def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
+    """The configuration after flags, where each value came from, and whether to print just that.
 
     Raises:
         UsageError: Something in file, environment or flags doesn't fit.
@@ -50,11 +50,12 @@ def configure(argv: Sequence[str]) -> tuple[RunFlags, Sources]:
     default = RunFlags.model_construct(**values, print_config=False)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
     given = {token.split("=")[0] for token in argv if token.startswith("--")}
-    for path in leaves(flags):
+    config = RunConfig(**{name: getattr(flags, name) for name in RunConfig.model_fields})
+    for path in leaves(config):
         flag = f"--{path.replace('_', '-')}"
         if flag in given or flag.replace("--", "--no-", 1) in given:
             sources[path] = f"flag {flag}"
-    return flags, sources
+    return config, sources, flags.print_config
 
 
 def _run(config: RunConfig) -> Outcome:
@@ -85,7 +86,6 @@ def _exit_code(outcome: Outcome, *, dry_run: bool) -> int:
 
 def _print_config(config: RunConfig, sources: Sources) -> None:
     out: dict[str, Any] = leaves(config)
-    out.pop("print_config")
     width = max(map(len, out))
     from tacgrasp.view import console
 

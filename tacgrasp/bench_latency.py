@@ -1,0 +1,128 @@
+"""How long a tick takes, stage by stage: cloud in, complete Decision out.
+
+The clouds are real touches of the simulated rig, recorded beforehand, so that the simulator's own
+time is not in the figures; reading and recording are timed apart from the decision.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import time
+from collections import defaultdict
+from pathlib import Path
+
+import numpy as np
+from rich.progress import track
+from rich.table import Table
+
+from cltp.cloud import TactileCloud
+from tacgrasp.config_layers import load
+from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, Phase, TickRecord
+from tacgrasp.errors import UsageError
+from tacgrasp.policy_factory import make_policy
+from tacgrasp.rig import Rig, make_rig
+from tacgrasp.view import console
+
+NUM_TOUCHES = 8
+WARM_UP = 5
+FORCES_N = (0.6, 1.2, 2.4)
+
+
+def run(*, ticks: int, policy_name: str, task: str, json_path: Path | None) -> dict[str, object]:
+    """Time ``ticks`` decisions, print a table, write the figures.
+
+    Returns:
+        ``tick_ms.{p50, p99}``, ``stages_ms.<stage>.{p50, p99}`` and what was measured.
+
+    Raises:
+        UsageError: Unknown policy or task, or fewer than one tick.
+    """
+    if ticks < 1:
+        raise UsageError(f"--ticks must be at least 1, got {ticks}")
+    config, _ = load(task)
+    policy = make_policy(policy_name, config)
+    rig = make_rig(config)
+    touches = _touches(rig)
+    policy.start()
+    whole, stages = [], defaultdict(list)
+    for number in track(range(WARM_UP + ticks), description="deciding", transient=True):
+        began = time.perf_counter()
+        decision = policy.decide(touches[number % len(touches)], config.instruction)
+        took = 1e3 * (time.perf_counter() - began)
+        if number >= WARM_UP:
+            whole.append(took)
+            for stage, stage_ms in decision.stage_ms.items():
+                stages[stage].append(stage_ms)
+    stages["record"] = _record_ms(rig, touches, ticks)
+    rig.disconnect()
+    report: dict[str, object] = {
+        "policy": policy_name,
+        "ticks": ticks,
+        "tick_ms": _quantiles(whole),
+        "stages_ms": {stage: _quantiles(times) for stage, times in stages.items()},
+    }
+    _print(report, whole, stages)
+    if json_path is not None:
+        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    return report
+
+
+def _touches(rig: Rig) -> list[TactileCloud]:
+    """Touches of different forces, each frame with its own noise."""
+    touches = []
+    for number in range(NUM_TOUCHES):
+        rig.gripper.grip(FORCES_N[number % len(FORCES_N)])
+        touches.append(rig.sensor.read())
+    return touches
+
+
+def _record_ms(rig: Rig, touches: list[TactileCloud], ticks: int) -> list[float]:
+    """Time of one durable record each [ms]; not part of the tick, which ends with the decision."""
+    stamp = rig.clock.stamp()
+    header = EpisodeHeader(
+        task="latency",
+        instruction="",
+        policy="none",
+        seed=None,
+        sensor=rig.sensor.spec,
+        config_yaml="",
+        versions={},
+        stamp=stamp,
+    )
+    pose, gripper, times = rig.arm.pose(), rig.gripper.state(), []
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        EpisodeWriter(Path(folder) / "latency.mcap", header) as writer,
+    ):
+        for index in range(min(ticks, 100)):
+            record = TickRecord(
+                index=index,
+                phase=Phase.TICK,
+                cloud=touches[index % len(touches)],
+                decision=None,
+                executed=None,
+                tcp_pose=pose,
+                gripper=gripper,
+                stamp=stamp,
+                tick_ms=0.0,
+            )
+            began = time.perf_counter()
+            writer.write_tick(record)
+            times.append(1e3 * (time.perf_counter() - began))
+    return times
+
+
+def _quantiles(times_ms: list[float]) -> dict[str, float]:
+    p50, p99 = np.percentile(times_ms, [50, 99])
+    return {"p50": float(p50), "p99": float(p99)}
+
+
+def _print(report: dict[str, object], whole: list[float], stages: dict[str, list[float]]) -> None:
+    table = Table(title=f"{report['policy']}, {report['ticks']} ticks")
+    for column in ("stage", "p50 ms", "p99 ms"):
+        table.add_column(column, justify="left" if column == "stage" else "right")
+    for name, times in {**stages, "whole tick": whole}.items():
+        quantiles = _quantiles(times)
+        table.add_row(name, f"{quantiles['p50']:.2f}", f"{quantiles['p99']:.2f}")
+    console().print(table)

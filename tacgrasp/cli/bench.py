@@ -1,0 +1,140 @@
+"""``tacgrasp bench strawberry | latency | gel | crash``: measure, print figures, write JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.errors import UsageError
+
+
+@dataclass(frozen=True)
+class Strawberry:
+    """Grasp many drawn strawberries with every policy.
+
+    Attributes:
+        episodes: How many seeds.
+        first_seed: The first one; from 1000000 on they belong to the benchmark.
+        policies: Names, separated by commas.
+        json: File for the figures.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    policies: str = "rules,fixed_force,random,oracle"
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
+class Latency:
+    """Time every stage of a tick, and the whole: cloud in, complete decision out.
+
+    Attributes:
+        ticks: How many.
+        policy: Which policy.
+        task: Whose goal and instruction.
+        json: File for the figures.
+    """
+
+    ticks: int = 200
+    policy: str = "rules"
+    task: str = "strawberry"
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
+class Gel:
+    """Compare the gel with closed forms and real presses.
+
+    Attributes:
+        json: File for the figures.
+    """
+
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
+class Crash:
+    """Kill recordings at random moments and count what is lost.
+
+    Attributes:
+        kills: How many.
+        json: File for the figures.
+    """
+
+    kills: int = 50
+    json: Path | None = None
+
+
+def main(argv: Sequence[str]) -> int:
+    """Dispatch to the benchmarks; 0 when what was measured is as it must be."""
+    benches: dict[str, Callable[[Sequence[str]], None]] = {
+        "strawberry": _strawberry,
+        "latency": _latency,
+        "gel": _gel,
+        "crash": _crash,
+    }
+    name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
+    if name is not None:
+        benches[name](rest)
+    return 0
+
+
+def _strawberry(argv: Sequence[str]) -> None:
+    """Grasp many drawn strawberries with every policy."""
+    flags = parse(Strawberry, argv, prog="tacgrasp bench strawberry")
+    if flags.episodes < 1 or flags.first_seed < 0:
+        raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+    from tacgrasp import bench_strawberry
+    from tacgrasp.config_layers import load
+
+    config, _ = load("strawberry")
+    bench_strawberry.run(
+        config,
+        episodes=flags.episodes,
+        first_seed=flags.first_seed,
+        policies=tuple(name.strip() for name in flags.policies.split(",")),
+        json_path=_writable(flags.json),
+    )
+
+
+def _latency(argv: Sequence[str]) -> None:
+    """Time every stage of a tick, and the whole."""
+    flags = parse(Latency, argv, prog="tacgrasp bench latency")
+    from tacgrasp import bench_latency
+
+    bench_latency.run(
+        ticks=flags.ticks,
+        policy_name=flags.policy,
+        task=flags.task,
+        json_path=_writable(flags.json),
+    )
+
+
+def _gel(argv: Sequence[str]) -> None:
+    """Compare the gel with closed forms and real presses."""
+    flags = parse(Gel, argv, prog="tacgrasp bench gel")
+    from tacgrasp import bench_gel
+
+    bench_gel.run(_writable(flags.json))
+
+
+def _crash(argv: Sequence[str]) -> None:
+    """Kill recordings at random moments and count what is lost."""
+    flags = parse(Crash, argv, prog="tacgrasp bench crash")
+    from tacgrasp import bench_crash
+
+    bench_crash.run(flags.kills, _writable(flags.json))
+
+
+def _writable(json_path: Path | None) -> Path | None:
+    """Refuse a place that can't be written before minutes are spent on measuring."""
+    if json_path is None:
+        return None
+    try:
+        with json_path.open("a", encoding="utf-8"):
+            return json_path
+    except OSError as error:
+        raise UsageError(f"--json {json_path} can't be written: {error.strerror}") from None

@@ -1,0 +1,36 @@
+"""Say what a touch is, in words and numbers.
+
+Not here: reading files (``cltp.files``), measuring (``cltp.measure``).
+"""
+
+from __future__ import annotations
+
+from cltp.captions import caption
+from cltp.cloud import TactileCloud
+from cltp.measure import contact_state
+
+
+def describe(cloud: TactileCloud) -> list[str]:
+    """One line a fact.
+
+    Raises:
+        TouchError: The cloud can't be measured.
+    """
+    sensor = cloud.sensor
+    state = contact_state(cloud)
+    lines = [
+        f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm",
+        f"points    {len(cloud.points_mm)}",
+    ]
+    if state.depth is None or state.position is None or state.area is None:
+        return [*lines, "contact   none: nothing touches the gel"]
+    return [
+        *lines,
+        f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",
+        f"depth     {state.depth} ({state.depth_mm:.2f} mm)",
+        f"area      {state.area} ({state.area_share:.1%}, "
+        f"{state.area_share * sensor.area_mm2:.0f} mm²)",
+        f"force     about {state.force_n:.2f} N (an estimate from the gel's shape)",
+        f"cut       {', '.join(sorted(state.cut)) or 'no'}",
+        f"caption   {caption(state)}",
+    ]
