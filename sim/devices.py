@@ -187,10 +187,11 @@ class SimSensor:
         clock: SimClock,
         spec: SensorSpec,
         unit: NoiseUnit,
-        rng: np.random.Generator,
+        seed: int,
     ) -> None:
         self._grasp, self._clock, self._spec = grasp, clock, spec
-        self._unit, self._rng = unit, rng
+        self._unit, self._seed = unit, seed
+        self._rng = np.random.default_rng([seed, 2])
         self._connected = True
 
     @property
@@ -199,12 +200,17 @@ class SimSensor:
         return self._spec
 
     def read(self) -> TactileCloud:
-        """A cloud of the gel as it is now, with this unit's errors and this frame's noise."""
+        """A cloud of the gel as it is now, with this unit's errors and this contact's noise.
+
+        The drift is that of the reconstruction, not of the camera: frames of one contact share it,
+        a new grip draws a new one, and averaging frames takes none of it away.
+        """
         if not self._connected:
             raise TouchError("the simulated sensor is disconnected")
         patch = self._grasp.patch
         clean = np.zeros((ROWS, COLUMNS)) if patch is None else patch.height_mm
-        heights = self._unit.apply(clean, self._spec, self._rng)
+        contact = np.random.default_rng([self._seed, 3, self._grasp.contacts])
+        heights = self._unit.apply(clean, self._spec, contact)
         return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=self._clock.stamp())
 
     def disconnect(self) -> None:

@@ -169,7 +169,7 @@ def build(
     return SimRig(
         arm=SimArm(grasp, clock),
         gripper=SimGripper(grasp, clock, factor),
-        sensor=SimSensor(grasp, clock, sensor, unit, sensor_rng),
+        sensor=SimSensor(grasp, clock, sensor, unit, seed),
         clock=clock,
         grasp=grasp,
         start_pose=START_POSE,

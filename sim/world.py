@@ -29,6 +29,11 @@ class Grasp:
         body_xy_mm: Where the body's origin is, in the world's pad axes [mm].
         pad_xy_mm: Where the pad's centre is.
         patch: What is held, None while the fingers are open or hold nothing.
+        slip_mm: How far the body has slid along the pads, turning included [mm].
+        slid_mm: How far without turning [mm].
+        grips: Times that the fingers closed or changed their force.
+        contacts: Times that what the gel feels changed by a command.
+        peak_force_n, peak_kpa: Largest true force and pressure so far.
     """
 
     fingers: FlatFingers
@@ -41,6 +46,7 @@ class Grasp:
     bruised_at_start: bool = False
     bruised: bool = False
     grips: int = 0
+    contacts: int = 0
     peak_force_n: float = 0.0
     peak_kpa: float = 0.0
     _speed: float = field(default=0.0, repr=False)
@@ -63,6 +69,7 @@ class Grasp:
         """
         before = self.peak_kpa * _SAME_PRESSURE
         self.grips += 1
+        self.contacts += 1
         if self.dropped or not self.fingers.reaches(self.offset_mm):
             self.patch = None
             return
@@ -82,6 +89,7 @@ class Grasp:
         if self.patch is not None and self._lifted_mm > 1.0:
             self.dropped = True
         self.patch = None
+        self.contacts += 1
         self._speed = 0.0
 
     def move(self, by_mm: tuple[float, float], speed_m_s: float, acceleration_m_s2: float) -> float:

@@ -103,7 +103,8 @@ class VerifyConfig(Section):
 
     Attributes:
         lift_mm: Height of the lift [mm].
-        acceleration_m_s2: Acceleration of lift and shake [m/s²].
+        acceleration_m_s2: Acceleration of the lift [m/s²].
+        shake_acceleration_m_s2: Acceleration of the shake [m/s²].
         speed_m_s: Speed of lift and shake [m/s].
         shake_mm: Length of one sideways move along the pad's x [mm]; 0 for none.
         shakes: How many there and back.
@@ -115,9 +116,10 @@ class VerifyConfig(Section):
 
     lift_mm: Number = Field(default=40.0, ge=5, le=300)
     acceleration_m_s2: Number = Field(default=2.5, gt=0, le=10)
-    speed_m_s: Number = Field(default=0.1, gt=0, le=0.5)
-    shake_mm: Number = Field(default=10.0, ge=0, le=50)
-    shakes: int = Field(default=2, ge=0, le=10, strict=True)
+    shake_acceleration_m_s2: Number = Field(default=10.0, gt=0, le=10)
+    speed_m_s: Number = Field(default=0.4, gt=0, le=0.5)
+    shake_mm: Number = Field(default=25.0, ge=0, le=50)
+    shakes: int = Field(default=4, ge=0, le=10, strict=True)
     hold_s: Number = Field(default=2.0, ge=0, le=60)
     max_shift_mm: Number = Field(default=1.0, gt=0, le=10)
     min_area_ratio: Number = Field(default=0.6, ge=0, le=1)
@@ -139,7 +141,7 @@ class ArmConfig(Section):
     workspace_high_m: Vector
     max_step_mm: Number = Field(default=5.0, ge=0.1, le=50)
     max_travel_mm: Number = Field(default=120.0, ge=1, le=2000)
-    max_speed_m_s: Number = Field(default=0.1, gt=0, le=0.5)
+    max_speed_m_s: Number = Field(default=0.4, gt=0, le=0.5)
 
     @model_validator(mode="after")
     def _box_is_not_empty(self) -> ArmConfig:

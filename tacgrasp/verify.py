@@ -44,13 +44,14 @@ def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification
         check_workspace(pose, limits_of(config))
     before = contact_state(turns.feel(Phase.VERIFY_BEFORE))
     shake = [aside, lifted] * settings.shakes if settings.shake_mm > 0 else []
-    for pose in (lifted, *shake):
-        _move(rig, pose, settings)
+    _move(rig, lifted, settings, settings.acceleration_m_s2)
+    for pose in shake:
+        _move(rig, pose, settings, settings.shake_acceleration_m_s2)
     rig.clock.sleep(settings.hold_s)
     after = contact_state(turns.feel(Phase.VERIFY_AFTER))
     verification = compare(before, after, settings)
     if not verification.passed:
-        _move(rig, start, settings)  # down again: what is still held must not fall when released
+        _move(rig, start, settings, settings.acceleration_m_s2)  # down again: what is still held must not fall when released
     return verification
 
 
@@ -87,10 +88,8 @@ def not_lifted(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
     return Verification(passed=False, message="dry run: nothing was lifted")
 
 
-def _move(rig: Rig, pose: Pose, settings: VerifyConfig) -> None:
-    rig.arm.move_to(
-        pose, speed_m_s=settings.speed_m_s, acceleration_m_s2=settings.acceleration_m_s2
-    )
+def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float) -> None:
+    rig.arm.move_to(pose, speed_m_s=settings.speed_m_s, acceleration_m_s2=acceleration_m_s2)
 
 
 def _shifted(pose: Pose, by_m: NDArray[np.float64]) -> Pose:
