@@ -44,8 +44,9 @@ def close(
         finally:
             safe_state, released = _make_safe(rig, config, end.reason)
         problems = [] if released else [safe_state]
-        if end.reason is not EndReason.FAULT:  # which may be the recorder's own
-            problems += _refusals(lambda: turns.record(None, note=f"cut short: {end.message}"))
+        unfinished = _refusals(lambda: turns.record(None, note=f"cut short: {end.message}"))
+        if end.reason is not EndReason.FAULT:  # which may be the recorder's own, and said already
+            problems += unfinished
         outcome = Outcome(
             reason=EndReason.FAULT if problems else end.reason,
             message="; ".join([end.message, *problems]),

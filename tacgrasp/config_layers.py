@@ -21,6 +21,9 @@ from tacgrasp.errors import UsageError
 ENV_PREFIX = "TACGRASP_"
 """``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
 
+RIG_FIELDS = ("devices", "arm", "gripper", "pad")
+"""Sections that a rig's file has to fill; what else has no default belongs to the task's."""
+
 UNITS = {
     "mm": "mm",
     "m": "m",
@@ -136,7 +139,7 @@ def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: S
         RunConfig.model_validate(merged)
     except ValidationError as error:
         for wrong in error.errors():
-            if wrong["type"] != "missing" or len(wrong["loc"]) > 1:
+            if wrong["type"] != "missing" or isinstance(wrong["loc"][-1], int):
                 raise UsageError(f"{where}: {explain(wrong)}") from None
     sources |= dict.fromkeys(_paths(layer), where)
 
@@ -145,8 +148,9 @@ def _complete(merged: dict[str, Any]) -> RunConfig:
     try:
         return RunConfig.model_validate(merged)
     except ValidationError as error:
-        field = str(error.errors()[0]["loc"][0])
-    kind = "rig" if field in ("devices", "arm", "pad") else "task"
+        path = [str(part) for part in error.errors()[0]["loc"]]
+    kind = "rig" if path[0] in RIG_FIELDS else "task"
+    field = ".".join(path)
     raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
 
 

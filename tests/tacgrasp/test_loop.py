@@ -1,0 +1,298 @@
+"""The loop: every named end, what is moved and what is not, and the robot safe on every path."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+from loop_fakes import (
+    BOTH,
+    DOWN,
+    GOOD,
+    LIGHT,
+    NOTHING,
+    RESET,
+    TWO,
+    FakeRig,
+    ListRecorder,
+    Says,
+    config,
+    play,
+    slips,
+    with_end,
+)
+
+from cltp import TouchError
+from policies import PolicyError
+from primitives import LimitError, Primitive, RobotError
+from tacgrasp.episodes import Phase, TickRecord
+from tacgrasp.outcome import EndReason
+from tacgrasp.verify import verify_by_lifting
+
+
+def test_a_declared_and_verified_grasp_is_a_success_and_is_held() -> None:
+    outcome, rig, recorder = play(Says(DOWN, LIGHT, GOOD))
+    assert outcome.reason is EndReason.SUCCESS
+    assert (outcome.declared, outcome.verified, outcome.steps) == (True, True, 2)
+    assert [tick.executed is not None for tick in recorder.ticks] == [True, True, False]
+    assert rig.gripper.now.closed
+    assert recorder.ends[0].reason == "success"
+
+
+def test_a_text_that_only_declares_success_moves_nothing() -> None:
+    _, rig, _ = play(Says(GOOD))
+    assert rig.moves == 0
+    assert rig.calls.count("gripper.grip") == 1  # the first grasp
+
+
+def test_a_text_with_success_and_action_acts_and_must_declare_again() -> None:
+    outcome, rig, recorder = play(Says(BOTH, GOOD))
+    assert rig.moves == 1
+    assert len(recorder.ticks) == 2
+    assert outcome.reason is EndReason.SUCCESS
+
+
+def test_a_declared_success_that_the_lift_denies_is_unverified_and_released() -> None:
+    outcome, rig, _ = play(Says(GOOD), verify=slips)
+    assert outcome.reason is EndReason.UNVERIFIED
+    assert (outcome.declared, outcome.verified) == (True, False)
+    assert not rig.gripper.now.closed
+
+
+@pytest.mark.parametrize("text", [NOTHING, TWO])
+def test_no_action_or_two_holds_still_asks_again_and_ends_with_no_action(text: str) -> None:
+    policy = Says(text)
+    outcome, rig, recorder = play(policy, settings=config(max_asks=3))
+    assert outcome.reason is EndReason.NO_ACTION
+    assert policy.asked == 3
+    assert rig.moves == 0
+    assert [tick.decision is not None for tick in recorder.ticks] == [True] * 3
+
+
+def test_asks_in_vain_are_counted_in_a_row_only() -> None:
+    outcome, _, _ = play(Says(NOTHING, DOWN, NOTHING, GOOD), settings=config(max_asks=2))
+    assert outcome.reason is EndReason.SUCCESS
+
+
+def test_as_many_actions_as_the_task_allows_end_with_max_steps() -> None:
+    outcome, rig, recorder = play(Says(DOWN, LIGHT, DOWN, LIGHT), settings=config(max_steps=3))
+    assert outcome.reason is EndReason.MAX_STEPS
+    assert outcome.steps == 3
+    assert rig.moves == 2
+    assert recorder.ticks[-1].executed is None
+
+
+def test_time_ends_with_timeout() -> None:
+    rig = FakeRig(lambda name, _: rig.clock.sleep(10) if name == "sensor.read" else None)
+    outcome, _, _ = play(Says(DOWN), rig=rig, settings=config(timeout_s=25))
+    assert outcome.reason is EndReason.TIMEOUT
+    assert outcome.steps == 3  # felt at 10, 20 and 30 s
+
+
+def test_the_second_reset_ends_with_contact_lost_and_is_not_carried_out() -> None:
+    outcome, _, recorder = play(Says(RESET, DOWN, RESET))
+    assert outcome.reason is EndReason.CONTACT_LOST
+    done = [t.executed.primitive if t.executed else None for t in recorder.ticks]
+    assert done == [Primitive.RESET, Primitive.MOVE_DOWN, None]
+
+
+def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> None:
+    settings = config(max_steps=100)
+    arm = settings.arm.model_copy(update={"max_travel_mm": 10.0})
+    outcome, rig, _ = play(Says(DOWN), settings=settings.model_copy(update={"arm": arm}))
+    assert outcome.reason is EndReason.LIMIT
+    assert rig.moves == 3  # 9 mm; the fourth would make it 12
+
+
+def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
+    settings = config(max_steps=100)
+    gripper = settings.gripper.model_copy(update={"max_force_n": 2.0})
+    outcome, rig, _ = play(Says(LIGHT), settings=settings.model_copy(update={"gripper": gripper}))
+    assert outcome.reason is EndReason.LIMIT
+    assert rig.calls.count("gripper.grip") == 3  # 1.0, 1.5, 2.0; then nothing would be sent
+
+
+def failing(device_call: str, error: Exception, times: int) -> Callable[[str, int], None]:
+    left = [times]
+
+    def before(name: str, _: int) -> None:
+        if name == device_call and left[0] > 0:
+            left[0] -= 1
+            raise error
+
+    return before
+
+
+def test_a_sensor_that_comes_back_is_survived_and_noted() -> None:
+    rig = FakeRig(failing("sensor.read", TouchError("no fresh frame"), 2))
+    outcome, _, recorder = play(Says(GOOD), rig=rig, settings=config(max_faults=3))
+    assert outcome.reason is EndReason.SUCCESS
+    assert "no fresh frame" in recorder.ticks[0].note
+
+
+def test_a_sensor_that_stays_away_ends_with_fault_and_nothing_moves() -> None:
+    rig = FakeRig(failing("sensor.read", TouchError("unplugged"), 99))
+    outcome, _, recorder = play(Says(DOWN), rig=rig, settings=config(max_faults=3))
+    assert outcome.reason is EndReason.FAULT
+    assert "unplugged" in outcome.message
+    assert rig.calls.count("sensor.read") == 3
+    assert rig.moves == 0
+    assert not rig.gripper.now.closed
+    assert recorder.ends[0].reason == "fault"
+
+
+def test_a_policy_that_fails_is_asked_again_then_ends_with_fault() -> None:
+    broken = PolicyError("no such weights")
+    assert play(Says(broken, GOOD))[0].reason is EndReason.SUCCESS
+    policy = Says(broken)
+    outcome, rig, _ = play(policy, settings=config(max_faults=2))
+    assert outcome.reason is EndReason.FAULT
+    assert policy.asked == 2
+    assert rig.moves == 0
+
+
+def test_a_recorder_that_fails_stops_the_robot_and_ends_with_fault() -> None:
+    outcome, rig, recorder = play(Says(DOWN), recorder=ListRecorder(full_at=1))
+    assert outcome.reason is EndReason.FAULT
+    assert "disk is full" in outcome.message
+    assert len(recorder.ticks) == 1
+    assert "arm.stop" in rig.calls
+    assert not rig.gripper.now.closed
+
+
+def test_a_recorder_that_refuses_the_end_makes_a_success_a_fault() -> None:
+    recorder = ListRecorder(full_at=1)
+    outcome, _, _ = play(Says(GOOD), recorder=recorder)
+    assert outcome.reason is EndReason.FAULT
+    assert recorder.ends == []
+
+
+def test_a_bug_makes_the_robot_safe_ends_the_record_and_is_raised() -> None:
+    rig, recorder = FakeRig(), ListRecorder()
+
+    def bug(_: TickRecord) -> None:
+        raise ZeroDivisionError
+
+    with pytest.raises(ZeroDivisionError):
+        play(Says(DOWN), rig=rig, recorder=recorder, observers=[bug])
+    assert "arm.stop" in rig.calls
+    assert not rig.gripper.now.closed
+    assert recorder.ends[0].reason == "fault"
+
+
+@pytest.mark.parametrize("on_failure", ["hold", "release"])
+@pytest.mark.parametrize(
+    ("policy", "reason"),
+    [
+        (Says(NOTHING), EndReason.NO_ACTION),
+        (Says(RESET), EndReason.CONTACT_LOST),
+        (Says(PolicyError("broken")), EndReason.FAULT),
+    ],
+)
+def test_a_failed_episode_leaves_the_gripper_as_the_task_says(
+    policy: Says, reason: EndReason, on_failure: str
+) -> None:
+    settings = with_end(config(), on_success="hold", on_failure=on_failure)
+    outcome, rig, _ = play(policy, settings=settings)
+    assert outcome.reason is reason
+    assert rig.gripper.now.closed is (on_failure == "hold")
+
+
+@pytest.mark.parametrize("on_success", ["hold", "release"])
+def test_a_success_leaves_the_gripper_as_the_task_says(on_success: str) -> None:
+    settings = with_end(config(), on_success=on_success, on_failure="release")
+    _, rig, _ = play(Says(GOOD), settings=settings)
+    assert rig.gripper.now.closed is (on_success == "hold")
+
+
+SCRIPT = (DOWN, LIGHT, RESET, GOOD)
+
+
+def device_calls() -> list[str]:
+    outcome, rig, _ = play(Says(*SCRIPT), verify=verify_by_lifting)
+    assert outcome.reason is EndReason.SUCCESS
+    return rig.calls
+
+
+CALLS = device_calls()
+CLOSING = len(CALLS) - CALLS[::-1].index("arm.stop") - 1
+"""Index of the first call that makes safe."""
+
+
+@pytest.mark.parametrize("index", range(len(CALLS)))
+def test_ctrl_c_in_any_device_call_leaves_the_robot_safe_and_the_episode_ended(index: int) -> None:
+    def interrupt(name: str, number: int) -> None:
+        if number == index:
+            raise KeyboardInterrupt
+
+    rig = FakeRig(interrupt)
+    outcome, _, recorder = play(Says(*SCRIPT), rig=rig, verify=verify_by_lifting)
+    after = rig.calls[index + 1 :]
+    if index < CLOSING:
+        assert outcome.reason is EndReason.OPERATOR
+        assert "arm.stop" in after
+        assert "arm.move_to" not in after
+        assert not rig.gripper.now.closed  # the strawberry's on_failure is release
+    else:
+        assert CALLS[index] in after  # a step of making safe is taken up again
+    assert len(recorder.ends) == 1
+
+
+@pytest.mark.parametrize("index", range(CLOSING))
+@pytest.mark.parametrize("error", [RobotError("link lost"), LimitError("refused")])
+def test_a_robot_error_in_any_device_call_stops_the_arm_and_ends_the_episode(
+    index: int, error: RobotError
+) -> None:
+    def fail(name: str, number: int) -> None:
+        if number == index:
+            raise error
+
+    rig = FakeRig(fail)
+    outcome, _, recorder = play(Says(*SCRIPT), rig=rig, verify=verify_by_lifting)
+    expected = EndReason.LIMIT if isinstance(error, LimitError) else EndReason.FAULT
+    assert outcome.reason is expected
+    assert str(error) in outcome.message
+    after = rig.calls[index + 1 :]
+    assert "arm.stop" in after
+    assert len(recorder.ends) == 1
+
+
+def test_what_was_said_before_a_fault_is_recorded() -> None:
+    rig = FakeRig(failing("arm.move_to", RobotError("protective stop"), 1))
+    _, _, recorder = play(Says(DOWN), rig=rig)
+    assert recorder.ticks[-1].decision is not None
+    assert recorder.ticks[-1].decision.text == DOWN
+    assert "protective stop" in recorder.ticks[-1].note
+
+
+def test_a_gripper_that_will_not_release_is_a_fault_even_after_ctrl_c() -> None:
+    def before(name: str, number: int) -> None:
+        if name == "sensor.read":
+            raise KeyboardInterrupt
+        if name == "gripper.open_by":
+            raise RobotError("bus dead")
+
+    outcome, _, _ = play(Says(DOWN), rig=FakeRig(before))
+    assert outcome.reason is EndReason.FAULT
+    assert "could not be opened: bus dead" in outcome.message
+    assert "stopped by the operator" in outcome.message
+
+
+def test_the_verification_records_a_touch_before_and_after_the_lift() -> None:
+    _, _, recorder = play(Says(GOOD), verify=verify_by_lifting)
+    phases = [tick.phase for tick in recorder.ticks]
+    assert phases == [Phase.TICK, Phase.VERIFY_BEFORE, Phase.VERIFY_AFTER]
+    lifted = recorder.ticks[-1].tcp_pose.position_m - recorder.ticks[0].tcp_pose.position_m
+    assert lifted[2] == pytest.approx(config().verify.lift_mm / 1000)
+    assert abs(lifted[:2]).max() < 1e-9
+
+
+def test_observers_are_told_every_turn_after_it_is_recorded() -> None:
+    recorder = ListRecorder()
+    told: list[tuple[int, int]] = []
+    play(
+        Says(DOWN, GOOD),
+        recorder=recorder,
+        observers=[lambda record: told.append((record.index, len(recorder.ticks)))],
+    )
+    assert told == [(0, 1), (1, 2)]
