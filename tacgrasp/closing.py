@@ -67,6 +67,8 @@ def close(
 
 def _make_safe(rig: Rig, config: RunConfig, reason: EndReason) -> tuple[str, bool]:
     """Stop, then hold or release; returns how the gripper was left, and whether that was wanted."""
+    if config.dry_run:
+        return "nothing was sent", True
     wanted = config.on_success if reason is EndReason.SUCCESS else config.on_failure
     _despite_interrupts(rig.arm.stop)
     _despite_interrupts(rig.gripper.stop)

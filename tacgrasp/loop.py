@@ -67,7 +67,7 @@ def run_episode(
             resets += decision.action is Primitive.RESET
             _check_bounds(decision, turns, steps, resets, config)
             executed = executor.execute(decision.action)
-            steps += 1
+            steps += not executed.dry_run
             turns.record(executed)
             _check_sent(executed)
     except EndOfEpisode as reached:
@@ -104,6 +104,8 @@ def _check_bounds(
 
 
 def _check_sent(executed: Executed) -> None:
-    """Asking again for a force that is at its limit already would go on for ever."""
-    if executed.sent == "nothing" and not executed.dry_run:
+    """Where nothing was sent, the next touch would be the same, for ever."""
+    if executed.dry_run:
+        raise EndOfEpisode(EndReason.MAX_STEPS, "dry run: one decision, nothing was sent")
+    if executed.sent == "nothing":  # the force is at its limit already
         raise EndOfEpisode(EndReason.LIMIT, "; ".join(executed.clamped))

@@ -121,10 +121,12 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[Repeated,
     Raises:
         LimitError: The episode leaves the limits; nothing was sent for that action.
         RobotError: A device failed.
-        EpisodeError: There is no touch, so no pose to begin at.
+        EpisodeError: There is no touch, so no pose to begin at; or it was a dry run.
     """
     if not episode.ticks:
         raise EpisodeError("the episode has no touch, so no pose to begin at; nothing was moved")
+    if episode.header.dry_run:
+        raise EpisodeError("the episode was a dry run, which moved nothing; nothing to repeat")
     good = episode.end is not None and episode.end.reason == EndReason.SUCCESS
     try:
         approach(rig, episode.ticks[0].tcp_pose, config)

@@ -51,8 +51,10 @@ def turn_line(record: TickRecord, state: ContactState, since_s: float) -> Text:
     if record.executed is None:
         line.append(f" | grip {record.gripper.force_n:.2f} N")
     else:
-        line.append(f": {record.executed.sent} | grip {record.executed.force_n:.2f} N")
-        for clamped in record.executed.clamped:
+        done = record.executed
+        line.append(f": {f'dry run, would be {done.asked}' if done.dry_run else done.sent}")
+        line.append(f" | grip {done.force_n:.2f} N")
+        for clamped in done.clamped:
             line.append(f" ({clamped})", style="yellow")
     return line.append(f" | {record.tick_ms:.0f} ms{_noted(record)}")
 
@@ -68,13 +70,13 @@ def contact_words(state: ContactState) -> str:
     )
 
 
-def end_lines(outcome: Outcome, *, dry_run: bool = False) -> list[Text]:
+def end_lines(outcome: Outcome) -> list[Text]:
     """The end's reason, the truth where there is one, and the paper's last line when earned."""
     lines = [
         Text(f"end: {outcome.reason} - {outcome.message}", style="bold"),
         Text(
             f"{outcome.steps} actions in {outcome.turns} turns, {outcome.duration_s:.1f} s; "
-            f"{'nothing was sent' if dry_run else outcome.safe_state}"
+            f"{outcome.safe_state}"
         ),
     ]
     if outcome.truth is not None:

@@ -73,7 +73,7 @@ def _run(config: RunConfig) -> Outcome:
     finally:
         rig.disconnect()
     out.print(f"episode: {path}")
-    for line in end_lines(outcome, dry_run=config.dry_run):
+    for line in end_lines(outcome):
         out.print(line)
     return outcome
 

@@ -27,7 +27,7 @@ from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
 from tacgrasp.episodes import Phase, TickRecord
 from tacgrasp.outcome import EndReason
-from tacgrasp.verify import verify_by_lifting
+from tacgrasp.verify import not_lifted, verify_by_lifting
 
 
 def test_a_declared_and_verified_grasp_is_a_success_and_is_held() -> None:
@@ -296,3 +296,13 @@ def test_observers_are_told_every_turn_after_it_is_recorded() -> None:
         observers=[lambda record: told.append((record.index, len(recorder.ticks)))],
     )
     assert told == [(0, 1), (1, 2)]
+
+
+@pytest.mark.parametrize("text", [DOWN, LIGHT, GOOD])
+def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> None:
+    settings = config().model_copy(update={"dry_run": True})
+    outcome, rig, recorder = play(Says(text), settings=settings, verify=not_lifted)
+    assert set(rig.calls) <= {"sensor.read", "arm.pose", "gripper.state"}
+    assert outcome.reason in (EndReason.MAX_STEPS, EndReason.UNVERIFIED)
+    assert outcome.steps == 0
+    assert len(recorder.ticks) == 1
