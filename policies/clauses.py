@@ -146,7 +146,7 @@ def sentences(text: str) -> tuple[Sentence, ...]:
             found[-1] = _sentence(list(found[-1].words), question=True)
     if words:
         found.append(_sentence(words, question=False))
-    return tuple(found)
+    return tuple(s for s in found if s.segments)
 
 
 def _sentence(words: list[str], *, question: bool) -> Sentence:

@@ -12,6 +12,8 @@ choices, where the paper is silent:
 * Two different actions, or ``<none>`` beside one, are ambiguous: no action and no success either,
   since a Decision with success and no action ends the loop.
 
+* A text of more than ``MAX_CHARACTERS`` is not read at all.
+
 In doubt it reads nothing: the loop then holds still and asks again. Not here: the grammar
 (``policies.clauses``, ``mentions``, ``requests``, ``verdict``).
 """
@@ -25,6 +27,9 @@ from policies.mentions import Mention, mentions
 from policies.requests import Status, status
 from policies.verdict import Verdict, verdict
 from primitives import Primitive
+
+MAX_CHARACTERS = 2000
+"""A longer text is no decision: a model that did not stop. Our choice; D_t has about 300."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,6 +55,9 @@ def extract(text: str) -> Extraction:
     Source: paper, Algorithm 1, lines 'extract action' and 'if any keyword'; mended as the module
     says.
     """
+    if len(text) > MAX_CHARACTERS:
+        reason = f"{len(text)} characters are no decision; at most {MAX_CHARACTERS} are read"
+        return Extraction(action=None, success=False, reason=reason, ambiguous=False)
     asked: set[Primitive] = set()
     later: set[Primitive] = set()
     notes: list[str] = []

@@ -1,9 +1,14 @@
 """Sentences and what must be read in them: (text, action or None, success)."""
 
-from primitives import Primitive as P
+from primitives import Primitive
 
-UP, DOWN, LEFT, RIGHT = P.MOVE_UP, P.MOVE_DOWN, P.MOVE_LEFT, P.MOVE_RIGHT
-INC, DEC, RESET = P.INCREASE_FORCE, P.DECREASE_FORCE, P.RESET
+UP, DOWN, LEFT, RIGHT = (
+    Primitive.MOVE_UP,
+    Primitive.MOVE_DOWN,
+    Primitive.MOVE_LEFT,
+    Primitive.MOVE_RIGHT,
+)
+INC, DEC, RESET = Primitive.INCREASE_FORCE, Primitive.DECREASE_FORCE, Primitive.RESET
 
 SUCCESS = [
     "The grasp is stable.",
@@ -297,10 +302,10 @@ NOTHING = [
 ]
 
 ACTIONS = [
-    *((p.value, p, False) for p in P),
-    *((f"<{p}>", p, False) for p in P),
-    *((f"Action: {p.upper()}.", p, False) for p in P),
-    *((f"action: <{p}>", p, False) for p in P),
+    *((p.value, p, False) for p in Primitive),
+    *((f"<{p}>", p, False) for p in Primitive),
+    *((f"Action: {p.upper()}.", p, False) for p in Primitive),
+    *((f"action: <{p}>", p, False) for p in Primitive),
     ("`move_down`", DOWN, False),
     ("**move_left**", LEFT, False),
     ("move\\_right", RIGHT, False),
