@@ -14,7 +14,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -61,6 +62,17 @@ def _motions(count: int = 500) -> FloatArray:
 _MOTIONS = _motions()
 
 
+def _around(motion: FloatArray, spread: float) -> FloatArray:
+    """Unit motions in a 5 × 5 grid of steps ``spread`` about one. Shape (25, 3)."""
+    aside = np.cross(motion, np.eye(3)[int(np.argmin(np.abs(motion)))])
+    aside /= np.linalg.norm(aside)
+    other = np.cross(motion, aside)
+    steps = spread * np.arange(-2, 3)
+    near = motion + steps[:, None, None] * aside + steps[:, None] * other
+    near = near.reshape(-1, 3)
+    return np.asarray(near / np.linalg.norm(near, axis=1, keepdims=True))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Patch:
     """A body pressed between the fingers, seen by one of them.
@@ -89,24 +101,60 @@ class Resistance:
     Attributes:
         margin: Largest factor on the load that friction resists; below 1 the body slides.
         motion: Shape (3,), the motion (x, y [mm], rotation [rad] × 5 mm) in which it would slide.
-        excess_w: Power of load less friction in that motion, per unit speed.
+        excess_n: Load less friction along that motion [N].
         patch_speed: Root mean square speed of the patch in that motion, per unit speed.
     """
 
     margin: float
     motion: FloatArray
-    excess_w: float
+    excess_n: float
     patch_speed: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(slots=True, kw_only=True)
 class _Friction:
-    """What a patch dissipates, per unit speed, in each of ``_MOTIONS``, and how it is pushed."""
+    """A patch's loaded blocks about the centre of mass; what ``_MOTIONS`` dissipate in them."""
 
     patch: Patch
-    dissipated: FloatArray
-    patch_speed: FloatArray
+    force: FloatArray
+    x: FloatArray
+    y: FloatArray
     push: FloatArray
+    dissipated: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+    def slide(self, motions: FloatArray) -> FloatArray:
+        """Force times sliding speed, summed over the blocks, for each motion."""
+        return np.asarray(np.sqrt(self._squared_speed(motions)) @ self.force)
+
+    def patch_speed(self, motion: FloatArray) -> float:
+        """Root mean square speed of the patch in a motion."""
+        square = self._squared_speed(motion[None])[0]
+        return float(np.sqrt(square @ self.force / self.force.sum()))
+
+    def _squared_speed(self, motions: FloatArray) -> FloatArray:
+        spin = motions[:, 2:] / _LENGTH_MM
+        return np.asarray(
+            (motions[:, :1] - spin * self.y) ** 2 + (motions[:, 1:2] + spin * self.x) ** 2
+        )
+
+
+class _Worst(NamedTuple):
+    margin: float
+    motion: FloatArray
+    excess_n: float
+
+
+def _worst(motions: FloatArray, dissipated: FloatArray, load: FloatArray) -> _Worst:
+    """The motion, of either sign, that the load is nearest to driving."""
+    power = motions @ load
+    margins = dissipated / np.maximum(np.abs(power), 1e-12)
+    at = int(np.argmin(margins))
+    forwards = 1.0 if power[at] >= 0 else -1.0
+    return _Worst(
+        margin=float(margins[at]),
+        motion=forwards * motions[at],
+        excess_n=float(abs(power[at]) - dissipated[at]),
+    )
 
 
 class FlatFingers:
@@ -207,30 +255,26 @@ class FlatFingers:
         load = friction.push.copy()
         load[0] -= half_mass * acceleration_m_s2[0]
         load[1] -= half_mass * (GRAVITY_M_S2 + acceleration_m_s2[1])
-        power = _MOTIONS @ load
-        with np.errstate(divide="ignore"):
-            margin = friction.dissipated / np.abs(power)
-        worst = int(np.argmin(margin))
+        worst = _worst(_MOTIONS, friction.dissipated, load)
+        for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
+            near = _around(worst.motion, spread)
+            worst = _worst(near, self.body.friction * friction.slide(near), load)
         return Resistance(
-            margin=float(margin[worst]),
-            motion=_MOTIONS[worst] * np.sign(power[worst]),
-            excess_w=float(abs(power[worst]) - friction.dissipated[worst]),
-            patch_speed=float(friction.patch_speed[worst]),
+            margin=worst.margin,
+            motion=worst.motion,
+            excess_n=worst.excess_n,
+            patch_speed=friction.patch_speed(worst.motion),
         )
 
     def _friction_of(self, patch: Patch) -> _Friction:
         """What the patch can dissipate in every motion; kept for the patch last asked about."""
         if self._friction is None or self._friction.patch is not patch:
             force, x, y, push_x, push_y = self._loaded(patch)
-            spin = _MOTIONS[:, 2:] / _LENGTH_MM
-            square = (_MOTIONS[:, :1] - spin * y) ** 2 + (_MOTIONS[:, 1:2] + spin * x) ** 2
             moment = float((x * push_y - y * push_x).sum()) / _LENGTH_MM
-            self._friction = _Friction(
-                patch=patch,
-                dissipated=self.body.friction * (np.sqrt(square) @ force),
-                patch_speed=np.sqrt(square @ force / force.sum()),
-                push=np.array([push_x.sum(), push_y.sum(), moment]),
-            )
+            push = np.array([push_x.sum(), push_y.sum(), moment])
+            friction = _Friction(patch=patch, force=force, x=x, y=y, push=push)
+            friction.dissipated = self.body.friction * friction.slide(_MOTIONS)
+            self._friction = friction
         return self._friction
 
     def _loaded(self, patch: Patch) -> tuple[FloatArray, ...]:

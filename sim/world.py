@@ -127,8 +127,7 @@ class Grasp:
             held = self.fingers.resistance(self.patch, acceleration_m_s2)
             if held.margin >= 1 and self._speed <= 0:
                 return
-            # per unit motion: N (excess is in N since motions are unit vectors of mm) over kg
-            gain = held.excess_w / self.fingers.inertia_kg(held.motion)
+            gain = held.excess_n / self.fingers.inertia_kg(held.motion)
             step = min(left, self._time_to_slide(gain, 0.5e-3 / held.patch_speed))
             slide_mm = 1000 * max(0.0, self._speed * step + gain * step**2 / 2)
             self._speed = max(0.0, self._speed + gain * step)
