@@ -1,0 +1,84 @@
+"""What every Policy must do, whatever it is; run by subclassing ``PolicyContract``.
+
+A subclass gives ``make``: a fresh policy, the same each time. ``decisions`` is how many touches it
+can decide on before it runs out.
+"""
+
+import math
+
+import numpy as np
+import pytest
+
+from cltp.cloud import TactileCloud, cloud_from_heights
+from cltp.sensors import sensor_named
+from policies import Decision, Policy
+from policies.extract import extract
+
+SENSOR = sensor_named("gelsight_mini")
+INSTRUCTION = "Pick the strawberry gently, without bruising it."
+
+
+def cap(x_mm: float, y_mm: float, depth_mm: float) -> TactileCloud:
+    """A rounded dent of 4 mm radius; none when ``depth_mm`` is 0."""
+    across = (np.arange(64) + 0.5) / 64 * SENSOR.width_mm - SENSOR.width_mm / 2
+    down = SENSOR.height_mm / 2 - (np.arange(48) + 0.5) / 48 * SENSOR.height_mm
+    far2 = (across[None, :] - x_mm) ** 2 + (down[:, None] - y_mm) ** 2
+    return cloud_from_heights(depth_mm * np.clip(1 - far2 / 16, 0, None), SENSOR)
+
+
+CLOUDS = [cap(0, 0, 0.4), cap(0, -5, 0.3), cap(7, 0, 0.2), cap(0, 0, 1.2), cap(0, 0, 0)]
+
+
+class PolicyContract:
+    """Subclass as Test...; every test runs on ``make()``."""
+
+    decisions = len(CLOUDS)
+
+    def make(self) -> Policy:
+        raise NotImplementedError
+
+    @pytest.fixture
+    def policy(self) -> Policy:
+        policy = self.make()
+        policy.start()
+        return policy
+
+    def decide_all(self, policy: Policy) -> list[Decision]:
+        return [policy.decide(cloud, INSTRUCTION) for cloud in CLOUDS[: self.decisions]]
+
+    def test_it_has_a_name_that_fits_a_command_line(self, policy):
+        assert policy.name
+        assert policy.name.replace("_", "").isalnum()
+
+    def test_every_decision_is_complete(self, policy):
+        for decision in self.decide_all(policy):
+            assert isinstance(decision, Decision)
+            assert decision.text.strip()
+            assert decision.reason
+            assert 0 <= decision.confidence <= 1
+            assert all(math.isfinite(ms) and ms >= 0 for ms in decision.stage_ms.values())
+
+    def test_action_and_success_are_what_extraction_reads_in_the_text(self, policy):
+        for decision in self.decide_all(policy):
+            found = extract(decision.text)
+            assert decision.action in (found.action, None)  # a policy may abstain
+            assert decision.success in (found.success, False)
+
+    def test_a_fresh_policy_decides_the_same(self, policy):
+        def told(decisions):
+            return [(d.text, d.action, d.success, d.confidence) for d in decisions]
+
+        again = self.make()
+        again.start()
+        assert told(self.decide_all(policy)) == told(self.decide_all(again))
+
+    def test_a_cloud_is_left_as_it_was(self, policy):
+        before = CLOUDS[0].points_mm.copy()
+        policy.decide(CLOUDS[0], INSTRUCTION)
+        assert np.array_equal(CLOUDS[0].points_mm, before)
+
+    def test_start_can_be_called_at_any_time(self, policy):
+        policy.start()
+        self.decide_all(policy)
+        policy.start()
+        self.decide_all(policy)

@@ -1,0 +1,124 @@
+"""The Policy contract on every policy that needs no simulator, and what is each one's own."""
+
+import importlib.util
+
+import pytest
+from policy_contract import CLOUDS, INSTRUCTION, PolicyContract
+
+from cltp.sensors import sensor_named
+from cltp.states import ContactState, Side, area_word, depth_word, position_word
+from policies import Decision, PolicyError
+from policies.baselines import FixedForcePolicy, RandomPolicy
+from policies.goal import Band, Goal
+from policies.recorded import RecordedPolicy
+from policies.rules import RulesPolicy
+from primitives import Primitive
+
+GOAL = Goal(
+    force_n=Band(low=0.5, high=2.5),
+    depth_mm=Band(low=0.1, high=0.6),
+    area_share=Band(low=0.01, high=0.6),
+    x_mm=Band(low=-2.5, high=2.5),
+    y_mm=Band(low=-2.5, high=2.5),
+)
+RECORDED = tuple(
+    Decision(text=f"Next: {p}.", action=p, success=False, reason="recorded")
+    for p in list(Primitive)[: len(CLOUDS)]
+)
+
+
+def by_eye(cloud) -> ContactState:
+    """A crude measurement, enough to tell the contract's dents apart; 3 N per mm."""
+    points = cloud.points_mm
+    x, y, depth = (float(v) for v in points[points[:, 2].argmax()])
+    share = float((points[:, 2] > 0.02).mean())
+    touching = depth > 0.05
+    return ContactState(
+        depth_mm=depth,
+        x_mm=x,
+        y_mm=y,
+        area_share=share,
+        force_n=3 * depth,
+        depth=depth_word(depth) if touching else None,
+        position=position_word(x, y, sensor_named("gelsight_mini")) if touching else None,
+        area=area_word(share) if touching else None,
+        cut=frozenset[Side](),
+    )
+
+
+class TestRules(PolicyContract):
+    def make(self):
+        return RulesPolicy(GOAL, by_eye)
+
+    def test_each_dent_gets_its_advice(self, policy):
+        actions = [d.action for d in self.decide_all(policy)]
+        assert actions == [
+            None,
+            Primitive.MOVE_DOWN,
+            Primitive.MOVE_RIGHT,
+            Primitive.DECREASE_FORCE,
+            Primitive.RESET,
+        ]
+        assert [d.success for d in self.decide_all(policy)] == [True] + 4 * [False]
+
+    def test_every_stage_is_timed(self, policy):
+        decision = policy.decide(CLOUDS[0], INSTRUCTION)
+        assert list(decision.stage_ms) == ["measure", "teacher", "speak", "extract"]
+
+    def test_stages_are_the_differences_of_the_clock_in_ms(self):
+        ticks = iter([0.0, 0.001, 0.003, 0.006, 0.010])
+        stages = RulesPolicy(GOAL, by_eye, lambda: next(ticks)).decide(CLOUDS[0], "").stage_ms
+        assert list(stages.values()) == pytest.approx([1, 2, 3, 4])
+
+
+@pytest.mark.skipif(
+    importlib.util.find_spec("cltp.measure") is None, reason="cltp.measure is not there yet"
+)
+class TestRulesAsShipped(PolicyContract):
+    def make(self):
+        return RulesPolicy(GOAL)
+
+    def test_dents_off_centre_are_followed_and_no_dent_is_a_reset(self, policy):
+        actions = [d.action for d in self.decide_all(policy)]
+        assert actions[1:3] == [Primitive.MOVE_DOWN, Primitive.MOVE_RIGHT]
+        assert actions[4] is Primitive.RESET
+
+
+class TestFixedForce(PolicyContract):
+    def make(self):
+        return FixedForcePolicy()
+
+    def test_it_calls_everything_secure(self, policy):
+        assert all(d.success and d.action is None for d in self.decide_all(policy))
+
+
+class TestRandom(PolicyContract):
+    def make(self):
+        return RandomPolicy(seed=7)
+
+    def test_each_of_the_eight_choices_comes_about_as_often(self, policy):
+        drawn = [policy.decide(CLOUDS[0], INSTRUCTION) for _ in range(1600)]
+        counts = [sum(d.action is p for d in drawn) for p in Primitive]
+        counts.append(sum(d.success for d in drawn))
+        assert sum(counts) == 1600
+        assert all(140 <= n <= 260 for n in counts)  # 200 ± 4.5 standard deviations
+
+    def test_another_seed_draws_otherwise(self, policy):
+        other = RandomPolicy(seed=8)
+        ours = [policy.decide(CLOUDS[0], "").text for _ in range(20)]
+        assert ours != [other.decide(CLOUDS[0], "").text for _ in range(20)]
+
+
+class TestRecorded(PolicyContract):
+    decisions = len(RECORDED)
+
+    def make(self):
+        return RecordedPolicy(RECORDED)
+
+    def test_it_gives_the_recording_in_order(self, policy):
+        assert tuple(self.decide_all(policy)) == RECORDED
+
+    def test_it_says_when_the_recording_is_over(self, policy):
+        self.decide_all(policy)
+        with pytest.raises(PolicyError, match=f"has {len(RECORDED)} decisions and all were given"):
+            policy.decide(CLOUDS[0], INSTRUCTION)
