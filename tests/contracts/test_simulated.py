@@ -1,0 +1,36 @@
+"""The contracts of arm, gripper and sensor, run on the simulated rig."""
+
+import pytest
+from arm_contract import ArmContract
+from gripper_contract import GripperContract
+from sensor_contract import SensorContract
+
+from sim.rig import build
+
+
+class TestSimulatedArm(ArmContract):
+    outside_m = (2.0, 0.0, 0.2)
+
+    @pytest.fixture
+    def arm(self):
+        return build("strawberry", 1).arm
+
+
+class TestSimulatedGripper(GripperContract):
+    @pytest.fixture
+    def gripper(self):
+        return build("strawberry", 1, start_offset_mm=(0.0, 0.0)).gripper
+
+
+class TestSimulatedSensor(SensorContract):
+    @pytest.fixture
+    def sensor(self):
+        rig = build("strawberry", 1, start_offset_mm=(0.0, 0.0))
+        rig.gripper.grip(1.0)
+        return rig.sensor
+
+
+class TestSimulatedSensorOfAnUntouchedGel(SensorContract):
+    @pytest.fixture
+    def sensor(self):
+        return build("strawberry", 1).sensor
