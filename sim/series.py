@@ -53,6 +53,7 @@ _TEXTURE_CHANCE = {
 }
 _SHAPE_WEIGHT = {Shape.SPHERE: 0.8, Shape.ELLIPSOID: 0.5, Shape.CYLINDER: 0.5}  # bodies add some
 _SHALLOWEST_MM, _DEEPEST_MM = 0.1, 1.3
+_SHALLOWEST_TEXTURED_MM = 0.18  # less touches a few tops of the texture, and no shape
 
 ELLIPSOID_RATIO = 1.4
 """Ratio of curvatures from which a cap is an ellipsoid (``cltp.states.Shape``)."""
@@ -102,16 +103,13 @@ def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> S
         gap = body.gap_on(x - at_x, y - at_y)
         if gap.min() < body.thickness_mm / 2:  # else the fingers close beside it
             break
-    first, *ratios = rng.random(num_loads(number))
-    forces = [BODY_FORCE_N[name].quantile(first)]
-    for u in ratios:  # a step or two of the gripper
-        forces.append(forces[-1] * (1.25 + 1.25 * u))
+    shares = np.sort(rng.random(num_loads(number)))
     return Series(
         number=number,
         object=name,
         gap_mm=gap - gap.min(),
         modulus_mpa=body.modulus_mpa,
-        loads=tuple(forces),
+        loads=tuple(BODY_FORCE_N[name].quantile(u) for u in shares),
         shape=_body_shape(body),
         texture=_BODY_TEXTURE.get(name, Texture.SMOOTH),
     )
@@ -159,7 +157,8 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     if indenter.textured:
         chances = np.array(list(_TEXTURE_CHANCE.values()))
         texture = list(_TEXTURE_CHANCE)[int(rng.choice(len(chances), p=chances))]
-    depths = _depths(rng, num_loads(number), gentle=shape is Shape.PLANE)
+    lowest = _SHALLOWEST_MM if texture is Texture.SMOOTH else _SHALLOWEST_TEXTURED_MM
+    depths = _depths(rng, num_loads(number), lowest, gentle=shape is Shape.PLANE)
     x, y = np.meshgrid(*grid_axes_mm(sensor, ROWS, COLUMNS))
     relief = relief_mm(texture, rng, x, y, sensor)
     at_x, at_y = _place(rng, sensor.width_mm / 2, sensor.height_mm / 2)
@@ -186,10 +185,12 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     )
 
 
-def _depths(rng: np.random.Generator, count: int, *, gentle: bool) -> tuple[float, ...]:
+def _depths(
+    rng: np.random.Generator, count: int, lowest_mm: float, *, gentle: bool
+) -> tuple[float, ...]:
     """Rising depths [mm] in different classes; ``gentle`` leaves out the deeper two."""
-    limits = [_SHALLOWEST_MM, *DEPTH_LIMITS_MM, _DEEPEST_MM]
+    limits = [lowest_mm, *DEPTH_LIMITS_MM, _DEEPEST_MM]
     if gentle:
-        limits = np.linspace(_SHALLOWEST_MM, DEPTH_LIMITS_MM[1], 5).tolist()
+        limits = np.linspace(lowest_mm, DEPTH_LIMITS_MM[1], 5).tolist()
     chosen = np.sort(rng.choice(4, size=count, replace=False))
     return tuple(float(rng.uniform(limits[i], limits[i + 1])) for i in chosen)

@@ -263,10 +263,14 @@ def _crescent(rng: np.random.Generator) -> Surface:
     return lambda u, v: profile(arc(u + radius, v, radius, half_angle))
 
 
+_DOT_BASE_MM = 1.6
+"""Behind the tops of dots, out of reach of the deepest press [mm]."""
+
+
 def _dots(rng: np.random.Generator) -> Surface:
     """Three to twelve round bumps on a square or hexagonal lattice, on a flat or curved base."""
     pitch = rng.uniform(2, 5)
-    radius, out = rng.uniform(0.5, 0.9), rng.uniform(0.6, 0.9)
+    radius = rng.uniform(0.5, 0.9)
     count, skew = int(rng.integers(3, 13)), rng.choice([0.0, 0.5])
     i, j = (a.ravel().astype(np.float64) for a in np.mgrid[-3:4, -3:4])
     at_u, at_v = (i + skew * j) * pitch, j * pitch * math.sqrt(1 - skew**2)
@@ -275,7 +279,7 @@ def _dots(rng: np.random.Generator) -> Surface:
     curved = 1 / rng.uniform(25, 60) if rng.random() < 0.3 else 0.0
 
     def behind(u: FloatArray, v: FloatArray) -> FloatArray:
-        base = np.full(np.shape(u), radius * out * 1.5)
+        base = np.full(np.shape(u), _DOT_BASE_MM)
         for one_u, one_v in zip(at_u, at_v, strict=True):
             squared = ((u - one_u) ** 2 + (v - one_v) ** 2) / radius**2
             base = np.minimum(base, _cap(squared, radius))

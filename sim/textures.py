@@ -57,7 +57,8 @@ def relief_mm(
 def _rough(rng: np.random.Generator, shape: tuple[int, ...], sensor: SensorSpec) -> FloatArray:
     spread, length = rng.uniform(0.03, 0.08), rng.uniform(0.3, 0.6)
     field = smooth_field((shape[0], shape[1]), sensor, length, rng)
-    return spread * field.astype(np.float64)
+    # Clipped: the one highest of thousands of tops would hold all others off the gel.
+    return spread * field.astype(np.float64).clip(-2, 2)
 
 
 def _valley(along: FloatArray, period: float) -> FloatArray:

@@ -13,6 +13,7 @@ COMMANDS = {
     "replay": "show an episode tick by tick; --decide asks a policy again, --execute moves again",
     "episodes": "ls, info, recover, plot: what has been recorded",
     "describe": "say in words and numbers what a cloud or height map in a file is",
+    "data": "generate: make contacts to learn from; goes on where it was stopped",
     "bench": "strawberry, latency, gel, crash: measure and print figures",
 }
 

@@ -61,7 +61,8 @@ def generate(
         UsageError: A value makes no sense, or the folder holds the data of another command.
         TouchError: The folder is no data set of this version, or can't be written.
     """
-    workers = workers or len(os.sched_getaffinity(0))
+    if workers is None:
+        workers = len(os.sched_getaffinity(0))
     if contacts < 1 or not 0 <= seed < BENCHMARK_SEED or workers < 1:
         raise UsageError(
             f"expected at least 1 contact, at least 1 worker and a seed from 0 to "
