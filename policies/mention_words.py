@@ -39,10 +39,10 @@ RISE = _forms("raise elevate lift")
 FALL = _forms("lower")
 CLIMB = _forms("ascend climb")
 SINK = _forms("descend")
-MORE = _forms("increase boost strengthen intensify amplify raise add/adding/added up/upping/upped")
+MORE = _forms("increase boost strengthen intensify amplify raise add/adding/added")
 LESS = _forms(
     "decrease reduce lower lessen ease relax loosen soften weaken lighten diminish slacken "
-    "drop/dropping/dropped cut/cutting/cut moderate reduction"
+    "drop/dropping/dropped reduction"
 )
 TIGHTEN = _forms("tighten firm strengthen")
 LOOSEN = _forms("loosen slacken ease relax soften")

@@ -130,7 +130,7 @@ def _force_verb(words: tuple[str, ...], i: int) -> Mention | None:
         if form is None:
             continue
         after = _skip(words, i + 1, {"in", "of", "off", "up"})
-        plain = words[i] not in ("lower", "raise", "drop", "cut", "add", "up", "moderate")
+        plain = words[i] not in ("lower", "raise", "drop", "add")
         end = _object(words, after, lex.GRIP if plain else lex.FORCE)
         verb = _word(words, i - 1) not in ("a", "an", "the", "any", "no", "slight", "small")
         if end is not None and verb and form is Form.BASE and _word(words, end) in lex.SAID_OF:

@@ -13,6 +13,7 @@ from policies.clauses import NEGATORS, UNKNOWN, Sentence, word_set
 from policies.mentions import Form, Mention
 
 GOAL_LABELS = word_set(
+    "said says operator "
     "goal task instruction instructions aim target objective prompt user question requirement "
     "example human previous previously history earlier"
 )
@@ -32,6 +33,7 @@ class Status(StrEnum):
 
 
 _NO_VERBS = word_set(
+    "forget "
     "avoid avoiding avoids refrain refraining prevent prevents preventing stop stops stopping "
     "quit cease skip skipping against cancel abort forbid forbids forbidden prohibited prohibits "
     "prohibit instead_of unable impossible unnecessary needless pointless useless fail fails "

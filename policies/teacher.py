@@ -13,12 +13,10 @@ from enum import StrEnum
 from cltp.states import ContactState, Side
 from policies.goal import Band, Goal
 from primitives import Primitive
+from primitives.execution import INCREASE_FACTOR
 
 MOVE_STEP_MM = 3.0
 """How far one move goes; the design's default. Only used to see whether a move would help."""
-
-INCREASE_FACTOR = 1.5
-"""What ``increase_force`` multiplies the force by (``primitives.execution``)."""
 
 DEPTH_EXPONENT = 2.0 / 3.0
 """Indentation grows as force to this power. Source: Hertz; a bonded gel grows less."""

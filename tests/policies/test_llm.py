@@ -1,0 +1,126 @@
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from cltp.cloud import TactileCloud, cloud_from_heights
+from cltp.encoder import PRESETS, TactileEncoder
+from cltp.heads import StateHeads
+from cltp.language import Language, small_lm
+from cltp.sensors import SENSORS
+from cltp.tac3d_llm import Projector, Tac3dLlm
+from cltp.talk import Reply
+from cltp.tokenizer import ACTIONS, Words
+from cltp.weights import WeightsError, save_encoder, save_tac3d_llm
+from policies.errors import PolicyError
+from policies.extract import extract
+from policies.llm import LlmPolicy, check_instruction, held_because
+
+TEXTS = [
+    "Pick the strawberry gently, without bruising it.",
+    "Please hold the egg securely, but do not crack it.",
+    "Grip the peg firmly so that it does not turn.",
+] * 20
+
+
+@pytest.fixture(scope="module")
+def words() -> Words:
+    return Words.train(TEXTS, size=600)
+
+
+@pytest.fixture(scope="module")
+def untrained(words: Words, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("weights")
+    torch.manual_seed(0)
+    encoder = TactileEncoder(PRESETS["tiny"])
+    save_encoder(folder / "encoder", encoder, StateHeads(2 * encoder.config.dim))
+    language = Language(small_lm(words, dim=48, layers=1), words=words)
+    save_tac3d_llm(folder, Tac3dLlm(encoder, Projector(48, 48), language))
+    return folder
+
+
+def touch() -> TactileCloud:
+    y, x = np.mgrid[0:40, 0:50]
+    return cloud_from_heights(
+        0.4 * np.exp(-((x - 25) ** 2 + (y - 20) ** 2) / 60), SENSORS["gelsight_mini"]
+    )
+
+
+def reply(text: str, action: str | None, chance: float = 0.9, *, ended: bool = True) -> Reply:
+    chances = [(1 - chance) / 7] * 8
+    if action is not None:
+        chances[ACTIONS.index(action)] = chance
+    return Reply(
+        text=text,
+        ended=ended,
+        num_tokens=20,
+        action=action,
+        probabilities=tuple(chances) if action else (),
+        stage_ms={},
+    )
+
+
+@pytest.mark.parametrize(
+    ("said", "reason"),
+    [
+        (reply("Action: <move_up>. It is off", "<move_up>", ended=False), "did not end"),
+        (reply("The the the.", None), "comes to no action"),
+        (reply("Action: <move_up>. Then <move_down>.", "<move_up>"), "was chosen"),
+        (reply("Action: <move_up>. It is off centre.", "<move_up>", 0.3), "abstained"),
+        (reply("Action: <none>. Move up.", "<none>"), None),
+    ],
+)
+def test_nothing_is_done_about_a_reply_that_does_not_stand(said: Reply, reason: str | None) -> None:
+    found = extract(said.text)
+    held = held_because(said, found, 0.5)
+    if reason is None:  # extraction itself calls this one ambiguous
+        assert found.action is None
+        assert not found.success
+    else:
+        assert reason in held
+
+
+@pytest.mark.parametrize("action", ACTIONS)
+def test_a_clear_reply_stands(action: str) -> None:
+    said = reply(f"smooth sphere, deep 0.70 mm. Action: {action}. It is so.", action)
+    assert held_because(said, extract(said.text), 0.5) == ""
+
+
+def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) -> None:
+    policy = LlmPolicy(untrained)
+    policy.start()
+    decision = policy.decide(touch(), "Pick the strawberry gently.")
+    assert decision.action is None
+    assert not decision.success
+    assert decision.reason
+    assert set(decision.stage_ms) == {"sample", "encode", "project", "generate", "extract"}
+    assert policy.decide(touch(), "Pick the strawberry gently.").text == decision.text
+
+
+@pytest.mark.parametrize(
+    ("instruction", "message"),
+    [
+        ("", "in words"),
+        ("  123 !!", "in words"),
+        ("strawberry " * 10_000, "shorten"),
+        ("Hebe die Erdbeere vorsichtig hoch, ohne sie zu zerdrücken.", "plain English"),
+        ("Soulève la fraise délicatement sans l'écraser.", "plain English"),
+        ("请轻轻地拿起草莓", "plain English"),
+    ],
+)
+def test_an_instruction_that_it_cannot_know_is_refused(
+    words: Words, instruction: str, message: str
+) -> None:
+    with pytest.raises(PolicyError, match=message):
+        check_instruction(instruction, words)
+
+
+def test_known_words_are_let_through(words: Words) -> None:
+    check_instruction("Hold the strawberry securely.", words)
+    check_instruction("Hebe die Erdbeere vorsichtig.", None)  # a stock model may know it
+
+
+def test_missing_weights_say_what_to_do(tmp_path: Path) -> None:
+    with pytest.raises(WeightsError, match="train"):
+        LlmPolicy(tmp_path)
