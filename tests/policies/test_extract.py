@@ -15,7 +15,7 @@ JUNK_WORDS = word_set(
     "contact berry bottom left right upper corner deep pad gel mm force depth area table centre "
     "finger is at the of with moderate small pressed 0.3 12 N ( ) , ; slight very tiny "
     "medium large centered middle-left bottom-center cut edge sphere ellipsoid smooth ridged "
-    "object newton light firm soft high low too much deepest tilted slipping gripper grasp normal mean"
+    "object newton light firm soft high low too much deepest tilted slipping gripper grasp normal"
 )
 GRAMMAR_WORDS = word_set(
     "not stable secure move down up the grasp is if or and but , . ? : ; no force increase reduce "
