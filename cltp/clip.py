@@ -105,7 +105,7 @@ def load_towers(folder: Path) -> Towers:
     """
     try:
         loaded: Any = CLIPModel.from_pretrained(
-            folder, local_files_only=True, output_loading_info=True
+            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
         )
         clip, info = loaded
     except (OSError, ValueError, RuntimeError, SafetensorError) as error:

@@ -34,7 +34,8 @@ class EncoderConfig:
         heads: Attention heads; divides ``dim``.
         num_groups: Tokens beside the class token; 64 for ``lattice``.
         group_size: Points in a group of ``fps``.
-        stem_dim: Channels at the finest level of ``lattice``; width of the PointNet in ``fps``.
+        stem_dim: Channels of ``lattice`` before its groups; width of the PointNet in ``fps``.
+        stem_blocks: Pairs of convolutions in ``lattice``.
         feature_dim: Width of the aligned feature, that of CLIP.
 
     Raises:
@@ -42,12 +43,13 @@ class EncoderConfig:
     """
 
     tokenizer: str = "lattice"
-    dim: int = 192
-    depth: int = 4
+    dim: int = 128
+    depth: int = 2
     heads: int = 4
     num_groups: int = 64
     group_size: int = 32
-    stem_dim: int = 32
+    stem_dim: int = 64
+    stem_blocks: int = 1
     feature_dim: int = 128
 
     def __post_init__(self) -> None:
@@ -97,7 +99,7 @@ class TactileEncoder(nn.Module):
         dim = config.dim
         self.tokenizer: nn.Module
         if config.tokenizer == "lattice":
-            self.tokenizer = LatticeTokenizer(dim, config.stem_dim)
+            self.tokenizer = LatticeTokenizer(dim, config.stem_dim, config.stem_blocks)
         else:
             self.tokenizer = FpsTokenizer(
                 dim, config.stem_dim, config.num_groups, config.group_size
@@ -165,19 +167,20 @@ class LatticeTokenizer(nn.Module):
     """Convolutions over the 32 × 32 lattice of points down to 8 × 8 tokens.
 
     Four neighbouring points become one cell of 16 × 16, which keeps all that they say at a quarter
-    of the cost; two convolutions mix cells; each 2 × 2 cells with those around become a token.
+    of the cost; pairs of convolutions mix cells; each 2 × 2 cells with those around become a token.
 
     Args:
         dim: Width of the tokens.
         stem_dim: Channels at 16 × 16.
+        blocks: Pairs of convolutions there.
     """
 
     CHANNELS = 4
 
-    def __init__(self, dim: int, stem_dim: int) -> None:
+    def __init__(self, dim: int, stem_dim: int, blocks: int) -> None:
         super().__init__()
         self.stem = nn.Conv2d(4 * self.CHANNELS, stem_dim, 3, padding=1)
-        self.mix = ConvBlock(stem_dim)
+        self.mix = nn.Sequential(*(ConvBlock(stem_dim) for _ in range(blocks)))
         self.group = nn.Conv2d(stem_dim, dim, 3, stride=2, padding=1)
         self.position = nn.Parameter(torch.randn(1, 64, dim) * 0.02)
 

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.contacts import Contact
 from cltp.dataset import ContactDataset
 from cltp.inputs import LATTICE, scaled
 from cltp.noise import GAIN_LOG_RATIO, NoiseUnit
@@ -54,12 +53,14 @@ class Batch:
         points: Shape (B, 1024, 3), float32, scaled, in the order of ``cltp.inputs``.
         height_mm: The clean heights behind each cloud, mirrored alike; for rendering.
         states: Their labels, mirrored alike.
+        mirror: Shape (B, 2), bool: mirrored along x, along y.
     """
 
     index: NDArray[np.int64]
     points: NDArray[np.float32]
     height_mm: list[NDArray[np.float32]]
     states: list[ContactState]
+    mirror: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -89,26 +90,45 @@ class Sampler:
         dataset: Where contacts come from.
         augmentation: How they are varied.
         seed: Of everything that is drawn.
+        shuffle_labels: Gives each contact the label of another: a control that must not learn.
     """
 
     def __init__(
-        self, dataset: ContactDataset, augmentation: Augmentation | None = None, *, seed: int = 0
+        self,
+        dataset: ContactDataset,
+        augmentation: Augmentation | None = None,
+        *,
+        seed: int = 0,
+        shuffle_labels: bool = False,
     ) -> None:
         self.dataset = dataset
+        self._label = np.arange(len(dataset))
+        if shuffle_labels:
+            self._label = np.random.default_rng([seed, 99]).permutation(len(dataset))
         self.augmentation = augmentation or Augmentation()
         self.seed = seed
+        self._orders: dict[int, NDArray[np.int64]] = {}
 
     def batch(self, indices: NDArray[np.int64], step: int) -> Batch:
         """The samples of the given contacts, varied as step ``step`` of this seed varies them."""
         rng = np.random.default_rng([self.seed, step])
         points, heights, states = [], [], []
-        for index in indices:
-            height_mm, state, sensor = self._contact(int(index), rng)
+        mirror = rng.random((len(indices), 2)) < (0.5 if self.augmentation.mirror else 0.0)
+        for index, (along_x, along_y) in zip(indices, mirror, strict=True):
+            sensor = sensor_named(self.dataset.column("sensor")[index])
+            height_mm = self.dataset.height_mm(int(index))
+            height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
+            state = self.dataset.state(int(self._label[index]))
+            state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
             points.append(self.cloud(height_mm, sensor, rng))
             heights.append(height_mm)
             states.append(state)
         return Batch(
-            index=np.asarray(indices), points=np.stack(points), height_mm=heights, states=states
+            index=np.asarray(indices),
+            points=np.stack(points),
+            height_mm=heights,
+            states=states,
+            mirror=mirror,
         )
 
     def training(self, batch_size: int, first_step: int = 0) -> Iterator[Batch]:
@@ -118,35 +138,29 @@ class Sampler:
             batch_size: Contacts in a batch.
             first_step: Where to go on; step ``n`` is the same wherever one starts.
         """
-        size = len(self.dataset)
         step = first_step
         while True:
-            places = np.arange(step * batch_size, (step + 1) * batch_size)
-            orders = {e: self._order(e) for e in {int(p) // size for p in places}}
-            yield self.batch(
-                np.array([orders[int(p) // size][int(p) % size] for p in places]), step
-            )
+            yield self.numbered(batch_size, step)
             step += 1
 
+    def numbered(self, batch_size: int, step: int) -> Batch:
+        """The batch of one step of ``training``."""
+        size = len(self.dataset)
+        places = range(step * batch_size, (step + 1) * batch_size)
+        indices = np.array([self._order(place // size)[place % size] for place in places])
+        return self.batch(indices, step)
+
     def _order(self, epoch: int) -> NDArray[np.int64]:
-        return np.random.default_rng([self.seed, 1_000_003, epoch]).permutation(len(self.dataset))
+        if epoch not in self._orders:
+            rng = np.random.default_rng([self.seed, 1_000_003, epoch])
+            self._orders = {epoch: rng.permutation(len(self.dataset))}
+        return self._orders[epoch]
 
     def evaluation(self, batch_size: int, limit: int | None = None) -> Iterator[Batch]:
         """Every contact once, in order; the last batch may be smaller."""
         size = len(self.dataset) if limit is None else min(limit, len(self.dataset))
         for step, start in enumerate(range(0, size, batch_size)):
             yield self.batch(np.arange(start, min(start + batch_size, size)), step)
-
-    def _contact(
-        self, index: int, rng: np.random.Generator
-    ) -> tuple[NDArray[np.float32], ContactState, SensorSpec]:
-        height_mm, state = self.dataset.height_mm(index), self.dataset.state(index)
-        sensor = sensor_named(self.dataset.column("sensor")[index])
-        if self.augmentation.mirror:
-            along_x, along_y = rng.random(2) < 0.5
-            height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
-            state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
-        return height_mm, state, sensor
 
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
@@ -205,16 +219,3 @@ def _sampled(
     bottom = flat[at + columns] * (1 - fc) + flat[at + columns + 1] * fc
     z = top + (bottom - top) * fr
     return np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
-
-
-def contact_batch(contacts: list[Contact], augmentation: Augmentation, seed: int = 0) -> Batch:
-    """A batch of contacts in hand, without a data set."""
-    rng = np.random.default_rng(seed)
-    sampler = Sampler.__new__(Sampler)
-    sampler.augmentation = augmentation
-    return Batch(
-        index=np.arange(len(contacts)),
-        points=np.stack([sampler.cloud(c.height_mm, c.sensor, rng) for c in contacts]),
-        height_mm=[c.height_mm for c in contacts],
-        states=[c.state for c in contacts],
-    )

@@ -1,6 +1,6 @@
 """Text to tokens: a byte-level BPE of our own sentences, with one token for each action.
 
-Digits stand alone ('0.42' is four tokens) so that numbers are read and written digit by digit. Any
+Numbers are read and written digit by digit: ' -3.42' is ' -3', '.4' and '2'. Any
 text can be encoded: what the vocabulary lacks falls apart into pieces, in the end into bytes.
 """
 
@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable, Sequence
+from itertools import chain
 from pathlib import Path
 
 from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
@@ -31,6 +33,12 @@ ACTIONS = (
 """The eight choices at the action's place in D_t. ``cltp`` knows them as words, no more."""
 
 FILE = "tokenizer.json"
+
+PIECES = r" ?[+-]?\d|\.\d| ?\p{L}+| ?[^\s\p{L}\p{N}]+|\s+"
+"""What tokens don't reach beyond: one digit with its sign and space or with the point before it, a
+word, a run of other signs."""
+
+_ACTION = re.compile(r"(?<=\S)(?=(?:" + "|".join(ACTIONS) + "))")
 
 
 class Words:
@@ -61,19 +69,25 @@ class Words:
         tokenizer = Tokenizer(models.BPE())
         tokenizer.pre_tokenizer = pre_tokenizers.Sequence(
             [
-                pre_tokenizers.Split(Regex(r"\d"), behavior="isolated"),
-                pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=True),
+                pre_tokenizers.Split(Regex(PIECES), behavior="isolated"),
+                pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False),
             ]
         )
         tokenizer.decoder = decoders.ByteLevel()
         trainer = trainers.BpeTrainer(
             vocab_size=size,
             min_frequency=2,
-            special_tokens=[AddedToken(token, special=True) for token in (*CONTROL, *ACTIONS)],
+            special_tokens=[
+                *(AddedToken(token, special=True) for token in CONTROL),
+                # The space before an action belongs to it: no token of its own.
+                *(AddedToken(token, special=True, lstrip=True) for token in ACTIONS),
+            ],
             initial_alphabet=pre_tokenizers.ByteLevel.alphabet(),
             show_progress=False,
         )
-        tokenizer.train_from_iterator(texts, trainer)
+        # Pieces of numbers first, so that each is a token even where the texts have few.
+        pieces = [f" {d} +{d} -{d}.{d}" for d in range(10)] * 1000
+        tokenizer.train_from_iterator(chain(pieces, texts), trainer)
         return cls(tokenizer)
 
     @classmethod
@@ -112,11 +126,15 @@ class Words:
                 text = text.replace(token, token.strip("<>"))
         return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
 
+    def knows(self, word: str) -> bool:
+        """Whether a word is a token of its own, as one that was common in training is."""
+        return len(self.encode(f" {word}", trusted=False)) == 1
+
     def decode(self, ids: Sequence[int]) -> str:
-        """Text of tokens; actions appear as they are spelled, control tokens don't."""
+        """Text of tokens; actions appear spelled, after a space, and control tokens don't."""
         control = {self.pad, self.bos, self.eos, self.user, self.reply}
         kept = [i for i in ids if i not in control]
-        return self._tokenizer.decode(kept, skip_special_tokens=False)
+        return _ACTION.sub(" ", self._tokenizer.decode(kept, skip_special_tokens=False))
 
     def fingerprint(self) -> str:
         """SHA-256 of the vocabulary: weights name the tokenizer that they were trained with."""

@@ -1,0 +1,187 @@
+"""Stages 'text', 'projector' and 'joint' of Tac3D-LLM (paper, section 5.3, after LLaVA).
+
+text: the language model alone learns how contacts are described and what is advised on them.
+projector: encoder and language model are frozen; the MLP between learns by captioning, which is
+    all that the paper does.
+joint: projector and language model learn captions, questions and advice together; the encoder
+    stays as CLTP left it.
+
+What is said about a contact comes from ``Lessons``; this package knows no goals and no actions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+import torch
+from torch import Tensor, nn
+
+from cltp.contacts import Split
+from cltp.dataset import ContactDataset
+from cltp.encoder import TactileEncoder
+from cltp.language import Language, small_lm
+from cltp.packing import Exchange, Packed, pack
+from cltp.samples import Augmentation, Sampler
+from cltp.states import ContactState
+from cltp.tac3d_llm import Projector, Tac3dLlm
+from cltp.tokenizer import Words
+from cltp.train.ahead import ahead
+from cltp.train.stage import Report, Schedule, Stage, device, silent
+from cltp.weights import load_encoder, save_tac3d_llm
+
+TEXT = Schedule(steps=1200, batch_size=24, learning_rate=2e-3)
+PROJECTOR = Schedule(steps=600, batch_size=32, learning_rate=2e-3)
+JOINT = Schedule(steps=2400, batch_size=16, learning_rate=1e-3)
+
+ACTION_WEIGHT = 4.0
+"""Of the one token that moves the robot, beside about sixty that describe."""
+
+
+class Lessons(Protocol):
+    """What can be asked and said about a contact."""
+
+    def captions(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Descriptions of a contact, in one or more wordings."""
+        ...
+
+    def mixed(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Captions, questions and advice on a contact."""
+        ...
+
+
+def train_words(
+    data_dir: Path, lessons: Lessons, *, size: int = 1024, num_contacts: int = 4000, seed: int = 0
+) -> Words:
+    """Learn the tokenizer from what is said about the contacts of a data set."""
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    rng = np.random.default_rng([seed, 77])
+    texts: list[str] = []
+    for index in rng.integers(len(data), size=num_contacts):
+        state = data.state(int(index))
+        for exchange in (*lessons.mixed(state, rng), *lessons.captions(state, rng)):
+            texts += [exchange.prompt, exchange.reply]
+    return Words.train(texts, size)
+
+
+def train_llm(
+    data_dir: Path,
+    out_dir: Path,
+    words: Words,
+    lessons: Lessons,
+    *,
+    schedules: tuple[Schedule, Schedule, Schedule] = (TEXT, PROJECTOR, JOINT),
+    dim: int = 192,
+    layers: int = 4,
+    augmentation: Augmentation | None = None,
+    seed: int = 0,
+    report: Report = silent,
+) -> Path:
+    """Train, or go on training, and write ``out_dir/projector`` and ``out_dir/lm``.
+
+    Args:
+        data_dir: A data set of contacts; its training split is used.
+        out_dir: Folder of weights, with ``encoder`` in it.
+        words: The tokenizer.
+        lessons: What is said about contacts.
+        schedules: Of the three stages.
+        dim: Hidden width of the language model.
+        layers: Its layers.
+        augmentation: How contacts are varied.
+        seed: Of weights, order, noise and wording.
+        report: Told about progress.
+
+    Raises:
+        TouchError: Data, encoder or a checkpoint can't be used.
+    """
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    encoder, _ = load_encoder(out_dir / "encoder")
+    torch.manual_seed(seed)
+    lm = small_lm(words, dim=dim, layers=layers)
+    language = Language(lm, words=words)
+    projector = Projector(encoder.config.dim, language.dim)
+    model = Tac3dLlm(encoder, projector, language).to(device())
+    learner = _Learner(model, data, lessons, augmentation, seed)
+    identity = {
+        "data": data.checksum(),
+        "encoder": _fingerprint(encoder),
+        "words": words.fingerprint(),
+        "seed": seed,
+        "lm": f"{dim} {layers} {augmentation}",
+    }
+    folder = out_dir / ".training"
+    for name, schedule in zip(("text", "projector", "joint"), schedules, strict=True):
+        learner.freeze(name)
+        stage = Stage(name, folder, learner.learned(name), schedule, identity)
+        learner.run(stage, name, report)
+    save_tac3d_llm(out_dir, model.cpu().eval())
+    return out_dir
+
+
+def _fingerprint(encoder: TactileEncoder) -> float:
+    """Tells encoders apart; a stage must not go on behind another one."""
+    return float(sum(p.detach().double().abs().sum() for p in encoder.parameters()))
+
+
+class _Learner:
+    def __init__(
+        self,
+        model: Tac3dLlm,
+        data: ContactDataset,
+        lessons: Lessons,
+        augmentation: Augmentation | None,
+        seed: int,
+    ) -> None:
+        self.model, self.data, self.lessons, self.seed = model, data, lessons, seed
+        self.augmentation = augmentation
+
+    def freeze(self, stage: str) -> None:
+        self.model.requires_grad_(False)
+        if stage in ("projector", "joint"):
+            self.model.projector.requires_grad_(True)
+        if stage in ("text", "joint"):
+            self.model.lm.requires_grad_(True)
+
+    def learned(self, stage: str) -> nn.Module:
+        """Projector and language model in every stage: checkpoints then chain."""
+        del stage
+        return nn.ModuleList([self.model.projector, self.model.lm])
+
+    def run(self, stage: Stage, name: str, report: Report) -> None:
+        self.model.train()
+        batches = ahead(self._batches(name, stage))
+
+        def losses(step: int) -> dict[str, Tensor]:
+            points, packed = next(batches)
+            packed = Packed(*(part.to(device()) for part in packed))
+            touch = None
+            if points is not None:
+                with torch.no_grad():
+                    tokens = self.model.encoder(points.to(device())).tokens
+                touch = self.model.projector(tokens)
+            return self.model.loss(touch, packed)
+
+        stage.run(losses, report)
+
+    def _batches(self, name: str, stage: Stage) -> Iterator[tuple[Tensor | None, Packed]]:
+        words = self.model.language.words
+        if words is None:
+            raise ValueError("a stock language model is not trained here")
+        number = {"text": 1, "projector": 2, "joint": 3}[name]
+        sampler = Sampler(self.data, self.augmentation, seed=1000 * self.seed + number)
+        make = self.lessons.captions if name == "projector" else self.lessons.mixed
+        size, step = stage.schedule.batch_size, stage.step
+        while True:
+            rng = np.random.default_rng([self.seed, number, step])
+            if name == "text":
+                states = [self.data.state(int(i)) for i in rng.integers(len(self.data), size=size)]
+                points, num_touch = None, 0
+            else:
+                batch = sampler.numbered(size, step)
+                states, num_touch = batch.states, self.model.num_touch
+                points = torch.from_numpy(batch.points)
+            groups = [make(state, rng) for state in states]
+            yield points, pack(words, groups, num_touch, action_weight=ACTION_WEIGHT)
+            step += 1

@@ -1,0 +1,73 @@
+"""Progress of training for a person: a bar on a terminal, a plain line now and then elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Mapping
+from typing import TextIO
+
+from rich.console import Console
+from rich.progress import (
+    BarColumn,
+    MofNCompleteColumn,
+    Progress,
+    TaskID,
+    TextColumn,
+    TimeElapsedColumn,
+    TimeRemainingColumn,
+)
+
+
+class Bar:
+    """A ``Report`` that draws bars, one for each stage; a context manager.
+
+    Args:
+        stream: Where to; a plain line every ``line_s`` seconds when it is no terminal.
+        line_s: Seconds between plain lines.
+        clock: For them [s].
+    """
+
+    def __init__(
+        self,
+        stream: TextIO | None = None,
+        *,
+        line_s: float = 30.0,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._stream = stream or sys.stderr
+        self._line_s, self._clock = line_s, clock
+        self._last = -line_s
+        self._tasks: dict[str, TaskID] = {}
+        self._bars: Progress | None = None
+        if self._stream.isatty():
+            self._bars = Progress(
+                TextColumn("{task.description}"),
+                BarColumn(),
+                MofNCompleteColumn(),
+                TimeElapsedColumn(),
+                TimeRemainingColumn(),
+                TextColumn("{task.fields[scores]}"),
+                console=Console(file=self._stream),
+            )
+
+    def __enter__(self) -> Bar:
+        if self._bars is not None:
+            self._bars.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        if self._bars is not None:
+            self._bars.stop()
+
+    def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+        """As ``cltp.train.stage.Report``."""
+        text = " ".join(f"{name} {value:.3g}" for name, value in scores.items())
+        if self._bars is not None:
+            if stage not in self._tasks:
+                self._tasks[stage] = self._bars.add_task(stage, total=steps, scores="")
+            self._bars.update(self._tasks[stage], completed=step, scores=text)
+        elif self._clock() - self._last >= self._line_s or step == steps:
+            self._last = self._clock()
+            self._stream.write(f"{stage} {step}/{steps} {text}\n")
+            self._stream.flush()

@@ -1,0 +1,157 @@
+"""The policy of the paper: Tac3D-LLM feels, says D_t, and the action is read out of D_t.
+
+Whatever goes wrong with the text ends in no action: a reply that never ends, names nothing or two
+things, or is chosen with too little confidence. Instructions that the model can't have understood
+are refused instead of answered.
+"""
+
+from __future__ import annotations
+
+import re
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+from cltp.cloud import TactileCloud
+from cltp.inputs import encoder_input
+from cltp.talk import Reply, Talker
+from cltp.tokenizer import Words
+from cltp.weights import load_tac3d_llm
+from policies.errors import PolicyError
+from policies.extract import Extraction, extract
+from policies.policy import Decision
+
+ABSTAIN_BELOW = 0.5
+"""Confidence under which the policy holds and asks again. Our choice: likelier wrong than right."""
+
+LONGEST_WORDS = 120
+"""Words of an instruction; longer ones are refused, since the model would see only their ends."""
+
+KNOWN_SHARE = 0.5
+"""Share of an instruction's words that the model must know as words. Our choice: hand-written
+English paraphrases have 0.8 and more, other languages below 0.3."""
+
+_SHORT = frozenset(
+    "a i an as at be by do go in is it me my no of on or so to up us we".split(" ")  # noqa: SIM905
+)
+
+
+class LlmPolicy:
+    """Tac3D-LLM in the loop.
+
+    Args:
+        folder: Weights, as ``cltp.weights`` lays them out.
+        lm_folder: A Qwen2 or Qwen2.5-VL directory instead of the folder's own language model.
+        abstain_below: Confidence under which nothing is done.
+        clock: For the durations of the stages [s].
+
+    Raises:
+        TouchError: Weights are missing, damaged, or don't fit together.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        lm_folder: Path | None = None,
+        abstain_below: float = ABSTAIN_BELOW,
+        clock: Callable[[], float] = time.perf_counter,
+    ) -> None:
+        model = load_tac3d_llm(Path(folder), lm_folder=lm_folder)
+        self._words = model.language.words
+        self._talker = Talker(model, clock)
+        self._abstain_below, self._clock = abstain_below, clock
+
+    @property
+    def name(self) -> str:
+        """'llm'."""
+        return "llm"
+
+    def start(self) -> None:
+        """Nothing to forget: every touch is judged by itself."""
+
+    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+        """Feel, say, extract.
+
+        Raises:
+            PolicyError: The instruction is empty, too long, or in no language that it knows.
+        """
+        check_instruction(instruction, self._words)
+        begin = self._clock()
+        points = encoder_input(cloud)
+        sampled = self._clock()
+        reply = self._talker.reply(points, instruction)
+        replied = self._clock()
+        found = extract(reply.text)
+        stages = {
+            "sample": 1e3 * (sampled - begin),
+            **reply.stage_ms,
+            "extract": 1e3 * (self._clock() - replied),
+        }
+        held = held_because(reply, found, self._abstain_below)
+        return Decision(
+            text=reply.text,
+            action=None if held else found.action,
+            success=found.success and not held,
+            reason=held or found.reason,
+            confidence=reply.confidence,
+            stage_ms=stages,
+        )
+
+    def ask(self, cloud: TactileCloud, question: str) -> str:
+        """What the model says to any question about a contact.
+
+        Raises:
+            PolicyError: The question is empty, too long, or in no language that it knows.
+        """
+        check_instruction(question, self._words)
+        return self._talker.reply(encoder_input(cloud), question).text
+
+
+def check_instruction(text: str, words: Words | None) -> None:
+    """Refuse what the model can't have understood.
+
+    Args:
+        text: What a person wrote.
+        words: The model's tokenizer; None for a stock checkpoint, which may know any language.
+
+    Raises:
+        PolicyError: Empty, too long, or made of words that the model does not know.
+    """
+    spoken = re.findall(r"[^\W\d_]+", text)
+    if not spoken:
+        raise PolicyError(
+            f"an instruction in words is needed, got {text[:40]!r}; say what to grasp"
+        )
+    if len(spoken) > LONGEST_WORDS:
+        raise PolicyError(
+            f"the instruction has {len(spoken)} words, at most {LONGEST_WORDS} are read; shorten it"
+        )
+    if words is None:
+        return
+    known = sum(_known(word.lower(), words) for word in spoken)
+    if known < KNOWN_SHARE * len(spoken):
+        raise PolicyError(
+            f"only {known} of {len(spoken)} words of {text[:60]!r} are known; say it in plain "
+            "English, for example 'Pick the strawberry gently.'"
+        )
+
+
+def _known(word: str, words: Words) -> bool:
+    if len(word) <= 2:
+        return word in _SHORT  # pieces of longer words are tokens too
+    return words.knows(word) or words.knows(word.capitalize())
+
+
+def held_because(reply: Reply, found: Extraction, abstain_below: float) -> str:
+    """Why nothing is done about a reply; empty when its action or verdict stands."""
+    if not reply.ended:
+        return f"the reply did not end within {reply.num_tokens} tokens"
+    if reply.action is None:
+        return "the reply comes to no action and no <none>"
+    said = f"<{found.action}>" if found.action is not None else "<none>"
+    if said != reply.action:
+        return f"the text asks for {said} where {reply.action} was chosen ({found.reason})"
+    if reply.confidence < abstain_below:
+        return f"abstained: {reply.action} has a confidence of {reply.confidence:.2f} only"
+    return ""
