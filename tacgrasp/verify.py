@@ -51,7 +51,8 @@ def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification
     after = contact_state(turns.feel(Phase.VERIFY_AFTER))
     verification = compare(before, after, settings)
     if not verification.passed:
-        _move(rig, start, settings, settings.acceleration_m_s2)  # down again: what is still held must not fall when released
+        # down again: what is still held must not fall when released
+        _move(rig, start, settings, settings.acceleration_m_s2)
     return verification
 
 
