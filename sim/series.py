@@ -53,7 +53,8 @@ _TEXTURE_CHANCE = {
 }
 _SHAPE_WEIGHT = {Shape.SPHERE: 0.8, Shape.ELLIPSOID: 0.5, Shape.CYLINDER: 0.5}  # bodies add some
 _SHALLOWEST_MM, _DEEPEST_MM = 0.1, 1.3
-_SHALLOWEST_TEXTURED_MM = 0.18  # less touches a few tops of the texture, and no shape
+_SHALLOWEST_FINE_MM = 0.18  # a tip, or a few tops of a texture, can't be felt with less
+_PLANE_SHARE = (0.83, 0.97)
 
 ELLIPSOID_RATIO = 1.4
 """Ratio of curvatures from which a cap is an ellipsoid (``cltp.states.Shape``)."""
@@ -157,11 +158,16 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     if indenter.textured:
         chances = np.array(list(_TEXTURE_CHANCE.values()))
         texture = list(_TEXTURE_CHANCE)[int(rng.choice(len(chances), p=chances))]
-    lowest = _SHALLOWEST_MM if texture is Texture.SMOOTH else _SHALLOWEST_TEXTURED_MM
+    sharp = shape in (Shape.PEAK, Shape.CORNER)
+    lowest = _SHALLOWEST_FINE_MM if sharp or texture is not Texture.SMOOTH else _SHALLOWEST_MM
     depths = _depths(rng, num_loads(number), lowest, gentle=shape is Shape.PLANE)
     x, y = np.meshgrid(*grid_axes_mm(sensor, ROWS, COLUMNS))
     relief = relief_mm(texture, rng, x, y, sensor)
-    at_x, at_y = _place(rng, sensor.width_mm / 2, sensor.height_mm / 2)
+    turn = rng.uniform(0, 2 * math.pi)
+    if shape is Shape.PLANE:
+        at_x, at_y = _edge_of_plane(rng, turn, x, y)
+    else:
+        at_x, at_y = _place(rng, sensor.width_mm / 2, sensor.height_mm / 2)
     # A tilt must leave the whole face in reach of the lightest press, or it is felt as an edge.
     slope = math.tan(indenter.most_tilt_rad * rng.random())
     if indenter.most_tilt_rad < math.radians(10):
@@ -170,7 +176,7 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     pose = Pose(
         x_mm=at_x,
         y_mm=at_y,
-        turn_rad=rng.uniform(0, 2 * math.pi),
+        turn_rad=turn,
         slope_x=slope * math.cos(towards),
         slope_y=slope * math.sin(towards),
     )
@@ -183,6 +189,19 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
         shape=shape,
         texture=texture,
     )
+
+
+def _edge_of_plane(
+    rng: np.random.Generator, turn_rad: float, x_mm: FloatArray, y_mm: FloatArray
+) -> tuple[float, float]:
+    """Where a plane ends, so that it covers more than 80 % of the field but not all of it [mm].
+
+    A smooth plane over the whole field could not be told from no contact: the sensor loses the
+    constant.
+    """
+    cos, sin = math.cos(turn_rad), math.sin(turn_rad)
+    end = float(np.quantile(x_mm * cos + y_mm * sin, rng.uniform(*_PLANE_SHARE)))
+    return end * cos, end * sin
 
 
 def _depths(

@@ -152,6 +152,18 @@ def test_series_cover_all_shapes_textures_and_objects(monkeypatch):
         assert limits.low <= each.loads[0] <= each.loads[-1] <= limits.high
 
 
+def test_a_plane_covers_most_of_the_field_and_shows_where_it_ends(monkeypatch):
+    monkeypatch.setattr("sim.series.BODY_SHARE", 0.0)
+    planes = [
+        series
+        for series in (draw_series(0, number, MINI) for number in range(200))
+        if series.shape is Shape.PLANE
+    ]
+    assert len(planes) > 3
+    for plane in planes:
+        assert 0.8 < (plane.gap_mm < 1).mean() < 0.98
+
+
 def test_splits_have_their_shares():
     splits = [split_of(0, number) for number in range(4000)]
     assert splits.count(Split.TRAIN) / 4000 == pytest.approx(0.90, abs=0.015)
