@@ -2,4 +2,4 @@
 
 
 class TouchError(Exception):
-    """A contact could not be read. The loop holds still and reads again a bounded number of times."""
+    """A contact could not be read. The loop holds still and reads again, boundedly."""

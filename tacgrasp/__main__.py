@@ -14,7 +14,7 @@ COMMANDS = {
     "episodes": "ls, info, recover, plot: what has been recorded",
     "describe": "say in words and numbers what a cloud or height map in a file is",
     "data": "generate: make contacts to learn from; goes on where it was stopped",
-    "bench": "strawberry, latency, gel, crash: measure and print figures",
+    "bench": "strawberry, latency, gel, touch, crash: measure and print figures",
 }
 
 EXIT_CODES = """\

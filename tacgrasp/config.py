@@ -209,6 +209,7 @@ class RunConfig(Section):
         instruction: What a person asks for, in words; the task's own when not given.
         object: What the simulator puts between the fingers.
         object_mesh: A mesh [mm] to grasp instead (simulation only).
+        object_mass_g: Mass of that mesh [g]; none: from its volume.
         seed: Of everything drawn at random.
         sensor: Which tactile sensor it is.
         on_success: What the gripper does after a verified grasp.
@@ -224,6 +225,7 @@ class RunConfig(Section):
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
     object_mesh: Path | None = None
+    object_mass_g: Number | None = Field(default=None, gt=0, le=5000)
     seed: int = Field(default=0, ge=0, lt=2**63)
     sensor: str = "gelsight_mini"
     goal: GoalConfig

@@ -27,6 +27,7 @@ RIG_FIELDS = ("devices", "arm", "gripper", "pad")
 UNITS = {
     "mm": "mm",
     "m": "m",
+    "g": "g",
     "n": "N",
     "s": "s",
     "m_s": "m/s",

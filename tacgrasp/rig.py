@@ -104,6 +104,7 @@ def _simulated(config: RunConfig) -> SimRig:
         config.object,
         config.seed,
         mesh=config.object_mesh,
+        mass_g=config.object_mass_g,
         sensor_name=config.sensor,
         first_force_n=config.gripper.first_force_n,
     )

@@ -1,4 +1,4 @@
-"""``tacgrasp bench strawberry | latency | gel | crash``: measure, print figures, write JSON."""
+"""``tacgrasp bench NAME``: measure, print figures, write JSON."""
 
 from __future__ import annotations
 
@@ -56,6 +56,19 @@ class Gel:
 
 
 @dataclass(frozen=True)
+class Touch:
+    """Compare the direct measurement of contacts with the truth of simulated grasps.
+
+    Attributes:
+        bodies: How many of every kind; four grasps each.
+        json: File for the figures.
+    """
+
+    bodies: int = 60
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
 class Crash:
     """Kill recordings at random moments and count what is lost.
 
@@ -74,6 +87,7 @@ def main(argv: Sequence[str]) -> int:
         "strawberry": _strawberry,
         "latency": _latency,
         "gel": _gel,
+        "touch": _touch,
         "crash": _crash,
     }
     name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
@@ -119,6 +133,16 @@ def _gel(argv: Sequence[str]) -> None:
     from tacgrasp import bench_gel
 
     bench_gel.run(_writable(flags.json))
+
+
+def _touch(argv: Sequence[str]) -> None:
+    """Compare the direct measurement of contacts with the truth of simulated grasps."""
+    flags = parse(Touch, argv, prog="tacgrasp bench touch")
+    if flags.bodies < 1:
+        raise UsageError("--bodies must be at least 1")
+    from tacgrasp import bench_touch
+
+    bench_touch.run(flags.bodies, _writable(flags.json))
 
 
 def _crash(argv: Sequence[str]) -> None:

@@ -1,0 +1,96 @@
+"""From nothing to weights: contacts, tokenizer, CLIP, CLTP and Tac3D-LLM, each stage resumable.
+
+Composes what ``sim`` makes and ``cltp`` learns. Every stage goes on where it was stopped and is
+skipped when it is done, so that the same command can be given again after anything.
+"""
+
+from __future__ import annotations
+
+import os
+import platform
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+import torch
+
+from cltp.dataset import ContactDataset
+from cltp.tokenizer import Words
+from cltp.train.alignment import train_cltp
+from cltp.train.llm import train_llm, train_words
+from cltp.train.progress import Bar
+from cltp.train.towers import train_clip
+from cltp.weights import size_bytes, write_card
+from tacgrasp.errors import UsageError
+from tacgrasp.generate import generate
+from tacgrasp.training_data import TouchLessons
+
+STAGES = ("clip", "cltp", "llm")
+CONTACTS = 24_000
+MAX_BYTES = 20_000_000
+
+
+def train(
+    stages: Sequence[str],
+    *,
+    out: Path,
+    data: Path,
+    contacts: int = CONTACTS,
+    seed: int = 0,
+    blind: bool = False,
+    threads: int | None = None,
+    command: str = "tacgrasp train all",
+) -> None:
+    """Carry out stages in their order; what is missing of the data is made first.
+
+    Args:
+        stages: Out of ``STAGES``.
+        out: Folder of weights; checkpoints lie in its ``.training``.
+        data: Folder of contacts.
+        contacts: How many of them.
+        seed: Of data, weights, order, noise and wordings.
+        blind: Hides every instruction from the language model (the control of ``tacgrasp eval``).
+        threads: Of torch; by default one for each core.
+        command: For the model card.
+
+    Raises:
+        UsageError: An unknown stage.
+        TouchError: Data, weights or a checkpoint can't be used; the message says what to do.
+    """
+    unknown = [stage for stage in stages if stage not in STAGES]
+    if unknown or not stages:
+        raise UsageError(f"unknown stage {', '.join(unknown)!r}; known: {', '.join(STAGES)}, all")
+    began = time.monotonic()
+    generate(data, contacts=contacts, seed=seed)
+    torch.set_num_threads(threads or os.cpu_count() or 1)
+    lessons = TouchLessons(blind=blind)
+    words = _words(data, seed)
+    with Bar() as report:
+        if "clip" in stages:
+            train_clip(data, out, words, seed=seed, report=report)
+        if "cltp" in stages:
+            train_cltp(data, out, seed=seed, report=report)
+        if "llm" in stages:
+            train_llm(data, out, words, lessons, seed=seed, report=report)
+    facts = {
+        "command": f"`{command} --contacts {contacts} --seed {seed}`",
+        "seed": str(seed),
+        "contacts": str(contacts),
+        "data checksum": ContactDataset(data).checksum(),
+        "torch": torch.__version__,
+        "python": platform.python_version(),
+        "last run took": f"{(time.monotonic() - began) / 60:.0f} min",
+        "size": f"{_bytes(out) / 1e6:.1f} MB",
+    }
+    write_card(out, facts, {})
+
+
+def _words(data: Path, seed: int) -> Words:
+    """The tokenizer, learnt anew in seconds: the same data and seed give the same one."""
+    return train_words(data, TouchLessons(), seed=seed)
+
+
+def _bytes(out: Path) -> int:
+    """Bytes of the weights, without checkpoints."""
+    folders = [out / name for name in ("clip", "encoder", "projector", "lm")]
+    return sum(size_bytes(folder) for folder in folders)
