@@ -41,13 +41,13 @@ class Demo:
     actions: tuple[Primitive, ...]
     end: EndReason
     policy: str = "rules"
-    seed: int = 5
+    seed: int = 8
 
 
 GOAL = GoalConfig(
     force_n=(0.9, 2.4),
     depth_mm=(0.1, 0.6),
-    area_share=(0.05, 0.265),
+    area_share=(0.05, 0.22),
     x_mm=(-3.0, 3.0),
     y_mm=(-3.0, 3.0),
 )
@@ -60,15 +60,15 @@ MOVE_STEP_MM = 5.0
 DEMOS: dict[str, Demo] = {
     "paper": Demo(
         what="bottom-center -> move_down; centred but too firm -> decrease_force; stable",
-        offset_mm=(0.0, -5.5),
-        force_n=1.9,
+        offset_mm=(0.0, -5.2),
+        force_n=1.5,
         actions=(Primitive.MOVE_DOWN, Primitive.DECREASE_FORCE),
         end=EndReason.SUCCESS,
     ),
     "gentle": Demo(
         what="centred but held too lightly -> increase_force twice; stable",
         offset_mm=(0.0, 0.0),
-        force_n=0.5,
+        force_n=0.45,
         actions=(Primitive.INCREASE_FORCE, Primitive.INCREASE_FORCE),
         end=EndReason.SUCCESS,
     ),
@@ -82,7 +82,7 @@ DEMOS: dict[str, Demo] = {
     "slips": Demo(
         what="a policy that doesn't feel calls a light grip secure; lifting shows otherwise",
         offset_mm=(0.0, 0.0),
-        force_n=0.12,
+        force_n=0.22,
         actions=(),
         end=EndReason.UNVERIFIED,
         policy="fixed_force",
