@@ -1,5 +1,6 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
+# make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
@@ -7,7 +8,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test setup clean
+.PHONY: run test weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -18,6 +19,10 @@ test: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest
+
+weights: setup
+	$(BIN)/tacgrasp train all --out weights --data runs/data
+	$(BIN)/tacgrasp eval --weights weights --data runs/data --card
 
 setup: $(STAMPS)/app
 

@@ -128,6 +128,7 @@ def greedy(
     stop: int,
     max_tokens: int,
     watch: Callable[[int, Tensor], None] | None = None,
+    prefilled: Callable[[], None] | None = None,
 ) -> list[int]:
     """Tokens that follow the given inputs, the likeliest each time.
 
@@ -137,10 +138,13 @@ def greedy(
         stop: Token that ends the reply; it is not returned.
         max_tokens: At most so many.
         watch: Called with every chosen token and the logits that it was chosen from.
+        prefilled: Called once, when the given inputs have been gone through.
     """
     room = decoder.longest - len(embeddings)
     ids: list[int] = []
     logits = decoder.prefill(embeddings)
+    if prefilled is not None:
+        prefilled()
     while len(ids) < min(max_tokens, room):
         token = int(logits.argmax())
         if token == stop:

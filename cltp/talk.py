@@ -36,7 +36,8 @@ class Reply:
         num_tokens: Tokens generated.
         action: One of ``cltp.tokenizer.ACTIONS``, None when the reply comes to none.
         probabilities: Of the eight at the action's place; empty when it comes to none.
-        stage_ms: Durations of encode, project and generate [ms].
+        stage_ms: Durations of encode, project, prefill (the prompt's tokens, which also give the
+            first of the reply) and generate (the others) [ms].
     """
 
     text: str
@@ -66,6 +67,11 @@ class Talker:
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
 
+    @property
+    def model(self) -> Tac3dLlm:
+        """What is asked."""
+        return self._model
+
     @torch.inference_mode()
     def reply(
         self, points: NDArray[np.float32], prompt: str, *, max_tokens: int = MAX_TOKENS
@@ -83,13 +89,17 @@ class Talker:
         touch = self._model.projector(tokens)[0]
         marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
+
+        def prefilled() -> None:
+            marks.append(self._clock())
+
         if self._fast is not None:
-            ids, ended, chances = _own(self._fast, self._language, inputs, max_tokens)
+            ids, ended, chances = _own(self._fast, self._language, inputs, max_tokens, prefilled)
         else:
-            ids, ended, chances = _stock(self._language, inputs, max_tokens)
+            ids, ended, chances = _stock(self._language, inputs, max_tokens, prefilled)
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
-        stages = ("encode", "project", "generate")
+        stages = ("encode", "project", "prefill", "generate")
         return Reply(
             text=text,
             ended=ended,
@@ -104,7 +114,11 @@ class Talker:
 
 
 def _own(
-    decoder: FastDecoder, language: Language, inputs: Tensor, max_tokens: int
+    decoder: FastDecoder,
+    language: Language,
+    inputs: Tensor,
+    max_tokens: int,
+    prefilled: Callable[[], None],
 ) -> tuple[list[int], bool, list[float]]:
     actions = [tokens[0] for tokens in language.actions()]
     found: list[Tensor] = []
@@ -113,16 +127,24 @@ def _own(
         if token in actions and not found:
             found.append(logits[actions].softmax(-1))
 
-    ids = greedy(decoder, inputs, stop=language.end, max_tokens=max_tokens, watch=watch)
+    ids = greedy(
+        decoder,
+        inputs,
+        stop=language.end,
+        max_tokens=max_tokens,
+        watch=watch,
+        prefilled=prefilled,
+    )
     return ids, len(ids) < max_tokens, found[0].tolist() if found else []
 
 
 def _stock(
-    language: Language, inputs: Tensor, max_tokens: int
+    language: Language, inputs: Tensor, max_tokens: int, prefilled: Callable[[], None]
 ) -> tuple[list[int], bool, list[float]]:
     """The same by transformers' own forward, with its cache, for any checkpoint of the family."""
     run = _Run(language)
     logits = run.feed(inputs)
+    prefilled()
     ids: list[int] = []
     while len(ids) < max_tokens:
         token = int(logits.argmax())

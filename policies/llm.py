@@ -67,8 +67,21 @@ class LlmPolicy:
         """'llm'."""
         return "llm"
 
+    @property
+    def talker(self) -> Talker:
+        """The model itself, for measurements of it."""
+        return self._talker
+
     def start(self) -> None:
         """Nothing to forget: every touch is judged by itself."""
+
+    def check(self, text: str) -> None:
+        """Refuse an instruction or question that the model can't have understood.
+
+        Raises:
+            PolicyError: As ``check_instruction``.
+        """
+        check_instruction(text, self._words)
 
     def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
         """Feel, say, extract.
@@ -76,7 +89,7 @@ class LlmPolicy:
         Raises:
             PolicyError: The instruction is empty, too long, or in no language that it knows.
         """
-        check_instruction(instruction, self._words)
+        self.check(instruction)
         begin = self._clock()
         points = encoder_input(cloud)
         sampled = self._clock()
@@ -102,10 +115,17 @@ class LlmPolicy:
         """What the model says to any question about a contact.
 
         Raises:
-            PolicyError: The question is empty, too long, or in no language that it knows.
+            PolicyError: The question is empty, too long, or in no language that it knows; or the
+                answer does not end.
         """
-        check_instruction(question, self._words)
-        return self._talker.reply(encoder_input(cloud), question).text
+        self.check(question)
+        reply = self._talker.reply(encoder_input(cloud), question)
+        if not reply.ended:
+            raise PolicyError(
+                f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "
+                "ask otherwise, or train the model longer"
+            )
+        return reply.text
 
 
 def check_instruction(text: str, words: Words | None) -> None:

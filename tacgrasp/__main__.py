@@ -13,6 +13,9 @@ COMMANDS = {
     "replay": "show an episode tick by tick; --decide asks a policy again, --execute moves again",
     "episodes": "ls, info, recover, plot: what has been recorded",
     "describe": "say in words and numbers what a cloud or height map in a file is",
+    "ask": "answer a question about the touch in a file: ask FILE \"How deep is it pressed?\"",
+    "train": "clip, cltp, llm, all: from nothing to weights; goes on where it was stopped",
+    "eval": "how right the trained weights are on contacts that they have not seen",
     "data": "generate: make contacts to learn from; goes on where it was stopped",
     "bench": "strawberry, latency, gel, touch, crash: measure and print figures",
 }

@@ -11,12 +11,16 @@ import tempfile
 import time
 from collections import defaultdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from rich.console import Console
 from rich.progress import track
 from rich.table import Table
 
 from cltp.cloud import TactileCloud
+from policies import Policy
+from tacgrasp.config import RunConfig
 from tacgrasp.config_layers import load
 from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, Phase, TickRecord
 from tacgrasp.errors import UsageError
@@ -29,18 +33,27 @@ WARM_UP = 5
 FORCES_N = (0.6, 1.2, 2.4)
 
 
-def run(*, ticks: int, policy_name: str, task: str, json_path: Path | None) -> dict[str, object]:
+def run(
+    *,
+    ticks: int,
+    policy_name: str,
+    task: str,
+    json_path: Path | None,
+    weights: Path | None = None,
+) -> dict[str, Any]:
     """Time ``ticks`` decisions, print a table, write the figures.
 
     Returns:
-        ``tick_ms.{p50, p99}``, ``stages_ms.<stage>.{p50, p99}`` and what was measured.
+        ``tick_ms.{p50, p99}``, ``stages_ms.<stage>.{p50, p99}`` and what was measured; for ``llm``
+        also what ``bench_language.language_report`` gives, and ``start_to_first_action_s``.
 
     Raises:
         UsageError: Unknown policy or task, or fewer than one tick.
+        TouchError: The weights can't be used.
     """
     if ticks < 1:
         raise UsageError(f"--ticks must be at least 1, got {ticks}")
-    config, _ = load(task)
+    config = load(task)[0].model_copy(update={"weights": weights})
     policy = make_policy(policy_name, config)
     rig = make_rig(config)
     touches = _touches(rig)
@@ -56,16 +69,34 @@ def run(*, ticks: int, policy_name: str, task: str, json_path: Path | None) -> d
                 stages[stage].append(stage_ms)
     stages["record"] = _record_ms(rig, touches, ticks)
     rig.disconnect()
-    report: dict[str, object] = {
+    report: dict[str, Any] = {
         "policy": policy_name,
         "ticks": ticks,
         "tick_ms": _quantiles(whole),
         "stages_ms": {stage: _quantiles(times) for stage, times in stages.items()},
     }
-    _print(report, whole, stages)
+    if policy_name == "llm":
+        report |= _of_the_language_model(policy, touches, config, report["stages_ms"])
+    _print(report)
     if json_path is not None:
         json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     return report
+
+
+def _of_the_language_model(
+    policy: Policy,
+    touches: list[TactileCloud],
+    config: RunConfig,
+    stages_ms: dict[str, dict[str, float]],
+) -> dict[str, Any]:
+    from policies.llm import LlmPolicy
+    from tacgrasp.bench_language import language_report, start_to_first_action_s
+
+    if not isinstance(policy, LlmPolicy):
+        return {}
+    found = language_report(policy.talker, touches, config.instruction, stages_ms)
+    started_s = start_to_first_action_s(config.task, config.weights)
+    return found | {"start_to_first_action_s": started_s}
 
 
 def _touches(rig: Rig) -> list[TactileCloud]:
@@ -118,11 +149,38 @@ def _quantiles(times_ms: list[float]) -> dict[str, float]:
     return {"p50": float(p50), "p99": float(p99)}
 
 
-def _print(report: dict[str, object], whole: list[float], stages: dict[str, list[float]]) -> None:
+def _print(report: dict[str, Any]) -> None:
+    floors = report.get("floors", {})
     table = Table(title=f"{report['policy']}, {report['ticks']} ticks")
-    for column in ("stage", "p50 ms", "p99 ms"):
+    columns = ["stage", "p50 ms", "p99 ms"]
+    columns += ["million operations", "floor ms", "times the floor"] if floors else []
+    for column in columns:
         table.add_column(column, justify="left" if column == "stage" else "right")
-    for name, times in {**stages, "whole tick": whole}.items():
-        quantiles = _quantiles(times)
-        table.add_row(name, f"{quantiles['p50']:.2f}", f"{quantiles['p99']:.2f}")
-    console().print(table)
+    for name, quantiles in {**report["stages_ms"], "whole tick": report["tick_ms"]}.items():
+        row = [name, f"{quantiles['p50']:.2f}", f"{quantiles['p99']:.2f}"]
+        if name in floors:
+            floor = floors[name]
+            row += [f"{floor['million_operations']:.1f}", f"{floor['floor_ms']:.2f}"]
+            row += [f"{floor['times_floor']:.1f}"]
+        table.add_row(*row)
+    to = console()
+    to.print(table)
+    if floors:
+        _print_language(report, to)
+
+
+def _print_language(report: dict[str, Any], to: Console) -> None:
+    to.print(
+        f"tokens generated: {report['tokens']['p50']} (median), {report['tokens']['max']} at most; "
+        f"{report['threads']} thread(s); floors at the {report['product_gflops']:.1f} GFLOP/s of a "
+        "matrix product in this run"
+    )
+    ways = {"no_cache": "without its cache (naive)", "with_cache": "with its cache"}
+    for name, words in ways.items():
+        way = report["naive"][name]
+        same = "the same text" if way["same_text"] else "another text"
+        to.print(
+            f"transformers' generate {words}: {way['ms']:.0f} ms, {way['ratio']:.1f} times ours, "
+            f"{same}"
+        )
+    to.print(f"from start to first action: {report['start_to_first_action_s']:.1f} s")

@@ -12,7 +12,7 @@ import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
-from functools import partial
+from functools import lru_cache, partial
 from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
@@ -23,13 +23,13 @@ from rich.console import Console
 from rich.progress import Progress
 from rich.table import Table
 
-from policies import Policy
+from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
 from sim.rig import SimRig, Truth, build
 from tacgrasp.config import RunConfig, VerifyConfig
 from tacgrasp.errors import UsageError
 from tacgrasp.loop import run_episode
-from tacgrasp.policy_factory import POLICIES, make_policy
+from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig import make_executor
 from tacgrasp.turns import NoRecorder
 from tacgrasp.verify import verify_by_lifting
@@ -118,6 +118,8 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
 
 
 def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
+    if name == "llm":
+        return _language_model(config.weights, config.instruction)
     if name != "oracle":
         return make_policy(name, config)
     grasp = rig.grasp
@@ -132,6 +134,17 @@ def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) ->
         )
 
     return OraclePolicy(truth)
+
+
+@lru_cache(maxsize=1)
+def _language_model(weights: Path | None, instruction: str) -> Policy:
+    """Read once a process: it judges every touch by itself, so that episodes can share it."""
+    policy = load_llm(weights)
+    try:
+        policy.check(instruction)
+    except PolicyError as error:
+        raise UsageError(str(error)) from None
+    return policy
 
 
 def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
@@ -188,6 +201,8 @@ def run(
             f"bench needs at least one episode and policies out of {', '.join(known)}; "
             f"got {episodes} episodes and {', '.join(policies) or 'no policy'}"
         )
+    if "llm" in policies:
+        _language_model(config.weights, config.instruction)  # refused here, not in a worker
     contestants: list[Contestant] = []
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)

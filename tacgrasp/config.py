@@ -205,7 +205,8 @@ class RunConfig(Section):
         task: Name of a task, or the path of its YAML file.
         rig: Name of a rig, or the path of its YAML file.
         devices: Which drivers the rig has; its file has to say it.
-        policy: Who decides: rules, fixed_force or random.
+        policy: Who decides: rules, llm, fixed_force or random.
+        weights: Folder of the language model's weights; none: those that come with the program.
         instruction: What a person asks for, in words; the task's own when not given.
         object: What the simulator puts between the fingers.
         object_mesh: A mesh [mm] to grasp instead (simulation only).
@@ -222,6 +223,7 @@ class RunConfig(Section):
     rig: str = "sim"
     devices: Literal["sim"]
     policy: str = "rules"
+    weights: Path | None = None
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
     object_mesh: Path | None = None

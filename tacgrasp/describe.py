@@ -1,13 +1,21 @@
-"""Say what a touch is, in words and numbers.
+"""Say what a touch is, in words and numbers: as it is measured, and as the language model says it.
 
 Not here: reading files (``cltp.files``), measuring (``cltp.measure``).
 """
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from cltp.captions import caption
 from cltp.cloud import TactileCloud
 from cltp.measure import contact_state
+from policies import PolicyError
+
+if TYPE_CHECKING:
+    from policies.llm import LlmPolicy
+
+CAPTION_REQUEST = "Describe the contact."
 
 
 def describe(cloud: TactileCloud) -> list[str]:
@@ -33,4 +41,29 @@ def describe(cloud: TactileCloud) -> list[str]:
         f"force     about {state.force_n:.2f} N (an estimate from the gel's shape)",
         f"cut       {', '.join(sorted(state.cut)) or 'no'}",
         f"caption   {caption(state)}",
+    ]
+
+
+def said(cloud: TactileCloud, model: LlmPolicy, instruction: str) -> list[str]:
+    """What the language model says of a touch and advises on it, one line a fact.
+
+    Raises:
+        PolicyError: The instruction is none that it can have understood.
+    """
+    try:
+        words = model.ask(cloud, CAPTION_REQUEST)
+    except PolicyError as error:
+        words = f"nothing: {error}"
+    advice = model.decide(cloud, instruction)
+    if advice.action is not None:
+        asked = f"{advice.action} (confidence {advice.confidence:.2f})"
+    elif advice.success:
+        asked = f"nothing, the grasp is good (confidence {advice.confidence:.2f})"
+    else:
+        asked = f"no action: {advice.reason}"
+    return [
+        f"model     {words}",
+        f"asked     {instruction}",
+        f"says      {advice.text}",
+        f"advice    {asked}",
     ]

@@ -6,13 +6,16 @@ skipped when it is done, so that the same command can be given again after anyth
 
 from __future__ import annotations
 
+import hashlib
 import os
 import platform
+import shutil
 import time
 from collections.abc import Sequence
 from pathlib import Path
 
 import torch
+from transformers.utils.logging import disable_progress_bar
 
 from cltp.dataset import ContactDataset
 from cltp.tokenizer import Words
@@ -20,14 +23,16 @@ from cltp.train.alignment import train_cltp
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from cltp.train.towers import train_clip
-from cltp.weights import size_bytes, write_card
+from cltp.weights import load_encoder, size_bytes, write_card
 from tacgrasp.errors import UsageError
 from tacgrasp.generate import generate
 from tacgrasp.training_data import TouchLessons
 
 STAGES = ("clip", "cltp", "llm")
 CONTACTS = 24_000
-MAX_BYTES = 20_000_000
+PARTS = ("clip", "encoder", "projector", "lm")
+BLIND_MARK = Path(".training") / "blind"
+"""Lies in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
 
 
 def train(
@@ -54,13 +59,20 @@ def train(
         command: For the model card.
 
     Raises:
-        UsageError: An unknown stage.
+        UsageError: An unknown stage, or a folder that holds a blind copy where none is asked for.
         TouchError: Data, weights or a checkpoint can't be used; the message says what to do.
     """
     unknown = [stage for stage in stages if stage not in STAGES]
     if unknown or not stages:
         raise UsageError(f"unknown stage {', '.join(unknown)!r}; known: {', '.join(STAGES)}, all")
+    if (out / BLIND_MARK).exists() != blind:
+        raise UsageError(
+            f"{out} holds {'no ' if blind else 'an '}instruction-blind copy; "
+            "choose another folder with --out"
+        )
+    disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began = time.monotonic()
+    before = _digest(out)
     generate(data, contacts=contacts, seed=seed)
     torch.set_num_threads(threads or os.cpu_count() or 1)
     lessons = TouchLessons(blind=blind)
@@ -72,6 +84,8 @@ def train(
             train_cltp(data, out, seed=seed, report=report)
         if "llm" in stages:
             train_llm(data, out, words, lessons, seed=seed, report=report)
+    if _digest(out) == before:
+        return  # all was done: the card with its scores still holds
     facts = {
         "command": f"`{command} --contacts {contacts} --seed {seed}`",
         "seed": str(seed),
@@ -85,6 +99,22 @@ def train(
     write_card(out, facts, {})
 
 
+def take_encoder(source: Path, out: Path) -> None:
+    """Begin a folder for an instruction-blind copy behind the encoder of other weights.
+
+    Raises:
+        UsageError: ``out`` holds weights that are no blind copy.
+        TouchError: The encoder can't be read.
+    """
+    if (out / "clip").exists() or ((out / "lm").exists() and not (out / BLIND_MARK).exists()):
+        raise UsageError(f"{out} holds weights that see; give the blind copy a folder of its own")
+    load_encoder(source / "encoder")
+    (out / BLIND_MARK).parent.mkdir(parents=True, exist_ok=True)
+    (out / BLIND_MARK).touch()
+    if not (out / "encoder").exists():
+        shutil.copytree(source / "encoder", out / "encoder")
+
+
 def _words(data: Path, seed: int) -> Words:
     """The tokenizer, learnt anew in seconds: the same data and seed give the same one."""
     return train_words(data, TouchLessons(), seed=seed)
@@ -92,5 +122,13 @@ def _words(data: Path, seed: int) -> Words:
 
 def _bytes(out: Path) -> int:
     """Bytes of the weights, without checkpoints."""
-    folders = [out / name for name in ("clip", "encoder", "projector", "lm")]
-    return sum(size_bytes(folder) for folder in folders)
+    return sum(size_bytes(out / name) for name in PARTS)
+
+
+def _digest(out: Path) -> str:
+    """Changes when any file of the weights does."""
+    total = hashlib.sha256()
+    for path in sorted(path for name in PARTS for path in (out / name).rglob("*")):
+        if path.is_file():
+            total.update(str(path.relative_to(out)).encode() + path.read_bytes())
+    return total.hexdigest()

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Annotated
+
+import tyro
 
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.errors import UsageError
@@ -18,12 +21,14 @@ class Strawberry:
         episodes: How many seeds.
         first_seed: The first one; from 1000000 on they belong to the benchmark.
         policies: Names, separated by commas.
+        weights: Folder of llm's weights; without it TACGRASP_WEIGHTS, else those that come along.
         json: File for the figures.
     """
 
     episodes: int = 200
     first_seed: int = 1_000_000
     policies: str = "rules,fixed_force,random,oracle"
+    weights: Path | None = None
     json: Path | None = None
 
 
@@ -33,14 +38,16 @@ class Latency:
 
     Attributes:
         ticks: How many.
-        policy: Which policy.
+        policy: Which policy; for llm also its floors and the naive way.
         task: Whose goal and instruction.
+        weights: Folder of llm's weights; without it TACGRASP_WEIGHTS, else those that come along.
         json: File for the figures.
     """
 
     ticks: int = 200
-    policy: str = "rules"
+    policy: Annotated[str, tyro.conf.arg(aliases=["--policies"])] = "rules"
     task: str = "strawberry"
+    weights: Path | None = None
     json: Path | None = None
 
 
@@ -106,7 +113,7 @@ def _strawberry(argv: Sequence[str]) -> None:
 
     config, _ = load("strawberry")
     bench_strawberry.run(
-        config,
+        config.model_copy(update={"weights": flags.weights}),
         episodes=flags.episodes,
         first_seed=flags.first_seed,
         policies=tuple(name.strip() for name in flags.policies.split(",")),
@@ -123,6 +130,7 @@ def _latency(argv: Sequence[str]) -> None:
         ticks=flags.ticks,
         policy_name=flags.policy,
         task=flags.task,
+        weights=flags.weights,
         json_path=_writable(flags.json),
     )
 

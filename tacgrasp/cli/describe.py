@@ -1,4 +1,4 @@
-"""``tacgrasp describe FILE``: the contact state of a cloud or height map in words and numbers."""
+"""``tacgrasp describe FILE``: a touch in words and numbers, measured and as the model says it."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from pathlib import Path
 import tyro
 
 from tacgrasp.cli.flags import parse
+from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -18,10 +19,14 @@ class Describe:
     Attributes:
         file: The file.
         sensor: Whose field it is.
+        instruction: What the model's advice is for; without it that of the strawberry.
+        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
     """
 
     file: tyro.conf.Positional[Path]
     sensor: str = "gelsight_mini"
+    instruction: str | None = None
+    weights: Path | None = None
 
 
 def main(argv: Sequence[str]) -> int:
@@ -29,10 +34,31 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(Describe, argv, prog="tacgrasp describe")
     from cltp.files import read_touch
     from cltp.sensors import sensor_named
-    from tacgrasp.describe import describe
+    from policies import PolicyError
+    from tacgrasp.config_layers import load
+    from tacgrasp.describe import describe, said
+    from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
     from tacgrasp.view import console
 
     to = console()
-    for line in describe(read_touch(flags.file, sensor_named(flags.sensor))):
+    touch = read_touch(flags.file, sensor_named(flags.sensor))
+    for line in describe(touch):
+        to.print(line)
+    weights = flags.weights or default_weights()
+    if weights == shipped_weights() and not weights.is_dir():
+        to.print(
+            f"model     none: no weights in {weights}; train them with `tacgrasp train all` and "
+            "name their folder with --weights"
+        )
+        return 0
+    instruction = flags.instruction
+    if instruction is None:
+        instruction = load("strawberry")[0].instruction
+    model = load_llm(weights)
+    try:
+        model.check(instruction)
+    except PolicyError as error:
+        raise UsageError(f"--instruction: {error}") from None
+    for line in said(touch, model, instruction):
         to.print(line)
     return 0

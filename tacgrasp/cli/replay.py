@@ -23,12 +23,14 @@ class Replay:
         episode: The .mcap file.
         decide: Run a policy on the recorded touches and report every decision that differs.
         policy: Which policy decides; without it the one that was recorded.
+        weights: Folder of the language model's weights; without it those that were recorded.
         execute: Repeat the motion on the simulated arm, with a soft start and the same limits.
     """
 
     episode: tyro.conf.Positional[Path]
     decide: bool = False
     policy: str | None = None
+    weights: Path | None = None
     execute: bool = False
 
 
@@ -37,8 +39,9 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(Replay, argv, prog="tacgrasp replay")
     if flags.decide and flags.execute:
         raise UsageError("give --decide or --execute, one after the other")
-    if flags.policy is not None and not flags.decide:
-        raise UsageError("--policy needs --decide")
+    for flag, given in (("--policy", flags.policy), ("--weights", flags.weights)):
+        if given is not None and not flags.decide:
+            raise UsageError(f"{flag} needs --decide")
     from tacgrasp.episodes import read_episode
     from tacgrasp.view import console
 
@@ -76,7 +79,10 @@ def _decide(episode: Episode, flags: Replay, to: Console) -> int:
     from tacgrasp.replay import config_of, differences
 
     name = flags.policy or episode.header.policy
-    policy = make_policy(name, config_of(episode, flags.episode))
+    config = config_of(episode, flags.episode)
+    if flags.weights is not None:
+        config = config.model_copy(update={"weights": flags.weights})
+    policy = make_policy(name, config)
     asked = sum(tick.decision is not None for tick in episode.ticks)
     count = 0
     for difference in differences(episode, policy):

@@ -94,7 +94,14 @@ def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) 
     assert decision.action is None
     assert not decision.success
     assert decision.reason
-    assert set(decision.stage_ms) == {"sample", "encode", "project", "generate", "extract"}
+    assert set(decision.stage_ms) == {
+        "sample",
+        "encode",
+        "project",
+        "prefill",
+        "generate",
+        "extract",
+    }
     assert policy.decide(touch(), "Pick the strawberry gently.").text == decision.text
 
 
