@@ -23,12 +23,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from primitives.execution import Executed
-
 from cltp.cloud import Stamp, TactileCloud
 from cltp.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
+from primitives.execution import Executed
 
 FORMAT = "tacgrasp-episode/1"
 METADATA_NAME = "tacgrasp_episode"
