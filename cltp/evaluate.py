@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 
-from cltp.captions import Slots, parse_caption, slots_of
+from cltp.captions import Slots, caption, parse_caption, slots_of
 from cltp.clip import Towers
 from cltp.cloud import TactileCloud
 from cltp.dataset import ContactDataset
@@ -16,10 +18,11 @@ from cltp.encoder import TactileEncoder
 from cltp.errors import TouchError
 from cltp.heads import NUMBERS, StateHeads, restored
 from cltp.measure import contact_state
+from cltp.render import render
 from cltp.samples import CLASSES, NOISY, Augmentation, Batch, Sampler
-from cltp.sensors import sensor_named
+from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import Area, ContactState, Depth, Position, Shape, Texture
-from cltp.talk import Talker
+from cltp.talk import Reply
 
 ZERO_SHOT: Mapping[str, str] = {
     "shape": "This is a {}.",
@@ -31,6 +34,14 @@ ZERO_SHOT: Mapping[str, str] = {
 """Prompts of zero-shot classification. Source: paper, section 5.1, for shape, depth, position."""
 
 
+class Speaker(Protocol):
+    """What ``cltp.talk.Talker`` does for a person."""
+
+    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
+        """Answer about one contact, points of shape (1024, 3) scaled."""
+        ...
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scores:
     """Share of right classes in each of the five slots.
@@ -38,12 +49,31 @@ class Scores:
     Attributes:
         right: By slot, 0 to 1; NaN where nothing could be judged.
         count: Contacts judged.
-        errors: Median absolute error by quantity, in its unit; empty for words alone.
+        errors: Median absolute error by quantity, in its unit, of contacts that touch; also
+            ``position_mm`` (distance) and ``force_share`` (of the true force); empty for words
+            alone.
     """
 
     right: Mapping[str, float]
     count: int
     errors: Mapping[str, float]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Retrieval:
+    """How well two towers find each other's contacts.
+
+    Attributes:
+        image_to_text: Share of images whose nearest caption is their own.
+        text_to_image: Share of captions whose nearest image is theirs.
+        chance: What guessing gives.
+        among: Contacts to choose from, on average.
+    """
+
+    image_to_text: float
+    text_to_image: float
+    chance: float
+    among: float
 
 
 def batches(
@@ -96,20 +126,65 @@ def ceiling_scores(data: ContactDataset, samples: Sequence[Batch]) -> Scores:
     said, values = [], []
     for batch in samples:
         for index, points in zip(batch.index, batch.points, strict=True):
-            sensor = sensor_named(data.column("sensor")[index])
-            half = sensor.width_mm / 2
-            scale = np.array([half, half, sensor.max_depth_mm], np.float32)
-            state = contact_state(TactileCloud(points_mm=points * scale, sensor=sensor))
+            state = contact_state(unscaled(points, sensor_named(data.column("sensor")[index])))
             said.append(slots_of(state))
             values.append([getattr(state, name) for name in NUMBERS])
     return _scored(said, [s for batch in samples for s in batch.states], np.array(values))
 
 
+def unscaled(points: NDArray[np.float32], sensor: SensorSpec) -> TactileCloud:
+    """The cloud that scaled points, shape (1024, 3), came from."""
+    half = sensor.width_mm / 2
+    scale = np.array([half, half, sensor.max_depth_mm], np.float32)
+    return TactileCloud(points_mm=points * scale, sensor=sensor)
+
+
+def retrieval_scores(towers: Towers, data: ContactDataset, samples: Sequence[Batch]) -> Retrieval:
+    """How often an image of the clean gel finds its caption among all of a batch, and back.
+
+    Contacts with the same caption count as one. Source: the usual measure of CLIP.
+    """
+    found = []
+    for batch in samples:
+        captions = [caption(state) for state in batch.states]
+        sensors = [sensor_named(data.column("sensor")[index]) for index in batch.index]
+        images = [render(h, s) for h, s in zip(batch.height_mm, sensors, strict=True)]
+        similar = (towers.images(torch.stack(images)) @ towers.texts(captions).T).numpy()
+        same = np.array([[a == b for b in captions] for a in captions])
+        rows = np.arange(len(captions))
+        found.append(
+            [
+                same[rows, similar.argmax(axis=1)].mean(),
+                same[similar.argmax(axis=0), rows].mean(),
+                same.mean(),
+                len(captions),
+            ]
+        )
+    to_text, to_image, chance, among = np.mean(found, axis=0)
+    return Retrieval(
+        image_to_text=float(to_text),
+        text_to_image=float(to_image),
+        chance=float(chance),
+        among=float(among),
+    )
+
+
 def caption_scores(
-    talker: Talker, samples: Sequence[Batch], request: str = "Describe the contact."
+    talker: Speaker,
+    samples: Sequence[Batch],
+    request: str = "Describe the contact.",
+    read_numbers: Callable[[str], Sequence[float] | None] | None = None,
 ) -> Scores:
-    """What the language model says, slot by slot; a reply that is no caption is wrong in all."""
-    said = []
+    """What the language model says, slot by slot; a reply that is no caption is wrong in all.
+
+    Args:
+        talker: The model.
+        samples: Contacts.
+        request: What is asked.
+        read_numbers: Reads ``NUMBERS`` out of a reply, None where it has none: that counts as
+            infinitely wrong.
+    """
+    said, values = [], []
     for batch in samples:
         for points in batch.points:
             text = talker.reply(points, request).text
@@ -117,11 +192,14 @@ def caption_scores(
                 said.append(parse_caption(text.split(".")[0]))
             except TouchError:
                 said.append(Slots())
-    return _scored(said, [state for batch in samples for state in batch.states])
+            read = read_numbers(text) if read_numbers is not None else None
+            values.append(read if read is not None else [np.inf] * len(NUMBERS))
+    states = [state for batch in samples for state in batch.states]
+    return _scored(said, states, np.array(values) if read_numbers is not None else None)
 
 
 def answer_scores(
-    talker: Talker,
+    talker: Speaker,
     samples: Sequence[Batch],
     wordings: Mapping[str, Sequence[str]],
     is_right: Callable[[str, str, ContactState], bool],
@@ -174,5 +252,6 @@ def _scored(
         felt = np.array([state.in_contact for state in states])
         off = np.abs(values - truth)[felt]
         errors = {name: float(np.median(off[:, n])) for n, name in enumerate(NUMBERS)}
+        errors["position_mm"] = float(np.median(np.hypot(off[:, 1], off[:, 2])))
         errors["force_share"] = float(np.median(off[:, 4] / np.maximum(truth[felt, 4], 0.05)))
     return Scores(right=right, count=len(states), errors=errors)

@@ -11,6 +11,7 @@ import re
 import sys
 from collections.abc import Mapping, Sequence
 from contextlib import redirect_stderr, redirect_stdout
+from pathlib import Path
 from typing import TypeVar
 
 import tyro
@@ -119,3 +120,14 @@ def subcommand(
         got = repr(argv[0]) if argv else "nothing"
         raise UsageError(f"tacgrasp {command} expects one of {', '.join(known)}, got {got}")
     return argv[0], argv[1:]
+
+
+def writable(json_path: Path | None) -> Path | None:
+    """Refuse a place that can't be written before minutes are spent on measuring."""
+    if json_path is None:
+        return None
+    try:
+        with json_path.open("a", encoding="utf-8"):
+            return json_path
+    except OSError as error:
+        raise UsageError(f"--json {json_path} can't be written: {error.strerror}") from None

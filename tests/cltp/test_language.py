@@ -174,7 +174,9 @@ class ScriptedDecoder:
 
 def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words: Words) -> None:
     language = tiny_model(words).language
-    ids, ended, chances = _own(ScriptedDecoder(words), language, torch.zeros(3, 48), 10)
+    ids, ended, chances = _own(
+        ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None
+    )
     assert words.decode(ids).strip() == "<increase_force>"
     assert ended
     assert chances == pytest.approx([1 / 14] * 4 + [0.5] + [1 / 14] * 3)
@@ -182,7 +184,7 @@ def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words
 
 def test_a_reply_reports_its_stages_and_whether_it_ended(words: Words) -> None:
     reply = Talker(tiny_model(words)).reply(torch.rand(1024, 3).numpy(), "Pick it.", max_tokens=4)
-    assert set(reply.stage_ms) == {"encode", "project", "generate"}
+    assert set(reply.stage_ms) == {"encode", "project", "prefill", "generate"}
     assert reply.ended == (reply.num_tokens < 4)
 
 

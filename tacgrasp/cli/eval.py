@@ -1,0 +1,74 @@
+"""``tacgrasp eval``: how right trained weights are on contacts that they have not seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tacgrasp.cli.flags import parse, writable
+from tacgrasp.errors import UsageError
+
+
+@dataclass(frozen=True)
+class Eval:
+    """Measure captions, numbers, answers, instructions and alignment on the test split.
+
+    Attributes:
+        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
+        data: Folder of contacts, as tacgrasp train made it.
+        json: File for the figures.
+        blind: Folder of an instruction-blind copy (tacgrasp train llm --blind-of).
+        captions: Contacts to describe.
+        answers: Contacts to ask about.
+        pairs: Instruction pairs.
+        per_wording: Contacts for each paraphrase.
+        seed: Of contacts, noise and wordings.
+        card: Also write the scores into the model card.
+    """
+
+    weights: Path | None = None
+    data: Path = Path("runs/data")
+    json: Path | None = None
+    blind: Path | None = None
+    captions: int = 500
+    answers: int = 150
+    pairs: int = 200
+    per_wording: int = 8
+    seed: int = 0
+    card: bool = False
+
+
+def main(argv: Sequence[str]) -> int:
+    """Measure, print, write."""
+    flags = parse(Eval, argv, prog="tacgrasp eval")
+    if min(flags.captions, flags.answers, flags.pairs, flags.per_wording) < 1 or flags.seed < 0:
+        raise UsageError("every number of eval must be at least 1, --seed at least 0")
+    json_path = writable(flags.json)
+    import json
+
+    from rich.console import Console
+
+    from cltp.train.progress import Bar
+    from tacgrasp.evaluation import Sizes, evaluate
+    from tacgrasp.policy_factory import default_weights
+    from tacgrasp.scores import show, write_scores
+
+    weights = flags.weights or default_weights()
+    sizes = Sizes(
+        captions=flags.captions,
+        answers=flags.answers,
+        pairs=flags.pairs,
+        per_wording=flags.per_wording,
+    )
+    with Bar(line_s=10.0) as report:
+        found = evaluate(
+            weights, flags.data, blind=flags.blind, sizes=sizes, seed=flags.seed, report=report
+        )
+    to = Console()
+    show(found, to if to.is_terminal else Console(width=160))
+    if json_path is not None:
+        json_path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+    if flags.card:
+        write_scores(weights, found)
+    return 0
