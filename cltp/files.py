@@ -1,7 +1,8 @@
-"""Read one touch from a file: a cloud (.ply .pcd .xyz .npy .npz) or a height map (.npy .npz).
+"""Read one touch from a file: a cloud, a height map, or a camera's frame of the gel.
 
-Clouds are (N, 3) in mm in the gel frame; height maps are (H, W) indentations in mm over the
-sensor's whole field, row 0 at the top. Nothing is guessed, scaled or repaired.
+Clouds (.ply .pcd .xyz .npy .npz) are (N, 3) in mm in the gel frame; height maps (.npy .npz) are
+(H, W) indentations in mm over the sensor's whole field, row 0 at the top; frames (.png .jpg .bmp)
+become heights by a calibration. Nothing is guessed, scaled or repaired.
 
 Not here: datasets of many contacts (``cltp.dataset``), episodes (``tacgrasp.episodes``).
 """
@@ -18,6 +19,7 @@ from numpy.typing import NDArray
 from cltp.cloud import TactileCloud, cloud_from_heights
 from cltp.cloud_formats import read_pcd, read_ply, read_xyz
 from cltp.errors import TouchError
+from cltp.frames import FRAME_SUFFIXES, read_frame
 from cltp.sensors import SensorSpec
 
 ASPECT_TOLERANCE = 0.05
@@ -27,17 +29,27 @@ METRES_MM = 2e-3
 """A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
 
 
-def read_touch(path: Path, sensor: SensorSpec) -> TactileCloud:
-    """Read a cloud, or sample a height map at the centres of 1024 cells.
+def read_touch(
+    path: Path,
+    sensor: SensorSpec,
+    *,
+    background: Path | None = None,
+    calibration: Path | None = None,
+) -> TactileCloud:
+    """Read a cloud, or sample a height map or a frame's heights at the centres of 1024 cells.
 
     Args:
         path: File; its suffix says the format.
         sensor: Whose field and gel the numbers refer to.
+        background: Frame of the same unit untouched; a frame can't be read without.
+        calibration: Of that unit; None is the one that ships. For frames only.
 
     Raises:
         TouchError: Missing, empty, truncated or foreign file; no numbers where they should be;
-            or numbers that can't be a touch of this sensor.
+            numbers that can't be a touch of this sensor; or a frame without a background.
     """
+    if path.suffix.lower() in FRAME_SUFFIXES:
+        return _frame_touch(path, sensor, background, calibration)
     readers: dict[str, Callable[[Path], NDArray[np.float64]]] = {
         ".ply": read_ply,
         ".pcd": read_pcd,
@@ -48,7 +60,8 @@ def read_touch(path: Path, sensor: SensorSpec) -> TactileCloud:
     reader = readers.get(path.suffix.lower())
     if reader is None:
         raise TouchError(
-            f"{path}: expected a file ending in {', '.join(readers)}, got {path.suffix or 'none'!r}"
+            f"{path}: expected a file ending in {', '.join((*readers, *FRAME_SUFFIXES))}, "
+            f"got {path.suffix or 'none'!r}"
         )
     if not path.is_file():
         raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
@@ -59,6 +72,25 @@ def read_touch(path: Path, sensor: SensorSpec) -> TactileCloud:
         return _touch(array, sensor)
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _frame_touch(
+    path: Path, sensor: SensorSpec, background: Path | None, calibration: Path | None
+) -> TactileCloud:
+    from cltp.calibration import default_calibration, load_calibration
+    from cltp.photometric import Photometer
+
+    frame = read_frame(path, sensor)
+    if background is None:
+        raise TouchError(
+            f"{path} is a frame, and heights follow from its difference to the untouched gel: "
+            "give a frame of the same unit with nothing touching it as --background"
+        )
+    net = load_calibration(calibration or default_calibration(sensor), sensor).net
+    try:
+        return Photometer(net, read_frame(background, sensor), sensor).cloud(frame)
     except TouchError as error:
         raise TouchError(f"{path}: {error}") from None
 

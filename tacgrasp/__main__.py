@@ -12,12 +12,13 @@ COMMANDS = {
     "demo": "scripted demos with a known outcome; without a name lists them",
     "replay": "show an episode tick by tick; --decide asks a policy again, --execute moves again",
     "episodes": "ls, info, recover, plot: what has been recorded",
-    "describe": "say in words and numbers what a cloud or height map in a file is",
-    "ask": "answer a question about the touch in a file: ask FILE \"How deep is it pressed?\"",
+    "describe": "say in words and numbers what a cloud or height map in a file, or a frame, is",
+    "ask": 'answer a question about the touch in a file: ask FILE "How deep is it pressed?"',
     "train": "clip, cltp, llm, all: from nothing to weights; goes on where it was stopped",
     "eval": "how right the trained weights are on contacts that they have not seen",
     "data": "generate: make contacts to learn from; goes on where it was stopped",
-    "bench": "strawberry, latency, gel, touch, crash: measure and print figures",
+    "calibrate": "gelsight-mini: from presses of a ball to a sensor's calibration",
+    "bench": "strawberry, latency, gel, touch, balls, crash: measure and print figures",
 }
 
 EXIT_CODES = """\

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import tyro
 
-from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.cli.flags import parse, subcommand, writable
 from tacgrasp.errors import UsageError
 
 
@@ -76,6 +76,27 @@ class Touch:
 
 
 @dataclass(frozen=True)
+class Balls:
+    """Measure the heights of real GelSight Mini frames on presses of a ball of known diameter.
+
+    Attributes:
+        dir: Folder with the frames.
+        diameter_mm: Of the ball [mm].
+        background: The untouched gel; background.png in the folder when not given.
+        folds: How many calibrations, each without its share of the presses; 44 takes minutes.
+        bare_sphere: Calibrate without profiles of the gel, for comparison.
+        json: File for the figures.
+    """
+
+    dir: Path | None = None
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    folds: int = 11
+    bare_sphere: bool = False
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
 class Crash:
     """Kill recordings at random moments and count what is lost.
 
@@ -90,16 +111,17 @@ class Crash:
 
 def main(argv: Sequence[str]) -> int:
     """Dispatch to the benchmarks; 0 when what was measured is as it must be."""
-    benches: dict[str, Callable[[Sequence[str]], None]] = {
+    benches: dict[str, Callable[[Sequence[str]], bool | None]] = {
         "strawberry": _strawberry,
         "latency": _latency,
         "gel": _gel,
         "touch": _touch,
+        "balls": _balls,
         "crash": _crash,
     }
     name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
     if name is not None:
-        benches[name](rest)
+        return 1 if benches[name](rest) is False else 0
     return 0
 
 
@@ -117,7 +139,7 @@ def _strawberry(argv: Sequence[str]) -> None:
         episodes=flags.episodes,
         first_seed=flags.first_seed,
         policies=tuple(name.strip() for name in flags.policies.split(",")),
-        json_path=_writable(flags.json),
+        json_path=writable(flags.json),
     )
 
 
@@ -131,7 +153,7 @@ def _latency(argv: Sequence[str]) -> None:
         policy_name=flags.policy,
         task=flags.task,
         weights=flags.weights,
-        json_path=_writable(flags.json),
+        json_path=writable(flags.json),
     )
 
 
@@ -140,7 +162,7 @@ def _gel(argv: Sequence[str]) -> None:
     flags = parse(Gel, argv, prog="tacgrasp bench gel")
     from tacgrasp import bench_gel
 
-    bench_gel.run(_writable(flags.json))
+    bench_gel.run(writable(flags.json))
 
 
 def _touch(argv: Sequence[str]) -> None:
@@ -150,7 +172,24 @@ def _touch(argv: Sequence[str]) -> None:
         raise UsageError("--bodies must be at least 1")
     from tacgrasp import bench_touch
 
-    bench_touch.run(flags.bodies, _writable(flags.json))
+    bench_touch.run(flags.bodies, writable(flags.json))
+
+
+def _balls(argv: Sequence[str]) -> bool:
+    """Measure the heights of real frames on presses of a ball."""
+    flags = parse(Balls, argv, prog="tacgrasp bench balls")
+    if not 1.0 <= flags.diameter_mm <= 100.0 or flags.folds < 2:
+        raise UsageError("--diameter-mm must be 1 to 100 and --folds at least 2")
+    from tacgrasp import bench_balls
+
+    return bench_balls.run(
+        flags.dir or bench_balls.FOLDER,
+        diameter_mm=flags.diameter_mm,
+        background=flags.background,
+        folds=flags.folds,
+        bare_sphere=flags.bare_sphere,
+        json_path=writable(flags.json),
+    )
 
 
 def _crash(argv: Sequence[str]) -> None:
@@ -158,15 +197,4 @@ def _crash(argv: Sequence[str]) -> None:
     flags = parse(Crash, argv, prog="tacgrasp bench crash")
     from tacgrasp import bench_crash
 
-    bench_crash.run(flags.kills, _writable(flags.json))
-
-
-def _writable(json_path: Path | None) -> Path | None:
-    """Refuse a place that can't be written before minutes are spent on measuring."""
-    if json_path is None:
-        return None
-    try:
-        with json_path.open("a", encoding="utf-8"):
-            return json_path
-    except OSError as error:
-        raise UsageError(f"--json {json_path} can't be written: {error.strerror}") from None
+    bench_crash.run(flags.kills, writable(flags.json))

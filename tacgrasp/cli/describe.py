@@ -16,15 +16,21 @@ from tacgrasp.errors import UsageError
 class Describe:
     """Say what a cloud (.ply .pcd .xyz .npy .npz) or a height map (.npy .npz), in mm, is.
 
+    Or a frame of the sensor's camera (.png .jpg .bmp), with its background.
+
     Attributes:
         file: The file.
         sensor: Whose field it is.
+        background: For a frame: another of the same unit with nothing touching it.
+        calibration: For a frame: of its unit; without it the one that comes along.
         instruction: What the model's advice is for; without it that of the strawberry.
         weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
     """
 
     file: tyro.conf.Positional[Path]
     sensor: str = "gelsight_mini"
+    background: Path | None = None
+    calibration: Path | None = None
     instruction: str | None = None
     weights: Path | None = None
 
@@ -41,7 +47,12 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.view import console
 
     to = console()
-    touch = read_touch(flags.file, sensor_named(flags.sensor))
+    touch = read_touch(
+        flags.file,
+        sensor_named(flags.sensor),
+        background=flags.background,
+        calibration=flags.calibration,
+    )
     for line in describe(touch):
         to.print(line)
     weights = flags.weights or default_weights()

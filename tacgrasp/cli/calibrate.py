@@ -1,0 +1,107 @@
+"""``tacgrasp calibrate gelsight-mini``: make the calibration of a sensor's unit."""
+
+from __future__ import annotations
+
+import datetime
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.errors import UsageError
+
+
+@dataclass(frozen=True)
+class GelsightMini:
+    """Learn a GelSight Mini's heights from presses of a ball of known diameter.
+
+    Press a steel ball at 20 or more places all over the gel, one frame each, and take one frame
+    with nothing touching it. About a quarter of a minute.
+
+    Attributes:
+        balls: Folder with the frames (320 × 240, colour).
+        diameter_mm: Of the ball [mm].
+        background: The untouched gel; background.png in the folder when not given.
+        out: File to write.
+        unit: What you call this unit, a serial number for instance; kept in the file.
+        source: Where the frames are from; the folder's name when not given.
+        date: Of the frames, like 2026-01-31; today when not given.
+        seed: Of the training.
+    """
+
+    balls: Path
+    diameter_mm: float
+    background: Path | None = None
+    out: Path = Path("gelsight_mini.safetensors")
+    unit: str = "unnamed"
+    source: str = ""
+    date: str = ""
+    seed: int = 0
+
+
+def main(argv: Sequence[str]) -> int:
+    """Dispatch to the devices that can be calibrated."""
+    devices: dict[str, Callable[[Sequence[str]], None]] = {"gelsight-mini": _gelsight_mini}
+    name, rest = subcommand(
+        "calibrate", argv, {name: device.__doc__ or "" for name, device in devices.items()}
+    )
+    if name is not None:
+        devices[name](rest)
+    return 0
+
+
+def _gelsight_mini(argv: Sequence[str]) -> None:
+    """Photometric: colours to heights, from presses of a ball."""
+    flags = parse(GelsightMini, argv, prog="tacgrasp calibrate gelsight-mini")
+    if not 1.0 <= flags.diameter_mm <= 100.0:
+        raise UsageError(f"--diameter-mm must be 1 to 100, got {flags.diameter_mm}")
+    if not flags.out.parent.is_dir():
+        raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
+    date = flags.date or datetime.date.today().isoformat()
+    try:
+        datetime.date.fromisoformat(date)
+    except ValueError:
+        raise UsageError(f"--date must be like 2026-01-31, got {date}") from None
+
+    from cltp.calibration import Calibration, save_calibration
+    from cltp.sensors import sensor_named
+    from cltp.train.photometric import train_gradients
+    from cltp.train.progress import Bar
+    from tacgrasp.ball_frames import read_ball_frames
+    from tacgrasp.ball_profiles import ball_profiles
+    from tacgrasp.view import console
+
+    sensor, to = sensor_named("gelsight_mini"), console()
+    balls = read_ball_frames(flags.balls, sensor, flags.background)
+    with Bar(sys.stderr) as bar:
+        trained = train_gradients(
+            balls.frames,
+            balls.background,
+            sensor,
+            flags.diameter_mm,
+            profiles=ball_profiles(sensor.name, flags.diameter_mm),
+            seed=flags.seed,
+            report=lambda step, steps: bar("calibrating", step, steps, {}),
+        )
+    for index, why in trained.rejected.items():
+        to.print(f"left out  {balls.names[index]}: {why}")
+    save_calibration(
+        flags.out,
+        Calibration(
+            net=trained.net,
+            sensor=sensor.name,
+            unit=flags.unit,
+            date=date,
+            ball_diameter_mm=flags.diameter_mm,
+            num_frames=len(trained.presses),
+            residual=trained.residual,
+            seed=flags.seed,
+            source=flags.source or flags.balls.resolve().name,
+        ),
+    )
+    depths = sorted(press.depth_mm for press in trained.presses)
+    to.print(f"frames    {len(trained.presses)} of {len(balls.frames)}")
+    to.print(f"presses   {depths[0]:.2f} to {depths[-1]:.2f} mm deep")
+    to.print(f"residual  {trained.residual:.3f} mm per mm, slopes around the ball")
+    to.print(f"written   {flags.out}; check it with: tacgrasp bench balls --dir {flags.balls}")
