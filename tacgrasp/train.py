@@ -90,7 +90,7 @@ def train(
         "command": f"`{command} --contacts {contacts} --seed {seed}`",
         "seed": str(seed),
         "contacts": str(contacts),
-        "data checksum": ContactDataset(data).checksum(),
+        "data checksum": _data_checksum(data),
         "torch": torch.__version__,
         "python": platform.python_version(),
         "last run took": f"{(time.monotonic() - began) / 60:.0f} min",
@@ -118,6 +118,10 @@ def take_encoder(source: Path, out: Path) -> None:
 def _words(data: Path, seed: int) -> Words:
     """The tokenizer, learnt anew in seconds: the same data and seed give the same one."""
     return train_words(data, TouchLessons(), seed=seed)
+
+
+def _data_checksum(data: Path) -> str:
+    return ContactDataset(data).checksum()
 
 
 def _bytes(out: Path) -> int:
