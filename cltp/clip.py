@@ -7,16 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import torch
 from safetensors import SafetensorError
 from torch import Tensor, nn
-from transformers import CLIPConfig, CLIPModel
 
 from cltp.errors import TouchError
 from cltp.render import IMAGE_PX
 from cltp.tokenizer import Words
+
+if TYPE_CHECKING:  # its import takes seconds: only where it is needed
+    from transformers import CLIPModel
 
 TEXT_LENGTH = 40
 """Longest text of the small CLIP, in tokens; captions of contact states take about 25."""
@@ -24,6 +26,8 @@ TEXT_LENGTH = 40
 
 def small_clip(words: Words, *, dim: int = 128, layers: int = 2) -> CLIPModel:
     """A CLIP to be aligned here, with random weights. 1 M parameters by default."""
+    from transformers import CLIPConfig, CLIPModel
+
     tower = {
         "hidden_size": dim,
         "intermediate_size": 3 * dim,
@@ -103,6 +107,8 @@ def load_towers(folder: Path) -> Towers:
     Raises:
         TouchError: The directory, its weights or its tokenizer are missing or don't fit.
     """
+    from transformers import CLIPModel
+
     try:
         loaded: Any = CLIPModel.from_pretrained(
             folder, local_files_only=True, output_loading_info=True, dtype=torch.float32

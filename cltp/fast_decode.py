@@ -29,7 +29,8 @@ class FastDecoder:
     """Runs a Qwen2 token by token.
 
     Args:
-        lm: A ``Qwen2ForCausalLM``. Its weights are copied; make a new decoder after training on.
+        lm: A ``Qwen2ForCausalLM`` or a ``cltp.stored_lm.StoredLm``. Its weights are copied; make a
+            new decoder after training on.
         longest: Positions that the cache holds.
     """
 

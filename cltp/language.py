@@ -9,22 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import torch
 from safetensors import SafetensorError
 from torch import Tensor
-from transformers import (
-    AutoConfig,
-    AutoTokenizer,
-    Qwen2_5_VLForConditionalGeneration,
-    Qwen2Config,
-    Qwen2ForCausalLM,
-)
 
 from cltp.errors import TouchError
 from cltp.packing import prompt_ids
 from cltp.tokenizer import ACTIONS, Words
+
+if TYPE_CHECKING:  # its import takes seconds: only where it is needed
+    from transformers import Qwen2ForCausalLM
 
 CUE = "Action:"
 """Stands before the action in every D_t."""
@@ -38,6 +34,8 @@ def small_lm(words: Words, *, dim: int = 192, layers: int = 4) -> Qwen2ForCausal
         dim: Hidden width, a multiple of 48.
         layers: Layers.
     """
+    from transformers import Qwen2Config, Qwen2ForCausalLM
+
     config = Qwen2Config(
         vocab_size=len(words),
         hidden_size=dim,
@@ -59,7 +57,7 @@ class Language:
     """A causal language model with its tokenizer.
 
     Args:
-        lm: A Qwen2 or Qwen2.5-VL of transformers.
+        lm: A Qwen2 or Qwen2.5-VL of transformers, or a ``cltp.stored_lm.StoredLm``.
         words: Our tokenizer; None for a stock checkpoint.
         stock: The checkpoint's own tokenizer; None for ours.
     """
@@ -113,13 +111,22 @@ def load_language(folder: Path) -> Language:
     Raises:
         TouchError: Missing, damaged, another architecture, or weights that don't fit strictly.
     """
+    from transformers import (
+        AutoConfig,
+        AutoTokenizer,
+        Qwen2_5_VLForConditionalGeneration,
+        Qwen2ForCausalLM,
+    )
+
+    kinds: dict[str, Any] = {
+        "qwen2": Qwen2ForCausalLM,
+        "qwen2_5_vl": Qwen2_5_VLForConditionalGeneration,
+    }
     try:
         kind = AutoConfig.from_pretrained(folder, local_files_only=True).model_type
-        if kind not in _KINDS:
-            raise TouchError(
-                f"{folder} holds a {kind} model; Tac3D-LLM takes {' or '.join(_KINDS)}"
-            )
-        loaded: Any = _KINDS[kind].from_pretrained(
+        if kind not in kinds:
+            raise TouchError(f"{folder} holds a {kind} model; Tac3D-LLM takes {' or '.join(kinds)}")
+        loaded: Any = kinds[kind].from_pretrained(
             folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
         )
     except (OSError, ValueError, RuntimeError, SafetensorError) as error:
@@ -139,9 +146,3 @@ def load_language(folder: Path) -> Language:
         return Language(lm, stock=AutoTokenizer.from_pretrained(folder, local_files_only=True))
     except (OSError, ValueError) as error:
         raise TouchError(f"no tokenizer could be read from {folder}: {error}") from error
-
-
-_KINDS: dict[str, Any] = {
-    "qwen2": Qwen2ForCausalLM,
-    "qwen2_5_vl": Qwen2_5_VLForConditionalGeneration,
-}

@@ -19,21 +19,24 @@ import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import torch
 from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 from torch import Tensor, nn
-from transformers import CLIPModel
 
 from cltp.clip import Towers, load_towers
 from cltp.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.heads import StateHeads
 from cltp.language import Language, load_language
+from cltp.stored_lm import load_stored_lm
 from cltp.tac3d_llm import Projector, Tac3dLlm
 from cltp.tokenizer import Words
+
+if TYPE_CHECKING:
+    from transformers import CLIPModel
 
 VERSION = 1
 
@@ -104,7 +107,7 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     """Read a whole Tac3D-LLM.
 
     Args:
-        folder: With ``encoder``, ``projector`` and ``lm``.
+        folder: With ``encoder``, ``projector`` and ``lm``; the latter is read for decoding alone.
         lm_folder: Another language model in transformers' layout; its projector is ``folder``'s.
 
     Raises:
@@ -115,7 +118,9 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     config = _config(folder / "projector")
     if lm_folder is None:
         _present(folder / "lm")
-    language: Language = load_language(lm_folder or folder / "lm")
+        language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
+    else:
+        language = load_language(lm_folder)
     words = language.words
     if words is not None and words.fingerprint() != config.get("tokenizer_sha256"):
         raise WeightsError(

@@ -19,9 +19,11 @@ from typing import Any
 
 import numpy as np
 import torch
+from transformers.utils.logging import disable_progress_bar
 
 from cltp.cloud import TactileCloud
 from cltp.inputs import encoder_input
+from cltp.language import load_language
 from cltp.operations import (
     encoder_operations,
     generate_operations,
@@ -41,6 +43,7 @@ _TURN = re.compile(r"^\s*\d+\s+\d+\.\d s ")
 
 def language_report(
     talker: Talker,
+    lm_folder: Path,
     touches: Sequence[TactileCloud],
     instruction: str,
     stages_ms: Mapping[str, Mapping[str, float]],
@@ -49,6 +52,7 @@ def language_report(
 
     Args:
         talker: The model.
+        lm_folder: Where transformers reads the same language model from.
         touches: The clouds that were timed.
         instruction: What was asked of them.
         stages_ms: Measured durations by stage, with ``p50`` [ms].
@@ -74,7 +78,7 @@ def language_report(
         "threads": torch.get_num_threads(),
         "product_gflops": rate / 1e9,
         "floors": floors,
-        "naive": naive_ways(talker, points[0], instruction, model_ms),
+        "naive": naive_ways(talker, lm_folder, points[0], instruction, model_ms),
     }
 
 
@@ -105,14 +109,15 @@ def product_rate(runs: int = 20) -> float:
 
 @torch.inference_mode()
 def naive_ways(
-    talker: Talker, points: np.ndarray, instruction: str, model_ms: float
+    talker: Talker, lm_folder: Path, points: np.ndarray, instruction: str, model_ms: float
 ) -> dict[str, Any]:
     """The model's stages by transformers' ``generate``, beside ours of ``model_ms`` [ms].
 
     Returns:
         By way ``ms``, the ``ratio`` to ours, and whether the text is the ``same_text``.
     """
-    model, language = talker.model, talker.model.language
+    disable_progress_bar()
+    model, language = talker.model, load_language(lm_folder)
     ours = talker.reply(points, instruction).text
     ways: dict[str, Any] = {}
     for name, use_cache in (("no_cache", False), ("with_cache", True)):

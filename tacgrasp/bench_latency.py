@@ -24,7 +24,7 @@ from tacgrasp.config import RunConfig
 from tacgrasp.config_layers import load
 from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, Phase, TickRecord
 from tacgrasp.errors import UsageError
-from tacgrasp.policy_factory import make_policy
+from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig import Rig, make_rig
 from tacgrasp.view import console
 
@@ -94,7 +94,8 @@ def _of_the_language_model(
 
     if not isinstance(policy, LlmPolicy):
         return {}
-    found = language_report(policy.talker, touches, config.instruction, stages_ms)
+    lm_folder = (config.weights or default_weights()) / "lm"
+    found = language_report(policy.talker, lm_folder, touches, config.instruction, stages_ms)
     started_s = start_to_first_action_s(config.task, config.weights)
     return found | {"start_to_first_action_s": started_s}
 

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from transformers.utils.logging import disable_progress_bar
 
 from cltp.cloud import TactileCloud
 from cltp.contacts import Split
@@ -101,6 +102,7 @@ def evaluate(
     Raises:
         TouchError: Weights or data can't be used.
     """
+    disable_progress_bar()  # of reading weights, over in milliseconds
     sizes = sizes or Sizes()
     data = ContactDataset(data_dir, split=Split.TEST)
     policy = load_llm(weights)

@@ -43,11 +43,9 @@ def load_llm(weights: Path | None = None) -> LlmPolicy:
         TouchError: Weights are missing, damaged, or don't fit together.
     """
     import torch
-    from transformers.utils.logging import disable_progress_bar
 
     from policies.llm import LlmPolicy
 
-    disable_progress_bar()  # over in milliseconds, and not ours to show
     torch.set_num_threads(LLM_THREADS)
     return LlmPolicy(weights or default_weights())
 

@@ -16,8 +16,9 @@ from cltp.talk import Reply
 from cltp.tokenizer import ACTIONS, Words
 from policies import PolicyError
 from policies.llm import LlmPolicy
-from tacgrasp import bench_language, policy_factory, train
+from tacgrasp import bench_language, bench_strawberry, policy_factory, train
 from tacgrasp.__main__ import main
+from tacgrasp.config_layers import load
 from tacgrasp.errors import UsageError
 from tacgrasp.view import COMPLETED
 
@@ -324,15 +325,24 @@ def test_a_run_that_comes_to_no_turn_is_told_with_what_it_said(tmp_path: Path) -
         bench_language.start_to_first_action_s("strawberry", tmp_path / "none")
 
 
-def test_the_benchmark_takes_the_model(weights: Path, tmp_path: Path) -> None:
-    figures = tmp_path / "bench.json"
-    argv = ["bench", "strawberry", "--policies", "llm", "--weights", str(weights)]
-    argv += ["--episodes", "2", "--first-seed", "5", "--json", str(figures)]
-    done = subprocess.run([sys.executable, "-m", "tacgrasp", *argv], cwd=ROOT, capture_output=True)
-    assert done.returncode == 0, done.stderr
-    row = json.loads(figures.read_text())["policies"]["llm"]
-    assert row["ends"] == {"no_action": 2}
-    assert row["verified_success_rate"] == 0
+def test_the_benchmark_takes_the_model_and_reads_it_once(weights: Path) -> None:
+    config = load("strawberry")[0].model_copy(update={"weights": weights})
+    before = bench_strawberry._language_model.cache_info().misses
+    for seed in (5, 6):
+        (result,) = bench_strawberry.run_seed(config, [("llm", None)], seed)
+        assert result.reason == "no_action"
+        assert not result.verified
+    assert bench_strawberry._language_model.cache_info().misses == before + 1
+
+
+def test_deciding_does_not_load_transformers(weights: Path) -> None:
+    """Its import takes longer than a person should wait for the first action."""
+    code = (
+        "import sys; from pathlib import Path; from tacgrasp.policy_factory import load_llm; "
+        f"load_llm(Path({str(weights)!r})); print('transformers' in sys.modules)"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout.strip() == "False", done.stderr
 
 
 class Trainer:
