@@ -12,7 +12,8 @@ Not here: the file (``cltp.calibration``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -212,6 +213,22 @@ def _samples(
     return torch.from_numpy(np.concatenate(inputs)), torch.from_numpy(np.concatenate(targets))
 
 
+@contextmanager
+def one_thread() -> Iterator[None]:
+    """Let torch compute on one thread; also a decorator.
+
+    For work too small to share: on a busy machine threads that wait for each other have taken
+    five times as long.
+    """
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(threads)
+
+
+@one_thread()
 def _train(
     model: _Net,
     inputs: Tensor,
