@@ -34,6 +34,7 @@ PROFILE = "profile_6.31mm.csv"
 DIAMETER_LIMIT_PERCENT = 4.0
 TIME_LIMIT_MS = 25.0
 
+_FLAT_MM = 5.0  # farther from a ball the gel rises or sinks by less than 0.03 mm
 _CENTRED = 20  # presses whose profile is averaged: those farthest from the border
 
 
@@ -114,6 +115,17 @@ def profile_rmse(held: list[Held], sensor: SensorSpec, file: Path) -> tuple[floa
     return errors[0], errors[1]
 
 
+def drift_mm(held: list[Held], sensor: SensorSpec) -> float:
+    """Standard deviation of the heights where the gel is nearly flat, median over presses [mm]."""
+    row, column = np.mgrid[0 : sensor.rows, 0 : sensor.columns]
+    spreads = []
+    for one in held:
+        if one.ball is not None:
+            r = np.hypot(column - one.ball.column, row - one.ball.row) * sensor.mm_per_px
+            spreads.append(float(one.height_mm[r > _FLAT_MM].std()))
+    return median(spreads)
+
+
 def _to_border_px(ball: FittedBall, sensor: SensorSpec) -> float:
     across = min(ball.column, sensor.columns - 1 - ball.column)
     return min(across, ball.row, sensor.rows - 1 - ball.row)
@@ -173,6 +185,7 @@ def run(
         "diameter_mm_p90": float(np.percentile(diameters, 90)),
         "diameter_error_percent": error,
         "fit_residual_mm_p50": median(ball.residual_mm for ball in fitted),
+        "drift_mm_p50": drift_mm(held, sensor),
         "profile_rmse_mm": None if profile is None else profile[0],
         "profile_rmse_scaled_mm": None if profile is None else profile[1],
         "reconstruction_ms_p50": median(times),
@@ -218,6 +231,11 @@ def _print(to: Console, held: list[Held], figures: dict[str, float | None]) -> N
         f"{f['fitted']:.0f} of {f['presses']:.0f} presses",
     )
     table.add_row("fit residual, median", f"{1e3 * f['fit_residual_mm_p50']:.0f} µm", "")
+    table.add_row(
+        "drift, median",
+        f"{1e3 * f['drift_mm_p50']:.0f} µm",
+        f"standard deviation farther than {_FLAT_MM:g} mm from the ball",
+    )
     if figures["profile_rmse_mm"] is None:
         table.add_row("profile RMSE", "not measured", f"no {PROFILE} in the folder")
     else:

@@ -107,6 +107,7 @@ def test_the_benchmark_measures_presses_that_it_left_out(folder, tmp_path, capsy
     figures = json.loads(report.read_text())
     assert figures["diameter_error_percent"] == pytest.approx(0, abs=4)
     assert figures["profile_rmse_mm"] is None
+    assert 0 < figures["drift_mm_p50"] < 0.05
     assert len(figures["per_press"]) == figures["fitted"] == 12
     assert came_out == (figures["reconstruction_ms_p50"] <= bench_balls.TIME_LIMIT_MS)
     assert "not measured" in capsys.readouterr().out
