@@ -60,6 +60,7 @@ def extract(text: str) -> Extraction:
         return Extraction(action=None, success=False, reason=reason, ambiguous=False)
     asked: set[Primitive] = set()
     later: set[Primitive] = set()
+    denied: set[Primitive] = set()
     notes: list[str] = []
     parsed = sentences(text)
     requests: list[tuple[Sentence, int]] = []
@@ -74,6 +75,8 @@ def extract(text: str) -> Extraction:
             elif state is Status.LATER:
                 later.add(mention.primitive)
             else:
+                if state is Status.NEGATED:
+                    denied.add(mention.primitive)
                 notes.append(f"'{_words(sentence, mention)}' is {state}")
         requests.append((sentence, first))
     explicit_none = any(NONE_TOKEN in s.words for s in parsed)
@@ -85,6 +88,9 @@ def extract(text: str) -> Extraction:
         return Extraction(
             action=None, success=False, reason=f"ambiguous: {' and '.join(both)}", ambiguous=True
         )
+    if named & denied:
+        both = f"{next(iter(named))} is asked for and denied"
+        return Extraction(action=None, success=False, reason=f"ambiguous: {both}", ambiguous=True)
     action = next(iter(named), None)
     said = verdict(requests)
     return Extraction(

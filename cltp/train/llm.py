@@ -34,7 +34,7 @@ from cltp.weights import load_encoder, save_tac3d_llm
 
 TEXT = Schedule(steps=500, batch_size=24, learning_rate=2e-3)
 PROJECTOR = Schedule(steps=150, batch_size=32, learning_rate=2e-3)
-JOINT = Schedule(steps=1300, batch_size=16, learning_rate=1e-3)
+JOINT = Schedule(steps=750, batch_size=16, learning_rate=1e-3)
 
 ACTION_WEIGHT = 4.0
 """Of the one token that moves the robot, beside about sixty that describe."""

@@ -40,6 +40,21 @@ def test_two_different_requests_are_ambiguous_and_neither_action_nor_success(tex
     assert not found.success
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Action: <move_up>. Do not move up.",
+        "Increase the force. No, do not increase the force.",
+        "Never move left. Move left.",
+    ],
+)
+def test_a_text_that_asks_for_what_it_forbids_is_ambiguous(text):
+    found = extract(text)
+    assert found.ambiguous, found.reason
+    assert found.action is None
+    assert not found.success
+
+
 def test_the_table_is_as_long_as_a_parser_of_this_weight_needs():
     assert len(TABLE) + len(AMBIGUOUS) >= 400
     assert len({text for text, _, _ in TABLE}) == len(TABLE)
