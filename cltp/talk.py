@@ -8,8 +8,9 @@ trie leaves only what continues one of the eight names. Nothing else in a reply 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -74,7 +75,12 @@ class Talker:
 
     @torch.inference_mode()
     def reply(
-        self, points: NDArray[np.float32], prompt: str, *, max_tokens: int = MAX_TOKENS
+        self,
+        points: NDArray[np.float32],
+        prompt: str,
+        *,
+        max_tokens: int = MAX_TOKENS,
+        banned: Collection[str] = (),
     ) -> Reply:
         """Ask about one contact.
 
@@ -82,6 +88,7 @@ class Talker:
             points: Shape (1024, 3), from ``cltp.inputs.encoder_input``.
             prompt: What a person asks.
             max_tokens: Bound on the reply.
+            banned: Out of ``cltp.tokenizer.ACTIONS``: what the reply must not ask for.
         """
         marks = [self._clock()]
         tokens = self._model.encoder(torch.from_numpy(points)[None]).tokens
@@ -93,10 +100,8 @@ class Talker:
         def prefilled() -> None:
             marks.append(self._clock())
 
-        if self._fast is not None:
-            ids, ended, chances = _own(self._fast, self._language, inputs, max_tokens, prefilled)
-        else:
-            ids, ended, chances = _stock(self._language, inputs, max_tokens, prefilled)
+        say = partial(_own, self._fast) if self._fast is not None else _stock
+        ids, ended, chances = say(self._language, inputs, max_tokens, prefilled, banned)
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
         stages = ("encode", "project", "prefill", "generate")
@@ -119,6 +124,7 @@ def _own(
     inputs: Tensor,
     max_tokens: int,
     prefilled: Callable[[], None],
+    banned: Collection[str],
 ) -> tuple[list[int], bool, list[float]]:
     actions = [tokens[0] for tokens in language.actions()]
     found: list[Tensor] = []
@@ -134,12 +140,17 @@ def _own(
         max_tokens=max_tokens,
         watch=watch,
         prefilled=prefilled,
+        banned=[token for token, name in zip(actions, ACTIONS, strict=True) if name in banned],
     )
     return ids, len(ids) < max_tokens, found[0].tolist() if found else []
 
 
 def _stock(
-    language: Language, inputs: Tensor, max_tokens: int, prefilled: Callable[[], None]
+    language: Language,
+    inputs: Tensor,
+    max_tokens: int,
+    prefilled: Callable[[], None],
+    banned: Collection[str],
 ) -> tuple[list[int], bool, list[float]]:
     """The same by transformers' own forward, with its cache, for any checkpoint of the family."""
     run = _Run(language)
@@ -153,6 +164,7 @@ def _stock(
         ids.append(token)
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
             chances = _score(run, logits_after(run, token), language.actions())
+            chances = [0.0 if a in banned else c for a, c in zip(ACTIONS, chances, strict=True)]
             ids += language.actions()[int(np.argmax(chances))]
             return ids, True, chances
         logits = logits_after(run, token)

@@ -89,8 +89,8 @@ def extract(text: str) -> Extraction:
             action=None, success=False, reason=f"ambiguous: {' and '.join(both)}", ambiguous=True
         )
     if named & denied:
-        both = f"{next(iter(named))} is asked for and denied"
-        return Extraction(action=None, success=False, reason=f"ambiguous: {both}", ambiguous=True)
+        reason = f"ambiguous: {next(iter(named))} is asked for and denied"
+        return Extraction(action=None, success=False, reason=reason, ambiguous=True)
     action = next(iter(named), None)
     said = verdict(requests)
     return Extraction(

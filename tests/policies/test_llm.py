@@ -15,7 +15,8 @@ from cltp.tokenizer import ACTIONS, Words
 from cltp.weights import WeightsError, save_encoder, save_tac3d_llm
 from policies.errors import PolicyError
 from policies.extract import extract
-from policies.llm import LlmPolicy, check_instruction, held_because
+from policies.llm import LlmPolicy, check_instruction, going_in_circles, held_because
+from primitives import Primitive
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -131,3 +132,19 @@ def test_known_words_are_let_through(words: Words) -> None:
 def test_missing_weights_say_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(WeightsError, match="train"):
         LlmPolicy(tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("moves", "banned"),
+    [
+        ([], set()),
+        (["move_up"], set()),
+        (["move_up", "move_up"], set()),
+        (["move_up", "move_left"], set()),
+        (["move_up", "move_down"], {"<move_up>", "<move_down>"}),
+        (["move_up", "move_right", "move_left"], {"<move_left>", "<move_right>"}),
+        (["move_up", "move_down", "move_left"], set()),
+    ],
+)
+def test_a_move_and_its_undoing_ban_both_and_nothing_else(moves, banned):
+    assert going_in_circles([Primitive(move) for move in moves]) == banned
