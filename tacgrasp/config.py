@@ -222,7 +222,7 @@ class RunConfig(Section):
     task: str = "strawberry"
     rig: str = "sim"
     devices: Literal["sim"]
-    policy: str = "rules"
+    policy: str = "llm"
     weights: Path | None = None
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
