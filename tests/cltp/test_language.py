@@ -175,11 +175,19 @@ class ScriptedDecoder:
 def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words: Words) -> None:
     language = tiny_model(words).language
     ids, ended, chances = _own(
-        ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None
+        ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None, ()
     )
     assert words.decode(ids).strip() == "<increase_force>"
     assert ended
     assert chances == pytest.approx([1 / 14] * 4 + [0.5] + [1 / 14] * 3)
+
+
+def test_a_banned_action_is_neither_said_nor_given_a_chance(words: Words) -> None:
+    language = tiny_model(words).language
+    decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
+    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, ("<increase_force>",))
+    assert words.decode(ids).strip() != "<increase_force>"
+    assert chances == pytest.approx([1 / 7] * 4 + [0.0] + [1 / 7] * 3)
 
 
 def test_a_reply_reports_its_stages_and_whether_it_ended(words: Words) -> None:
