@@ -6,7 +6,7 @@ half-space of its own. Contact is frictionless and quasi-static.
 Inside mm, N and MPa (N/mm²); pressures go out in kPa. Surfaces are in the gel frame, positive
 into the gel; the gel that rises around a contact is negative.
 
-Not here: what presses (``sim.strawberry`` and others), noise, points.
+Not here: what presses (``sim.bodies``, ``sim.shapes``), noise, points.
 """
 
 from __future__ import annotations
