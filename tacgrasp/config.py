@@ -8,22 +8,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from policies.goal import Band, Goal
+from tacgrasp.section import Interval, Number, Section, Vector
 
-Number = Annotated[float, Field(strict=True, allow_inf_nan=False)]
-Interval = tuple[Number, Number]
-Vector = tuple[Number, Number, Number]
 AtTheEnd = Literal["hold", "release"]
-
-
-class Section(BaseModel):
-    """A part of the configuration: refuses fields that it does not know."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class GoalConfig(Section):

@@ -15,8 +15,9 @@ import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from tacgrasp.config import RunConfig, Section
+from tacgrasp.config import RunConfig
 from tacgrasp.errors import UsageError
+from tacgrasp.section import Section
 
 ENV_PREFIX = "TACGRASP_"
 """``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
