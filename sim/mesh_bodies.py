@@ -15,13 +15,13 @@ import numpy as np
 
 from cltp.errors import TouchError
 from sim.bodies import FAR_MM, HALF_SPAN_MM, PITCH_MM, Body, FloatArray
+from sim.meshes import IntArray, checked_mesh, volume_and_centre
 
 DENSITY_G_PER_MM3 = 0.3e-3
 """Of a mesh whose mass is not given. Our assumption: household things are hollow or light."""
 
 RIGID_MPA = 2000.0
 UNBRUISED_N = 1000.0
-MAX_FACES = 2_000_000
 MAX_OPENING_MM = 110.0
 _EXTENT_WEIGHT = 0.05  # mm of hollow that a grasp narrower by 20 mm is worth
 
@@ -35,29 +35,29 @@ def body_from_mesh(path: Path, *, mass_g: float | None, like: Body) -> Body:
         like: Whose friction it gets.
 
     Raises:
-        TouchError: The mesh can't be read, is empty, open, inside out, too large for the gripper,
-            has too many faces, or seems to be in metres.
+        TouchError: The mesh is refused by ``sim.meshes``, or too large for the gripper.
     """
-    mesh = _checked_mesh(path)
-    extents = mesh.bounding_box.extents
+    vertices, faces = checked_mesh(path)
+    extents = np.ptp(vertices, axis=0)
     if extents.min() > MAX_OPENING_MM:
         raise TouchError(
             f"{path}: its smallest extent is {extents.min():.0f} mm, more than the gripper opens "
             f"({MAX_OPENING_MM:.0f} mm)"
         )
-    middle = mesh.bounds.mean(axis=0)
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    volume_mm3, centre = volume_and_centre(vertices, faces)
     grasps = []
     for closing in np.flatnonzero(extents <= MAX_OPENING_MM):
         turn = _turn(extents, int(closing))
-        gap = _gap((mesh.vertices - middle) @ turn.T, np.asarray(mesh.faces))
+        gap = _gap((vertices - middle) @ turn.T, faces)
         hollow = float(gap[gap.shape[0] // 2, gap.shape[1] // 2])
         grasps.append((hollow + _EXTENT_WEIGHT * extents[closing], closing, turn, gap))
     _, closing, turn, gap = min(grasps, key=lambda grasp: grasp[0])
     if gap.min() >= FAR_MM:
         raise TouchError(f"{path}: no surface within {HALF_SPAN_MM} mm of the mesh's centre")
-    com = turn @ (mesh.center_mass - middle)
+    com = turn @ (centre - middle)
     if mass_g is None:
-        mass_g = max(1.0, DENSITY_G_PER_MM3 * float(mesh.volume))
+        mass_g = max(1.0, DENSITY_G_PER_MM3 * volume_mm3)
     width, height, _ = np.abs(turn) @ extents
     return Body(
         name=path.stem,
@@ -83,32 +83,7 @@ def _turn(extents: FloatArray, closing: int) -> FloatArray:
     return turn
 
 
-def _checked_mesh(path: Path) -> Any:
-    import trimesh
-
-    try:
-        mesh: Any = trimesh.load(path, force="mesh")
-    except Exception as error:  # trimesh raises whatever its readers meet
-        raise TouchError(f"{path} can't be read as a mesh (PLY, OBJ, STL): {error}") from None
-    if len(mesh.faces) == 0:
-        raise TouchError(f"{path}: the mesh is empty (no faces); expected a closed surface in mm")
-    if len(mesh.faces) > MAX_FACES:
-        raise TouchError(f"{path}: {len(mesh.faces):,} faces; simplify it to below {MAX_FACES:,}")
-    if not np.isfinite(mesh.vertices).all():
-        raise TouchError(f"{path}: the mesh has vertices that are NaN or infinite")
-    largest = float(mesh.bounding_box.extents.max())
-    if largest < 2.0:
-        raise TouchError(
-            f"{path}: the mesh is only {largest:.3g} mm large; is it in metres? Multiply by 1000"
-        )
-    if not mesh.is_watertight:
-        raise TouchError(f"{path}: the mesh is open (holes or loose edges); close it first")
-    if mesh.volume < 0:
-        raise TouchError(f"{path}: the mesh is inside out (normals point inwards); flip its faces")
-    return mesh
-
-
-def _gap(vertices: FloatArray, faces: FloatArray) -> FloatArray:
+def _gap(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Height field of the side that faces the sensor's finger (+z), as ``Body.gap_mm``."""
     import open3d
 
