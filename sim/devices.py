@@ -10,6 +10,7 @@ import math
 import time
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cltp.cloud import Stamp, TactileCloud, cloud_from_heights
@@ -124,6 +125,13 @@ class SimArm:
             raise RobotError("the simulated arm is disconnected")
 
 
+def settled_width_m(grasp: Grasp) -> float:
+    """Opening at which closed fingers rest [m]: on what they hold, 0 when that is nothing."""
+    if grasp.patch is None:
+        return 0.0
+    return max(0.0, grasp.fingers.body.thickness_mm - 2 * grasp.patch.depth_mm) / 1000
+
+
 class SimGripper:
     """Closes the fingers of a simulated grasp; a ``primitives.devices.Gripper``.
 
@@ -148,11 +156,9 @@ class SimGripper:
             raise LimitError(f"force must lie in (0, {MAX_FORCE_N}] N, got {force_n}")
         self._clock.advance(GRIP_S)
         self._grasp.close(force_n * self.factor)
-        patch = self._grasp.patch
-        width_mm = 0.0
-        if patch is not None:
-            width_mm = max(0.0, self._grasp.fingers.body.thickness_mm - 2 * patch.depth_mm)
-        self._state = GripperState(width_m=width_mm / 1000, force_n=force_n, closed=True)
+        self._state = GripperState(
+            width_m=settled_width_m(self._grasp), force_n=force_n, closed=True
+        )
         return self._state
 
     def open_by(self, clear_m: float) -> GripperState:
@@ -199,19 +205,26 @@ class SimSensor:
         """Which sensor this is."""
         return self._spec
 
-    def read(self) -> TactileCloud:
-        """A cloud of the gel as it is now, with this unit's errors and this contact's noise.
+    def height_mm(self) -> NDArray[np.float32]:
+        """The gel as it is now, with this unit's errors and this contact's noise.
 
         The drift is that of the reconstruction, not of the camera: frames of one contact share it,
         a new grip draws a new one, and averaging frames takes none of it away.
+
+        Returns:
+            Shape (ROWS, COLUMNS) [mm].
         """
-        if not self._connected:
-            raise TouchError("the simulated sensor is disconnected")
         patch = self._grasp.patch
         clean = np.zeros((ROWS, COLUMNS)) if patch is None else patch.height_mm
         contact = np.random.default_rng([self._seed, 3, self._grasp.contacts])
-        heights = self._unit.apply(clean, self._spec, contact)
-        return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=self._clock.stamp())
+        return self._unit.apply(clean, self._spec, contact)
+
+    def read(self) -> TactileCloud:
+        """A cloud of the gel as it is now."""
+        if not self._connected:
+            raise TouchError("the simulated sensor is disconnected")
+        heights, stamp = self.height_mm(), self._clock.stamp()
+        return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=stamp)
 
     def disconnect(self) -> None:
         """Refuse further reads."""

@@ -20,6 +20,14 @@ SPUN_MM = 30.0
 _SAME_PRESSURE = 1.02  # the same grip a little elsewhere on the grid differs by less than 2 %
 
 
+def trapezoid_s(
+    distance_m: float, speed_m_s: float, acceleration_m_s2: float
+) -> tuple[float, float]:
+    """Duration of each ramp and of the cruise between them on a straight way [s]."""
+    speed = min(speed_m_s, math.sqrt(distance_m * acceleration_m_s2))
+    return speed / acceleration_m_s2, distance_m / speed - speed / acceleration_m_s2
+
+
 @dataclass(slots=True)
 class Grasp:
     """The evolving truth of one body and one pair of fingers.
@@ -102,8 +110,7 @@ class Grasp:
         if distance == 0:
             return 0.0
         ux, uy = by_mm[0] / 1000 / distance, by_mm[1] / 1000 / distance
-        speed = min(speed_m_s, math.sqrt(distance * acceleration_m_s2))
-        ramp, cruise = speed / acceleration_m_s2, distance / speed - speed / acceleration_m_s2
+        ramp, cruise = trapezoid_s(distance, speed_m_s, acceleration_m_s2)
         self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
         if self.patch is not None:
             self.body_xy_mm = (self.body_xy_mm[0] + by_mm[0], self.body_xy_mm[1] + by_mm[1])

@@ -10,7 +10,7 @@ MODULES = {
     "ur": "sim.emulators.ur",
     "dynamixel": "sim.emulators.dynamixel",
     "taxels": "sim.emulators.taxels",
-    "rig": "sim.emulators.world",
+    "rig": "sim.emulators.rig",
 }
 """The module of each kind; it has ``main(argv) -> exit code`` and prints one ready line."""
 
