@@ -12,7 +12,7 @@ from tacgrasp.config import RunConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import interrupts_held
 from tacgrasp.outcome import EndOfEpisode, EndReason, Outcome
-from tacgrasp.rig import Rig, truth_of
+from tacgrasp.rig import Rig, commands_of, truth_of
 from tacgrasp.turns import Recorder, Turns
 
 T = TypeVar("T")
@@ -102,6 +102,7 @@ def _episode_end(rig: Rig, outcome: Outcome) -> EpisodeEnd:
         message=outcome.message,
         stamp=rig.clock.stamp(),
         truth=outcome.truth,
+        commands=commands_of(rig),
     )
 
 

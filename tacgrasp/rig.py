@@ -12,6 +12,7 @@ from cltp.cloud import Stamp
 from primitives.devices import Arm, Gripper, Pose
 from primitives.execution import Executor, PadAxes
 from primitives.limits import Limits
+from tacgrasp.commands import Command, CommandLog
 from tacgrasp.config import RunConfig
 from tacgrasp.episodes.record import Truth
 from tacgrasp.errors import UsageError
@@ -121,6 +122,12 @@ def truth_of(rig: Rig) -> Truth | None:
     facts = asdict(truth())
     x_mm, y_mm = facts.pop("offset_mm")
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
+
+
+def commands_of(rig: Rig) -> tuple[Command, ...]:
+    """What the devices were given since the last time; empty on rigs that note none (``sim``)."""
+    log: CommandLog | None = getattr(rig, "commands", None)
+    return () if log is None else log.take()
 
 
 def limits_of(config: RunConfig) -> Limits:

@@ -18,7 +18,7 @@ from primitives.execution import Executed
 from tacgrasp.config import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, Phase, TickRecord
 from tacgrasp.outcome import EndOfEpisode, EndReason, Observer
-from tacgrasp.rig import Rig
+from tacgrasp.rig import Rig, commands_of
 
 
 class Recorder(Protocol):
@@ -149,6 +149,7 @@ class Turns:
             stamp=touch.stamp,
             tick_ms=1000 * (time.perf_counter() - touch.began_s),
             note="; ".join([*self._notes, *([note] if note else [])]),
+            commands=commands_of(self._rig),
         )
         self._notes = []
         self._recorder.write_tick(record)

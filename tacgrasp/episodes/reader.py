@@ -126,6 +126,7 @@ def _tick(group: dict[str, bytes], header: EpisodeHeader) -> TickRecord:
         stamp=state.stamp,
         tick_ms=state.tick_ms,
         note=state.note,
+        commands=state.commands,
     )
 
 

@@ -8,7 +8,8 @@ record within the episode:
     /touch/cloud  foxglove.PointCloud           what was felt; x, y, z float32 [mm], frame 'gel'
     /decision     DecisionMessage               what the policy said, when it was asked
     /action       ActionMessage                 what was asked, sent and reached, when it acted
-    /state        TickState                     clocks, phase and robot of every record
+    /state        TickState                     clocks, phase and robot of every record, and each
+                                                command to a device since the one before
     /end          EpisodeEnd                    why it ended, what was declared, verified and true
 
 All but the clouds are JSON with a JSON Schema made from the dataclasses below. A metadata record
@@ -28,6 +29,7 @@ from cltp.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
+from tacgrasp.commands import Command
 
 FORMAT = "tacgrasp-episode/1"
 METADATA_NAME = "tacgrasp_episode"
@@ -95,6 +97,8 @@ class TickRecord:
         stamp: When the turn began.
         tick_ms: How long it took, up to the writing of this record [ms].
         note: For people: what went wrong in this turn and was survived; empty otherwise.
+        commands: What the devices were given since the record before, oldest first; rigs of real
+            or emulated devices only.
     """
 
     index: int
@@ -107,6 +111,7 @@ class TickRecord:
     stamp: Stamp
     tick_ms: float
     note: str = ""
+    commands: tuple[Command, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -121,6 +126,7 @@ class EpisodeEnd:
         message: For people.
         stamp: When it ended.
         truth: What the simulator knows, never shown to the policy; None on a real rig.
+        commands: What the devices were given since the last tick, oldest first.
     """
 
     reason: str
@@ -129,6 +135,7 @@ class EpisodeEnd:
     message: str
     stamp: Stamp
     truth: Truth | None = None
+    commands: tuple[Command, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -175,6 +182,7 @@ class TickState:
         tcp_pose: The TCP when the cloud was read, base frame [m, rad].
         gripper: The gripper when the cloud was read.
         note: What went wrong and was survived; empty otherwise.
+        commands: What the devices were given since the record before, oldest first.
     """
 
     index: int
@@ -185,6 +193,7 @@ class TickState:
     tcp_pose: Pose
     gripper: GripperState
     note: str = ""
+    commands: tuple[Command, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -122,6 +122,7 @@ class EpisodeWriter:
             tcp_pose=record.tcp_pose,
             gripper=record.gripper,
             note=record.note,
+            commands=record.commands,
         )
         messages = {TOPIC_CLOUD: encode_cloud(record.cloud, record.stamp)}
         if record.decision is not None:
