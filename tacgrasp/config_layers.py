@@ -15,8 +15,9 @@ import yaml
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from tacgrasp.config import RunConfig
+from tacgrasp.config import ArmConfig, GripperConfig, RunConfig
 from tacgrasp.errors import UsageError
+from tacgrasp.hard_limits import HardLimits
 from tacgrasp.section import Section
 
 ENV_PREFIX = "TACGRASP_"
@@ -46,6 +47,16 @@ def load(
     rig: str | None = None,
     environment: Mapping[str, str] | None = None,
 ) -> tuple[RunConfig, Sources]:
+    """``load_with_limits`` for those who have no flags to hold to the limits."""
+    config, sources, _ = load_with_limits(task, rig, environment)
+    return config, sources
+
+
+def load_with_limits(
+    task: str | None = None,
+    rig: str | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> tuple[RunConfig, Sources, HardLimits]:
     """Fill the model from the task's file, the rig's file and the environment, in this order.
 
     Args:
@@ -53,8 +64,12 @@ def load(
         rig: Name or path; None takes ``TACGRASP_RIG``, and without it the simulated one.
         environment: Variables; only those with our prefix are read.
 
+    Returns:
+        The configuration, where each value came from, and the limits that nothing may widen.
+
     Raises:
-        UsageError: No such task or rig, not YAML, an unknown field, or a value that doesn't fit.
+        UsageError: No such task or rig, not YAML, an unknown field, a value that doesn't fit, or
+            the environment would widen a limit of the rig's file.
     """
     variables = {k: v for k, v in (environment or {}).items() if k.startswith(ENV_PREFIX)}
     sources: Sources = {}
@@ -68,13 +83,15 @@ def load(
     for kind in ("task", "rig"):
         where, fields = _read_layer(kind, merged[kind])
         _merge(merged, fields, where, sources)
+    hard = _hard_limits(merged)
     for variable, value in sorted(variables.items()):
         layer: Any = _yaml_value(value)
         for key in reversed(variable.removeprefix(ENV_PREFIX).lower().split("__")):
             layer = {key: layer}
         _merge(merged, layer, f"environment variable {variable}", sources)
     config = _complete(merged)
-    return config, {path: sources.get(path, "default") for path in leaves(config)}
+    hard.check(config, lambda path: sources.get(path, "the default"))
+    return config, {path: sources.get(path, "default") for path in leaves(config)}, hard
 
 
 def leaves(config: Section, prefix: str = "") -> dict[str, Any]:
@@ -154,6 +171,22 @@ def _complete(merged: dict[str, Any]) -> RunConfig:
     kind = "rig" if path[0] in RIG_FIELDS else "task"
     field = ".".join(path)
     raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
+
+
+def _hard_limits(merged: dict[str, Any]) -> HardLimits:
+    """The limits after the files.
+
+    Raises:
+        UsageError: The rig's file leaves a limit open that has no default.
+    """
+    try:
+        return HardLimits(
+            ArmConfig.model_validate(merged.get("arm", {})),
+            GripperConfig.model_validate(merged.get("gripper", {})),
+        )
+    except ValidationError:
+        _complete(merged)
+        raise
 
 
 def _overlay(below: dict[str, Any], above: dict[str, Any]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from tacgrasp.cli.flags import flag_value, parse
 from tacgrasp.config import RunConfig
-from tacgrasp.config_layers import Sources, leaves, load
+from tacgrasp.config_layers import Sources, leaves, load_with_limits
 from tacgrasp.outcome import EndReason, Outcome
 
 EXIT_CODES = {
@@ -45,7 +45,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
         UsageError: Something in file, environment or flags doesn't fit.
     """
     task, rig = flag_value(argv, "--task"), flag_value(argv, "--rig")
-    below, sources = load(task, rig, os.environ)
+    below, sources, hard = load_with_limits(task, rig, os.environ)
     values = {name: getattr(below, name) for name in type(below).model_fields}
     default = RunFlags.model_construct(**values, print_config=False)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
@@ -55,6 +55,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
         flag = f"--{path.replace('_', '-')}"
         if flag in given or flag.replace("--", "--no-", 1) in given:
             sources[path] = f"flag {flag}"
+    hard.check(config, lambda path: sources[path])
     return config, sources, flags.print_config
 
 

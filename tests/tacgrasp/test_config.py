@@ -43,13 +43,13 @@ def test_flags_go_over_environment_over_rig_over_task_over_defaults(
         "arm: {workspace_low_m: [0, 0, 0], workspace_high_m: [1, 1, 1], max_step_mm: 2,"
         " max_travel_mm: 22, max_speed_m_s: 0.5}\n"
     )
-    monkeypatch.setenv("TACGRASP_ARM__MAX_STEP_MM", "3")
+    monkeypatch.setenv("TACGRASP_ARM__MAX_STEP_MM", "1.5")
     monkeypatch.setenv("TACGRASP_GRIPPER__MAX_FORCE_N", "5")
     argv = ["--task", str(task), "--rig", str(rig), "--gripper.max-force-n", "6"]
     config, sources, _ = configure(argv)
     assert config.loop.max_steps == 7
     assert config.arm.max_travel_mm == 22
-    assert config.arm.max_step_mm == 3
+    assert config.arm.max_step_mm == 1.5
     assert config.gripper.max_force_n == 6
     assert sources["loop.max_asks"] == "default"
     assert sources["loop.max_steps"] == str(task)
@@ -173,3 +173,57 @@ def test_an_empty_workspace_is_refused(tmp_path: Path) -> None:
         "devices: sim\narm: {workspace_low_m: [0, 0, 0], workspace_high_m: [1, 1, 0]}\n"
     )
     assert "must be below workspace_high_m" in usage_error(["--rig", str(path)])
+
+
+WIDENED = {
+    "flag": (
+        ["--arm.max-step-mm", "6"],
+        {},
+        "flag --arm.max-step-mm: arm.max_step_mm must be at most the rig's hard limit 5, got 6",
+    ),
+    "force": (
+        ["--gripper.max-force-n", "13"],
+        {},
+        "gripper.max_force_n must be at most .* 12, got",
+    ),
+    "lower force": (["--gripper.min-force-n", "0.05"], {}, "min_force_n must be at least .* 0.1"),
+    "box": (
+        ["--arm.workspace-high-m", "0.5", "0.1", "0.3"],
+        {},
+        r"workspace_high_m must be at most .* \[0.55, 0, 0.4\], got \[0.5, 0.1, 0.3\]",
+    ),
+    "environment": (
+        [],
+        {"TACGRASP_ARM__MAX_SPEED_M_S": "0.45"},
+        "environment variable TACGRASP_ARM__MAX_SPEED_M_S: arm.max_speed_m_s must be at most",
+    ),
+    "environment, narrowed again by a flag": (
+        ["--arm.max-speed-m-s", "0.4"],
+        {"TACGRASP_ARM__MAX_SPEED_M_S": "0.45"},
+        "environment variable TACGRASP_ARM__MAX_SPEED_M_S",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", WIDENED)
+def test_flags_and_environment_can_not_widen_a_limit_of_the_rigs_file(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    argv, environment, expected = WIDENED[name]
+    for variable, value in environment.items():
+        monkeypatch.setenv(variable, value)
+    message = usage_error(argv)
+    assert re.search(expected, message), message
+    assert "widened only in the rig's file (sim)" in message
+
+
+def test_a_limit_that_the_rigs_file_leaves_to_its_default_can_not_be_widened_either(
+    tmp_path: Path,
+) -> None:
+    rig = tmp_path / "r.yaml"
+    rig.write_text(
+        "devices: sim\npad: {x_axis: [1, 0, 0], y_axis: [0, 0, -1]}\n"
+        "arm: {workspace_low_m: [0, 0, 0], workspace_high_m: [1, 1, 1]}\n"
+    )
+    message = usage_error(["--rig", str(rig), "--arm.max-travel-mm", "130"])
+    assert "at most the rig's hard limit 120" in message
