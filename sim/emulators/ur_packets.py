@@ -1,0 +1,122 @@
+"""RTDE as a controller speaks it: packets, and the types of the variables that it knows.
+
+Big-endian; a u16 size that counts its own three bytes of header, a u8 type, the payload. Not here:
+sockets (``ur_sessions``), what a variable's value is (``ur_controller``).
+
+Source: universal-robots.com, 'Real-Time Data Exchange (RTDE) Guide', protocol version 2.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping, Sequence
+
+VERSION, CONTROLLER_VERSION, MESSAGE = ord("V"), ord("v"), ord("M")
+OUTPUTS, INPUTS, DATA, START, PAUSE = ord("O"), ord("I"), ord("U"), ord("S"), ord("P")
+
+HEADER = struct.Struct(">HB")
+LARGEST = 4096
+"""Longest packet that is believed [bytes]; recipes of the library stay far below."""
+
+FORMATS = {
+    "BOOL": "?",
+    "UINT8": "B",
+    "UINT32": "I",
+    "UINT64": "Q",
+    "INT32": "i",
+    "DOUBLE": "d",
+    "VECTOR3D": "3d",
+    "VECTOR6D": "6d",
+    "VECTOR6INT32": "6i",
+    "VECTOR6UINT32": "6I",
+}
+
+_SIX = [
+    "target_q", "target_qd", "target_qdd", "target_current", "target_moment", "actual_q",
+    "actual_qd", "actual_qdd", "actual_current", "actual_current_as_torque", "actual_moment",
+    "joint_control_output", "joint_temperatures", "actual_joint_voltage", "actual_TCP_pose",
+    "actual_TCP_speed", "actual_TCP_force", "target_TCP_pose", "target_TCP_speed",
+    "ft_raw_wrench", "payload_inertia", "tcp_offset",
+]  # fmt: skip
+_DOUBLES = [
+    "timestamp", "actual_execution_time", "speed_scaling", "target_speed_fraction",
+    "actual_momentum", "actual_main_voltage", "actual_robot_voltage", "actual_robot_current",
+    "standard_analog_input0", "standard_analog_input1", "standard_analog_output0",
+    "standard_analog_output1", "payload",
+]  # fmt: skip
+
+OUTPUT_TYPES: Mapping[str, str] = {
+    **dict.fromkeys(_SIX, "VECTOR6D"),
+    **dict.fromkeys(_DOUBLES, "DOUBLE"),
+    "joint_mode": "VECTOR6INT32",
+    "robot_mode": "INT32",
+    "safety_mode": "INT32",
+    "safety_status": "INT32",
+    "runtime_state": "UINT32",
+    "robot_status_bits": "UINT32",
+    "safety_status_bits": "UINT32",
+    "actual_digital_input_bits": "UINT64",
+    "actual_digital_output_bits": "UINT64",
+    "actual_tool_accelerometer": "VECTOR3D",
+    "payload_cog": "VECTOR3D",
+    "output_bit_registers0_to_31": "UINT32",
+    "output_bit_registers32_to_63": "UINT32",
+    **{f"output_int_register_{i}": "INT32" for i in range(48)},
+    **{f"output_double_register_{i}": "DOUBLE" for i in range(48)},
+}
+
+INPUT_TYPES: Mapping[str, str] = {
+    **{f"input_int_register_{i}": "INT32" for i in range(48)},
+    **{f"input_double_register_{i}": "DOUBLE" for i in range(48)},
+    "external_force_torque": "VECTOR6D",
+    "speed_slider_mask": "UINT32",
+    "speed_slider_fraction": "DOUBLE",
+    "standard_digital_output_mask": "UINT8",
+    "standard_digital_output": "UINT8",
+    "configurable_digital_output_mask": "UINT8",
+    "configurable_digital_output": "UINT8",
+    "tool_digital_output_mask": "UINT8",
+    "tool_digital_output": "UINT8",
+    "standard_analog_output_mask": "UINT8",
+    "standard_analog_output_type": "UINT8",
+    "standard_analog_output_0": "DOUBLE",
+    "standard_analog_output_1": "DOUBLE",
+}
+
+
+def packet(kind: int, payload: bytes = b"") -> bytes:
+    """A whole packet."""
+    return HEADER.pack(HEADER.size + len(payload), kind) + payload
+
+
+def split(buffer: bytearray) -> list[tuple[int, bytes]]:
+    """Take all whole packets out of a buffer: (type, payload) each.
+
+    Raises:
+        ValueError: A size that no packet can have; the stream is lost.
+    """
+    packets = []
+    while len(buffer) >= HEADER.size:
+        size, kind = HEADER.unpack_from(buffer)
+        if not HEADER.size <= size <= LARGEST:
+            raise ValueError(f"an RTDE packet of {size} bytes")
+        if len(buffer) < size:
+            break
+        packets.append((kind, bytes(buffer[HEADER.size : size])))
+        del buffer[:size]
+    return packets
+
+
+def names_in(payload: bytes) -> list[str]:
+    """Comma-separated names; a trailing comma adds none."""
+    return [name for name in payload.decode("ascii", "replace").split(",") if name]
+
+
+def types_of(names: Sequence[str], known: Mapping[str, str]) -> list[str]:
+    """The type of each name, NOT_FOUND for one that the controller does not know."""
+    return [known.get(name, "NOT_FOUND") for name in names]
+
+
+def layout(types: Sequence[str]) -> struct.Struct:
+    """How a data packet of these types is laid out."""
+    return struct.Struct(">" + "".join(FORMATS[kind] for kind in types))
