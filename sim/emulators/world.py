@@ -61,13 +61,16 @@ class SharedWorld:
         speed_m_s: float,
         acceleration_m_s2: float,
     ) -> None:
-        """The TCP has covered a straight segment; returns at once.
+        """The TCP has covered a straight segment; returns when the world has followed.
 
         Args:
             by_base_m: Shape (3,), what was really covered [m, base frame].
             rotvec_rad: Shape (3,), the TCP's orientation [rad].
             speed_m_s: As commanded [m/s].
             acceleration_m_s2: As commanded [m/s²].
+
+        Raises:
+            RobotError: The solver failed or does not answer.
         """
         by_m, ended_s = np.array(by_base_m, dtype=float), self._clock()
         base_from_tcp = Rotation.from_rotvec(np.array(rotvec_rad, dtype=float))
@@ -83,7 +86,7 @@ class SharedWorld:
             self._rig.grasp.move((x_mm, y_mm), speed_m_s, acceleration_m_s2)
             self._until_s = max(self._until_s, ended_s)
 
-        self._do(move)
+        _answer(self._do(move))
 
     def width_under(self, force_n: float) -> float:
         """Close, or adjust a grip, with a force as the gripper believes it [N].
