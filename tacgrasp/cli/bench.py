@@ -97,6 +97,29 @@ class Balls:
 
 
 @dataclass(frozen=True)
+class BallCaptions:
+    """Print what the model says of real GelSight Mini frames that show a known ball.
+
+    Attributes:
+        dir: Folder with the frames.
+        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
+        diameter_mm: Of the ball [mm].
+        background: The untouched gel; background.png in the folder when not given.
+        calibration: Of the unit; without it the one that comes along, made from the default frames.
+        folds: Calibrate so often, each time without its share of the presses; 0 does not.
+        json: File for the figures.
+    """
+
+    dir: Path | None = None
+    weights: Path | None = None
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    calibration: Path | None = None
+    folds: int = 0
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
 class Crash:
     """Kill recordings at random moments and count what is lost.
 
@@ -117,6 +140,7 @@ def main(argv: Sequence[str]) -> int:
         "gel": _gel,
         "touch": _touch,
         "balls": _balls,
+        "ball-captions": _ball_captions,
         "crash": _crash,
     }
     name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
@@ -188,6 +212,27 @@ def _balls(argv: Sequence[str]) -> bool:
         background=flags.background,
         folds=flags.folds,
         bare_sphere=flags.bare_sphere,
+        json_path=writable(flags.json),
+    )
+
+
+def _ball_captions(argv: Sequence[str]) -> None:
+    """Print what the model says of real frames that show a ball."""
+    flags = parse(BallCaptions, argv, prog="tacgrasp bench ball-captions")
+    if not 1.0 <= flags.diameter_mm <= 100.0 or flags.folds < 0 or flags.folds == 1:
+        raise UsageError("--diameter-mm must be 1 to 100 and --folds 0 or at least 2")
+    if flags.folds and flags.calibration is not None:
+        raise UsageError("--folds makes its own calibrations: give either it or --calibration")
+    from tacgrasp import bench_ball_captions, bench_balls
+    from tacgrasp.policy_factory import default_weights
+
+    bench_ball_captions.run(
+        flags.dir or bench_balls.FOLDER,
+        weights=flags.weights or default_weights(),
+        diameter_mm=flags.diameter_mm,
+        background=flags.background,
+        calibration=flags.calibration,
+        folds=flags.folds,
         json_path=writable(flags.json),
     )
 
