@@ -113,9 +113,9 @@ class ElasticLayer:
         size = min(material.thickness_mm, 0.5 * pitch_mm * max(rows, columns))
         wave = torch.tensor(2.0 / size, dtype=torch.float64)
         if math.isinf(material.thickness_mm):
-            self._stiffness = float(material.plane_strain_mpa * wave / 2.0)
+            self.stiffness = float(material.plane_strain_mpa * wave / 2.0)
         else:
-            self._stiffness = 1.0 / float(layer_compliance(wave, material))
+            self.stiffness = 1.0 / float(layer_compliance(wave, material))
 
     def _with_body(self, modulus_mpa: float | Tensor) -> Spectrum:
         """Gel and body in series."""
@@ -170,10 +170,7 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap = self._body(gap_mm, mask)
-        force = self._per_element(force_n, gap.shape[0], "force_n")
-        if not bool(((force >= 0) & torch.isfinite(force)).all()):
-            raise ValueError(f"force_n must be finite and >= 0 N, got {force.tolist()}")
+        gap, force = self.checked(gap_mm, force_n, by_force=True, mask=mask)
         target = force / self.pitch_mm**2
         guess = self._start(start, gap, self._springs_depth(gap, target))
         total = guess.flatten(1).sum(1).clamp(min=1e-30)
@@ -183,7 +180,7 @@ class ElasticLayer:
             target,
             by_force=True,
             start_mpa=guess * (target / total)[:, None, None],
-            stiffness=self._stiffness,
+            stiffness=self.stiffness,
             tol=tol,
             max_iterations=max_iterations,
         )
@@ -212,21 +209,43 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap = self._body(gap_mm, mask)
-        depth = self._per_element(depth_mm, gap.shape[0], "depth_mm")
-        if not bool(torch.isfinite(depth).all()):
-            raise ValueError(f"depth_mm must be finite, got {depth.tolist()}")
+        gap, depth = self.checked(gap_mm, depth_mm, by_force=False, mask=mask)
         solution = solve(
             self._compliance(gap.shape[0]),
             gap,
             depth,
             by_force=False,
             start_mpa=self._start(start, gap, depth),
-            stiffness=self._stiffness,
+            stiffness=self.stiffness,
             tol=tol,
             max_iterations=max_iterations,
         )
         return self._press(solution)
+
+    def checked(
+        self, gap_mm: Tensor, load: Tensor | float, *, by_force: bool, mask: Tensor | None = None
+    ) -> tuple[Tensor, Tensor]:
+        """Gaps and loads of a press, checked, of this gel's dtype and on its device.
+
+        Args:
+            gap_mm: As for ``press_to_force``.
+            load: Forces [N] if ``by_force``, else depths [mm]; (B,) or one number.
+            by_force: Which of the two is given.
+            mask: As for ``press_to_force``.
+
+        Returns:
+            Gaps (B, H, W) [mm], ``NO_BODY_MM`` where no pressure can act, and loads (B,).
+
+        Raises:
+            ValueError: A shape, sign or value makes no sense.
+        """
+        gap = self._body(gap_mm, mask)
+        loads = self._per_element(load, gap.shape[0], "force_n" if by_force else "depth_mm")
+        if by_force and not bool(((loads >= 0) & torch.isfinite(loads)).all()):
+            raise ValueError(f"force_n must be finite and >= 0 N, got {loads.tolist()}")
+        if not bool(torch.isfinite(loads).all()):
+            raise ValueError(f"depth_mm must be finite, got {loads.tolist()}")
+        return gap, loads
 
     def _press(self, solution: Solution) -> Press:
         pressure = solution.pressure_mpa
@@ -288,7 +307,7 @@ class ElasticLayer:
         depth. Six steps are plenty for a guess.
         """
         flat = gap.flatten(1)
-        carried = target / self._stiffness
+        carried = target / self.stiffness
         depth = (flat.amin(1) + carried).clamp(max=NO_BODY_MM)
         for _ in range(6):
             sunk = (depth[:, None] - flat).clamp_(min=0)
@@ -299,7 +318,7 @@ class ElasticLayer:
     def _start(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
         """First pressures [MPa]: what was given where it presses at all, else springs."""
         limit = depth.clamp(max=NO_BODY_MM)[:, None, None]
-        springs = ((limit - gap) * self._stiffness).clamp_(min=0)
+        springs = ((limit - gap) * self.stiffness).clamp_(min=0)
         if start is None:
             return springs
         given = start.pressure_kpa if isinstance(start, Press) else start
