@@ -239,6 +239,11 @@ class ContactDataset:
     def __len__(self) -> int:
         return len(self._shard)
 
+    @property
+    def column_names(self) -> list[str]:
+        """Names that ``column`` knows."""
+        return list(self._columns)
+
     def column(self, name: str) -> NDArray[Any]:
         """Values of one column of ``SCHEMA`` for every contact, shape (len,).
 
