@@ -1,0 +1,282 @@
+"""A UR controller's dashboard and RTDE ports in plain Python, every wait bounded.
+
+Used before the library is loaded, and to stop an arm when the library has lost it. The library
+holds the interpreter while it connects: a controller that accepts and is silent would freeze it.
+Not here: judging what is found (``ur_preflight``), commands that move.
+
+Source: Universal Robots' dashboard server documentation and RTDE guide, protocol version 2.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import socket
+import struct
+from collections.abc import Sequence
+from types import TracebackType
+
+from primitives.errors import RobotError
+
+DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT = 29999, 30003, 30004
+GREETING = "Universal Robots Dashboard Server"
+
+INPUTS = (
+    *(f"input_int_register_{i}" for i in range(8)),
+    *(f"input_double_register_{i}" for i in range(18)),
+)
+"""The registers that the control library claims."""
+
+_LENGTHS = {"DOUBLE": "d", "INT32": "i", "UINT32": "I", "VECTOR3D": "3d", "VECTOR6D": "6d"}
+
+
+class _Line:
+    """A TCP connection whose every wait ends."""
+
+    def __init__(self, host: str, port: int, name: str, timeout_s: float) -> None:
+        self._name, self._where = name, f"{host}:{port}"
+        try:
+            self._socket = socket.create_connection((host, port), timeout=timeout_s)
+        except OSError as error:
+            raise RobotError(
+                f"no {name} at {self._where}: {error}. Is the controller on, the cable in, the "
+                "address right?"
+            ) from None
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self._socket.settimeout(timeout_s)
+
+    def send(self, data: bytes) -> None:
+        try:
+            self._socket.sendall(data)
+        except OSError as error:
+            raise RobotError(f"the {self._name} at {self._where} is lost: {error}") from None
+
+    def receive(self) -> bytes:
+        try:
+            data = self._socket.recv(65536)
+        except OSError as error:
+            wait_s = self._socket.gettimeout()
+            what = f"said nothing for {wait_s} s" if isinstance(error, TimeoutError) else f"{error}"
+            raise RobotError(
+                f"the {self._name} at {self._where} {what}; restart the controller"
+            ) from None
+        if not data:
+            raise RobotError(f"the {self._name} at {self._where} hung up")
+        return data
+
+    def close(self) -> None:
+        with contextlib.suppress(OSError):
+            self._socket.shutdown(socket.SHUT_WR)
+        self._socket.close()
+
+
+class Dashboard:
+    """The dashboard server: a line, an answer. A context manager."""
+
+    def __init__(self, host: str, timeout_s: float = 0.4) -> None:
+        """Connect and read the greeting.
+
+        Raises:
+            RobotError: Nothing answers, or something else than a dashboard server.
+        """
+        self._line = _Line(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
+        self._text = b""
+        try:
+            greeting = self._read()
+            if GREETING not in greeting:
+                raise RobotError(
+                    f"{host}:{DASHBOARD_PORT} is no UR dashboard: expected a line with "
+                    f"{GREETING!r}, got {greeting[:60]!r}. Check the address"
+                )
+        except RobotError:
+            self.close()
+            raise
+
+    def __enter__(self) -> Dashboard:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def ask(self, line: str) -> str:
+        """Send a line and return the answer.
+
+        Raises:
+            RobotError: No answer in time, or the connection is lost.
+        """
+        self._line.send(line.encode() + b"\n")
+        return self._read()
+
+    def close(self) -> None:
+        """Hang up. Idempotent."""
+        self._line.close()
+
+    def _read(self) -> str:
+        while b"\n" not in self._text:
+            if len(self._text) > 4096:
+                raise RobotError("the UR dashboard sent 4096 bytes without an end of line")
+            self._text += self._line.receive()
+        line, _, self._text = self._text.partition(b"\n")
+        return line.decode("utf-8", "replace").strip()
+
+
+class Rtde:
+    """A listener on the RTDE port. A context manager."""
+
+    def __init__(self, host: str, timeout_s: float = 0.4) -> None:
+        """Connect and agree on the protocol.
+
+        Raises:
+            RobotError: Nothing answers, or not in RTDE.
+        """
+        self._line = _Line(host, RTDE_PORT, "UR RTDE port", timeout_s)
+        self._buffer = bytearray()
+        self._names: list[str] = []
+        self._layout = struct.Struct(">")
+        self._sizes: list[int] = []
+        try:
+            if self._ask("V", struct.pack(">H", 2)) != b"\x01":
+                raise RobotError("the controller does not speak version 2 of RTDE; update it")
+        except RobotError:
+            self.close()
+            raise
+
+    def __enter__(self) -> Rtde:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def version(self) -> tuple[int, int]:
+        """Major and minor version of the controller.
+
+        Raises:
+            RobotError: No answer, or a malformed one.
+        """
+        answer = self._ask("v", b"")
+        if len(answer) != 16:
+            raise RobotError(f"the controller stated its version in {len(answer)} bytes, not 16")
+        major, minor, _, _ = struct.unpack(">4I", answer)
+        return major, minor
+
+    def inputs_in_use(self, names: Sequence[str] = INPUTS) -> list[str]:
+        """Input registers that another client has; those that are free are ours until we hang up.
+
+        Raises:
+            RobotError: No answer.
+        """
+        answer = self._ask("I", ",".join(names).encode())
+        types = answer[1:].decode("ascii", "replace").split(",")
+        return [name for name, kind in zip(names, types, strict=False) if kind == "IN_USE"]
+
+    def subscribe(self, names: Sequence[str], rate_hz: float) -> list[str]:
+        """Ask for a stream of variables; returns those that the controller does not know.
+
+        Raises:
+            RobotError: No answer, or types that are not understood.
+        """
+        wish = struct.pack(">d", rate_hz) + ",".join(names).encode()
+        types = self._ask("O", wish)[1:].decode("ascii", "replace").split(",")
+        known = [(n, t) for n, t in zip(names, types, strict=False) if t != "NOT_FOUND"]
+        if len(types) != len(names) or any(kind not in _LENGTHS for _, kind in known):
+            raise RobotError(f"the controller answered {len(names)} variables with {types}")
+        self._names = [name for name, _ in known]
+        self._layout = struct.Struct(">" + "".join(_LENGTHS[kind] for _, kind in known))
+        self._sizes = [int(_LENGTHS[kind][:-1] or 1) for _, kind in known]
+        return [name for name in names if name not in self._names]
+
+    def start(self) -> None:
+        """Let the stream run.
+
+        Raises:
+            RobotError: The controller refuses or is silent.
+        """
+        if self._ask("S", b"") != b"\x01":
+            raise RobotError("the controller does not start its RTDE stream")
+
+    def sample(self) -> dict[str, tuple[float, ...]]:
+        """Wait for the next data: the numbers of each variable.
+
+        Raises:
+            RobotError: None in time, or malformed.
+        """
+        body = self._next("U")[1:]
+        if len(body) != self._layout.size:
+            raise RobotError(f"an RTDE sample of {len(body)} bytes, expected {self._layout.size}")
+        numbers = list(self._layout.unpack(body))
+        values = {}
+        for name, size in zip(self._names, self._sizes, strict=True):
+            values[name] = tuple(numbers[:size])
+            del numbers[:size]
+        return values
+
+    def close(self) -> None:
+        """Hang up. Idempotent."""
+        self._line.close()
+
+    def _ask(self, kind: str, body: bytes) -> bytes:
+        self._line.send(struct.pack(">HB", 3 + len(body), ord(kind)) + body)
+        return self._next(kind)
+
+    def _next(self, kind: str) -> bytes:
+        for _ in range(50):  # others than the awaited are messages or late data
+            got, body = self._packet()
+            if got == ord(kind):
+                return body
+        raise RobotError(f"the controller did not answer a packet {kind!r} of RTDE")
+
+    def _packet(self) -> tuple[int, bytes]:
+        while True:
+            if len(self._buffer) >= 3:
+                size, kind = struct.unpack_from(">HB", self._buffer)
+                if not 3 <= size <= 4096:
+                    raise RobotError(
+                        f"what answers on the RTDE port does not speak RTDE (a packet of {size} "
+                        "bytes); check the address"
+                    )
+                if len(self._buffer) >= size:
+                    body = bytes(self._buffer[3:size])
+                    del self._buffer[:size]
+                    return kind, body
+            self._buffer += self._line.receive()
+
+
+def stop_from_outside(
+    host: str,
+    deceleration_m_s2: float,
+    *,
+    dashboard: Dashboard | None = None,
+    timeout_s: float = 0.15,
+) -> str:
+    """End the program on the controller without the library, by whatever way is left.
+
+    The open dashboard connection first, then a new one, then a one-line script, which replaces the
+    program and brakes. Returns what was done, '' when no way was left. Never raises.
+    """
+
+    def open_line() -> str:
+        return "" if dashboard is None else dashboard.ask("stop")
+
+    def new_line() -> str:
+        with Dashboard(host, timeout_s) as fresh:
+            return fresh.ask("stop")
+
+    for way in (open_line, new_line):
+        with contextlib.suppress(RobotError, OSError):
+            if way().lower().startswith("stopped"):
+                return "dashboard stop"
+    with contextlib.suppress(RobotError, OSError):
+        line = _Line(host, SCRIPT_PORT, "UR script port", timeout_s)
+        line.send(f"stopl({deceleration_m_s2:g})\n".encode())
+        line.close()
+        return "script stopl"
+    return ""
