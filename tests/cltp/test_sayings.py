@@ -1,0 +1,62 @@
+"""What is said of contacts, and what else it is true of."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+import torch
+from fake_contacts import fake_contact
+
+from cltp.captions import caption
+from cltp.samples import CLASSES
+from cltp.states import ContactState
+from cltp.train.sayings import NOTHING, class_numbers, fits, say
+from cltp.wordings import prompts
+
+STATES = [fake_contact(seed).state for seed in range(12)]
+EMPTY = ContactState(
+    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+)
+
+
+def test_captions_name_every_dimension() -> None:
+    told = say(STATES, "caption", np.random.default_rng(0))
+    assert told.texts == [caption(state) for state in STATES]
+    assert told.named.all()
+
+
+def test_mixed_texts_are_captions_and_prompts_of_the_named_dimension() -> None:
+    told = say(STATES * 4, "mixed", np.random.default_rng(0))
+    for text, state, named in zip(told.texts, STATES * 4, told.named, strict=True):
+        if named.all():
+            assert text == caption(state)
+            continue
+        (slot,) = (slot for slot, is_named in zip(CLASSES, named, strict=True) if is_named)
+        assert text in prompts(slot, str(getattr(state, slot)))
+    assert 0.2 < told.named.all(dim=1).float().mean() < 0.8
+
+
+def test_a_prompt_fits_its_class_and_a_caption_its_twins() -> None:
+    contacts = torch.tensor([[0, 1, 2, 3, 4], [0, 1, 2, 3, 4], [5, 1, 2, 3, 4]])
+    whole, texture, shape = (
+        torch.ones(5, dtype=torch.bool),
+        torch.arange(5) == 1,
+        [True] + [False] * 4,
+    )
+    named = torch.stack([whole, texture, torch.tensor(shape)])
+    found = fits(contacts, contacts, named)
+    assert found.tolist() == [[True, True, False], [True, True, False], [False, True, True]]
+
+
+def test_without_contact_nothing_but_that_is_said() -> None:
+    told = say([EMPTY], "mixed", np.random.default_rng(0))
+    assert told.texts == ["no contact."]
+    assert class_numbers([EMPTY]).tolist() == [[NOTHING] * 5]
+    unnamed = dataclasses.replace(STATES[0], shape=None)
+    assert class_numbers([unnamed])[0, 0] == NOTHING
+    assert not fits(class_numbers([STATES[0]]), told.classes, told.named).any()
+
+
+def test_unknown_kinds_are_refused() -> None:
+    with pytest.raises(ValueError, match="caption, mixed"):
+        say(STATES, "songs", np.random.default_rng(0))
