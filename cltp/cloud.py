@@ -130,11 +130,7 @@ def cloud_from_heights(
         raise TouchError(f"a height map needs shape (H, W), both at least 8; got {heights.shape}")
     if not np.isfinite(heights).all():
         raise TouchError("the height map has NaN or infinite values")
-    down, across = _strata(num_points)
-    row, column = (a.ravel() for a in np.mgrid[0:down, 0:across])
-    jitter = np.full((2, num_points), 0.5) if rng is None else rng.random((2, num_points))
-    u = (column + jitter[0]) / across
-    v = (row + jitter[1]) / down
+    u, v = stratified(num_points, rng)
     points = np.stack(
         [
             (u - 0.5) * sensor.width_mm,
@@ -144,6 +140,20 @@ def cloud_from_heights(
         axis=1,
     )
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
+
+
+def stratified(
+    num_points: int, rng: np.random.Generator | None
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """One place in each cell of a regular grid, as shares of the field from its top left.
+
+    Returns:
+        u (num_points,) to the right and v (num_points,) downwards, row by row.
+    """
+    down, across = _strata(num_points)
+    row, column = (a.ravel() for a in np.mgrid[0:down, 0:across])
+    jitter = np.full((2, num_points), 0.5) if rng is None else rng.random((2, num_points))
+    return (column + jitter[0]) / across, (row + jitter[1]) / down
 
 
 def _strata(num_points: int) -> tuple[int, int]:

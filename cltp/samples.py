@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from cltp.dataset import ContactDataset
 from cltp.inputs import LATTICE, scaled
-from cltp.noise import GAIN_LOG_RATIO, NoiseUnit
+from cltp.markers import densified, marker_cloud
+from cltp.noise import NoiseUnit, spread_of
 from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import (
     Area,
@@ -167,9 +168,15 @@ class Sampler:
     ) -> NDArray[np.float32]:
         """One noisy cloud of clean heights: shape (1024, 3), scaled, in lattice order."""
         how = self.augmentation
-        gain = GAIN_LOG_RATIO if rng.random() < how.uncalibrated else 0.0
+        spread = spread_of(sensor)
+        gain = spread.gain_log_ratio if rng.random() < how.uncalibrated else 0.0
+        unit = None
         if how.noise_level > 0:
-            unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain)
+            unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain, spread=spread)
+        if sensor.markers is not None:
+            sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
+            return scaled(densified(sparse, rng=rng).points_mm, sensor)
+        if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
         else:
             height_mm = height_mm - np.median(height_mm)

@@ -4,7 +4,7 @@ Gel frame: origin at the pad's centre, seen as the sensor sees it; +x right, +y 
 ('top'), -y towards the fingertip ('bottom'), z = indentation in mm, positive into the gel.
 Row 0 of a height map is the top (+y), column 0 the left (-x).
 
-Not here: materials and noise of a gel (``sim.gel``, ``sim.noise``), frame capture (drivers).
+Not here: materials and noise of a gel (``sim.gel``, ``cltp.noise``), frame capture (drivers).
 """
 
 from __future__ import annotations
@@ -25,6 +25,8 @@ class SensorSpec:
         mm_per_px: Edge of a (square) pixel on the gel [mm].
         gel_mm: Thickness of the gel [mm]; nothing can be pressed deeper.
         max_depth_mm: Indentation that the scaled z = 1 stands for [mm]; constant of the sensor.
+        markers: Rows and columns of tracked markers, in the middles of as many equal cells of the
+            field; None where the sensor sees its whole surface.
     """
 
     name: str
@@ -33,6 +35,7 @@ class SensorSpec:
     mm_per_px: float
     gel_mm: float
     max_depth_mm: float
+    markers: tuple[int, int] | None = None
 
     @property
     def width_mm(self) -> float:
@@ -52,7 +55,10 @@ class SensorSpec:
 
 # 320×240 px and 0.0634 mm/px: gsrobotics README (GelSight Mini); gel 3.6 mm: fit of the elastic
 # layer to real presses, shared notes. DIGIT: 320×240 at the value that gs_sdk uses; gel thickness
-# not published, ours assumed alike. GelStereo: field and gel assumed (not public).
+# not published, ours assumed alike. GelStereo 2.0: about 530 tracked points and a square field of
+# 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers, github.com/Zhang-Chaofan);
+# that the points are 23 × 23 in equal cells, and the gel's thickness, are assumed. Rows, columns
+# and mm_per_px are those of the grid that we simulate it on.
 SENSORS: dict[str, SensorSpec] = {
     spec.name: spec
     for spec in (
@@ -68,7 +74,13 @@ SENSORS: dict[str, SensorSpec] = {
             name="digit", columns=320, rows=240, mm_per_px=0.0405, gel_mm=3.6, max_depth_mm=1.5
         ),
         SensorSpec(
-            name="gelstereo", columns=320, rows=240, mm_per_px=0.0634, gel_mm=4.0, max_depth_mm=1.5
+            name="gelstereo",
+            columns=240,
+            rows=240,
+            mm_per_px=0.1092,
+            gel_mm=4.0,
+            max_depth_mm=1.5,
+            markers=(23, 23),
         ),
     )
 }

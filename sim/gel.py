@@ -21,12 +21,13 @@ from sim.compliance import GelMaterial, Spectrum, layer_compliance, spectrum_of
 from sim.contact import NO_BODY_MM, Solution, solve
 
 # GelSight Mini: thickness and Poisson's ratio fitted to real presses of a 6.31 mm ball, modulus
-# as Tacchi uses for its elastomer (shared notes). DIGIT, GelStereo: not published; the same
-# material, thickness as in cltp.sensors, our assumption.
+# as Tacchi uses for its elastomer (shared notes). DIGIT: not published, assumed alike. GelStereo:
+# modulus and Poisson's ratio as in TacFlex by its makers (github.com/Zhang-Chaofan/TacFlex),
+# thickness assumed.
 GEL_MATERIALS: dict[str, GelMaterial] = {
     "gelsight_mini": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
     "digit": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
-    "gelstereo": GelMaterial(thickness_mm=4.0, young_mpa=0.145, poisson=0.495),
+    "gelstereo": GelMaterial(thickness_mm=4.0, young_mpa=0.25, poisson=0.47),
 }
 
 

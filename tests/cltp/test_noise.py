@@ -2,7 +2,13 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
-from cltp.noise import GAIN_LOG_RATIO, NoiseUnit, integrated_with_gains, smooth_field
+from cltp.noise import (
+    GAIN_LOG_RATIO,
+    NoiseUnit,
+    integrated_with_gains,
+    smooth_field,
+    spread_of,
+)
 from cltp.sensors import SENSORS
 
 MINI = SENSORS["gelsight_mini"]
@@ -76,3 +82,29 @@ def test_gains_keep_the_mean_and_their_product_is_one() -> None:
 def test_a_level_that_is_no_level_is_refused(level: float) -> None:
     with pytest.raises(TouchError, match="levels of 0 or more"):
         NoiseUnit.draw(np.random.default_rng(0), level)
+
+
+def test_every_sensor_has_a_stated_noise_and_the_mini_s_is_the_one_measured():
+    assert {spread_of(sensor).depth_scale for sensor in SENSORS.values()} == {0.15, 0.20, 0.05}
+    plain = NoiseUnit.draw(np.random.default_rng(3), gain_log_ratio=0.4)
+    named = NoiseUnit.draw(np.random.default_rng(3), gain_log_ratio=0.4, spread=spread_of(MINI))
+    assert plain == named
+    assert plain.border_mm == plain.marker_mm == plain.marker_loss == 0
+
+
+def test_a_dead_border_keeps_the_height_of_its_inner_edge():
+    heights = np.tile(np.linspace(-1, 1, 320, dtype=np.float32), (240, 1))
+    unit = NoiseUnit(border_mm=1.0)
+    seen = unit.apply(heights, MINI, np.random.default_rng(0))
+    dead = round(1.0 / MINI.mm_per_px)
+    assert (seen[:, :dead] == seen[:, dead : dead + 1]).all()
+    assert (seen[:, -dead:] == seen[:, -dead - 1 : -dead]).all()
+    np.testing.assert_allclose(seen[:, dead:-dead], heights[:, dead:-dead], atol=1e-5)
+
+
+def test_borders_are_drawn_up_to_the_widest():
+    rng = np.random.default_rng(0)
+    digit = spread_of(SENSORS["digit"])
+    widths = [NoiseUnit.draw(rng, spread=digit).border_mm for _ in range(200)]
+    assert 0 <= min(widths) < 0.1
+    assert 0.9 < max(widths) <= 1.0
