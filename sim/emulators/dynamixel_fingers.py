@@ -248,6 +248,7 @@ class Fingers:
     def _wait(self, waits: bool) -> None:
         for servo in self._servos:
             servo.waits = waits
+            servo.publish()
 
     def _work(self) -> None:
         while (job := self._jobs.get()) is not None:

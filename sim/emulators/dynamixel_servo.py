@@ -123,7 +123,7 @@ class Servo:
                 self.current_ma = 0.0
         else:
             self._move(dt_s)
-        self._publish()
+        self.publish()
 
     def _move(self, dt_s: float) -> None:
         goal, blocked = float(self.table[at.GOAL_POSITION]), False
@@ -157,7 +157,8 @@ class Servo:
     def _watchdog_holds(self) -> bool:
         return self.table[at.WATCHDOG] == 0xFF and self.model.watchdog_stops and self.stop is None
 
-    def _publish(self) -> None:
+    def publish(self) -> None:
+        """Let the registers say what is so now."""
         table = self.table
         table[at.PRESENT_POSITION] = round(self.position)
         table[at.PRESENT_VELOCITY] = round(self._velocity / at.VELOCITY_TICKS_S)

@@ -1,0 +1,63 @@
+"""The serial port under the Dynamixel SDK: claimed for one program, waiting without spinning.
+
+Imports the SDK at its top: import this module where it is used. The SDK's own port may be opened by
+two programs at once, waits in a busy loop, and measures timeouts on the wall clock.
+"""
+
+from __future__ import annotations
+
+import time
+
+import serial
+from dynamixel_sdk import PortHandler
+
+from tacgrasp.drivers.serial_ports import claim
+
+_READ_S = 0.002
+_WRITE_S = 0.1
+
+
+class ClaimedPort(PortHandler):
+    """A ``PortHandler`` that no other program can have at the same time."""
+
+    def __init__(self, path: str, baud: int, reply_timeout_s: float, what: str) -> None:
+        """Open it.
+
+        Raises:
+            RobotError: Another program has it.
+            OSError: It can't be opened.
+        """
+        super().__init__(path)
+        self._reply_timeout_ms, self._what = 1000 * reply_timeout_s, what
+        if not self.setBaudRate(baud):
+            raise OSError(f"the Dynamixel SDK can't set {baud} baud")
+
+    def setupPort(self, cflag_baud: int) -> bool:  # noqa: N802 - the SDK's name
+        """Open and claim the port; called by the SDK."""
+        self.closePort()
+        self.ser = serial.Serial(
+            port=self.port_name, baudrate=self.baudrate, timeout=_READ_S, write_timeout=_WRITE_S
+        )
+        self.is_open = True
+        try:
+            claim(self.ser.fileno(), self.port_name, self._what)
+        except BaseException:
+            self.closePort()
+            raise
+        self.ser.reset_input_buffer()
+        self.tx_time_per_byte = 10_000.0 / self.baudrate  # ms; 10 bits a byte
+        return True
+
+    def closePort(self) -> None:  # noqa: N802
+        """Close it; other programs may have it then. Idempotent."""
+        if self.ser is not None:
+            self.ser.close()
+        self.is_open = False
+
+    def getCurrentTime(self) -> float:  # noqa: N802
+        """Monotonic time [ms]: a change of the wall clock must not end or stretch a wait."""
+        return 1000 * time.monotonic()
+
+    def setPacketTimeout(self, packet_length: int) -> None:  # noqa: N802
+        """Wait for an answer of so many bytes as long as the settings say."""
+        self.setPacketTimeoutMillis(self.tx_time_per_byte * packet_length + self._reply_timeout_ms)
