@@ -8,6 +8,7 @@ so every emulator has a loopback address of its own.
 from __future__ import annotations
 
 import contextlib
+import os
 import selectors
 import socket
 import threading
@@ -31,6 +32,7 @@ TICK_S = 0.002
 """Cycle while the arm moves: that of an e-Series controller."""
 
 IDLE_S = 0.02
+PRIORITY = 11
 GARBAGE = bytes(range(256)) * 2
 
 
@@ -145,6 +147,9 @@ class Server:
     # -- the thread ------------------------------------------------------------------------------
 
     def _serve(self) -> None:
+        # A controller runs in real time: where the system allows it, so does this thread.
+        with contextlib.suppress(OSError, AttributeError):
+            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
         while not self._ended:
             ready = self._selector.select(self._pause_s())
             with self.lock:

@@ -1,0 +1,383 @@
+"""A UR arm as a ``primitives.devices.Arm``: the owner's side of its worker process.
+
+``connect_arm`` looks at the controller (``ur_preflight``), starts a worker (``ur_worker``) and
+gives it orders. A fault is latched: after it every call but ``stop`` and ``disconnect`` raises with
+the same explanation, until an operator calls ``reset``, which starts a new worker. Nothing here
+reconnects by itself, and no answer is older than the worker's last round.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from primitives.devices import Pose
+from primitives.errors import LimitError, RobotError
+from tacgrasp.drivers.ur_block import (
+    MOTION,
+    PERIOD,
+    Block,
+    Distribution,
+    Order,
+    OrderRecord,
+    Outcome,
+    Phase,
+    State,
+)
+from tacgrasp.drivers.ur_bounds import expected_s, nearest_rotvec, refusal
+from tacgrasp.drivers.ur_preflight import check, preflight
+from tacgrasp.drivers.ur_probe import Dashboard, stop_from_outside
+from tacgrasp.drivers.ur_settings import UrSettings
+
+__all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
+
+log = logging.getLogger(__name__)
+
+LOOK_S = 0.002
+"""How often the worker's state is looked at while waiting for it [s]."""
+
+HUNG_S = 0.25
+"""A worker whose rounds have stopped for so long hangs [s]; the watchdog has stopped the arm."""
+
+STOP_S = 1.0
+END_S = 2.0
+REACT_S = 2.0
+"""Longest time that a move may take beyond what the worker itself allows [s]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArmTiming:
+    """How regularly the arm is supervised, and how soon it moves, since the last (re)start.
+
+    Attributes:
+        period: Time between two rounds of supervision; 8 ms is meant at 125 Hz.
+        command_to_motion: From an order to the first data that show a speed above 1 mm/s.
+    """
+
+    period: Distribution
+    command_to_motion: Distribution
+
+
+def connect_arm(settings: UrSettings) -> UrArm:
+    """Check the controller, start the worker, and wait until the arm is under supervision.
+
+    Raises:
+        RobotError: The arm is not ready; what was found and what to do. Nothing has moved.
+    """
+    arm = UrArm(settings)
+    arm.start()
+    return arm
+
+
+class UrArm:
+    """A UR arm; see ``primitives.devices.Arm`` for the contract of each method."""
+
+    def __init__(
+        self,
+        settings: UrSettings,
+        *,
+        clock: Callable[[], float] = time.monotonic,
+        sleep: Callable[[float], None] = time.sleep,
+    ) -> None:
+        """Start nothing yet; see ``connect_arm``. The clock must be that of the worker."""
+        self.settings = settings
+        self._clock, self._sleep = clock, sleep
+        self._lock = threading.RLock()
+        self._worker: subprocess.Popen[bytes] | None = None
+        self._block: Block | None = None
+        self._fault = "the UR arm is not connected"
+        self._unsafe = False
+        self._number = 0
+        self._rotvec: tuple[float, ...] = (math.pi, 0.0, 0.0)
+
+    @property
+    def fault(self) -> str:
+        """The latched fault, '' while all is well."""
+        return self._fault
+
+    # -- Arm -------------------------------------------------------------------------------------
+
+    def pose(self) -> Pose:
+        """The measured pose of the TCP, not older than a round of supervision."""
+        return self._as_pose(self._state())
+
+    def move_to(
+        self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
+    ) -> Pose:
+        """Move on a straight line; returns the pose reached, at rest and within tolerance."""
+        state = self._state()
+        order = self._order(
+            Order.MOVE,
+            (*pose.position_m.tolist(), *pose.rotvec_rad.tolist()),
+            float(speed_m_s),
+            float(acceleration_m_s2),
+        )
+        if why := refusal(order, state.pose, self.settings):
+            raise LimitError(why)
+        self._send(order)
+        takes_s = expected_s(order, state.pose) / max(0.01, state.speed_fraction)
+        state = self._await(order.number, takes_s + REACT_S)
+        if state.done != order.number:
+            raise RobotError("the move was cut short by a stop")
+        if state.outcome == Outcome.REFUSED:
+            raise LimitError(state.text)
+        self._rotvec = tuple(pose.rotvec_rad.tolist())
+        return self._as_pose(state)
+
+    def stop(self) -> None:
+        """Bring the arm to rest; from outside where the worker can't. Never raises."""
+        try:
+            if self._fault:
+                self._make_safe()
+                return
+            order = self._order(Order.STOP)
+            self._send(order)
+            self._await(order.number, STOP_S)
+        except Exception as error:
+            # whatever it is: stopping the arm by another way matters more
+            log.warning("UR stop: %s", error)
+            self._make_safe()
+
+    def disconnect(self) -> None:
+        """Stop, end the program and the worker. Idempotent, never raises."""
+        with self._lock:
+            if self._worker is None:
+                return
+            try:
+                if not self._fault:
+                    self._send(self._order(Order.END))
+                    with contextlib.suppress(subprocess.TimeoutExpired):
+                        self._worker.wait(END_S)
+            except Exception as error:
+                log.warning("UR disconnect: %s", error)
+            if self._worker.returncode != 0:
+                self._make_safe()
+            self._end_worker()
+            self._fault = self._fault or "the UR arm is disconnected"
+
+    # -- operator --------------------------------------------------------------------------------
+
+    def reset(self, *, unlock_protective_stop: bool = False) -> None:
+        """Start anew after a fault. Only on an operator's word, who has looked at the arm.
+
+        Args:
+            unlock_protective_stop: Also release a protective stop (the controller wants at least
+                five seconds between the stop and this).
+
+        Raises:
+            RobotError: The arm is not ready.
+        """
+        self.disconnect()
+        if unlock_protective_stop:
+            with Dashboard(self.settings.host) as dashboard:
+                log.info("UR: %s", dashboard.ask("unlock protective stop"))
+        self.start()
+
+    def start(self) -> None:
+        """Check the controller and start the worker; once, or after ``disconnect``.
+
+        Raises:
+            RobotError: The arm is not ready, or connected already.
+        """
+        with self._lock:
+            if self._worker is not None:
+                raise RobotError("the UR arm is connected already: disconnect or reset it")
+            preflight(self.settings)
+            self._start_worker()
+            try:
+                self._await_ready()
+                self._check_place()
+            except BaseException:
+                self._end_worker()
+                raise
+
+    def timing(self) -> ArmTiming:
+        """How regular the supervision was, and how soon motion followed a command.
+
+        Raises:
+            RobotError: The arm is not connected.
+        """
+        with self._lock:
+            if self._block is None:
+                raise RobotError("the UR arm is not connected")
+            return ArmTiming(
+                period=self._block.distribution(PERIOD),
+                command_to_motion=self._block.distribution(MOTION),
+            )
+
+    # -- worker ----------------------------------------------------------------------------------
+
+    def _start_worker(self) -> None:
+        self._block = Block()
+        self._block.write(State(text="starting Python", beat_s=self._clock()))
+        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
+        packages = str(Path(__file__).resolve().parents[2])
+        path = os.pathsep.join(filter(None, [packages, os.environ.get("PYTHONPATH", "")]))
+        self._worker = subprocess.Popen(
+            [
+                sys.executable, "-m", "tacgrasp.drivers.ur_worker", str(self._block.fd),
+                self.settings.model_dump_json(),
+            ],
+            stdin=subprocess.PIPE,
+            stdout=self._said,
+            stderr=self._said,
+            pass_fds=(self._block.fd,),
+            env=os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1"},
+            start_new_session=True,  # a Ctrl-C in the terminal is for the owner alone
+        )  # fmt: skip
+        if self._worker.stdin is not None:
+            os.set_blocking(self._worker.stdin.fileno(), False)
+        self._number = 0
+
+    def _await_ready(self) -> None:
+        """Wait for the worker; the library may hang in it, so the wait is bounded here."""
+        until_s = self._clock() + self.settings.start_timeout_s
+        while True:
+            state, ended = self._read(), self._has_ended()
+            if state.phase == Phase.READY:
+                self._fault, self._unsafe = "", False
+                return
+            if state.phase == Phase.FAULT or ended:
+                why = state.text if state.phase == Phase.FAULT else self._last_said(state)
+                raise RobotError(f"the UR arm can't be used: {why}")
+            if self._clock() > until_s:
+                raise RobotError(
+                    f"the UR arm was not ready within {self.settings.start_timeout_s:g} s, while "
+                    f"{state.text}; restart the controller if it is so again"
+                )
+            self._sleep(LOOK_S)
+
+    def _check_place(self) -> None:
+        """The TCP must start inside the workspace, or every move back in would begin outside."""
+        state = self._read()
+        here = OrderRecord(order=Order.MOVE, number=0, sent_s=0.0, pose=state.pose,
+                           speed_m_s=self.settings.max_speed_m_s,
+                           acceleration_m_s2=self.settings.max_acceleration_m_s2)  # fmt: skip
+        if why := refusal(here, state.pose, self.settings):
+            raise LimitError(f"the arm starts where it may not be: {why}. Jog it at the pendant")
+
+    def _end_worker(self) -> None:
+        """Be rid of the worker, however it is, and of what it left."""
+        with self._lock:
+            worker, self._worker = self._worker, None
+            if worker is not None:
+                if worker.stdin is not None:
+                    with contextlib.suppress(OSError):
+                        worker.stdin.close()
+                if worker.poll() is None:
+                    worker.kill()
+                worker.wait()
+                self._said.close()
+            if self._block is not None:
+                self._block.close()
+                self._block = None
+
+    def _has_ended(self) -> bool:
+        return self._worker is None or self._worker.poll() is not None
+
+    def _last_said(self, state: State) -> str:
+        code = None if self._worker is None else self._worker.returncode
+        self._said.seek(0)
+        said = " ".join(self._said.read().decode(errors="replace").split()[-40:])
+        return f"its worker ended (exit {code}) while {state.text or 'working'}: {said}"
+
+    # -- orders and state ------------------------------------------------------------------------
+
+    def _order(
+        self,
+        order: Order,
+        pose: tuple[float, ...] = (0.0,) * 6,
+        speed_m_s: float = 0.0,
+        acceleration_m_s2: float = 0.0,
+    ) -> OrderRecord:
+        with self._lock:
+            self._number += 1
+            return OrderRecord(
+                order=order, number=self._number, sent_s=self._clock(), pose=pose,
+                speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2,
+            )  # fmt: skip
+
+    def _send(self, order: OrderRecord) -> None:
+        worker = self._worker
+        if worker is None or worker.stdin is None:
+            raise RobotError(self._fault or "the UR arm is not connected")
+        try:
+            os.write(worker.stdin.fileno(), order.packed())
+        except (OSError, ValueError):
+            self._state()  # says why, if the worker could
+            self._latch("the UR arm's worker takes no orders any more")
+
+    def _await(self, number: int, longest_s: float) -> State:
+        """Wait until an order (or a later one) has ended."""
+        until_s = self._clock() + longest_s
+        while True:
+            state = self._state()
+            if state.done >= number:
+                return state
+            if self._clock() > until_s:
+                self._latch(
+                    f"the UR arm's worker has not carried out an order in {longest_s:.1f} s"
+                )
+            self._sleep(LOOK_S)
+
+    def _read(self) -> State:
+        block = self._block
+        if block is None:
+            raise RobotError(self._fault or "the UR arm is not connected")
+        return block.read()
+
+    def _state(self) -> State:
+        """The worker's state, if it lives and all is well; latches what is not."""
+        if self._fault:
+            raise RobotError(self._fault)
+        ended = self._has_ended()  # asked first: what it left is complete then
+        state = self._read()
+        if state.phase != Phase.READY:
+            self._latch(state.text)
+        if ended:
+            self._latch(self._last_said(state))
+        silent_s = self._clock() - state.beat_s
+        if silent_s > HUNG_S:
+            self._latch(f"supervision of the UR arm has hung for {1e3 * silent_s:.0f} ms")
+        return state
+
+    def _latch(self, why: str) -> None:
+        """Latch a fault, stop the arm by whatever way is left, and raise it."""
+        with self._lock:
+            if not self._fault:
+                advice = "Look at the arm, clear the cause, then reset it."
+                self._fault, self._unsafe = f"UR arm: {why}. {advice}", True
+                log.error("%s", self._fault)
+        self._make_safe()
+        raise RobotError(self._fault)
+
+    def _make_safe(self) -> None:
+        """After a fault: end the worker, and tell the controller to stop, until that was heard."""
+        with self._lock:
+            if not self._unsafe:
+                return
+            worker = self._worker
+            if worker is not None and worker.poll() is None:
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    worker.wait(HUNG_S)  # it is braking the arm itself
+                if worker.poll() is None:
+                    worker.kill()
+            how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
+            self._unsafe = not how
+            log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")
+
+    def _as_pose(self, state: State) -> Pose:
+        rotvec = nearest_rotvec(state.pose[3:], self._rotvec)
+        return Pose(position_m=np.array(state.pose[:3]), rotvec_rad=np.array(rotvec))
