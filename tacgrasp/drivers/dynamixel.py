@@ -17,7 +17,7 @@ from pathlib import Path
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus
+from tacgrasp.drivers.dynamixel_bus import Bus, Counts
 from tacgrasp.drivers.dynamixel_hand import Hand, connect_hand
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
 from tacgrasp.drivers.dynamixel_start import start_findings
@@ -52,8 +52,8 @@ class DynamixelGripper:
         return self._hand.watch.fault
 
     @property
-    def transients(self) -> str:
-        """Faults of the bus that were survived, in words."""
+    def transients(self) -> Counts:
+        """Faults of the bus that were survived so far."""
         return self._hand.transients
 
     def healthy(self) -> bool:

@@ -12,10 +12,11 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from primitives.errors import RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus
+from tacgrasp.drivers.dynamixel_bus import Bus, Counts
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings, ServoSettings
 from tacgrasp.drivers.dynamixel_start import start_findings
 from tacgrasp.drivers.dynamixel_watch import OnFault, Sample, ServoSample, Watch
@@ -54,9 +55,9 @@ class Hand:
         return self._watch
 
     @property
-    def transients(self) -> str:
-        """Faults of the bus that were survived, in words."""
-        return str(self._bus.counts)
+    def transients(self) -> Counts:
+        """Faults of the bus that were survived."""
+        return replace(self._bus.counts)
 
     def width_m(self) -> float:
         """Opening between the fingers, read now [m].
