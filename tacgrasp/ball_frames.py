@@ -59,7 +59,7 @@ def read_ball_frames(
         )
     paths = [
         path
-        for path in sorted(folder.iterdir(), key=lambda path: _counted(path.name))
+        for path in sorted(folder.iterdir(), key=lambda path: counted(path.name))
         if path.suffix.lower() in FRAME_SUFFIXES and path.resolve() != behind.resolve()
     ]
     if not paths:
@@ -99,6 +99,6 @@ def frames_heights(
     ]
 
 
-def _counted(name: str) -> list[tuple[int, str]]:
-    """Sorts ball_2 before ball_10."""
+def counted(name: str) -> list[tuple[int, str]]:
+    """Key that sorts as a person counts: ball_2 before ball_10."""
     return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]

@@ -11,7 +11,6 @@ hardware (``sim.emulators.taxels``).
 from __future__ import annotations
 
 import threading
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -31,6 +30,7 @@ from cltp.taxel_packets import (
     encode_mark,
 )
 from tacgrasp.drivers.latest import Latest
+from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.drivers.taxel_settings import TaxelSettings
 
 if TYPE_CHECKING:
@@ -42,11 +42,6 @@ contact that deep would destroy the gel first."""
 
 _APART = 1000
 _SENDS = 2  # of one mark: a mark damaged on the line costs half of the time-out, not the read
-
-
-def real_stamp() -> Stamp:
-    """Both clocks, now."""
-    return Stamp(monotonic_s=time.monotonic(), wall_s=time.time())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

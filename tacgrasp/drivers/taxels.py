@@ -17,7 +17,8 @@ from cltp.sensors import sensor_named
 from primitives.errors import RobotError
 from tacgrasp.drivers.finding import Finding
 from tacgrasp.drivers.serial_ports import claim, find_port, taken
-from tacgrasp.drivers.taxel_array import TaxelArray, real_stamp
+from tacgrasp.drivers.stamps import real_stamp
+from tacgrasp.drivers.taxel_array import TaxelArray
 from tacgrasp.drivers.taxel_settings import TaxelSettings
 
 if TYPE_CHECKING:
