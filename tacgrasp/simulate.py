@@ -1,0 +1,256 @@
+"""``tacgrasp simulate press``: one rigid thing pressed into one sensor's gel.
+
+Not here: the gel (``sim``), data sets of contacts (``tacgrasp.generate``).
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from rich.console import Console
+from torch import Tensor
+
+from cltp.captions import caption, numeric_caption
+from cltp.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
+from cltp.errors import TouchError
+from cltp.markers import marker_cloud
+from cltp.noise import NoiseUnit, spread_of
+from cltp.sensors import SensorSpec, sensor_named
+from cltp.states import ContactState, Shape, Texture
+from sim.fine import FineLayer
+from sim.gel import Press, gel_of
+from sim.labels import in_contact, label
+from sim.probes import Probe
+from tacgrasp.errors import UsageError
+
+NOISES = ("none", "unit", "uncalibrated")
+"""No noise; a drawn unit; a drawn unit whose gradients nobody calibrated."""
+
+_LEAST_GRID, _MOST_GRID = 24, 1280
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Pressed:
+    """One press.
+
+    Attributes:
+        sensor: Whose gel.
+        height_mm: Shape (H, W), true surface over the whole field, row 0 at the top, + into the
+            gel [mm].
+        pressure_kpa: Same shape [kPa].
+        force_n: Normal force [N].
+        state: Labels, from the truth.
+        seen_mm: Heights as the sensor reports them, (H, W) [mm]; None without noise, or for a
+            sensor that tracks markers.
+        cloud: Points as the sensor reports them.
+    """
+
+    sensor: SensorSpec
+    height_mm: NDArray[np.float32]
+    pressure_kpa: NDArray[np.float32]
+    force_n: float
+    state: ContactState
+    seen_mm: NDArray[np.float32] | None
+    cloud: TactileCloud
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What to press.
+
+    Attributes:
+        object: Its name.
+        depth_mm: Its tip below the undeformed surface [mm].
+        sensor: Name of the sensor.
+        x_mm, y_mm: Where its tip is [mm, gel frame].
+        turn_deg: Its rotation in the plane [°].
+        grid: Columns and rows; None is the sensor's own.
+        noise: One of ``NOISES``.
+        seed: Draws the noise.
+        device: Where torch computes.
+    """
+
+    object: str
+    depth_mm: float
+    sensor: str = "gelsight_mini"
+    x_mm: float = 0.0
+    y_mm: float = 0.0
+    turn_deg: float = 0.0
+    grid: tuple[int, int] | None = None
+    noise: str = "none"
+    seed: int = 0
+    device: str = "cpu"
+
+
+def press(request: Request) -> Pressed:
+    """Press a thing to a depth.
+
+    Raises:
+        UsageError: An unknown object, sensor, noise or device, a grid or depth that makes no sense,
+            or a thing that misses the gel.
+    """
+    sensor = _sensor(request)
+    gap, shape = _gap(request, sensor)
+    columns, rows = request.grid or (sensor.columns, sensor.rows)
+    layer = FineLayer(
+        gel_of(sensor.name),
+        rows=rows,
+        columns=columns,
+        pitch_mm=sensor.width_mm / columns,
+        device=_device(request.device),
+    )
+    with torch.inference_mode():
+        solved = layer.press_to_depth(gap, request.depth_mm)
+    if not bool(solved.converged.all()):
+        raise TouchError(f"the press of {request.object} did not converge; try another --grid")
+    return _read(solved, request, sensor, shape)
+
+
+def _read(solved: Press, request: Request, sensor: SensorSpec, shape: Shape) -> Pressed:
+    pressure, force_n = solved.pressure_kpa.cpu(), float(solved.force_n)
+    height_mm = solved.height_mm[0].cpu().numpy()
+    state = label(
+        height_mm=height_mm,
+        pressure_kpa=pressure[0].numpy(),
+        touching=in_contact(pressure, sensor.width_mm / pressure.shape[2])[0],
+        force_n=force_n,
+        sensor=sensor,
+        shape=shape,
+        texture=Texture.SMOOTH,
+    )
+    rng = np.random.default_rng(request.seed)
+    unit = _unit(request.noise, sensor, rng)
+    seen_mm = None
+    if sensor.markers is not None:
+        cloud = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
+    else:
+        seen_mm = None if unit is None else unit.apply(height_mm, sensor, rng)
+        cloud = cloud_from_heights(height_mm if seen_mm is None else seen_mm, sensor, rng=rng)
+    return Pressed(
+        sensor=sensor,
+        height_mm=height_mm,
+        pressure_kpa=pressure[0].numpy(),
+        force_n=force_n,
+        state=state,
+        seen_mm=seen_mm,
+        cloud=cloud,
+    )
+
+
+def _sensor(request: Request) -> SensorSpec:
+    try:
+        sensor = sensor_named(request.sensor)
+    except TouchError as error:
+        raise UsageError(f"--sensor: {error}") from None
+    if not 0 < request.depth_mm < sensor.gel_mm:
+        raise UsageError(
+            f"--depth-mm must be above 0 and below the {sensor.gel_mm} mm gel of {sensor.name}, "
+            f"got {request.depth_mm}"
+        )
+    if request.noise not in NOISES:
+        raise UsageError(f"--noise must be one of {', '.join(NOISES)}, got {request.noise!r}")
+    if request.grid is not None:
+        columns, rows = request.grid
+        square = abs(columns * sensor.rows - rows * sensor.columns) < sensor.columns
+        if not (min(columns, rows) >= _LEAST_GRID and max(columns, rows) <= _MOST_GRID and square):
+            raise UsageError(
+                f"--grid must be {_LEAST_GRID} to {_MOST_GRID} columns and rows with the field's "
+                f"proportions ({sensor.columns}x{sensor.rows}), got {columns}x{rows}"
+            )
+    return sensor
+
+
+def _device(name: str) -> torch.device:
+    try:
+        device = torch.device(name)
+        torch.empty(0, device=device)
+    except (RuntimeError, AssertionError) as error:
+        reason = str(error).splitlines()[0]
+        raise UsageError(f"--device {name} can't be used: {reason}; cpu always can") from None
+    return device
+
+
+def _gap(request: Request, sensor: SensorSpec) -> tuple[Tensor, Shape]:
+    """Gap (1, H, W) below the thing's tip [mm], and what its contact is called."""
+    columns, rows = request.grid or (sensor.columns, sensor.rows)
+    x, y = np.meshgrid(*grid_axes_mm(sensor, rows, columns))
+    x, y, turn = x - request.x_mm, y - request.y_mm, np.radians(request.turn_deg)
+    try:
+        probe = Probe.named(request.object)
+    except ValueError as error:
+        raise UsageError(f"--object: {error}") from None
+    behind = probe.behind_mm(
+        x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
+    )
+    if not behind.min() < request.depth_mm:
+        why = "no part of it is over the field"
+        if np.isfinite(behind.min()):
+            why = f"what is over the field lies {behind.min():.2f} mm behind the tip"
+        raise UsageError(
+            f"{request.object} at x {request.x_mm:g}, y {request.y_mm:g} mm misses the gel: {why} "
+            f"({sensor.name} sees ±{sensor.width_mm / 2:.1f}, ±{sensor.height_mm / 2:.1f} mm); "
+            "move it with --x-mm and --y-mm or press deeper"
+        )
+    return torch.from_numpy(behind)[None], probe.shape
+
+
+def _unit(noise: str, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit | None:
+    if noise == "none":
+        return None
+    spread = spread_of(sensor)
+    ratio = spread.gain_log_ratio if noise == "uncalibrated" else 0.0
+    return NoiseUnit.draw(rng, gain_log_ratio=ratio, spread=spread)
+
+
+def run(request: Request, out: Path | None) -> None:
+    """Press, print the figures, and write them to ``out`` (.npz) if given.
+
+    Raises:
+        UsageError: As ``press``, or ``out`` can't be written.
+    """
+    done = press(request)
+    area_mm2 = done.state.area_share * done.sensor.area_mm2
+    touching = float((done.pressure_kpa > 0).mean()) * done.sensor.area_mm2
+    rows, columns = done.height_mm.shape
+    to = Console(soft_wrap=True, highlight=False)
+    to.print(f"object    {request.object}, tip {request.depth_mm:g} mm below the surface")
+    to.print(f"sensor    {done.sensor.name}, {columns}x{rows}, noise {request.noise}")
+    to.print(f"force     {done.force_n:.3f} N")
+    to.print(f"area      {touching:.2f} mm² under pressure, {area_mm2:.2f} mm² felt as contact")
+    to.print(f"pressure  {done.pressure_kpa.max():.1f} kPa at most")
+    to.print(f"surface   {done.height_mm.min():+.3f} to {done.height_mm.max():+.3f} mm")
+    to.print(f"label     {caption(done.state)}")
+    to.print(f"          {numeric_caption(done.state, done.sensor)}")
+    if out is not None:
+        _write(out, request, done)
+        to.print(f"written   {out}")
+
+
+def _write(out: Path, request: Request, done: Pressed) -> None:
+    values: dict[str, Any] = {
+        "height_mm": done.height_mm,
+        "pressure_kpa": done.pressure_kpa,
+        "force_n": np.float64(done.force_n),
+        "mm_per_px": np.float64(done.sensor.width_mm / done.height_mm.shape[1]),
+        "cloud_mm": done.cloud.points_mm,
+        "sensor": np.str_(done.sensor.name),
+        "object": np.str_(request.object),
+        "depth_mm": np.float64(request.depth_mm),
+        "caption": np.str_(caption(done.state)),
+    }
+    if done.seen_mm is not None:
+        values["seen_mm"] = done.seen_mm
+    beside = out.with_name(f"{out.name}.{os.getpid()}.part")
+    try:
+        with beside.open("wb") as file:
+            np.savez_compressed(file, allow_pickle=False, **values)
+        beside.replace(out)
+    except OSError as error:
+        beside.unlink(missing_ok=True)
+        raise UsageError(f"--out {out} can't be written: {error}") from None
