@@ -1,8 +1,8 @@
 """Pictures of contacts for people: the deformed gel as a mesh, seen from the sensor, in colour.
 
-Light as in such a sensor: red from the left, green from the top, blue from the lower right, each low
-over the surface, and a weak white one from the camera. What is pressed in comes towards the viewer.
-Made on demand, never stored.
+Light as in such a sensor: red from the left, green from the top, blue from the lower right, each
+low over the surface, and a weak white one from the camera. What is pressed in comes towards the
+viewer. Made on demand, never stored.
 
 Not here: the image tower's input (``cltp.render``), on which trained weights depend.
 """

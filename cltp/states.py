@@ -105,8 +105,8 @@ def area_word(share: float) -> Area:
 
 def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
     """Cell, in thirds of the sensor's field, of a point [mm, gel frame]."""
-    column = (x_mm >= -sensor.width_mm / 6) + (x_mm >= sensor.width_mm / 6)
-    row = (y_mm <= sensor.height_mm / 6) + (y_mm <= -sensor.height_mm / 6)
+    column = sum(x_mm >= limit for limit in (-sensor.width_mm / 6, sensor.width_mm / 6))
+    row = sum(y_mm <= limit for limit in (sensor.height_mm / 6, -sensor.height_mm / 6))
     return list(Position)[3 * row + column]
 
 

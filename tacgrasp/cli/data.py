@@ -1,4 +1,4 @@
-"""``tacgrasp data generate``: make contacts to learn from."""
+"""``tacgrasp data``: make contacts to learn from, and look into them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.cli.data_tools import TOOLS
 from tacgrasp.cli.flags import parse, subcommand
 
 
@@ -30,11 +31,9 @@ class Generate:
 
 def main(argv: Sequence[str]) -> int:
     """Dispatch to what can be done with data sets."""
-    commands: dict[str, Callable[[Sequence[str]], None]] = {"generate": _generate}
+    commands: dict[str, Callable[[Sequence[str]], int | None]] = {"generate": _generate, **TOOLS}
     name, rest = subcommand("data", argv, {n: c.__doc__ or "" for n, c in commands.items()})
-    if name is not None:
-        commands[name](rest)
-    return 0
+    return 0 if name is None else commands[name](rest) or 0
 
 
 def _generate(argv: Sequence[str]) -> None:

@@ -2,6 +2,7 @@
 
 import itertools
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -11,7 +12,7 @@ from cltp.captions import Slots, slots_of
 from cltp.question_answers import UNTOUCHED, question_answers
 from cltp.samples import CLASSES
 from cltp.sensors import SENSORS
-from cltp.states import Area, ContactState, Depth, Position, Shape, Side, Texture
+from cltp.states import Area, ContactState, Depth, Position, Shape, Side, Texture, position_word
 from cltp.wordings import (
     NOTHING,
     PARAPHRASES,
@@ -151,3 +152,9 @@ def test_texts_are_seeded_by_what_is_stored_and_loads_of_a_series_differ():
     assert first == text_seed(seed=0, series=7, depth_mm=0.25)
     assert first != text_seed(seed=0, series=7, depth_mm=0.5)
     assert first != text_seed(seed=0, series=8, depth_mm=0.25)
+
+
+def test_a_position_is_the_same_for_numbers_of_python_and_numpy():
+    for x, y in itertools.product((-9.0, 0.0, 9.0), (-7.0, 0.0, 7.0)):
+        assert position_word(np.float64(x), np.float64(y), MINI) is position_word(x, y, MINI)
+    assert position_word(9.0, -7.0, MINI) is Position.BOTTOM_RIGHT
