@@ -1,10 +1,16 @@
 """The contract of a tactile sensor, run on the drivers without their hardware."""
 
+import numpy as np
 import pytest
+from PIL import Image
 from sensor_contract import SensorContract
 
 from sim.emulators.taxels import TaxelEmulator
 from sim.emulators.taxels_ball import PressedBall
+from tacgrasp.drivers.gelsight_mini import connect_gelsight
+from tacgrasp.drivers.gelsight_settings import GelSightSettings
+from tacgrasp.drivers.recorded import connect_recorded
+from tacgrasp.drivers.recorded_settings import RecordedSettings
 from tacgrasp.drivers.taxel_settings import TaxelSettings
 from tacgrasp.drivers.taxels import connect_taxels
 
@@ -17,3 +23,47 @@ class TestTaxelArrayOnAPty(SensorContract):
         yield array
         array.disconnect()
         emulator.close()
+
+
+@pytest.fixture(scope="module")
+def images(tmp_path_factory):
+    """Four noisy frames of an untouched gel, and one without noise."""
+    folder = tmp_path_factory.mktemp("images")
+    rng = np.random.default_rng(0)
+    grey = np.full((240, 320, 3), 110, dtype=np.uint8)
+    Image.fromarray(grey).save(folder / "background.png")
+    for number in range(4):
+        noise = rng.integers(-2, 3, grey.shape)
+        Image.fromarray((grey + noise).astype(np.uint8)).save(folder / f"frame_{number}.png")
+    return folder
+
+
+class TestGelSightImagesOneARead(SensorContract):
+    @pytest.fixture
+    def sensor(self, images):
+        return connect_gelsight(
+            GelSightSettings(images=images, background=images / "background.png", unit="any")
+        )
+
+
+class TestGelSightImagesLikeACamera(SensorContract):
+    @pytest.fixture
+    def sensor(self, images):
+        gelsight = connect_gelsight(
+            GelSightSettings(
+                images=images,
+                background=images / "background.png",
+                unit="any",
+                play_hz=30,
+                repeat=True,
+                read_timeout_s=2.0,
+            )
+        )
+        yield gelsight
+        gelsight.disconnect()
+
+
+class TestRecordedFrames(SensorContract):
+    @pytest.fixture
+    def sensor(self, images):
+        return connect_recorded(RecordedSettings(path=images))
