@@ -7,25 +7,51 @@ encoder: classes and numbers make it precise enough to act on.
 from __future__ import annotations
 
 import dataclasses
+from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.captions import caption
-from cltp.clip import Towers
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
 from cltp.encoder import EncoderConfig, TactileEncoder
+from cltp.gathering import gathered
 from cltp.heads import StateHeads, Targets, targets
 from cltp.losses import CltpLoss
-from cltp.samples import Augmentation, Batch, Sampler
+from cltp.samples import CLASSES, Augmentation, Sampler
 from cltp.train.ahead import ahead
-from cltp.train.stage import Report, Schedule, Stage, device, silent
-from cltp.train.towers import rendered
+from cltp.train.curves import plot_curves
+from cltp.train.features import FrozenFeatures
+from cltp.train.finite import check_batch
+from cltp.train.sayings import Sayings, fits, say
+from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.workers import Workers
 from cltp.weights import load_clip, save_encoder
+from cltp.wordings import prompts
 
 SCHEDULE = Schedule(steps=6000, batch_size=32, learning_rate=1e-3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Recipe:
+    """What is minimised.
+
+    Attributes:
+        with_images: False leaves L_T2I out (the paper's ablation).
+        texts: What is said of contacts, out of ``cltp.train.sayings.KINDS``; the paper's captions.
+        several: Whether all texts that are true of a contact belong to it, not its own alone.
+        prompt_weight: Of a contrast with one prompt for every class, dimension by dimension; 0 is
+            the paper.
+        head_weight: Of the state heads' terms; 0 is the paper.
+    """
+
+    with_images: bool = True
+    texts: str = "caption"
+    several: bool = False
+    prompt_weight: float = 0.0
+    head_weight: float = 1.0
 
 
 class _Learner(nn.Module):
@@ -36,38 +62,6 @@ class _Learner(nn.Module):
         self.loss = CltpLoss()
 
 
-class FrozenFeatures:
-    """Features of captions and images, computed once each: the towers don't change.
-
-    Args:
-        towers: Frozen.
-        data: Whose images they are.
-    """
-
-    def __init__(self, towers: Towers, data: ContactDataset) -> None:
-        self._towers, self._data = towers, data
-        self._texts: dict[str, Tensor] = {}
-        self._images: dict[tuple[int, bool, bool], Tensor] = {}
-
-    def texts(self, batch: Batch) -> Tensor:
-        """Features of the captions of a batch, shape (B, F)."""
-        captions = [caption(state) for state in batch.states]
-        new = sorted({text for text in captions if text not in self._texts})
-        if new:
-            self._texts.update(zip(new, self._towers.texts(new).cpu(), strict=True))
-        return torch.stack([self._texts[text] for text in captions])
-
-    def images(self, batch: Batch) -> Tensor:
-        """Features of the images of a batch, shape (B, F)."""
-        keys = [
-            (int(i), bool(x), bool(y)) for i, (x, y) in zip(batch.index, batch.mirror, strict=True)
-        ]
-        if any(key not in self._images for key in keys):
-            found = self._towers.images(rendered(self._data, batch)).cpu().half()
-            self._images.update(zip(keys, found, strict=True))
-        return torch.stack([self._images[key] for key in keys]).float()
-
-
 def train_cltp(
     data_dir: Path,
     out_dir: Path,
@@ -75,64 +69,128 @@ def train_cltp(
     config: EncoderConfig | None = None,
     schedule: Schedule = SCHEDULE,
     augmentation: Augmentation | None = None,
-    head_weight: float = 1.0,
-    with_images: bool = True,
+    recipe: Recipe | None = None,
+    clip_dir: Path | None = None,
     shuffle_labels: bool = False,
     seed: int = 0,
     report: Report = silent,
+    workers: Workers | None = None,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/encoder``.
 
+    Beside its checkpoint, in ``out_dir/.training``, lie ``cltp.csv`` and ``cltp.png``: the terms of
+    every step, and the temperature.
+
     Args:
         data_dir: A data set of contacts; its training split is used.
-        out_dir: Folder of weights, with ``clip`` in it.
+        out_dir: Folder of weights.
         config: Sizes of the encoder; its feature is made as wide as CLIP's.
-        schedule: How long and how fast.
+        schedule: How long and how fast; the batch is that of all processes together.
         augmentation: How contacts are varied.
-        head_weight: Of the state heads' terms; 0 is the paper's loss alone.
-        with_images: False leaves L_T2I out (the paper's ablation).
+        recipe: What is minimised.
+        clip_dir: The towers; ``out_dir/clip`` when not given.
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
         seed: Of weights, order, noise and mirroring.
         report: Told about progress.
+        workers: The processes that train together.
 
     Raises:
-        TouchError: Data, towers or checkpoint can't be used.
+        TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
     """
+    workers, recipe = workers or Workers(), recipe or Recipe()
     data = ContactDataset(data_dir, split=Split.TRAIN)
-    towers = load_clip(out_dir / "clip").to(device())
+    clip_dir = clip_dir or out_dir / "clip"
+    towers = load_clip(clip_dir).to(workers.device)
     config = _as_wide_as(config or EncoderConfig(), towers.feature_dim)
     torch.manual_seed(seed)
-    learner = _Learner(config).to(device())
+    learner = _Learner(config).to(workers.device)
     identity = {
         "data": data.checksum(),
         "seed": seed,
         "config": str(config),
-        "variant": f"{head_weight} {with_images} {shuffle_labels} {augmentation}",
+        "variant": f"{recipe} {shuffle_labels} {augmentation} {workers.count}",
     }
-    stage = Stage("cltp", out_dir / ".training", learner, schedule, identity)
     folder = out_dir / "encoder"
+    stage = Stage("cltp", out_dir / ".training", learner, schedule, identity, workers=workers)
     if stage.done and folder.exists():
         return folder
-    frozen = FrozenFeatures(towers, data)
     sampler = Sampler(data, augmentation, seed=seed, shuffle_labels=shuffle_labels)
-    batches = ahead(sampler.training(schedule.batch_size, stage.step))
-
-    def losses(step: int) -> dict[str, Tensor]:
-        batch = next(batches)
-        encoded = learner.encoder(torch.from_numpy(batch.points).to(device()))
-        images = frozen.images(batch).to(device()) if with_images else None
-        terms = learner.loss(encoded.feature, frozen.texts(batch).to(device()), images)
-        if head_weight > 0:
-            wanted = Targets(*(part.to(device()) for part in targets(batch.states)))
-            found = learner.heads.losses(encoded.pooled, wanted)
-            terms |= {name: head_weight * term for name, term in found.items()}
-        return terms
-
+    cache = clip_dir.parent / ".training" if workers.is_first else None
+    frozen = FrozenFeatures(towers, data, cache)
+    run = _Run(learner, frozen, recipe, sampler, workers, seed)
+    run.prepare(stage)
     learner.train()
-    stage.run(losses, report)
-    learner.cpu().eval()
-    save_encoder(folder, learner.encoder, learner.heads)
+    stage.run(run.losses, report)
+    if workers.is_first:
+        frozen.save()
+        plot_curves(stage.curves, stage.curves.with_suffix(".png"))
+        learner.cpu().eval()
+        save_encoder(folder, learner.encoder, learner.heads)
+    workers.wait()
     return folder
+
+
+class _Run:
+    """One training: from a step's number to its terms."""
+
+    def __init__(
+        self,
+        learner: _Learner,
+        frozen: FrozenFeatures,
+        recipe: Recipe,
+        sampler: Sampler,
+        workers: Workers,
+        seed: int,
+    ) -> None:
+        self.learner, self.frozen, self.recipe = learner, frozen, recipe
+        self.sampler, self.workers, self.seed = sampler, workers, seed
+
+    def prepare(self, stage: Stage) -> None:
+        size = self.workers.share(stage.schedule.batch_size)
+        parts = (self.workers.part(step) for step in range(stage.step, stage.schedule.steps))
+        self._batches = ahead(self.sampler.numbered(size, part) for part in parts)
+
+    def losses(self, step: int) -> dict[str, Tensor]:
+        """Terms of a step, over this process's part of its batch and the others' negatives."""
+        batch, to = next(self._batches), self.workers.device
+        wanted = targets(batch.states)
+        check_batch("cltp", step, self.sampler.dataset, batch, wanted)
+        rng = np.random.default_rng([self.seed, 55, self.workers.part(step)])
+        said = say(batch.states, self.recipe.texts, rng)
+        texts = self.frozen.texts(said.texts).to(to)
+        images = self.frozen.images(batch).to(to) if self.recipe.with_images else None
+        loss = self.learner.loss
+        with self.workers.autocast():
+            encoded = self.learner.encoder(torch.from_numpy(batch.points).to(to))
+        feature = encoded.feature.float()
+        terms = loss(feature, texts, images, self._fits(said))
+        if self.recipe.prompt_weight > 0:
+            found = self._prompt_terms(feature, said.classes.to(to), rng)
+            terms |= {name: self.recipe.prompt_weight * term for name, term in found.items()}
+        if self.recipe.head_weight > 0:
+            goals = Targets(*(part.to(to) for part in wanted))
+            found = self.learner.heads.losses(encoded.pooled.float(), goals)
+            terms |= {name: self.recipe.head_weight * term for name, term in found.items()}
+        return terms | {"temperature": 1 / loss.contrast.scale.detach()}
+
+    def _fits(self, said: Sayings) -> Tensor | None:
+        if not self.recipe.several:
+            return None
+        to = self.workers.device
+        classes, named = gathered(said.classes.to(to)), gathered(said.named.to(to).long())
+        return fits(classes, classes, named.bool())
+
+    def _prompt_terms(
+        self, feature: Tensor, classes: Tensor, rng: np.random.Generator
+    ) -> dict[str, Tensor]:
+        terms = {}
+        for column, (slot, names) in enumerate(CLASSES.items()):
+            wordings = [prompts(slot, name) for name in names]
+            texts = [of_class[rng.integers(len(of_class))] for of_class in wordings]
+            found = self.frozen.texts(texts).to(feature.device)
+            goal = classes[:, column]
+            terms[f"prompt_{slot}"] = self.learner.loss.against_prompts(feature, found, goal)
+        return terms
 
 
 def _as_wide_as(config: EncoderConfig, feature_dim: int) -> EncoderConfig:

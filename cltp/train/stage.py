@@ -1,7 +1,8 @@
 """One stage of training: a schedule, progress, and checkpoints that survive ``kill -9``.
 
 A stage that is started again goes on at its last checkpoint and comes to the same weights as one
-that was never stopped: whatever is drawn in a step depends on the seed and the step alone.
+that was never stopped: whatever is drawn in a step depends on the seed and the step alone. Beside
+the checkpoint grows a CSV file with the terms of every step (``cltp.train.curves``).
 """
 
 from __future__ import annotations
@@ -19,6 +20,9 @@ import torch
 from torch import Tensor, nn
 
 from cltp.errors import TouchError
+from cltp.gathering import averaged_gradients
+from cltp.train.curves import CurveFile
+from cltp.train.workers import Workers
 
 
 class Report(Protocol):
@@ -84,6 +88,7 @@ class Stage:
         schedule: How long and how fast.
         identity: What the stage is made of (seed, checksum of the data, sizes). A checkpoint of
             another identity is refused, so that no two trainings get mixed.
+        workers: The processes that share each step; this one alone when not given.
         checkpoint_s: Seconds between checkpoints.
         clock: For checkpoints [s].
     """
@@ -96,10 +101,13 @@ class Stage:
         schedule: Schedule,
         identity: Mapping[str, Any],
         *,
+        workers: Workers | None = None,
         checkpoint_s: float = 60.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name, self.model, self.schedule = name, model, schedule
+        self._workers = workers or Workers()
+        self._means: dict[str, float] = {}
         self._path = Path(folder) / f"{name}.checkpoint"
         self._identity = json.dumps({**identity, "schedule": str(schedule)}, sort_keys=True)
         self._checkpoint_s, self._clock = checkpoint_s, clock
@@ -114,6 +122,8 @@ class Stage:
             [g for g in groups if g["params"]], lr=schedule.learning_rate, betas=(0.9, 0.98)
         )
         self.step = self._restore()
+        self.curves = self._path.with_suffix(".csv")
+        self._curve = CurveFile(self.curves, self.step) if self._workers.is_first else None
 
     @property
     def done(self) -> bool:
@@ -136,8 +146,9 @@ class Stage:
         Raises:
             TouchError: The loss is not finite.
         """
-        means: dict[str, float] = {}
+        means = self._means
         saved = self._clock()
+        began = self.step
         while not self.done:
             terms = losses(self.step)
             total = sum((t for t in terms.values() if t.requires_grad), torch.tensor(0.0))
@@ -146,12 +157,18 @@ class Stage:
             for name, term in terms.items():
                 value = float(term.detach())
                 means[name] = 0.95 * means.get(name, value) + 0.05 * value
-            if self.step % 10 == 0 or self.done:
+            self._note({name: float(term.detach()) for name, term in terms.items()})
+            if self._workers.is_first and (self.step % 10 == 0 or self.done):
                 report(self.name, self.step, self.schedule.steps, means)
             if self._clock() - saved > self._checkpoint_s or self.done:
                 self.save()
                 saved = self._clock()
-        return means
+        self._workers.wait()
+        return means if self.step > began else {}
+
+    def _note(self, terms: Mapping[str, float]) -> None:
+        if self._curve is not None:
+            self._curve.add(self.step, self.schedule.rate(self.step - 1), terms)
 
     def _descend(self, total: Tensor) -> None:
         if not torch.isfinite(total):
@@ -163,11 +180,15 @@ class Stage:
             group["lr"] = self.schedule.rate(self.step)
         self._optimiser.zero_grad(set_to_none=True)
         total.backward()
+        averaged_gradients(self._parameters)
         nn.utils.clip_grad_norm_(self._parameters, self.schedule.largest_gradient)
         self._optimiser.step()
 
     def save(self) -> None:
         """Write a checkpoint, beside the last one and then in its place."""
+        if self._curve is None:
+            return
+        self._curve.flush()
         self._path.parent.mkdir(parents=True, exist_ok=True)
         beside = self._path.with_name(f"{self._path.name}.part")
         content = {
@@ -176,6 +197,7 @@ class Stage:
             "model": self.model.state_dict(),
             "optimiser": self._optimiser.state_dict(),
             "rng": torch.get_rng_state(),
+            "means": self._means,
         }
         with beside.open("wb") as file:
             torch.save(content, file)
@@ -200,4 +222,5 @@ class Stage:
         self.model.load_state_dict(content["model"])
         self._optimiser.load_state_dict(content["optimiser"])
         torch.set_rng_state(content["rng"])
+        self._means = content.get("means", {})
         return int(content["step"])

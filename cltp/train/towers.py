@@ -15,11 +15,10 @@ from cltp.clip import image_features, small_clip, text_features
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
 from cltp.losses import ContrastiveLoss
-from cltp.render import render
 from cltp.samples import Augmentation, Batch, Sampler
-from cltp.sensors import sensor_named
 from cltp.tokenizer import Words
 from cltp.train.ahead import ahead
+from cltp.train.features import rendered
 from cltp.train.stage import Report, Schedule, Stage, device, silent
 from cltp.weights import save_clip
 
@@ -90,13 +89,3 @@ def _batches(
     sampler = Sampler(data, RENDERED, seed=seed)
     for batch in sampler.training(schedule.batch_size, first_step):
         yield batch, rendered(data, batch)
-
-
-def rendered(data: ContactDataset, batch: Batch) -> Tensor:
-    """Images of a batch, shape (B, 3, 64, 64)."""
-    sensors = data.column("sensor")
-    images = [
-        render(heights, sensor_named(sensors[index]))
-        for heights, index in zip(batch.height_mm, batch.index, strict=True)
-    ]
-    return torch.stack(images)

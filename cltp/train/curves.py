@@ -1,0 +1,114 @@
+"""Curves of a training: a CSV file with a row a step, and a picture of it.
+
+The file survives ``kill -9`` together with its checkpoint: rows are on disk before the checkpoint
+that follows them, and rows after it are dropped when the training goes on, so that the file of an
+interrupted training is in the end the one of an undisturbed.
+"""
+
+from __future__ import annotations
+
+import csv
+import os
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+
+STEP, RATE = "step", "learning_rate"
+
+
+class CurveFile:
+    """Appends a row a step.
+
+    Args:
+        path: Of the CSV file.
+        step: Steps that are done; later rows of an existing file are dropped.
+    """
+
+    def __init__(self, path: Path, step: int) -> None:
+        self._path = Path(path)
+        self._rows: list[str] = []
+        self._names: list[str] | None = None
+        if step == 0 or not self._path.exists():
+            self._path.unlink(missing_ok=True)
+            return
+        lines = self._path.read_text(encoding="utf-8").splitlines()
+        kept = [line for line in lines[1:] if line.split(",")[0].isdigit()]
+        kept = [line for line in kept if int(line.split(",")[0]) <= step]
+        self._names = lines[0].split(",")[2:] if lines else None
+        beside = self._path.with_name(f"{self._path.name}.part")
+        beside.write_text("".join(f"{line}\n" for line in [*lines[:1], *kept]), encoding="utf-8")
+        beside.replace(self._path)
+
+    def add(self, step: int, rate: float, terms: Mapping[str, float]) -> None:
+        """Note the terms of a step that is done; safe on disk after ``flush``."""
+        if self._names is None:
+            self._names = list(terms)
+            self._rows.append(",".join([STEP, RATE, *self._names]))
+        values = [terms.get(name, float("nan")) for name in self._names]
+        self._rows.append(",".join([str(step), f"{rate:.6g}", *(f"{v:.7g}" for v in values)]))
+
+    def flush(self) -> None:
+        """Bring what was noted to the disk."""
+        if not self._rows:
+            return
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        with self._path.open("a", encoding="utf-8") as file:
+            file.write("".join(f"{row}\n" for row in self._rows))
+            file.flush()
+            os.fsync(file.fileno())
+        self._rows.clear()
+
+
+def read_curves(path: Path) -> dict[str, NDArray[np.float64]]:
+    """Columns of a file that ``CurveFile`` wrote.
+
+    Raises:
+        TouchError: It can't be read.
+    """
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            rows = list(csv.reader(file))
+        values = np.array([[float(value) for value in row] for row in rows[1:]])
+        return {name: values[:, column] for column, name in enumerate(rows[0])}
+    except (OSError, ValueError, IndexError) as error:
+        raise TouchError(f"no curves could be read from {path}: {error}") from error
+
+
+def plot_curves(path: Path, picture: Path) -> None:
+    """Draw losses above and the temperature, where there is one, below; PNG.
+
+    Raises:
+        TouchError: There are no curves.
+    """
+    from matplotlib.figure import Figure
+
+    curves = read_curves(path)
+    steps = curves.pop(STEP)
+    curves.pop(RATE)
+    temperature = curves.pop("temperature", None)
+    figure = Figure(figsize=(8, 6 if temperature is not None else 4), layout="constrained")
+    axes = figure.subplots(2 if temperature is not None else 1, 1, sharex=True, squeeze=False)
+    for name, values in curves.items():
+        axes[0, 0].plot(steps, smoothed(values), label=name, linewidth=1)
+    axes[0, 0].set_ylabel("loss, mean over 50 steps")
+    axes[0, 0].set_yscale("log")
+    axes[0, 0].legend(fontsize=8, ncols=3)
+    if temperature is not None:
+        axes[1, 0].plot(steps, temperature, color="black", linewidth=1)
+        axes[1, 0].set_ylabel("temperature")
+    axes[-1, 0].set_xlabel("step")
+    beside = picture.with_name(f"{picture.name}.part")
+    figure.savefig(beside, format="png", dpi=100)
+    beside.replace(picture)
+
+
+def smoothed(values: NDArray[np.float64], window: int = 50) -> NDArray[np.float64]:
+    """Mean over the last ``window`` values, fewer where there are no more."""
+    total = np.cumsum(np.insert(values, 0, 0.0))
+    last = np.arange(1, len(values) + 1)
+    first = np.maximum(last - window, 0)
+    return (total[last] - total[first]) / (last - first)
