@@ -162,6 +162,7 @@ class UrEmulator:
                 "program_ended": controller.ended,
                 "num_programs": controller.num_programs,
                 "watchdog_hz": controller.program.watchdog_hz if controller.program else 0.0,
+                "stops_straight": bool(controller.program and controller.program.stops_straight),
                 "payload_kg": controller.payload_kg,
                 "tcp_offset_z_m": float(robot.tcp_offset[2]),
                 "force_n": float(np.linalg.norm(robot.force()[:3])),

@@ -35,6 +35,8 @@ class Program:
     Attributes:
         running: False once it has ended.
         watchdog_hz: Least rate of ``input_int_register_0`` that it asked for; 0 when none.
+        stops_straight: ``stopL`` brakes on the line; until the first asynchronous stop it brakes as
+            ``stopJ`` does.
         payload_kg, payload_cog_m: As last set.
         protective_stop: Called for a protective stop that the client asked for.
     """
@@ -55,7 +57,7 @@ class Program:
         self._executing = False
         self._awaited: Callable[[], bool] | None = None
         self._line: Line | None = None
-        self._stop_type_l = False
+        self.stops_straight = False
         self._going: str | None = None
         self._again: Callable[[], None] | None = None
         self._asynchronous = False
@@ -199,10 +201,10 @@ class Program:
                 self._going = self._again = None
             asynchronous = asynchronous and ends is None
             if command in (STOP_L, STOP_J) and asynchronous:
-                self._stop_type_l = command == STOP_L
+                self.stops_straight = command == STOP_L
             if command == FORCE_STOP:
                 self._robot.halt(10.0)
-            elif command == SPEED_STOP or (command in (STOP_L, STOP_J) and self._stop_type_l):
+            elif command == SPEED_STOP or (command in (STOP_L, STOP_J) and self.stops_straight):
                 self._robot.halt(deceleration)
             else:  # also a stopL before the first asynchronous stop
                 self._robot.halt_joints(deceleration)

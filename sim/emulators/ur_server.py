@@ -28,8 +28,8 @@ from sim.emulators.ur_sessions import (
 )
 
 PORTS = (DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT)
-TICK_S = 0.002
-"""Cycle while the arm moves: that of an e-Series controller."""
+TICK_S = 0.004
+"""Cycle while the arm moves; what happens in between is computed, not rounded to it."""
 
 IDLE_S = 0.02
 PRIORITY = 11

@@ -38,7 +38,7 @@ from tacgrasp.drivers.ur_block import (
 )
 from tacgrasp.drivers.ur_bounds import expected_s, nearest_rotvec, refusal
 from tacgrasp.drivers.ur_preflight import check, preflight
-from tacgrasp.drivers.ur_probe import Dashboard, stop_from_outside
+from tacgrasp.drivers.ur_probe import CONFIRMED, Dashboard, stop_from_outside
 from tacgrasp.drivers.ur_settings import UrSettings
 
 __all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
@@ -163,6 +163,7 @@ class UrArm:
             except Exception as error:
                 log.warning("UR disconnect: %s", error)
             if self._worker.returncode != 0:
+                self._unsafe = self._unsafe or not self._fault
                 self._make_safe()
             self._end_worker()
             self._fault = self._fault or "the UR arm is disconnected"
@@ -287,6 +288,11 @@ class UrArm:
     def _has_ended(self) -> bool:
         return self._worker is None or self._worker.poll() is not None
 
+    def _wait_for_end(self) -> None:
+        if self._worker is not None:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._worker.wait(HUNG_S)
+
     def _last_said(self, state: State) -> str:
         code = None if self._worker is None else self._worker.returncode
         self._said.seek(0)
@@ -336,7 +342,10 @@ class UrArm:
         block = self._block
         if block is None:
             raise RobotError(self._fault or "the UR arm is not connected")
-        return block.read()
+        try:
+            return block.read()
+        except ValueError:  # closed by another thread's disconnect
+            raise RobotError("the UR arm is disconnected") from None
 
     def _state(self) -> State:
         """The worker's state, if it lives and all is well; latches what is not."""
@@ -345,7 +354,8 @@ class UrArm:
         ended = self._has_ended()  # asked first: what it left is complete then
         state = self._read()
         if state.phase != Phase.READY:
-            self._latch(state.text)
+            self._wait_for_end()  # it brakes the arm now, and will say how
+            self._latch(self._read().text)
         if ended:
             self._latch(self._last_said(state))
         silent_s = self._clock() - state.beat_s
@@ -368,14 +378,11 @@ class UrArm:
         with self._lock:
             if not self._unsafe:
                 return
-            worker = self._worker
-            if worker is not None and worker.poll() is None:
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    worker.wait(HUNG_S)  # it is braking the arm itself
-                if worker.poll() is None:
-                    worker.kill()
+            self._wait_for_end()
+            if self._worker is not None and self._worker.poll() is None:
+                self._worker.kill()
             how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
-            self._unsafe = not how
+            self._unsafe = how != CONFIRMED
             log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")
 
     def _as_pose(self, state: State) -> Pose:

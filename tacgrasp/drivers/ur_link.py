@@ -189,10 +189,8 @@ class UrLink:
         _taken(self._control.kickWatchdog(), "sign of life")
 
     def end(self) -> None:
-        """End the program and hang up."""
+        """End the program; the end of the process hangs up (``disconnect`` sleeps for 0.5 s)."""
         self._control.stopScript()
-        self._control.disconnect()
-        self._receive.disconnect()
 
     def _wait_for_payload(self) -> None:
         wanted_kg = self._settings.payload_kg

@@ -26,6 +26,9 @@ INPUTS = (
 )
 """The registers that the control library claims."""
 
+CONFIRMED = "dashboard stop"
+"""What ``stop_from_outside`` says when the controller has confirmed it."""
+
 _LENGTHS = {"DOUBLE": "d", "INT32": "i", "UINT32": "I", "VECTOR3D": "3d", "VECTOR6D": "6d"}
 
 
@@ -260,7 +263,8 @@ def stop_from_outside(
     """End the program on the controller without the library, by whatever way is left.
 
     The open dashboard connection first, then a new one, then a one-line script, which replaces the
-    program and brakes. Returns what was done, '' when no way was left. Never raises.
+    program and brakes. Returns what was done, '' when no way was left. Never raises. Only the
+    dashboard confirms (``CONFIRMED``); whether a script was heard is not known.
     """
 
     def open_line() -> str:
@@ -273,10 +277,10 @@ def stop_from_outside(
     for way in (open_line, new_line):
         with contextlib.suppress(RobotError, OSError):
             if way().lower().startswith("stopped"):
-                return "dashboard stop"
+                return CONFIRMED
     with contextlib.suppress(RobotError, OSError):
         line = _Line(host, SCRIPT_PORT, "UR script port", timeout_s)
         line.send(f"stopl({deceleration_m_s2:g})\n".encode())
         line.close()
-        return "script stopl"
+        return "stopl sent to the script port, unconfirmed"
     return ""

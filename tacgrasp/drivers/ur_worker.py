@@ -40,6 +40,13 @@ from tacgrasp.drivers.ur_link import STILL_M_S, UrLink
 from tacgrasp.drivers.ur_probe import Dashboard, stop_from_outside
 from tacgrasp.drivers.ur_settings import UrSettings
 
+OLD_S = 0.03
+"""With data older than this the library's stop would only hang [s]."""
+
+LIBRARY_END_S = 0.2
+DASHBOARD_S = 0.1
+"""Longest wait for the dashboard, which is asked when a stop can't wait [s]."""
+
 MARGIN_S = 1.0
 """A move may take this much longer than its trapezoid, at the slider's speed [s]."""
 
@@ -47,6 +54,9 @@ SETTLE_S = 0.3
 STOP_S = 0.6
 LIBRARY_STOP_S = 0.06
 """Longest wait for the library's own stop before the arm is stopped from outside [s]."""
+
+WHY_S = 0.02
+"""Longest wait for the controller's data to explain a refusal [s]."""
 
 NOTICE_S = 0.001
 """How often the data is looked at until a commanded motion shows [s]."""
@@ -136,10 +146,22 @@ class Worker:
                 f"contact force {force_n:.1f} N is beyond max_contact_force_n {most_n:g} N in "
                 "motion: free the tool before the arm is reset"
             )
-        self._link.kick()
+        self._kick()
         if self._job is not None:
             self._follow(self._job, now_s)
         self.publish(now_s)
+
+    def _kick(self) -> None:
+        try:
+            self._link.kick()
+        except RobotError:
+            # The library noticed before its data did; they will say why in a moment.
+            until_s = self._clock() + WHY_S
+            while self._clock() < until_s and self._link.connected:
+                if wrong := self._link.sample().wrong():
+                    raise RobotError(wrong) from None
+                time.sleep(0.002)
+            raise
 
     def publish(self, now_s: float) -> None:
         """Let the owner see the present state."""
@@ -251,22 +273,17 @@ class Worker:
 
     # -- ends ------------------------------------------------------------------------------------
 
-    def brake(self, dashboard: Dashboard | None) -> str:
-        """Stop the arm by the library where its link stands, then from outside; what was done."""
-        done = []
-        if self._link.connected and not self._sample.wrong():
-            stopping = threading.Thread(target=self._link.stop, daemon=True)
-            stopping.start()
-            stopping.join(LIBRARY_STOP_S)  # it may hang: then the other ways must do
-            if not stopping.is_alive():
-                done.append("stopL")
-                until_s = self._clock() + LIBRARY_STOP_S
-                while self._clock() < until_s and self._link.sample().speed_m_s > STILL_M_S:
-                    time.sleep(0.004)
-        outside = stop_from_outside(
-            self._settings.host, self._settings.stop_deceleration_m_s2, dashboard=dashboard
-        )
-        return ", ".join([*done, outside] if outside else done)
+    def brake(self) -> str:
+        """Stop the arm by the library, if its link stands; what was done."""
+        old_s = self._clock() - self._data_s
+        if not self._link.connected or self._sample.wrong() or old_s > OLD_S:
+            return ""
+        if not _within(LIBRARY_STOP_S, self._link.stop):  # it hangs: then the other ways must do
+            return ""
+        until_s = self._clock() + LIBRARY_STOP_S
+        while self._clock() < until_s and self._link.sample().speed_m_s > STILL_M_S:
+            time.sleep(0.004)
+        return "stopL"
 
 
 def main(argv: list[str]) -> NoReturn:
@@ -286,7 +303,7 @@ def main(argv: list[str]) -> NoReturn:
     try:
         link = UrLink(settings, step)
         link.set_up(step)
-        dashboard = Dashboard(settings.host)
+        dashboard = Dashboard(settings.host, DASHBOARD_S)
         worker = Worker(settings, link, block, sys.stdin.fileno())
         worker.state.phase = Phase.READY
         signal.signal(signal.SIGTERM, _gone)
@@ -299,19 +316,31 @@ def main(argv: list[str]) -> NoReturn:
         worker.run()
     except NoOwnerError as gone:
         worker.state.phase, worker.state.text = Phase.ENDED, str(gone)
-        worker.brake(dashboard)
+        worker.brake()
+        ended = _within(LIBRARY_END_S, link.end)
+        if not ended:
+            _stop_from_outside(settings, dashboard)
         worker.publish(time.monotonic())
-        ending = threading.Thread(target=link.end, daemon=True)
-        ending.start()
-        ending.join(0.5)
         os._exit(0)
     except Exception as error:
         text = str(error) if isinstance(error, RobotError) else repr(error)
         worker.state.phase, worker.state.text = Phase.FAULT, text
         worker.publish(worker.state.beat_s)
-        braked = worker.brake(dashboard)
-        how = f"told to stop by {braked}" if braked else "no way to reach it is left: its watchdog"
-        _last_words(block, worker.state, f"{text} ({how})")
+        ways = [worker.brake(), _stop_from_outside(settings, dashboard)]
+        told = ", ".join(filter(None, ways)) or "no way to tell it is left but its own watchdog"
+        _last_words(block, worker.state, f"{text} (stop: {told})")
+
+
+def _within(seconds: float, call: Callable[[], None]) -> bool:
+    """Let a call of the library run that may hang; whether it returned in time."""
+    thread = threading.Thread(target=call, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    return not thread.is_alive()
+
+
+def _stop_from_outside(settings: UrSettings, dashboard: Dashboard) -> str:
+    return stop_from_outside(settings.host, settings.stop_deceleration_m_s2, dashboard=dashboard)
 
 
 def _ask_for_real_time() -> None:
