@@ -28,11 +28,15 @@ _ZSTD = pa.Codec("zstd", compression_level=3)
 
 
 class Split(StrEnum):
-    """What a contact may be used for."""
+    """What a contact may be used for: to train on, to choose by, or a test of one kind."""
 
     TRAIN = "train"
     VALIDATION = "validation"
-    TEST = "test"
+    TEST = "test"  # other contacts of the same objects, under the same gels: the paper's
+    OBJECT = "object"  # objects that training never shows
+    PHYSICS = "physics"  # gels that training never shows
+    GELSTEREO = "gelstereo"  # like the paper's GelStereo contacts
+    GELSIGHT = "gelsight"  # like the paper's GelSight contacts
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,6 +76,10 @@ class Contact:
         split: What it may be used for.
         gel: Under which gel it was made; None for a real contact.
         seed: What it can be made again from; 0 for a real contact.
+        unsure: Which of shape, texture, depth, position and area are so near another class that a
+            careful person might say that instead; None where nobody looked.
+        approach_mm: How far the undeformed body was moved into the undeformed gel [mm].
+        peak_kpa: Largest pressure [kPa].
 
     Raises:
         TouchError: Heights of a wrong shape, not finite, or beyond ``LARGEST_MM``; negative series.
@@ -85,6 +93,9 @@ class Contact:
     split: Split
     gel: Gel | None = None
     seed: int = 0
+    unsure: frozenset[str] | None = None
+    approach_mm: float | None = None
+    peak_kpa: float | None = None
 
     def __post_init__(self) -> None:
         heights = np.array(self.height_mm, dtype=np.float32)

@@ -62,6 +62,14 @@ SCHEMA = pa.schema(
         ("gel_poisson", pa.float32()),
     ]
 )
+"""Columns of every data set of this version."""
+
+OPTIONAL = pa.schema(
+    [("unsure", pa.string()), ("approach_mm", pa.float32()), ("peak_kpa", pa.float32())]
+)
+"""Columns of data sets whose makers know them; in others they read as null."""
+
+_FULL = pa.unify_schemas([SCHEMA, OPTIONAL])
 
 
 class DatasetWriter:
@@ -126,7 +134,8 @@ class DatasetWriter:
         blob = b"".join(packed)
         _write_beside(stem.with_suffix(".heights"), blob)
         digest = hashlib.sha256(blob).hexdigest()
-        table = pa.Table.from_pylist(rows, schema=SCHEMA.with_metadata({"heights_sha256": digest}))
+        schema = SCHEMA if all(c.unsure is None for c in self._contacts) else _FULL
+        table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
         beside = stem.with_suffix(f".parquet.{os.getpid()}.part")
         pq.write_table(table, beside, compression="zstd")
         beside.replace(stem.with_suffix(".parquet"))
@@ -174,6 +183,9 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         "gel_thickness_mm": gel and gel.thickness_mm,
         "gel_young_mpa": gel and gel.young_mpa,
         "gel_poisson": gel and gel.poisson,
+        "unsure": None if contact.unsure is None else " ".join(sorted(contact.unsure)),
+        "approach_mm": contact.approach_mm,
+        "peak_kpa": contact.peak_kpa,
     }
 
 
@@ -245,7 +257,7 @@ class ContactDataset:
         return list(self._columns)
 
     def column(self, name: str) -> NDArray[Any]:
-        """Values of one column of ``SCHEMA`` for every contact, shape (len,).
+        """Values of one column of ``SCHEMA`` or ``OPTIONAL`` for every contact, shape (len,).
 
         Raises:
             TouchError: There is no such column.
@@ -301,6 +313,9 @@ class ContactDataset:
             split=Split(row["split"]),
             gel=gel,
             seed=int(row["seed"]),
+            unsure=None if row["unsure"] is None else frozenset(row["unsure"].split()),
+            approach_mm=_known(row["approach_mm"]),
+            peak_kpa=_known(row["peak_kpa"]),
         )
 
     def checksum(self) -> str:
@@ -317,6 +332,10 @@ class ContactDataset:
         return self._maps[shard]
 
 
+def _known(value: Any) -> float | None:
+    return None if value is None or np.isnan(value) else float(value)
+
+
 def _read_index(path: Path) -> pa.Table:
     heights = path.with_suffix(".heights")
     try:
@@ -324,7 +343,10 @@ def _read_index(path: Path) -> pa.Table:
         size = heights.stat().st_size
     except (OSError, pa.ArrowException) as error:
         raise TouchError(f"shard {path} is damaged or incomplete: {error}") from error
-    if not table.schema.equals(SCHEMA, check_metadata=False):
+    if table.schema.equals(SCHEMA, check_metadata=False):
+        for column in OPTIONAL:
+            table = table.append_column(column, pa.nulls(len(table), column.type))
+    elif not table.schema.equals(_FULL, check_metadata=False):
         raise TouchError(f"shard {path} has other columns than version {VERSION}; generate again")
     ends = table["offset"].to_numpy() + table["size"].to_numpy()
     if len(table) and int(ends.max()) != size:

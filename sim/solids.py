@@ -1,0 +1,503 @@
+"""Solids as signed distances, in torch: what objects are built of, and which part of them touches.
+
+A solid tells how far a point is from its surface (negative inside) and which *cell* of it is
+nearest: a face, a bar, a bump, a crest. A cell's ``Form`` says what it is called when it touches
+(``sim.touched``). Edges of a solid cut from faces are rounded by a fillet; where faces meet at an
+angle other than 90° the distance is a bound, and ``steep`` says by how much it may be too large.
+
+Points are tensors (..., 3) [mm]. Works on any device; on the same kind of device the result for a
+point does not depend on its company.
+
+Not here: objects (``sim.catalogue``), rays (``sim.casting``), textures (``sim.skins``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from typing import Protocol
+
+import torch
+from torch import Tensor
+
+from cltp.states import Shape
+
+Vector = tuple[float, float, float]
+
+
+class Form(StrEnum):
+    """What a cell of a surface is."""
+
+    FLAT = "flat"
+    CURVED = "curved"  # what it is called depends on its curvatures where it touches
+    TAPER = "taper"  # a face, flat or conical, that runs to a tip
+    BAR = "bar"
+    LOOP = "loop"  # a ring or an arc of one
+    DOT = "dot"
+    CREST = "crest"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cell:
+    """A part of a surface that has one name.
+
+    Attributes:
+        form: What it is.
+        outline: What a flat cell is called when all of it touches; None: by its proportions.
+    """
+
+    form: Form
+    outline: Shape | None = None
+
+
+class Solid(Protocol):
+    """A body with a surface."""
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """By the numbers that ``cell`` gives."""
+        ...
+
+    @property
+    def reach_mm(self) -> float:
+        """All of it lies within this distance of the origin [mm]."""
+        ...
+
+    @property
+    def steep(self) -> float:
+        """Largest slope of ``distance``: 1 where it is exact."""
+        ...
+
+    def distance(self, points: Tensor) -> Tensor:
+        """Signed distance [mm] of ``points`` (..., 3), shape (...)."""
+        ...
+
+    def cell(self, points: Tensor) -> Tensor:
+        """Number of the nearest cell for ``points`` (..., 3) near the surface, int64 (...)."""
+        ...
+
+
+class Face(Protocol):
+    """A surface without end that a solid lies behind."""
+
+    @property
+    def cell(self) -> Cell:
+        """What it is."""
+        ...
+
+    def behind(self, points: Tensor) -> Tensor:
+        """Signed distance [mm] of ``points`` (..., 3): positive in front."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Flat:
+    """Plane with an outward normal, ``offset`` from the origin [mm]."""
+
+    normal: Vector
+    offset: float
+    cell: Cell = Cell(form=Form.FLAT)
+
+    def behind(self, points: Tensor) -> Tensor:
+        """See ``Face``."""
+        x, y, z = self.normal
+        return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - self.offset
+
+
+@dataclass(frozen=True, slots=True)
+class Barrel:
+    """Cylinder or cone about z: ``radius`` at z = 0, wider by ``widening`` mm per mm of z."""
+
+    radius: float
+    widening: float = 0.0
+    cell: Cell = Cell(form=Form.CURVED)
+
+    def behind(self, points: Tensor) -> Tensor:
+        """See ``Face``."""
+        across = torch.hypot(points[..., 0], points[..., 1])
+        level = self.radius + self.widening * points[..., 2]
+        return (across - level) / math.hypot(1.0, self.widening)
+
+
+@dataclass(frozen=True, slots=True)
+class Bore:
+    """Inside of a cylinder about z through (``x``, ``y``)."""
+
+    radius: float
+    x: float = 0.0
+    y: float = 0.0
+    cell: Cell = Cell(form=Form.CURVED)
+
+    def behind(self, points: Tensor) -> Tensor:
+        """See ``Face``."""
+        return self.radius - torch.hypot(points[..., 0] - self.x, points[..., 1] - self.y)
+
+
+@dataclass(frozen=True, slots=True)
+class Dome:
+    """Sphere about (0, 0, ``centre_z``)."""
+
+    radius: float
+    centre_z: float = 0.0
+    cell: Cell = Cell(form=Form.CURVED)
+
+    def behind(self, points: Tensor) -> Tensor:
+        """See ``Face``."""
+        height = points[..., 2] - self.centre_z
+        across = points[..., 0] ** 2 + points[..., 1] ** 2
+        return (across + height**2).sqrt() - self.radius
+
+
+@dataclass(frozen=True, slots=True)
+class Ripple:
+    """Crests along y on a face towards +z at ``offset``, ``period`` apart [mm].
+
+    Its cells are the crests (``Cut.cell``).
+    """
+
+    offset: float
+    period: float
+    amplitude: float
+    cell: Cell = Cell(form=Form.CREST)
+
+    def behind(self, points: Tensor) -> Tensor:
+        """See ``Face``."""
+        waves = 2 * math.pi / self.period
+        below = self.amplitude * (1 - torch.cos(waves * points[..., 0]))
+        return (points[..., 2] - self.offset + below) / math.hypot(1.0, waves * self.amplitude)
+
+
+_MOST_CRESTS = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """What lies behind all of its faces, its edges rounded by ``fillet`` [mm]."""
+
+    faces: tuple[Face, ...]
+    fillet: float
+    reach_mm: float
+    steep: float = 1.3
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """One for each face; crests follow, each a cell."""
+        crest = [face.cell for face in self.faces if isinstance(face, Ripple)]
+        return (*(face.cell for face in self.faces), *crest * _MOST_CRESTS)
+
+    def _behind(self, points: Tensor) -> Tensor:
+        return torch.stack([face.behind(points) for face in self.faces])
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        behind = self._behind(points)
+        rim = (behind + self.fillet).clamp_(min=0).square_().sum(0).sqrt_()
+        return behind.amax(0).clamp_(max=-self.fillet) + rim
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        nearest = self._behind(points).argmax(0)
+        for number, face in enumerate(self.faces):
+            if isinstance(face, Ripple):
+                crest = torch.round(points[..., 0] / face.period).long() + _MOST_CRESTS // 2
+                crest = crest.clamp(0, _MOST_CRESTS - 1) + len(self.faces)
+                nearest = torch.where(nearest == number, crest, nearest)
+        return nearest
+
+
+@dataclass(frozen=True, slots=True)
+class Oval:
+    """Ellipsoid about the origin with three half axes [mm].
+
+    Source: a first-order distance, |p/r| (|p/r| - 1) / |p/r²| (Quilez); a little too large outside.
+    """
+
+    x: float
+    y: float
+    z: float
+    steep: float = 1.25
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """One, curved."""
+        return (Cell(form=Form.CURVED),)
+
+    @property
+    def reach_mm(self) -> float:
+        """Its longest half axis."""
+        return max(self.x, self.y, self.z)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        radii = points.new_tensor([self.x, self.y, self.z])
+        once = (points / radii).square().sum(-1).sqrt()
+        twice = (points / radii**2).square().sum(-1).sqrt()
+        return once * (once - 1) / twice.clamp(min=1e-9)
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return torch.zeros(points.shape[:-1], dtype=torch.int64, device=points.device)
+
+
+@dataclass(frozen=True, slots=True)
+class Hoop:
+    """Round tube bent to a ring about z, or to an arc of it that is symmetric about +x [mm]."""
+
+    radius: float
+    tube: float
+    half_angle: float = math.pi
+    form: Form = Form.LOOP
+    steep: float = 1.0
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """One."""
+        return (Cell(form=self.form),)
+
+    @property
+    def reach_mm(self) -> float:
+        """Its outer radius."""
+        return self.radius + self.tube
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        x, y, z = points.unbind(-1)
+        across = torch.hypot(torch.hypot(x, y) - self.radius, z)
+        if self.half_angle < math.pi:
+            end_x = x - self.radius * math.cos(self.half_angle)
+            end_y = y.abs() - self.radius * math.sin(self.half_angle)
+            to_end = (end_x**2 + end_y**2 + z**2).sqrt()
+            across = torch.where(torch.atan2(y, x).abs() <= self.half_angle, across, to_end)
+        return across - self.tube
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return torch.zeros(points.shape[:-1], dtype=torch.int64, device=points.device)
+
+
+@dataclass(frozen=True, slots=True)
+class Rods:
+    """Round rods between pairs of points, each a cell: bars, wires, or one thick rod."""
+
+    ends: tuple[tuple[Vector, Vector], ...]
+    radius: float
+    form: Form = Form.BAR
+    steep: float = 1.0
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """One for each rod."""
+        return (Cell(form=self.form),) * len(self.ends)
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the furthest end."""
+        return max(math.hypot(*end) for rod in self.ends for end in rod) + self.radius
+
+    def _all(self, points: Tensor) -> Tensor:
+        start = points.new_tensor([rod[0] for rod in self.ends])
+        along = points.new_tensor([rod[1] for rod in self.ends]) - start
+        beside = points[..., None, :] - start
+        length = along.square().sum(-1).clamp(min=1e-9)  # a rod without length is a ball
+        share = ((beside * along).sum(-1) / length).clamp(0, 1)
+        return (beside - share[..., None] * along).square().sum(-1).sqrt()
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self._all(points).amin(-1) - self.radius
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self._all(points).argmin(-1)
+
+
+def dots(at: Sequence[tuple[float, float]], z: float, radius: float) -> Rods:
+    """Balls of one radius whose centres lie at ``z`` [mm], each a cell."""
+    return Rods(tuple(((x, y, z), (x, y, z)) for x, y in at), radius, Form.DOT)
+
+
+@dataclass(frozen=True, slots=True)
+class Blend:
+    """Several solids grown into one, their joints rounded by about ``radius`` [mm]; 0: a union.
+
+    Source: polynomial smooth minimum (Quilez); it is 1-Lipschitz where the parts are.
+    """
+
+    parts: tuple[Solid, ...]
+    radius: float = 0.0
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of its parts, in order."""
+        return tuple(cell for part in self.parts for cell in part.cells)
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the furthest part."""
+        return max(part.reach_mm for part in self.parts)
+
+    @property
+    def steep(self) -> float:
+        """Of the steepest part."""
+        return max(part.steep for part in self.parts)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        total = self.parts[0].distance(points)
+        for part in self.parts[1:]:
+            other = part.distance(points)
+            lower = torch.minimum(total, other)
+            if self.radius > 0:
+                near = (1 - (total - other).abs() / (4 * self.radius)).clamp_(min=0)
+                lower = lower - self.radius * near.square_()
+            total = lower
+        return total
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        away = torch.stack([part.distance(points) for part in self.parts])
+        own = torch.stack([part.cell(points) for part in self.parts])
+        counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])
+        first = counts.cumsum(0).to(points.device).view(-1, *[1] * (points.ndim - 1))
+        return (own + first).gather(0, away.argmin(0)[None])[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Hollow:
+    """A solid without what another takes away."""
+
+    solid: Solid
+    without: Solid
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of the solid, then those of the cavity, as curved ones."""
+        return (*self.solid.cells, *(Cell(form=Form.CURVED) for _ in self.without.cells))
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid."""
+        return self.solid.reach_mm
+
+    @property
+    def steep(self) -> float:
+        """Of the steeper one."""
+        return max(self.solid.steep, self.without.steep)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return torch.maximum(self.solid.distance(points), -self.without.distance(points))
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        cavity = -self.without.distance(points) > self.solid.distance(points)
+        inner = self.without.cell(points) + len(self.solid.cells)
+        return torch.where(cavity, inner, self.solid.cell(points))
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """Copies of a solid that lies about +x, ``count`` of them evenly about z."""
+
+    solid: Solid
+    count: int
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of each copy."""
+        return self.solid.cells * self.count
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid."""
+        return self.solid.reach_mm
+
+    @property
+    def steep(self) -> float:
+        """Of the solid."""
+        return self.solid.steep
+
+    def _folded(self, points: Tensor) -> tuple[Tensor, Tensor]:
+        step = 2 * math.pi / self.count
+        copy = torch.round(torch.atan2(points[..., 1], points[..., 0]) / step)
+        cos, sin = torch.cos(copy * step), torch.sin(copy * step)
+        x = points[..., 0] * cos + points[..., 1] * sin
+        y = points[..., 1] * cos - points[..., 0] * sin
+        return torch.stack([x, y, points[..., 2]], dim=-1), copy.long() % self.count
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.distance(self._folded(points)[0])
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        folded, copy = self._folded(points)
+        return self.solid.cell(folded) + copy * len(self.solid.cells)
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A solid turned by ``turn`` (rows: its axes in the new frame), then moved."""
+
+    solid: Solid
+    move: Vector = (0.0, 0.0, 0.0)
+    turn: tuple[Vector, Vector, Vector] | None = field(default=None)
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of the solid."""
+        return self.solid.cells
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid where it is now."""
+        return self.solid.reach_mm + math.hypot(*self.move)
+
+    @property
+    def steep(self) -> float:
+        """Of the solid."""
+        return self.solid.steep
+
+    def _back(self, points: Tensor) -> Tensor:
+        own = points - points.new_tensor(self.move)
+        if self.turn is None:
+            return own
+        x, y, z = own.unbind(-1)
+        # Not a matrix product: its rounding may depend on the number of points.
+        return torch.stack([x * a + y * b + z * c for a, b, c in self.turn], dim=-1)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.distance(self._back(points))
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.cell(self._back(points))
+
+
+_ALONG: dict[str, tuple[Vector, Vector, Vector]] = {
+    "x": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
+    "y": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+    "-z": ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)),
+}
+
+
+def moved(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Placed:
+    """A solid moved [mm]."""
+    if isinstance(solid, Placed):
+        a, b, c = solid.move
+        return replace(solid, move=(a + x, b + y, c + z))
+    return Placed(solid, (x, y, z))
+
+
+def along(axis: str, solid: Solid) -> Placed:
+    """A solid turned so that its z axis lies along ``axis``: 'x', 'y' or '-z'."""
+    return Placed(solid, turn=_ALONG[axis])
+
+
+def leaning(degrees: float, solid: Solid) -> Placed:
+    """A solid turned about y, so that its z axis leans towards +x by an angle."""
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return Placed(solid, turn=((cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)))

@@ -1,0 +1,327 @@
+"""TCL3D: what is pressed in every series of the data set, and the contacts that come of it.
+
+A series is one object in one pose under one gel, pressed deeper and deeper. All that is drawn
+follows from the seed and the number of the series; it is cast, solved and labelled alone, so that
+its contacts don't depend on what is made beside it, on how many workers or on which machine.
+
+Not here: how objects come to lie on the pad (``sim.poses``), files and worker processes
+(``tacgrasp.generate``), noise (``cltp.noise``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import torch
+
+from cltp.cloud import grid_axes_mm
+from cltp.contacts import Contact, Gel, Split
+from cltp.sensors import SensorSpec, sensor_named
+from cltp.states import DEPTH_LIMITS_MM
+from sim.bodies import FAR_MM
+from sim.casting import Felt, FloatArray, feel
+from sim.catalogue import SMALL, THINGS, UNSEEN
+from sim.catalogue_large import LARGE
+from sim.gel import ElasticLayer, GelMaterial, Press, gel_of
+from sim.labels import in_contact, label
+from sim.objects import Thing
+from sim.poses import Pose, draw_pose
+from sim.skins import SMOOTH, faded, relief_of
+from sim.surety import TEXTURE, doubts, name_texture
+from sim.touched import Touch, name_shape
+
+ROWS, COLUMNS = 75, 100
+"""Grid over the field: 0.2 mm on a GelSight Mini."""
+
+CONTACTS, GELSTEREO_CONTACTS, GELSIGHT_CONTACTS = 50_860, 1_450, 115
+"""Contacts of the main set and of two further domains. Source: the paper, section 3.1."""
+
+ALL_CONTACTS = CONTACTS + GELSTEREO_CONTACTS + GELSIGHT_CONTACTS
+
+LOADS, DOMAIN_LOADS = 4, 5
+"""Contacts in a series: in the main set one in each class of depth where the gel allows it."""
+
+GELSTEREO_FIRST, GELSIGHT_FIRST = 1_000_000, 2_000_000
+"""Where the numbers of the domains' series begin."""
+
+GELS = (
+    GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
+    GelMaterial(thickness_mm=3.4, young_mpa=0.145, poisson=0.480),
+    GelMaterial(thickness_mm=3.9, young_mpa=0.145, poisson=0.470),
+    GelMaterial(thickness_mm=4.3, young_mpa=0.145, poisson=0.490),
+)
+OTHER_GELS = (
+    GelMaterial(thickness_mm=2.6, young_mpa=0.10, poisson=0.490),
+    GelMaterial(thickness_mm=3.0, young_mpa=0.25, poisson=0.450),
+    GelMaterial(thickness_mm=5.5, young_mpa=0.20, poisson=0.480),
+)
+"""Gels of training, the first the GelSight Mini's; and those of the split ``physics``, whose
+thickness, modulus or Poisson's ratio training never saw. Our choice about the notes' h 3.4-4.6 mm,
+nu 0.47-0.49."""
+
+TEST_SHARE, VALIDATION_SHARE, PHYSICS_SHARE = 0.08, 0.04, 0.07
+"""Shares of the series of seen objects; the rest is for training. Our choice."""
+
+_TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
+_SHALLOWEST_MM, _SHALLOWEST_FINE_MM, _DEEPEST_MM = 0.1, 0.18, 1.3
+_GENTLE_MM, _GENTLE_SHARE = 0.6, 0.22  # deepest where much of the field touches at once
+_TOUCH_MM = 0.25  # gap up to which a surface counts for that
+_HAND_MM, _HAND_SPREAD = 0.30, 0.507  # real hand presses: median, and spread of the logarithm
+_MARGIN = 4  # grid points: what touches first nearer to the border slips off
+_TRIES = 40
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """What lies over the pad in a series.
+
+    Attributes:
+        thing: The object.
+        felt: Its bare surface there.
+        cells: Shape (H, W), the cell of each point; -1 where nothing is.
+        relief_mm: Shape (H, W), of its skin [mm].
+        flat: Whether it was met on a flat face.
+    """
+
+    thing: Thing
+    felt: Felt
+    cells: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    relief_mm: FloatArray
+
+    @property
+    def gap_mm(self) -> FloatArray:
+        """Shape (H, W), skin included; least value 0 [mm]."""
+        there = self.cells >= 0
+        gap = self.felt.gap_mm + self.relief_mm
+        return np.where(there, gap - gap[there].min(), FAR_MM)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """What a series is to be.
+
+    Attributes:
+        number: Which series.
+        thing: The object.
+        sensor: Whose field.
+        gel: Under which gel.
+        split: What its contacts may be used for.
+        loads: How many contacts.
+    """
+
+    number: int
+    thing: Thing
+    sensor: SensorSpec
+    gel: GelMaterial
+    split: Split
+    loads: int
+
+
+def series_numbers(contacts: int) -> list[int]:
+    """Numbers of the series of a data set of so many contacts, domains included in proportion.
+
+    Args:
+        contacts: At least 1; the last series may have to be cut.
+    """
+    stereo = contacts * GELSTEREO_CONTACTS // ALL_CONTACTS // DOMAIN_LOADS
+    sight = contacts * GELSIGHT_CONTACTS // ALL_CONTACTS // DOMAIN_LOADS
+    main = math.ceil((contacts - (stereo + sight) * DOMAIN_LOADS) / LOADS)
+    return [
+        *range(main),
+        *range(GELSTEREO_FIRST, GELSTEREO_FIRST + stereo),
+        *range(GELSIGHT_FIRST, GELSIGHT_FIRST + sight),
+    ]
+
+
+def order_of(seed: int, number: int) -> Order:
+    """What series ``number`` of the data set of ``seed`` is to be."""
+    rng = np.random.default_rng([seed, number, 3])
+    if number >= GELSIGHT_FIRST:
+        thing, sensor = LARGE[int(rng.integers(len(LARGE)))], sensor_named("gelsight_mini")
+        return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSIGHT, DOMAIN_LOADS)
+    if number >= GELSTEREO_FIRST:
+        thing, sensor = SMALL[number % len(SMALL)], sensor_named("gelstereo")
+        return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSTEREO, DOMAIN_LOADS)
+    thing, sensor = THINGS[number % len(THINGS)], sensor_named("gelsight_mini")
+    u, which = float(rng.random()), int(rng.integers(1 << 30))
+    split = Split.TRAIN
+    if thing.name in UNSEEN:
+        split = Split.OBJECT
+    elif u < TEST_SHARE:
+        split = Split.TEST
+    elif u < TEST_SHARE + VALIDATION_SHARE:
+        split = Split.VALIDATION
+    elif u < TEST_SHARE + VALIDATION_SHARE + PHYSICS_SHARE:
+        split = Split.PHYSICS
+    gels = OTHER_GELS if split is Split.PHYSICS else GELS
+    return _order(number, thing, sensor, gels[which % len(gels)], split, LOADS)
+
+
+def _order(
+    number: int, thing: Thing, sensor: SensorSpec, gel: GelMaterial, split: Split, loads: int
+) -> Order:
+    return Order(number=number, thing=thing, sensor=sensor, gel=gel, split=split, loads=loads)
+
+
+def make_series(seed: int, number: int, device: torch.device | str = "cpu") -> list[Contact]:
+    """Make the contacts of one series, lightest first.
+
+    Args:
+        seed: Of the data set.
+        number: Of the series (``series_numbers``).
+        device: Where rays are cast and contacts are solved.
+    """
+    order = order_of(seed, number)
+    rng = np.random.default_rng([seed, number, 1])
+    scene, depths = draw_scene(order, rng, device)
+    soft = order.thing.modulus_mpa
+    layer = ElasticLayer(
+        order.gel,
+        rows=ROWS,
+        columns=COLUMNS,
+        pitch_mm=order.sensor.width_mm / COLUMNS,
+        body_modulus_mpa=soft,
+        device=device,
+    )
+    # A soft body flattens as well; 0.35 MPa stands for a gel on its back, roughly.
+    approach = [depth * (1 + (0.35 / soft if soft else 0.0)) for depth in depths]
+    gaps = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(depths), -1, -1)
+    with torch.inference_mode():
+        press = layer.press_to_depth(
+            gaps.to(device), torch.tensor(approach, device=device), tol=_TOLERANCE
+        )
+    return _labelled(seed, order, scene, approach, press)
+
+
+def draw_scene(
+    order: Order, rng: np.random.Generator, device: torch.device | str = "cpu"
+) -> tuple[Scene, list[float]]:
+    """Draw what lies over the pad, and how deep it is pressed [mm].
+
+    Raises:
+        ValueError: The object can't be brought to the pad.
+    """
+    thing, sensor = order.thing, order.sensor
+    x, y = np.meshgrid(*grid_axes_mm(sensor, ROWS, COLUMNS))
+    textured = any(part.skin is not SMOOTH for part in thing.parts)
+    lowest = _SHALLOWEST_FINE_MM if textured else _SHALLOWEST_MM
+    shares = rng.random(order.loads)
+    lightest = _depths(order, shares, lowest, gentle=False)[0]
+    held = order.split is Split.GELSTEREO
+    for _ in range(_TRIES):
+        pose = draw_pose(thing, rng, sensor, lightest, held=held)
+        felt = feel(thing, pose.object_from_pad, pose.point, x, y, device)
+        if felt is not None and (pose.flat or not _at_border(felt.gap_mm)):
+            break
+    else:
+        raise ValueError(f"{thing.name} could not be brought to the pad in {_TRIES} tries")
+    scene = _scene(thing, pose, felt, rng, x, y, sensor)
+    much = float((felt.gap_mm < _TOUCH_MM).mean()) > _GENTLE_SHARE
+    return scene, _depths(order, shares, lowest, gentle=much)
+
+
+def _depths(order: Order, shares: FloatArray, lowest: float, *, gentle: bool) -> list[float]:
+    """Rising depths [mm]: one in each class, or spread like those of a hand or a machine."""
+    if order.split is Split.GELSIGHT:
+        normal = np.sqrt(2) * torch.special.erfinv(torch.from_numpy(2 * shares - 1)).numpy()
+        depths = np.sort(_HAND_MM * np.exp(_HAND_SPREAD * normal)).clip(lowest, _DEEPEST_MM)
+        return [float(d) for d in depths]
+    limits = [lowest, *DEPTH_LIMITS_MM, _DEEPEST_MM]
+    if gentle:
+        limits = np.linspace(lowest, _GENTLE_MM, len(limits)).tolist()
+    if order.split is Split.GELSTEREO:
+        return [float(limits[0] + s * (limits[-1] - limits[0])) for s in np.sort(shares)]
+    return [
+        float(low + s * (high - low))
+        for low, high, s in zip(limits, limits[1:], shares, strict=False)
+    ]
+
+
+def _at_border(gap_mm: FloatArray) -> bool:
+    """Whether the foremost point is at the pad's border: the object slips off it."""
+    row, column = np.unravel_index(int(gap_mm.argmin()), gap_mm.shape)
+    rows, columns = gap_mm.shape
+    return not (_MARGIN <= row < rows - _MARGIN and _MARGIN <= column < columns - _MARGIN)
+
+
+def _scene(
+    thing: Thing,
+    pose: Pose,
+    felt: Felt,
+    rng: np.random.Generator,
+    x: FloatArray,
+    y: FloatArray,
+    sensor: SensorSpec,
+) -> Scene:
+    there = felt.gap_mm < FAR_MM
+    cells = np.full(there.shape, -1, dtype=np.int64)
+    cells[there] = thing.cell(torch.from_numpy(felt.points[there])).numpy()
+    axis = pose.object_from_pad[2, :2]
+    if np.hypot(*axis) < 0.3:
+        axis = pose.object_from_pad[0, :2]
+    down, right = np.gradient(felt.gap_mm, sensor.width_mm / COLUMNS)
+    slope = np.hypot(down, right)
+    relief = np.zeros(there.shape)
+    part_of_cell = np.array([*thing.part_of_cell, -1])
+    for number, part in enumerate(thing.parts):
+        own = relief_of(part.skin, rng, x, y, math.atan2(axis[1], axis[0]), sensor)
+        relief = np.where(part_of_cell[cells] == number, own, relief)
+    return Scene(thing=thing, felt=felt, cells=cells, relief_mm=faded(relief, slope))
+
+
+def _labelled(
+    seed: int, order: Order, scene: Scene, approach: list[float], press: Press
+) -> list[Contact]:
+    pitch = order.sensor.width_mm / COLUMNS
+    pressure = press.pressure_kpa.cpu()
+    closed = in_contact(pressure, pitch)
+    material = order.gel
+    gel = Gel(
+        thickness_mm=material.thickness_mm,
+        young_mpa=material.young_mpa,
+        poisson=material.poisson,
+    )
+    contacts = []
+    for i, approach_mm in enumerate(approach):
+        height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
+        touch = Touch(
+            gap_mm=scene.felt.gap_mm,
+            cells=scene.cells,
+            table=scene.thing.cells,
+            touching=load > 0,
+            closed=closed[i],
+            depth_mm=float(height_mm.max()),
+            pitch_mm=pitch,
+        )
+        shape = name_shape(touch)
+        texture = name_texture(scene.thing, touch, scene.relief_mm)
+        state = label(
+            height_mm=height_mm,
+            pressure_kpa=load,
+            touching=closed[i],
+            force_n=float(press.force_n[i]),
+            sensor=order.sensor,
+            shape=shape.shape,
+            texture=texture.texture,
+        )
+        unsure = doubts(state, order.sensor)
+        unsure |= {"shape"} if not shape.sure else set()
+        unsure |= {TEXTURE} if not texture.sure else set()
+        contacts.append(
+            Contact(
+                height_mm=height_mm,
+                sensor=order.sensor,
+                state=state,
+                object=order.thing.name,
+                series=order.number,
+                split=order.split,
+                gel=gel,
+                seed=seed,
+                unsure=frozenset(unsure),
+                approach_mm=approach_mm,
+                peak_kpa=float(load.max()),
+            )
+        )
+    return contacts
