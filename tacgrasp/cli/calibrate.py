@@ -1,4 +1,4 @@
-"""``tacgrasp calibrate gelsight-mini``: make the calibration of a sensor's unit."""
+"""``tacgrasp calibrate gelsight-mini|gripper``: make the calibration of a unit."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.cli import calibrate_gripper
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.errors import UsageError
 
@@ -42,7 +43,10 @@ class GelsightMini:
 
 def main(argv: Sequence[str]) -> int:
     """Dispatch to the devices that can be calibrated."""
-    devices: dict[str, Callable[[Sequence[str]], None]] = {"gelsight-mini": _gelsight_mini}
+    devices: dict[str, Callable[[Sequence[str]], None]] = {
+        "gelsight-mini": _gelsight_mini,
+        "gripper": calibrate_gripper.main,
+    }
     name, rest = subcommand(
         "calibrate", argv, {name: device.__doc__ or "" for name, device in devices.items()}
     )

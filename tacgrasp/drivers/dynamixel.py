@@ -56,6 +56,11 @@ class DynamixelGripper:
         """Faults of the bus that were survived so far."""
         return self._hand.transients
 
+    @property
+    def sent(self) -> str:
+        """What the last command put on the wire, in the servos' words; empty when nothing."""
+        return self._hand.sent
+
     def healthy(self) -> bool:
         """Whether the last poll, some milliseconds ago, was good; costs nothing."""
         return self._hand.watch.healthy()
@@ -82,6 +87,7 @@ class DynamixelGripper:
             LimitError: The force is none or beyond the device; nothing is sent.
             RobotError: The fingers do not come to rest, or the gripper has a fault.
         """
+        self._hand.sent = ""
         if not (math.isfinite(force_n) and 0 < force_n <= self.max_force_n * (1 + 1e-9)):
             raise LimitError(
                 f"force must lie in (0, {self.max_force_n:.2f}] N (what is calibrated, and "
@@ -100,6 +106,7 @@ class DynamixelGripper:
             LimitError: ``clear_m`` is not positive; nothing is sent.
             RobotError: The fingers do not get there, or the gripper has a fault.
         """
+        self._hand.sent = ""
         if not (math.isfinite(clear_m) and clear_m > 0):
             raise LimitError(f"the gripper opens by a positive number of metres, got {clear_m}")
         width_m = self._hand.open_to(self._hand.width_m() + clear_m)
@@ -108,6 +115,7 @@ class DynamixelGripper:
 
     def stop(self) -> None:
         """Stop fingers that are on their way; a grip is kept. Idempotent, never raises."""
+        self._hand.sent = ""
         try:
             self._hand.freeze()
         except RobotError as error:

@@ -39,6 +39,7 @@ class Hand:
         settings: What the rig's file says.
         unit_ma: One unit of current [mA].
         adapter: Serial number of the USB adapter; empty when it tells none.
+        sent: What was last put on the wire, in the servos' words; empty before.
     """
 
     def __init__(
@@ -47,7 +48,9 @@ class Hand:
         self.settings, self._bus, self._watch, self._clock = settings, bus, watch, clock
         self.unit_ma = at.MODELS[settings.model].unit_ma
         self.adapter = adapter_serial(bus.path)
+        self.sent = ""
         self._connected = True
+        self._stops = 0
 
     @property
     def watch(self) -> Watch:
@@ -124,6 +127,8 @@ class Hand:
                 velocity = int.from_bytes(moving[:4], "little", signed=True)
                 if abs(velocity) > _STILL_VELOCITY:
                     bus.write(servo.id, at.GOAL_POSITION, moving[4:])
+                    self.sent = "goal position: where it is"
+                    self._stops += 1
 
         self._call(stay)
 
@@ -164,6 +169,11 @@ class Hand:
             for servo, goal in zip(self.settings.servos, goals, strict=True)
         }
 
+        self.sent = (
+            f"goal current {units} ({units * self.unit_ma:.0f} mA), goal position "
+            f"{', '.join(map(str, goals))} ticks"
+        )
+
         def write(bus: Bus) -> list[int]:
             bus.write_all(at.GOAL_CURRENT, data)
             return [self._watch.num_samples]
@@ -179,16 +189,17 @@ class Hand:
     ) -> float:
         """Wait until all servos rest and are done, ``settle_polls`` times in a row."""
         deadline_s = self._clock() + self.settings.settle_timeout_s
-        still, before = 0, None
+        still, before, stops = 0, None, self._stops
         while still < self.settings.settle_polls:
-            left_s = deadline_s - self._clock()
-            if left_s <= 0:
+            if self._stops != stops:
+                raise RobotError("the fingers were stopped on their way")
+            if self._clock() > deadline_s:
                 raise RobotError(
                     f"the fingers did not come to rest {what} within "
                     f"{self.settings.settle_timeout_s:g} s; is the linkage free, and the speed "
                     "(speed_mm_s) reached?"
                 )
-            sample = self._watch.next_sample(after, left_s)
+            sample = self._watch.next_sample(after)
             rest = before is not None and _at_rest(before, sample)
             good = all(done(s, goal) for s, goal in zip(sample.servos, goals, strict=True))
             still = still + 1 if rest and good else 0

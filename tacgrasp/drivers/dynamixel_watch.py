@@ -75,6 +75,7 @@ class Watch:
         self._fault = ""
         self._sample: Sample | None = None
         self._polls = 0
+        self._closed = False
         self._thread = threading.Thread(target=self._run, name="gripper", daemon=True)
         self._thread.start()
 
@@ -128,7 +129,7 @@ class Watch:
                 "overloaded?"
             ) from None
 
-    def next_sample(self, after: int, timeout_s: float) -> Sample:
+    def next_sample(self, after: int, timeout_s: float = CALL_S) -> Sample:
         """The first sample with a number above ``after``.
 
         Raises:
@@ -136,13 +137,19 @@ class Watch:
         """
         with self._changed:
             self._changed.wait_for(
-                lambda: self._fault or (self._sample is not None and self._sample.number > after),
+                lambda: (
+                    self._closed
+                    or self._fault
+                    or (self._sample is not None and self._sample.number > after)
+                ),
                 timeout_s,
             )
-            if self._fault:
-                raise RobotError(self._fault)
+            if self._fault or self._closed:
+                raise RobotError(self._fault or "the gripper is disconnected")
             if self._sample is None or self._sample.number <= after:
-                raise RobotError(f"the gripper was not polled for {timeout_s:g} s")
+                raise RobotError(
+                    f"the gripper was not polled for {timeout_s:g} s; is this computer overloaded?"
+                )
             return self._sample
 
     @property
@@ -152,6 +159,9 @@ class Watch:
 
     def close(self) -> None:
         """End the thread. Idempotent."""
+        with self._changed:
+            self._closed = True
+            self._changed.notify_all()
         self._jobs.put(None)
         if self._thread is not threading.current_thread():
             self._thread.join(timeout=CALL_S)

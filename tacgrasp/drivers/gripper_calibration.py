@@ -153,18 +153,16 @@ def read_readings(path: Path) -> Sequence[Reading]:
         with path.open(encoding="utf-8", newline="") as file:
             rows = csv.DictReader(file)
             if not {"current_ma", "force_n"} <= set(rows.fieldnames or ()):
-                raise RobotError(f"{path}: {expected}, got {rows.fieldnames}")
+                raise RobotError(f"{expected}, got {rows.fieldnames}")
             readings = []
             for row in rows:
                 try:
                     values = float(row["current_ma"]), float(row["force_n"])
                 except (TypeError, ValueError):
-                    raise RobotError(
-                        f"{path}, line {rows.line_num}: {expected}, got {row}"
-                    ) from None
+                    raise RobotError(f"line {rows.line_num}: {expected}, got {row}") from None
                 readings.append(Reading(current_ma=values[0], force_n=values[1]))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise RobotError(f"{path}: {expected}: {error}") from None
+        raise RobotError(f"{expected}: {error}") from None
     return readings
 
 
@@ -198,7 +196,8 @@ def load_calibration(path: Path) -> GripperCalibration:
     except FileNotFoundError:
         raise RobotError(f"no calibration of the gripper at {path}; {mend}") from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise RobotError(f"{path} is no calibration of a gripper: {error}; {mend}") from None
+        why = " ".join(str(error).split())
+        raise RobotError(f"{path} is no calibration of a gripper: {why}; {mend}") from None
     if not isinstance(values, dict):
         raise RobotError(f"{path} is no calibration of a gripper: expected fields; {mend}")
     try:

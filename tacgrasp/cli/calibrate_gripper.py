@@ -1,0 +1,143 @@
+"""``tacgrasp calibrate gripper``: measure force over current, with a scale between the fingers."""
+
+from __future__ import annotations
+
+import datetime
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tacgrasp.cli.flags import parse
+from tacgrasp.errors import UsageError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+    from tacgrasp.drivers.gripper_calibration import GripperCalibration
+
+
+@dataclass(frozen=True)
+class Gripper:
+    """Measure force over current, so that the gripper can be asked for newtons.
+
+    Put a scale between the open fingers. They squeeze it with one current after another, and you
+    type in what it shows. With --readings nothing moves: a file of readings is fitted.
+
+    Attributes:
+        rig: The rig's YAML file; its hardware.gripper says which gripper, and where the
+            calibration is kept.
+        readings: CSV file with the columns current_ma and force_n, instead of squeezing.
+        max_ma: Largest current [mA]; the rig's max_current_ma when not given.
+        steps: How many currents.
+        source: What the force was read from; kept in the file.
+        date: Of the readings, like 2026-01-31; today when not given.
+        out: File to write, instead of the one that the rig's file names.
+    """
+
+    rig: Path
+    readings: Path | None = None
+    max_ma: float | None = None
+    steps: int = 8
+    source: str = ""
+    date: str = ""
+    out: Path | None = None
+
+
+def main(argv: Sequence[str]) -> None:
+    """Force over current of a gripper: from a scale, or from a file of readings."""
+    flags = parse(Gripper, argv, prog="tacgrasp calibrate gripper")
+    from tacgrasp.config_layers import load
+    from tacgrasp.drivers.gripper_calibration import save_calibration
+    from tacgrasp.view import console
+
+    if not 3 <= flags.steps <= 50:
+        raise UsageError(f"--steps must be 3 to 50, got {flags.steps}")
+    date = _date(flags.date)
+    config, _ = load(None, str(flags.rig), os.environ)
+    if config.hardware is None:
+        raise UsageError(
+            f"--rig {flags.rig} has no section hardware, hence no gripper to calibrate"
+        )
+    settings, to = config.hardware.gripper, console()
+    out = flags.out or settings.calibration
+    if not out.parent.is_dir():
+        raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
+    if flags.readings is not None:
+        calibration = _fitted(flags, settings, flags.readings, date)
+    else:
+        calibration = _measured(flags, settings, date, to)
+    save_calibration(out, calibration)
+    to.print(f"readings  {calibration.num_readings}, up to {calibration.max_force_n:.2f} N")
+    to.print(
+        f"line      {calibration.newtons_per_ma:.5f} N/mA from {calibration.friction_ma:.1f} mA on"
+    )
+    to.print(f"residual  {calibration.residual_n:.3f} N")
+    to.print(f"written   {out}, for {settings.unit} ({settings.model})")
+
+
+def _date(text: str) -> datetime.date:
+    try:
+        return datetime.date.fromisoformat(text) if text else datetime.date.today()
+    except ValueError:
+        raise UsageError(f"--date must be like 2026-01-31, got {text}") from None
+
+
+def _fitted(
+    flags: Gripper, settings: DynamixelSettings, readings: Path, date: datetime.date
+) -> GripperCalibration:
+    from primitives.errors import RobotError
+    from tacgrasp.drivers.gripper_calibration import fit_calibration, read_readings
+
+    try:
+        return fit_calibration(
+            read_readings(readings), settings, date=date, source=flags.source or readings.name
+        )
+    except RobotError as error:
+        raise UsageError(f"--readings {readings}: {error}") from None
+
+
+def _measured(
+    flags: Gripper, settings: DynamixelSettings, date: datetime.date, to: Console
+) -> GripperCalibration:
+    from tacgrasp.drivers.dynamixel_hand import connect_hand
+    from tacgrasp.drivers.measure_gripper import calibrate_gripper, steps_ma
+
+    hand = connect_hand(settings)
+    try:
+        to.print("put the scale between the fingers, at zero; they will close")
+        _typed("press Enter when it is there, Ctrl-C to leave: ")
+        most_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma
+        return calibrate_gripper(
+            hand,
+            _ask_force,
+            steps_ma(most_ma, flags.steps),
+            date=date,
+            source=flags.source or "read by a person",
+        )
+    finally:
+        hand.disconnect()
+
+
+def _ask_force(current_ma: float) -> float:
+    """What a person reads off the scale [N]; asks again until it is a number from 0 on."""
+    while True:
+        text = _typed(f"{current_ma:.0f} mA; force on the scale [N]: ")
+        try:
+            force_n = float(text.replace(",", "."))
+        except ValueError:
+            continue
+        if 0 <= force_n < 1000:
+            return force_n
+
+
+def _typed(prompt: str) -> str:
+    try:
+        return input(prompt)
+    except EOFError:
+        raise UsageError(
+            "the input ended before all forces were read; without a person at the keyboard give "
+            "--readings FILE"
+        ) from None
