@@ -1,8 +1,10 @@
 """``tacgrasp bench ball-captions``: what the model says of real frames that show a known ball.
 
 Every press goes the way of ``tacgrasp describe``: frame, heights, cloud, measured state and the
-model's caption. What presses is known (a ball, so a sphere), and how deep follows from the geometry
-of its circle, which is found in the colours without any calibration.
+model's caption. What presses is known (a ball, so a sphere). How deep follows from the geometry in
+two ways: from the radius of the circle that the ball shows in the colours, which needs no
+calibration and is good to a pixel or two (0.05 to 0.1 mm); and from fitting the known ball to the
+slopes, which is finer, but sees them through the same calibration as what it judges.
 
 Not here: how right the heights are (``tacgrasp.bench_balls``).
 """
@@ -11,70 +13,28 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 from scipy import stats
 
-from cltp.ball_presses import BallPress, find_press
-from cltp.captions import parse_caption
-from cltp.cloud import TactileCloud, cloud_from_heights
+from cltp.ball_presses import find_press
 from cltp.errors import TouchError
-from cltp.heads import restored
-from cltp.inputs import encoder_input
-from cltp.measure import contact_state
-from cltp.samples import CLASSES
 from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import Depth, Shape
-from cltp.weights import load_encoder
-from policies import PolicyError
+from tacgrasp.ball_captions import Said, asker
 from tacgrasp.ball_frames import frames_heights, read_ball_frames
+from tacgrasp.ball_profiles import ball_profiles
 from tacgrasp.bench_balls import measure_held_out
-from tacgrasp.describe import CAPTION_REQUEST
-from tacgrasp.judging import numbers_said
-from tacgrasp.policy_factory import load_llm
 
 ROUND = (Shape.SPHERE, Shape.ELLIPSOID)
 """One class on frames of an uncalibrated unit, whose gains of x and y differ (shared notes)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Said:
-    """What was said of one press, and what is known of it.
-
-    Attributes:
-        name: Of the frame.
-        depth_mm: Of the ball, from the geometry of its circle [mm].
-        x_mm, y_mm: Of the ball's centre [mm, gel frame].
-        measured_mm: Depth that the direct measurement gives; 0 without contact [mm].
-        off_mm: Distance of the measured place from the ball's [mm]; None without contact.
-        text: The model's reply.
-        shape: Named in its caption; None when it named none.
-        depth: Named in its caption.
-        said_mm: Depth in numbers beside the caption; None when it gave none [mm].
-        heads_shape: What the encoder's heads call it.
-        heads_mm: Depth of the encoder's heads [mm].
-    """
-
-    name: str
-    depth_mm: float
-    x_mm: float
-    y_mm: float
-    measured_mm: float
-    off_mm: float | None
-    text: str
-    shape: Shape | None
-    depth: Depth | None
-    said_mm: float | None
-    heads_shape: Shape
-    heads_mm: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,7 +108,7 @@ def run(
         if folds
         else frames_heights(folder, sensor=sensor, background=background, calibration=calibration)
     )
-    ask = _asker(weights)
+    ask = asker(weights, sensor, ball_profiles(sensor.name, diameter_mm))
     balls = read_ball_frames(folder, sensor, background)
     said, left_out = [], {}
     for (name, height_mm), frame in zip(heights, balls.frames, strict=True):
@@ -157,7 +117,7 @@ def run(
         except TouchError as error:
             left_out[name] = str(error)
             continue
-        said.append(ask(name, press, cloud_from_heights(height_mm, sensor)))
+        said.append(ask(name, press, height_mm))
     if not said:
         raise TouchError(f"{folder}: no ball was found in any of {len(heights)} frames")
     how = "presses held out" if folds else f"calibration {calibration or 'that ships'}"
@@ -180,62 +140,15 @@ def _held_out(
     return [(one.name, one.height_mm) for one in held]
 
 
-def _asker(weights: Path) -> Callable[[str, BallPress, TactileCloud], Said]:
-    """What asks a model and its encoder's heads about one press."""
-    model = load_llm(weights)
-    encoder, heads = load_encoder(weights / "encoder")
-    encoder.eval(), heads.eval()
-
-    @torch.inference_mode()
-    def ask(name: str, press: BallPress, cloud: TactileCloud) -> Said:
-        sensor, state = cloud.sensor, contact_state(cloud)
-        x_mm = (press.column - (sensor.columns - 1) / 2) * sensor.mm_per_px
-        y_mm = ((sensor.rows - 1) / 2 - press.row) * sensor.mm_per_px
-        try:
-            text = model.ask(cloud, CAPTION_REQUEST)
-        except PolicyError as error:
-            text = f"nothing: {error}"
-        shape, depth = _named(text)
-        numbers = numbers_said(text)
-        logits, values, _, _ = heads(encoder(torch.from_numpy(encoder_input(cloud))[None]).pooled)
-        return Said(
-            name=name,
-            depth_mm=press.depth_mm,
-            x_mm=x_mm,
-            y_mm=y_mm,
-            measured_mm=state.depth_mm,
-            off_mm=(
-                float(np.hypot(state.x_mm - x_mm, state.y_mm - y_mm)) if state.in_contact else None
-            ),
-            text=text,
-            shape=shape,
-            depth=depth,
-            said_mm=None if numbers is None else numbers[0],
-            heads_shape=Shape(CLASSES["shape"][int(logits[0].argmax())]),
-            heads_mm=float(restored(values)[0, 0]),
-        )
-
-    return ask
-
-
-def _named(text: str) -> tuple[Shape | None, Depth | None]:
-    try:
-        slots = parse_caption(text.split(".")[0])
-    except TouchError:
-        return None, None
-    return slots.shape, slots.depth
-
-
 def figures_of(said: Sequence[Said]) -> dict[str, Any]:
     """Shares, shapes named and depth orders."""
-    true = [one.depth_mm for one in said]
+    edge, slopes = [one.depth_mm for one in said], [one.fitted_mm for one in said]
     ranks = {word: rank for rank, word in enumerate(Depth)}
-    classes = [None if one.depth is None else float(ranks[one.depth]) for one in said]
-    orders = {
-        "measured, mm": depth_order(true, [one.measured_mm for one in said]),
-        "heads, mm": depth_order(true, [one.heads_mm for one in said]),
-        "caption, mm": depth_order(true, [one.said_mm for one in said]),
-        "caption, class": depth_order(true, classes),
+    by: dict[str, Sequence[float | None]] = {
+        "measured, mm": [one.measured_mm for one in said],
+        "heads, mm": [one.heads_mm for one in said],
+        "caption, mm": [one.said_mm for one in said],
+        "caption, class": [None if one.depth is None else float(ranks[one.depth]) for one in said],
     }
     off = [one.off_mm for one in said if one.off_mm is not None]
     named: dict[str, Sequence[Shape | None]] = {
@@ -244,15 +157,19 @@ def figures_of(said: Sequence[Said]) -> dict[str, Any]:
     }
     return {
         "presses": len(said),
-        "depth_mm_from": min(true),
-        "depth_mm_to": max(true),
+        "depth_mm_from": min(edge),
+        "depth_mm_to": max(edge),
         "sphere": {who: _share(shapes, (Shape.SPHERE,)) for who, shapes in named.items()},
         "sphere_or_ellipsoid": {who: _share(shapes, ROUND) for who, shapes in named.items()},
         "shapes": {
             who: dict(Counter(str(shape or "no caption") for shape in shapes).most_common())
             for who, shapes in named.items()
         },
-        "depth_order": {who: asdict(order) for who, order in orders.items()},
+        "depth_order": {who: asdict(depth_order(edge, values)) for who, values in by.items()}
+        | {"slopes, mm": asdict(depth_order(edge, slopes))},
+        "depth_order_by_slopes": {
+            who: asdict(depth_order(slopes, values)) for who, values in by.items()
+        },
         "position_off_mm_p50": float(np.median(off)) if off else None,
         "seen_as_contact": len(off),
     }
@@ -281,21 +198,12 @@ def _print(to: Console, figures: dict[str, Any]) -> None:
         shares = (figures[key][who] for key in ("sphere", "sphere_or_ellipsoid"))
         shapes.add_row(who, *(f"{100 * share:.0f} %" for share in shares), listed)
     to.print(shapes)
-    orders = Table(
-        "depth by", "Spearman", "Kendall", "pairs right", "pairs tied", "presses",
-        title=f"Order of {figures['presses']} presses, "
-        f"{figures['depth_mm_from']:.2f} to {figures['depth_mm_to']:.2f} mm deep by geometry",
-    )  # fmt: skip
-    for who, order in figures["depth_order"].items():
-        orders.add_row(
-            who,
-            f"{order['spearman']:.3f}",
-            f"{order['kendall']:.3f}",
-            f"{100 * order['concordant']:.1f} %",
-            f"{100 * order['tied']:.1f} %",
-            f"{order['presses']}",
-        )
-    to.print(orders)
+    for key, truth in (("depth_order", "its circle"), ("depth_order_by_slopes", "its slopes")):
+        to.print(_orders(figures[key], f"Order of depths against the ball's, by {truth}"))
+    to.print(
+        f"by its circle the {figures['presses']} presses are {figures['depth_mm_from']:.2f} to "
+        f"{figures['depth_mm_to']:.2f} mm deep"
+    )
     off = figures["position_off_mm_p50"]
     to.print(
         f"measured as a contact: {figures['seen_as_contact']} of {figures['presses']}; its place "
@@ -303,3 +211,18 @@ def _print(to: Console, figures: dict[str, Any]) -> None:
     )
     for name, why in figures["left_out"].items():
         to.print(f"left out  {name}: {why}", soft_wrap=True)
+
+
+def _orders(orders: dict[str, Any], title: str) -> Table:
+    columns = ("depth by", "Spearman", "Kendall", "pairs right", "pairs tied", "presses")
+    table = Table(*columns, title=title)
+    for who, order in orders.items():
+        table.add_row(
+            who,
+            f"{order['spearman']:.3f}",
+            f"{order['kendall']:.3f}",
+            f"{100 * order['concordant']:.1f} %",
+            f"{100 * order['tied']:.1f} %",
+            f"{order['presses']}",
+        )
+    return table

@@ -12,7 +12,8 @@ from cltp.photometric import COLOUR_SCALE, GradientNet
 from cltp.sensors import SENSORS
 from cltp.states import Depth, Shape
 from tacgrasp.__main__ import main
-from tacgrasp.bench_ball_captions import Said, depth_order, figures_of
+from tacgrasp.ball_captions import Said
+from tacgrasp.bench_ball_captions import depth_order, figures_of
 
 SENSOR = SENSORS["gelsight_mini"]
 BALL_MM = 6.31 / 2
@@ -56,8 +57,8 @@ def calibration(tmp_path_factory):
 
 def said(depth_mm, **changed):
     known = {
-        "name": "ball", "depth_mm": depth_mm, "x_mm": 0.0, "y_mm": 0.0, "measured_mm": depth_mm,
-        "off_mm": 0.1, "text": "", "shape": Shape.SPHERE, "depth": Depth.DEEP, "said_mm": None,
+        "name": "ball", "depth_mm": depth_mm, "fitted_mm": depth_mm, "x_mm": 0.0, "y_mm": 0.0,
+        "measured_mm": depth_mm, "off_mm": 0.1, "text": "", "shape": Shape.SPHERE, "depth": Depth.DEEP, "said_mm": None,
         "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
     }  # fmt: skip
     return Said(**(known | changed))
@@ -76,6 +77,7 @@ def test_every_press_is_measured_named_and_counted(folder, calibration, tmp_path
     assert sum(figures["shapes"]["heads"].values()) == 4
     # geometry and heights have nothing in common but the frame, and agree on the order
     assert figures["depth_order"]["measured, mm"]["spearman"] == pytest.approx(1)
+    assert figures["depth_order"]["slopes, mm"]["spearman"] == pytest.approx(1)
     depths = [press["depth_mm"] for press in figures["per_press"]]
     np.testing.assert_allclose(depths, [0.4, 0.6, 0.8, 1.0], atol=0.1)
     assert figures["position_off_mm_p50"] < 0.5
