@@ -58,8 +58,8 @@ def calibration(tmp_path_factory):
 def said(depth_mm, **changed):
     known = {
         "name": "ball", "depth_mm": depth_mm, "fitted_mm": depth_mm, "x_mm": 0.0, "y_mm": 0.0,
-        "measured_mm": depth_mm, "off_mm": 0.1, "text": "", "shape": Shape.SPHERE, "depth": Depth.DEEP, "said_mm": None,
-        "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
+        "measured_mm": depth_mm, "off_mm": 0.1, "text": "", "shape": Shape.SPHERE,
+        "depth": Depth.DEEP, "said_mm": None, "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
     }  # fmt: skip
     return Said(**(known | changed))
 
