@@ -78,6 +78,8 @@ class Contact:
         seed: What it can be made again from; 0 for a real contact.
         unsure: Which of shape, texture, depth, position and area are so near another class that a
             careful person might say that instead; None where nobody looked.
+        measured: Which labels and numbers nobody gave, so that they were read off the heights,
+            noise and all; only a person's own touches have such.
         approach_mm: How far the undeformed body was moved into the undeformed gel [mm].
         peak_kpa: Largest pressure [kPa].
 
@@ -96,6 +98,7 @@ class Contact:
     unsure: frozenset[str] | None = None
     approach_mm: float | None = None
     peak_kpa: float | None = None
+    measured: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         heights = np.array(self.height_mm, dtype=np.float32)

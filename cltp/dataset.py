@@ -64,12 +64,15 @@ SCHEMA = pa.schema(
 )
 """Columns of every data set of this version."""
 
-OPTIONAL = pa.schema(
+SIMULATED = pa.schema(
     [("unsure", pa.string()), ("approach_mm", pa.float32()), ("peak_kpa", pa.float32())]
 )
-"""Columns of data sets whose makers know them; in others they read as null."""
+"""Further columns of shards whose maker knows the truth; in others they read as null."""
 
-_FULL = pa.unify_schemas([SCHEMA, OPTIONAL])
+IMPORTED = pa.schema([("measured", pa.string())])
+"""Further column of shards with labels that were measured; in others it reads as null."""
+
+OPTIONAL = pa.unify_schemas([SIMULATED, IMPORTED])
 
 
 class DatasetWriter:
@@ -134,7 +137,7 @@ class DatasetWriter:
         blob = b"".join(packed)
         _write_beside(stem.with_suffix(".heights"), blob)
         digest = hashlib.sha256(blob).hexdigest()
-        schema = SCHEMA if all(c.unsure is None for c in self._contacts) else _FULL
+        schema = _schema_of(self._contacts)
         table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
         beside = stem.with_suffix(f".parquet.{os.getpid()}.part")
         pq.write_table(table, beside, compression="zstd")
@@ -153,6 +156,15 @@ class DatasetWriter:
     ) -> None:
         if kind is None:
             self.flush()
+
+
+def _schema_of(contacts: list[Contact]) -> pa.Schema:
+    parts = [SCHEMA]
+    if any(contact.unsure is not None for contact in contacts):
+        parts.append(SIMULATED)
+    if any(contact.measured for contact in contacts):
+        parts.append(IMPORTED)
+    return pa.unify_schemas(parts)
 
 
 def _write_beside(path: Path, data: bytes) -> None:
@@ -186,6 +198,7 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         "unsure": None if contact.unsure is None else " ".join(sorted(contact.unsure)),
         "approach_mm": contact.approach_mm,
         "peak_kpa": contact.peak_kpa,
+        "measured": " ".join(sorted(contact.measured)) or None,
     }
 
 
@@ -225,12 +238,14 @@ class ContactDataset:
     Args:
         folder: What ``DatasetWriter`` wrote.
         split: Only its contacts; None for all.
+        partial: Whether a data set that is still being made may be read.
 
     Raises:
-        TouchError: No data set, another version, damaged or missing shards, or nothing in it.
+        TouchError: No data set, another version, damaged or missing shards, nothing in it, or less
+            than its header announces.
     """
 
-    def __init__(self, folder: Path, *, split: Split | None = None) -> None:
+    def __init__(self, folder: Path, *, split: Split | None = None, partial: bool = False) -> None:
         self.folder = Path(folder)
         self.about: dict[str, str] = _read_header(self.folder).get("about", {})
         self._index_files = sorted(self.folder.glob("shard-*.parquet"))
@@ -239,6 +254,12 @@ class ContactDataset:
             raise TouchError(f"{folder} has no shards: generation was stopped before the first")
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
         table = pa.concat_tables(tables)
+        announced = int(self.about.get("contacts", len(table)))
+        if len(table) != announced and not partial:
+            raise TouchError(
+                f"{folder} holds {len(table)} of {announced} contacts: it is still being made, or "
+                "that was interrupted; the command that made it goes on where it stopped"
+            )
         if split is not None:
             keep = np.flatnonzero(np.array(table["split"].to_pylist()) == split.value)
             table, shard = table.take(pa.array(keep)), shard[keep]
@@ -316,6 +337,7 @@ class ContactDataset:
             unsure=None if row["unsure"] is None else frozenset(row["unsure"].split()),
             approach_mm=_known(row["approach_mm"]),
             peak_kpa=_known(row["peak_kpa"]),
+            measured=frozenset((row["measured"] or "").split()),
         )
 
     def checksum(self) -> str:
@@ -343,11 +365,13 @@ def _read_index(path: Path) -> pa.Table:
         size = heights.stat().st_size
     except (OSError, pa.ArrowException) as error:
         raise TouchError(f"shard {path} is damaged or incomplete: {error}") from error
-    if table.schema.equals(SCHEMA, check_metadata=False):
-        for column in OPTIONAL:
-            table = table.append_column(column, pa.nulls(len(table), column.type))
-    elif not table.schema.equals(_FULL, check_metadata=False):
+    known = [column for column in OPTIONAL if column.name in table.column_names]
+    if not table.schema.equals(pa.schema([*SCHEMA, *known]), check_metadata=False):
         raise TouchError(f"shard {path} has other columns than version {VERSION}; generate again")
+    for column in OPTIONAL:
+        if column not in known:
+            table = table.append_column(column, pa.nulls(len(table), column.type))
+    table = table.select([*SCHEMA.names, *OPTIONAL.names])
     ends = table["offset"].to_numpy() + table["size"].to_numpy()
     if len(table) and int(ends.max()) != size:
         raise TouchError(f"{heights} has {size} bytes where {int(ends.max())} were expected")

@@ -1,7 +1,9 @@
+import dataclasses
 import json
 from pathlib import Path
 
 import numpy as np
+import pyarrow.parquet as pq
 import pytest
 from fake_contacts import fake_contact
 from hypothesis import given
@@ -9,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
 from cltp.contacts import Contact, Gel, Split, pack_heights, unpack_heights
-from cltp.dataset import ContactDataset, DatasetWriter
+from cltp.dataset import SCHEMA, ContactDataset, DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensors import SENSORS
 from cltp.states import ContactState
@@ -175,3 +177,21 @@ def test_heights_that_are_none_are_refused(heights: np.ndarray, message: str) ->
             series=0,
             split=Split.TRAIN,
         )
+
+
+def test_what_was_measured_is_marked_and_shards_without_the_mark_keep_their_columns(
+    tmp_path: Path,
+) -> None:
+    given, marked = fake_contact(1), fake_contact(2)
+    marked = dataclasses.replace(marked, measured=frozenset({"depth", "depth_mm"}))
+    with DatasetWriter(tmp_path, shard_size=1) as writer:
+        writer.add(given)
+        writer.add(marked)
+        writer.add(dataclasses.replace(given, unsure=frozenset({"shape"})))
+    data = ContactDataset(tmp_path)
+    assert [data.contact(i).measured for i in range(3)] == [set(), {"depth", "depth_mm"}, set()]
+    assert [data.contact(i).unsure for i in range(3)] == [None, None, {"shape"}]
+    columns = [pq.read_schema(path).names for path in sorted(tmp_path.glob("*.parquet"))]
+    assert columns[0] == SCHEMA.names
+    assert columns[1] == [*SCHEMA.names, "measured"]
+    assert columns[2] == [*SCHEMA.names, "unsure", "approach_mm", "peak_kpa"]
