@@ -8,11 +8,14 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
 from policies.goal import Band, Goal
+from primitives.limits import Limits
+from tacgrasp.drivers.ur_settings import UrSettings
+from tacgrasp.hardware_config import HardwareConfig
 from tacgrasp.section import Interval, Number, Section, Vector
 
 AtTheEnd = Literal["hold", "release"]
@@ -196,7 +199,9 @@ class RunConfig(Section):
     Attributes:
         task: Name of a task, or the path of its YAML file.
         rig: Name of a rig, or the path of its YAML file.
-        devices: Which drivers the rig has; its file has to say it.
+        devices: What the rig is made of: sim (simulated), emulated (real drivers on emulators that
+            the run starts) or hardware; its file has to say it.
+        hardware: The drivers of emulated and real devices; in the rig's file only.
         policy: Who decides: rules, llm, fixed_force or random.
         weights: Folder of the language model's weights; none: those that come with the program.
         instruction: What a person asks for, in words; the task's own when not given.
@@ -213,7 +218,8 @@ class RunConfig(Section):
 
     task: str = "strawberry"
     rig: str = "sim"
-    devices: Literal["sim"]
+    devices: Literal["sim", "emulated", "hardware"]
+    hardware: HardwareConfig | None = None
     policy: str = "llm"
     weights: Path | None = None
     instruction: str = Field(min_length=1)
@@ -234,11 +240,60 @@ class RunConfig(Section):
     dry_run: bool = False
     record: Path = Path("episodes")
 
+    def limits(self) -> Limits:
+        """The bounds of everything that is sent in a run."""
+        return Limits(
+            max_step_mm=self.arm.max_step_mm,
+            workspace_low_m=self.arm.workspace_low_m,
+            workspace_high_m=self.arm.workspace_high_m,
+            max_travel_mm=self.arm.max_travel_mm,
+            min_force_n=self.gripper.min_force_n,
+            max_force_n=self.gripper.max_force_n,
+            max_speed_m_s=self.arm.max_speed_m_s,
+        )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _driver_keeps_to_the_box(cls, data: Any) -> Any:
+        """The arm's driver, which knows no task, is held to the rig's box too."""
+        if not isinstance(data, dict):
+            return data
+        limits, hardware = data.get("arm"), data.get("hardware")
+        if not (isinstance(limits, dict) and isinstance(hardware, dict)):
+            return data
+        driver = hardware.get("arm")
+        if not isinstance(driver, dict):
+            return data
+        box = {k: limits[k] for k in ("workspace_low_m", "workspace_high_m") if k in limits}
+        return {**data, "hardware": {**hardware, "arm": {**box, **driver}}}
+
     @model_validator(mode="after")
     def _parts_fit(self) -> RunConfig:
+        if (self.devices == "sim") != (self.hardware is None):
+            raise ValueError(
+                f"devices: {self.devices} {'takes no' if self.hardware else 'needs a'} section "
+                "hardware"
+            )
+        if self.devices == "hardware" and self.gripper.first_force_n is None:
+            raise ValueError("devices: hardware needs gripper.first_force_n; nothing draws it")
         if self.verify.speed_m_s > self.arm.max_speed_m_s:
             raise ValueError(
                 f"verify.speed_m_s {self.verify.speed_m_s} is above arm.max_speed_m_s "
                 f"{self.arm.max_speed_m_s}"
             )
+        if self.hardware is not None:
+            self._check_driver(self.hardware.arm)
         return self
+
+    def _check_driver(self, arm: UrSettings) -> None:
+        """What a task asks of the arm in the lift must be allowed by its driver: known at once."""
+        lift, shake = self.verify.acceleration_m_s2, self.verify.shake_acceleration_m_s2
+        for name, value, bound in (
+            ("arm.max_speed_m_s", self.arm.max_speed_m_s, "max_speed_m_s"),
+            ("verify.acceleration_m_s2", lift, "max_acceleration_m_s2"),
+            ("verify.shake_acceleration_m_s2", shake, "max_acceleration_m_s2"),
+        ):
+            if value > getattr(arm, bound):
+                raise ValueError(
+                    f"{name} {value:g} is above hardware.arm.{bound} {getattr(arm, bound):g}"
+                )

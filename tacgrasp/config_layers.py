@@ -6,37 +6,25 @@ Not here: the fields and their ranges (``tacgrasp.config``).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from difflib import get_close_matches
 from importlib import resources
 from pathlib import Path
 from typing import Any
 
 import yaml
-from pydantic import BaseModel, ValidationError
-from pydantic_core import ErrorDetails
+from pydantic import ValidationError
 
 from tacgrasp.config import ArmConfig, GripperConfig, RunConfig
+from tacgrasp.config_errors import explain, path_of
 from tacgrasp.errors import UsageError
 from tacgrasp.hard_limits import HardLimits
+from tacgrasp.hardware_config import beside
 from tacgrasp.section import Section
 
 ENV_PREFIX = "TACGRASP_"
 """``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
 
-RIG_FIELDS = ("devices", "arm", "gripper", "pad")
+RIG_FIELDS = ("devices", "hardware", "arm", "gripper", "pad")
 """Sections that a rig's file has to fill; what else has no default belongs to the task's."""
-
-UNITS = {
-    "mm": "mm",
-    "m": "m",
-    "g": "g",
-    "n": "N",
-    "s": "s",
-    "m_s": "m/s",
-    "m_s2": "m/s²",
-    "share": "share of 0 to 1",
-}
-"""What the end of a field's name says about its unit."""
 
 Sources = dict[str, str]
 """Where each value came from: dotted path of a field -> 'default', a file, a variable, a flag."""
@@ -80,16 +68,26 @@ def load_with_limits(
         merged[kind] = flag or from_env or default
         if from_env and not flag:
             sources[kind] = f"environment variable {variable}"
+    folder = Path()
     for kind in ("task", "rig"):
-        where, fields = _read_layer(kind, merged[kind])
+        where, fields, folder = _read_layer(kind, merged[kind])
+        if kind == "task" and "hardware" in fields:
+            raise UsageError(f"{where}: hardware belongs into a rig's file")
         _merge(merged, fields, where, sources)
     hard = _hard_limits(merged)
     for variable, value in sorted(variables.items()):
         layer: Any = _yaml_value(value)
-        for key in reversed(variable.removeprefix(ENV_PREFIX).lower().split("__")):
+        keys = variable.removeprefix(ENV_PREFIX).lower().split("__")
+        if keys[0] == "hardware":
+            raise UsageError(
+                f"environment variable {variable}: hardware is set in the rig's file alone"
+            )
+        for key in reversed(keys):
             layer = {key: layer}
         _merge(merged, layer, f"environment variable {variable}", sources)
     config = _complete(merged)
+    if config.hardware is not None:
+        config = config.model_copy(update={"hardware": beside(config.hardware, folder)})
     hard.check(config, lambda path: sources.get(path, "the default"))
     return config, {path: sources.get(path, "default") for path in leaves(config)}, hard
 
@@ -113,9 +111,12 @@ def names(kind: str) -> list[str]:
     return sorted(name.removesuffix(".yaml") for name in files)
 
 
-def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any]]:
+def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
+    """What messages call a file, its fields, and the folder that its relative paths start from."""
+    folder = Path(str(resources.files("tacgrasp"))) / f"{kind}s"
     if name.endswith((".yaml", ".yml")):
         where, path = name, Path(name)
+        folder = path.resolve().parent
         if not path.is_file():
             raise UsageError(f"{kind} file {name} does not exist")
         try:
@@ -124,7 +125,7 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any]]:
             raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
     elif name in names(kind):
         where = f"{kind}s/{name}.yaml"
-        text = (resources.files("tacgrasp") / f"{kind}s" / f"{name}.yaml").read_text("utf-8")
+        text = (folder / f"{name}.yaml").read_text("utf-8")
     else:
         raise UsageError(
             f"unknown {kind} {name!r}; known: {', '.join(names(kind))}, or the path of a .yaml file"
@@ -138,7 +139,7 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any]]:
     for own in ("task", "rig"):
         if own in fields:
             raise UsageError(f"{where}: {own} can't be set in a file; give --{own} instead")
-    return where, fields
+    return where, fields, folder
 
 
 def _yaml_value(text: str) -> Any:
@@ -157,7 +158,8 @@ def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: S
     try:
         RunConfig.model_validate(merged)
     except ValidationError as error:
-        for wrong in error.errors():
+        # a list whose items are wrong is also called too short: say what is wrong with the item
+        for wrong in sorted(error.errors(), key=lambda one: one["type"] == "too_short"):
             if wrong["type"] != "missing" or isinstance(wrong["loc"][-1], int):
                 raise UsageError(f"{where}: {explain(wrong)}") from None
     sources |= dict.fromkeys(_paths(layer), where)
@@ -167,9 +169,11 @@ def _complete(merged: dict[str, Any]) -> RunConfig:
     try:
         return RunConfig.model_validate(merged)
     except ValidationError as error:
-        path = [str(part) for part in error.errors()[0]["loc"]]
-    kind = "rig" if path[0] in RIG_FIELDS else "task"
-    field = ".".join(path)
+        first = error.errors()[0]
+    if first["type"] != "missing":
+        raise UsageError(explain(first))
+    field = path_of(first["loc"])
+    kind = "rig" if field.split(".")[0] in RIG_FIELDS else "task"
     raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
 
 
@@ -203,42 +207,3 @@ def _paths(layer: Mapping[str, Any], prefix: str = "") -> list[str]:
         nested = isinstance(value, dict)
         paths += _paths(value, f"{prefix}{key}.") if nested else [f"{prefix}{key}"]
     return paths
-
-
-def unit_of(field: str) -> str:
-    """Unit that the end of a field's name stands for, '' when it names none."""
-    endings = [e for e in UNITS if field.endswith(f"_{e}")]
-    return UNITS[max(endings, key=len)] if endings else ""
-
-
-def explain(first: ErrorDetails) -> str:
-    """One thing that is wrong with a configuration, in a line: field, expected, got."""
-    path = ".".join(str(part) for part in first["loc"] if not isinstance(part, int)) or "the run"
-    got = first["input"]
-    kind = first["type"]
-    if kind == "extra_forbidden":
-        return f"unknown field {path}; {_known_beside(first['loc'])}"
-    if kind == "missing" and isinstance(first["loc"][-1], int):
-        return f"{path} has too few values, got {got!r}"
-    if kind == "missing":
-        return f"{path} is missing"
-    if kind == "model_type":
-        return f"{path} must be a section with fields of its own, got {got!r}"
-    if kind == "value_error":
-        return f"{path}: {first['msg'].removeprefix('Value error, ')}"
-    message = first["msg"].removeprefix("Input should be ").removeprefix("Value should be ")
-    unit = unit_of(path.rsplit(".", 1)[-1])
-    return f"{path} must be {message}{f' [{unit}]' if unit else ''}, got {got!r}"
-
-
-def _known_beside(loc: tuple[int | str, ...]) -> str:
-    """What fields there are beside an unknown one, the closest names first."""
-    model: type[BaseModel] = RunConfig
-    for part in loc[:-1]:
-        annotation = model.model_fields[str(part)].annotation
-        if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-            model = annotation
-    known = list(model.model_fields)
-    close = get_close_matches(str(loc[-1]), known, n=1, cutoff=0.6)
-    hint = f"did you mean {close[0]}? " if close else ""
-    return f"{hint}known here: {', '.join(known)}"

@@ -18,10 +18,10 @@ from primitives.devices import Pose
 from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
 from tacgrasp.config import RunConfig
-from tacgrasp.config_layers import explain
+from tacgrasp.config_errors import explain
 from tacgrasp.episodes import Episode, EpisodeError, Phase, TickRecord
 from tacgrasp.outcome import EndReason
-from tacgrasp.rig import Rig, limits_of, make_executor
+from tacgrasp.rig import Rig, make_executor
 
 SOFT_SPEED_M_S = 0.02
 """Speed of the way to where the episode began. Our choice: slow enough to be stopped by hand."""
@@ -152,7 +152,7 @@ def approach(rig: Rig, target: Pose, config: RunConfig) -> int:
         LimitError: It lies outside the workspace or beyond the allowed travel; nothing was sent.
         RobotError: The arm failed.
     """
-    limits = limits_of(config)
+    limits = config.limits()
     here = rig.arm.pose()
     check_workspace(target, limits)
     way_mm = distance_mm(here, target)
@@ -172,7 +172,7 @@ def approach(rig: Rig, target: Pose, config: RunConfig) -> int:
 
 
 def _lift(rig: Rig, tick: TickRecord, config: RunConfig) -> None:
-    check_workspace(tick.tcp_pose, limits_of(config))
+    check_workspace(tick.tcp_pose, config.limits())
     rig.arm.move_to(
         tick.tcp_pose,
         speed_m_s=config.verify.speed_m_s,

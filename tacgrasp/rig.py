@@ -1,17 +1,19 @@
 """What a run needs of a rig, and the factory that builds the one that the configuration names.
 
-To add a rig: write its drivers, its YAML file, and one line in ``make_rig``.
+To add a rig of devices that there are drivers for, write its YAML file. To add a driver, give it a
+line in ``tacgrasp.hardware_config`` and in ``tacgrasp.hardware_rig``.
 """
 
 from __future__ import annotations
 
+import logging
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Protocol
 
 from cltp.cloud import Stamp
+from primitives import RobotError
 from primitives.devices import Arm, Gripper, Pose
 from primitives.execution import Executor, PadAxes
-from primitives.limits import Limits
 from tacgrasp.commands import Command, CommandLog
 from tacgrasp.config import RunConfig
 from tacgrasp.episodes.record import Truth
@@ -20,6 +22,9 @@ from tacgrasp.sensor import TactileSensor
 
 if TYPE_CHECKING:
     from sim.rig import SimRig
+
+
+log = logging.getLogger(__name__)
 
 
 class Clock(Protocol):
@@ -85,15 +90,23 @@ def make_rig(config: RunConfig) -> Rig:
 
     Raises:
         UsageError: The simulator knows no such object, or the mesh doesn't exist.
-        RobotError: A device can't be reached.
-        TouchError: The mesh can't be used.
+        RobotError: A device can't be reached, or is not as it must be.
+        TouchError: The sensor can't be reached, or the mesh can't be used.
     """
-    return _simulated(config)  # the only kind so far
+    if config.hardware is None:
+        return _simulated(config)
+    from tacgrasp import emulated_rig, hardware_rig
+
+    if config.devices == "emulated":
+        _check_object(config)
+        return emulated_rig.start(config, config.hardware)
+    if config.gripper.first_force_n is None:
+        raise UsageError("a rig of real devices needs gripper.first_force_n")
+    return hardware_rig.connect(config, config.hardware, config.gripper.first_force_n)
 
 
-def _simulated(config: RunConfig) -> SimRig:
+def _check_object(config: RunConfig) -> None:
     from sim.bodies import OBJECTS
-    from sim.rig import build
 
     if config.object not in OBJECTS:
         raise UsageError(
@@ -101,6 +114,12 @@ def _simulated(config: RunConfig) -> SimRig:
         )
     if config.object_mesh is not None and not config.object_mesh.is_file():
         raise UsageError(f"--object-mesh {config.object_mesh} does not exist")
+
+
+def _simulated(config: RunConfig) -> SimRig:
+    from sim.rig import build
+
+    _check_object(config)
     rig = build(
         config.object,
         config.seed,
@@ -119,7 +138,11 @@ def truth_of(rig: Rig) -> Truth | None:
     truth = getattr(rig, "truth", None)
     if truth is None:
         return None
-    facts = asdict(truth())
+    try:
+        facts = asdict(truth())
+    except RobotError as error:  # the emulator is gone: the robot must be made safe all the same
+        log.warning("the truth can't be recorded: %s", error)
+        return None
     x_mm, y_mm = facts.pop("offset_mm")
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
 
@@ -128,19 +151,6 @@ def commands_of(rig: Rig) -> tuple[Command, ...]:
     """What the devices were given since the last time; empty on rigs that note none (``sim``)."""
     log: CommandLog | None = getattr(rig, "commands", None)
     return () if log is None else log.take()
-
-
-def limits_of(config: RunConfig) -> Limits:
-    """The bounds of everything that is sent in a run."""
-    return Limits(
-        max_step_mm=config.arm.max_step_mm,
-        workspace_low_m=config.arm.workspace_low_m,
-        workspace_high_m=config.arm.workspace_high_m,
-        max_travel_mm=config.arm.max_travel_mm,
-        min_force_n=config.gripper.min_force_n,
-        max_force_n=config.gripper.max_force_n,
-        max_speed_m_s=config.arm.max_speed_m_s,
-    )
 
 
 def make_executor(rig: Rig, config: RunConfig) -> Executor:
@@ -152,7 +162,7 @@ def make_executor(rig: Rig, config: RunConfig) -> Executor:
     return Executor(
         rig.arm,
         rig.gripper,
-        limits_of(config),
+        config.limits(),
         clear_mm=config.primitives.clear_mm,
         move_step_mm=config.primitives.move_step_mm,
         first_force_n=rig.first_force_n,

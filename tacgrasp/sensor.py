@@ -29,3 +29,15 @@ class TactileSensor(Protocol):
     def disconnect(self) -> None:
         """Free the device. Idempotent, never raises."""
         ...
+
+
+class WatchedSensor(TactileSensor, Protocol):
+    """A sensor that can be looked at while the arm moves, without waiting for a frame."""
+
+    def check_alive(self) -> None:
+        """Return at once when frames are coming.
+
+        Raises:
+            TouchError: They are not.
+        """
+        ...

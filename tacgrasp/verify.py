@@ -19,7 +19,7 @@ from primitives.limits import check_workspace
 from tacgrasp.config import RunConfig, VerifyConfig
 from tacgrasp.episodes.record import Phase
 from tacgrasp.outcome import Verification
-from tacgrasp.rig import Rig, limits_of
+from tacgrasp.rig import Rig
 from tacgrasp.turns import Turns
 
 UP = np.array([0.0, 0.0, 1.0])
@@ -41,7 +41,7 @@ def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification
     pad_x = rotated(start.rotvec_rad, np.array(config.pad.x_axis))
     aside = _shifted(lifted, pad_x * settings.shake_mm / 1000)
     for pose in (lifted, aside):
-        check_workspace(pose, limits_of(config))
+        check_workspace(pose, config.limits())
     before = contact_state(turns.feel(Phase.VERIFY_BEFORE))
     shake = [aside, lifted] * settings.shakes if settings.shake_mm > 0 else []
     _move(rig, lifted, settings, settings.acceleration_m_s2)

@@ -49,6 +49,7 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--sensor", default="gelsight_mini", help="whose field the taxels cover")
     parser.add_argument("--first-force-n", type=float, default=None)
+    parser.add_argument("--held", action="store_true", help="as if somebody held it between them")
     parser.add_argument("--host", default=None, help="loopback address; one that is free")
     flags = parser.parse_args(argv)
     sys.setswitchinterval(SWITCH_S)
@@ -61,6 +62,8 @@ def main(argv: Sequence[str]) -> int:
         sensor_name=flags.sensor,
         first_force_n=flags.first_force_n,
     )
+    if flags.held:
+        simulated.gripper.grip(simulated.first_force_n)
     with ExitStack() as stack:
         world = stack.enter_context(closing(SharedWorld(simulated)))
         arm = stack.enter_context(closing(_arm(flags.host, world)))

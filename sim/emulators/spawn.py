@@ -59,6 +59,11 @@ class EmulatorProcess:
     ) -> None:
         self.close()
 
+    @property
+    def running(self) -> bool:
+        """Whether the process has not ended."""
+        return self._child.poll() is None
+
     def close(self) -> None:
         """End the process and wait until it is gone. Idempotent."""
         self.control.close()
@@ -81,9 +86,10 @@ class EmulatorProcess:
         return ready
 
     def _said(self) -> str:
-        """The last lines of what the emulator wrote to its standard error."""
+        """The last line that the emulator wrote to its standard error."""
         self._errors.seek(0)
-        return " ".join(self._errors.read().decode(errors="replace").split()[-60:])
+        lines = self._errors.read().decode(errors="replace").split("\n")
+        return next((line.strip() for line in reversed(lines) if line.strip()), "")
 
     def _end(self) -> None:
         for pipe in (self._child.stdin, self._child.stdout):

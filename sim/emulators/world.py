@@ -49,6 +49,7 @@ class SharedWorld:
         """Take a freshly built simulated rig; its own devices must not be used any more."""
         self._rig, self._clock = rig, clock
         self._until_s = clock()
+        self._base_from_tcp = Rotation.from_rotvec(np.array(rig.start_pose.rotvec_rad))
         self._felt = (0, 0.0)
         self._height_mm = rig.sensor.height_mm()
         self._solver = ThreadPoolExecutor(1, thread_name_prefix="world")
@@ -65,7 +66,7 @@ class SharedWorld:
 
         Args:
             by_base_m: Shape (3,), what was really covered [m, base frame].
-            rotvec_rad: Shape (3,), the TCP's orientation [rad].
+            rotvec_rad: Shape (3,), by what the TCP turned on the way [rad, base frame].
             speed_m_s: As commanded [m/s].
             acceleration_m_s2: As commanded [m/s²].
 
@@ -73,9 +74,9 @@ class SharedWorld:
             RobotError: The solver failed or does not answer.
         """
         by_m, ended_s = np.array(by_base_m, dtype=float), self._clock()
-        base_from_tcp = Rotation.from_rotvec(np.array(rotvec_rad, dtype=float))
         axes = (self._rig.pad_x_in_tcp, self._rig.pad_y_in_tcp)
-        x_mm, y_mm = (float(1000 * base_from_tcp.apply(axis) @ by_m) for axis in axes)
+        x_mm, y_mm = (float(1000 * self._base_from_tcp.apply(axis) @ by_m) for axis in axes)
+        self._base_from_tcp = Rotation.from_rotvec(np.array(rotvec_rad)) * self._base_from_tcp
         distance_m = math.hypot(x_mm, y_mm) / 1000
         if distance_m == 0:
             return

@@ -16,7 +16,7 @@ from typing import TypeVar
 
 import tyro
 
-from tacgrasp.config_layers import unit_of
+from tacgrasp.config_errors import unit_of
 from tacgrasp.errors import UsageError
 
 T = TypeVar("T")

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import Annotated, Any
+
+import tyro
 
 from tacgrasp.cli.flags import flag_value, parse
 from tacgrasp.config import RunConfig
 from tacgrasp.config_layers import Sources, leaves, load_with_limits
+from tacgrasp.hardware_config import HardwareConfig
 from tacgrasp.outcome import EndReason, Outcome
 
 EXIT_CODES = {
@@ -26,6 +29,7 @@ class RunFlags(RunConfig):
         print_config: Print every value and where it came from, and do nothing else.
     """
 
+    hardware: Annotated[HardwareConfig | None, tyro.conf.Suppress] = None
     print_config: bool = False
 
 

@@ -112,7 +112,7 @@ def test_a_bad_task_file_is_refused_in_a_line_that_names_field_and_file(
 BAD_FLAGS = {
     "unknown task": (["--task", "banana"], "unknown task 'banana'; known: cherry_tomato"),
     "missing file": (["--task", "no.yaml"], "no.yaml does not exist"),
-    "unknown rig": (["--rig", "ur5"], "unknown rig 'ur5'; known: sim"),
+    "unknown rig": (["--rig", "ur5"], "unknown rig 'ur5'; known: emulated, sim"),
     "unknown flag": (["--arm.max-step-m", "4"], "--arm.max-step-m.*did you mean --arm.max-step-mm"),
     "metres": (["--arm.max-step-mm", "0.004"], r"--arm.max-step-mm \[mm\] .* \(got 0.004\)"),
     "text for a number": (["--arm.max-step-mm", "4mm"], "--arm.max-step-mm.*'4mm'"),

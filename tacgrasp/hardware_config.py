@@ -1,0 +1,76 @@
+"""The part of a rig's file that names its devices: a driver each, and where an episode starts.
+
+Not here: the settings of a driver (``tacgrasp.drivers``), the limits of a run
+(``tacgrasp.config``). Nothing of it is a flag: what is bolted to a bench is written in its file.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+from tacgrasp.drivers.gelsight_settings import GelSightSettings
+from tacgrasp.drivers.taxel_settings import TaxelSettings
+from tacgrasp.drivers.ur_settings import UrSettings
+from tacgrasp.section import Number, Section, Vector
+
+SensorSettings = Annotated[GelSightSettings | TaxelSettings, Field(discriminator="kind")]
+"""One line for every sensor that there is a driver for."""
+
+
+class StartConfig(Section):
+    """Where an episode starts, and ``reset`` returns to.
+
+    Attributes:
+        at: 'here': where the arm stands; 'pose': the pose below, which the arm goes to slowly.
+        position_m: Of the TCP [m, base frame].
+        rotvec_rad: Rotation vector of the TCP [rad].
+        max_way_mm: Farthest that the arm may stand from the pose [mm].
+        speed_m_s: Of the way to it [m/s].
+    """
+
+    at: Literal["here", "pose"] = "here"
+    position_m: Vector | None = None
+    rotvec_rad: Vector | None = None
+    max_way_mm: Number = Field(default=100.0, gt=0, le=1000)
+    speed_m_s: Number = Field(default=0.02, gt=0, le=0.1)
+
+    @model_validator(mode="after")
+    def _pose_is_given_when_it_is_used(self) -> StartConfig:
+        given = [self.position_m is not None, self.rotvec_rad is not None]
+        if self.at == "pose" and not all(given):
+            raise ValueError("a start at a pose needs position_m and rotvec_rad")
+        if self.at == "here" and any(given):
+            raise ValueError("position_m and rotvec_rad are for a start at a pose (at: pose)")
+        return self
+
+
+class HardwareConfig(Section):
+    """The devices of a rig.
+
+    Attributes:
+        arm: Of kind ur.
+        gripper: Of Dynamixel servos.
+        sensor: Of kind gelsight_mini or taxels.
+        start: Where an episode starts.
+    """
+
+    arm: UrSettings
+    gripper: DynamixelSettings
+    sensor: SensorSettings
+    start: StartConfig = StartConfig()
+
+
+def beside(section: Section, folder: Path) -> Section:
+    """The same settings with relative paths taken from ``folder``, where the rig's file lies."""
+    changes: dict[str, object] = {}
+    for name in type(section).model_fields:
+        value = getattr(section, name)
+        if isinstance(value, Section):
+            changes[name] = beside(value, folder)
+        elif isinstance(value, Path) and not value.is_absolute():
+            changes[name] = folder / value
+    return section.model_copy(update=changes)
