@@ -17,10 +17,11 @@ from pathlib import Path
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus, Counts
+from tacgrasp.drivers.dynamixel_bus import Bus
 from tacgrasp.drivers.dynamixel_hand import Hand, connect_hand
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
 from tacgrasp.drivers.dynamixel_start import start_findings
+from tacgrasp.drivers.dynamixel_trouble import Counts
 from tacgrasp.drivers.dynamixel_watch import OnFault
 from tacgrasp.drivers.finding import Finding
 from tacgrasp.drivers.gripper_calibration import GripperCalibration, load_calibration, refusal

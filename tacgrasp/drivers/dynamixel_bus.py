@@ -12,12 +12,11 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from enum import Enum
 from typing import TYPE_CHECKING, Any
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+from tacgrasp.drivers.dynamixel_trouble import Answer, BusError, Counts, Trouble, refusal_words
 from tacgrasp.drivers.serial_ports import find_port
 
 if TYPE_CHECKING:
@@ -30,62 +29,6 @@ _BROADCAST = 0xFE
 _SHORTEST = 11  # bytes of a status packet without parameters
 _TX_BUSY, _CORRUPT = -1000, -3002
 _QUIET_S = 0.003
-_ERRORS = {
-    1: "it failed",
-    2: "it does not know the instruction",
-    3: "it received a wrong CRC",
-    4: "the value is out of range",
-    5: "the length is wrong",
-    6: "the value is beyond a limit",
-    7: "it can't be written now (torque on, hardware error, or the bus watchdog has tripped)",
-}
-
-
-class Trouble(Enum):
-    """What went wrong on the bus."""
-
-    SILENT = "no answer"
-    CORRUPT = "a corrupt answer"
-    REFUSED = "refused"
-    LOST = "the port is gone"
-
-
-class BusError(RobotError):
-    """A transaction failed.
-
-    Attributes:
-        trouble: How.
-        waited: The time for an answer ran out, so that (the rest of) one may still come.
-    """
-
-    def __init__(self, trouble: Trouble, message: str, *, waited: bool = False) -> None:
-        super().__init__(message)
-        self.trouble, self.waited = trouble, waited
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
-    """What a servo answered: its data, and whether it reports a hardware error."""
-
-    data: bytes
-    alert: bool
-
-
-@dataclass(slots=True, kw_only=True)
-class Counts:
-    """Transient faults that were survived since the bus was opened."""
-
-    silent: int = 0
-    corrupt: int = 0
-    late: int = 0
-    rewritten: int = 0
-    rebuilt: int = 0
-
-    def __str__(self) -> str:
-        return (
-            f"{self.silent} without an answer, {self.corrupt} corrupt, {self.late} late, "
-            f"{self.rewritten} written again, port rebuilt {self.rebuilt} times"
-        )
 
 
 class Bus:
@@ -275,8 +218,7 @@ class Bus:
             return Answer(data=b"", alert=False)
         told = received[5] + (received[6] << 8) + 7 - _SHORTEST
         if error & 0x7F:
-            why = _ERRORS.get(error & 0x7F, f"error {error & 0x7F}")
-            raise BusError(Trouble.REFUSED, f"{what} refused: {why}")
+            raise BusError(Trouble.REFUSED, f"{what} refused: {refusal_words(error & 0x7F)}")
         if told != length:
             self.counts.late += 1
             raise BusError(

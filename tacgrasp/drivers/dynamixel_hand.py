@@ -16,9 +16,10 @@ from dataclasses import replace
 
 from primitives.errors import RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus, Counts
+from tacgrasp.drivers.dynamixel_bus import Bus
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings, ServoSettings
 from tacgrasp.drivers.dynamixel_start import start_findings
+from tacgrasp.drivers.dynamixel_trouble import Counts
 from tacgrasp.drivers.dynamixel_watch import OnFault, Sample, ServoSample, Watch
 from tacgrasp.drivers.serial_ports import adapter_serial
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus, BusError, Trouble
+from tacgrasp.drivers.dynamixel_bus import Bus
 from tacgrasp.drivers.dynamixel_settings import BAUDS, DynamixelSettings, ServoSettings
+from tacgrasp.drivers.dynamixel_trouble import BusError, Trouble
 from tacgrasp.drivers.finding import Finding
 
 WIZARD = "with the DYNAMIXEL Wizard"

@@ -22,8 +22,9 @@ from typing import TypeVar
 
 from primitives.errors import RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus, BusError, Trouble
+from tacgrasp.drivers.dynamixel_bus import Bus
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+from tacgrasp.drivers.dynamixel_trouble import BusError, Trouble
 
 T = TypeVar("T")
 OnFault = Callable[[str], None]

@@ -10,7 +10,8 @@ from emulated_servos import EmulatedServos, eventually
 
 from primitives import RobotError
 from tacgrasp.drivers import dynamixel_registers as at
-from tacgrasp.drivers.dynamixel_bus import Bus, BusError, Trouble
+from tacgrasp.drivers.dynamixel_bus import Bus
+from tacgrasp.drivers.dynamixel_trouble import BusError, Trouble
 
 pytest.importorskip("dynamixel_sdk")
 

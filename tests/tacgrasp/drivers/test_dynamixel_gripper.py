@@ -264,6 +264,18 @@ def test_disconnect_keeps_the_grip_and_frees_the_port(servos, gripper, load):
     servos.gripper()  # the port is free
 
 
+def test_a_program_that_dies_leaves_the_grip_and_the_next_one_goes_on(servos, load):
+    servos.setting(bus_watchdog_ms=200)
+    dead = servos.gripper()
+    dead.grip(1.0)
+    dead._hand._watch.close()  # as after kill -9: nothing is said any more, the port is freed
+    dead._hand._bus.close()
+    assert eventually(lambda: servos.emulator.facts()["bus_watchdog"] == at.WATCHDOG_TRIPPED)
+    assert servos.emulator.facts()["force_n"] == pytest.approx(1.0, abs=0.02)
+    assert servos.gripper().open_by(0.005).width_m == pytest.approx(0.065, abs=5e-4)
+    assert eventually(lambda: load.releases == 1)
+
+
 def test_stop_halts_fingers_on_their_way(servos):
     servos.setting(speed_mm_s=20.0)
     gripper = servos.gripper()
