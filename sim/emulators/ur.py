@@ -22,7 +22,7 @@ from sim.emulators.control import ControlServer, Facts
 from sim.emulators.lifetime import announce_and_wait
 from sim.emulators.ur_controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur_robot import Stretch
-from sim.emulators.ur_server import PORTS, Server
+from sim.emulators.ur_server import PORTS, Server, ask_for_real_time
 from sim.emulators.ur_sessions import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT
 
 START_TCP = (0.45, -0.10, 0.20, math.pi, 0.0, 0.0)
@@ -235,6 +235,7 @@ def main(argv: Sequence[str]) -> int:
     )
     chosen = parser.parse_args(argv)
     major, minor = (int(part) for part in chosen.version.split("."))
+    ask_for_real_time()  # control channel too: a thread that waits for it must not wait long
     emulator = UrEmulator(
         chosen.host,
         version=(major, minor),

@@ -147,9 +147,7 @@ class Server:
     # -- the thread ------------------------------------------------------------------------------
 
     def _serve(self) -> None:
-        # A controller runs in real time: where the system allows it, so does this thread.
-        with contextlib.suppress(OSError, AttributeError):
-            os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        ask_for_real_time()
         while not self._ended:
             ready = self._selector.select(self._pause_s())
             with self.lock:
@@ -279,6 +277,16 @@ class Server:
             self._hang_up(connection)
         for port in PORTS:
             self._unlisten(port)
+
+
+def ask_for_real_time() -> None:
+    """Let this thread (and those it starts) run before ordinary work, where the system allows it.
+
+    A controller runs in real time; an emulated one on a busy machine would show that machine's
+    pauses as its own.
+    """
+    with contextlib.suppress(OSError, AttributeError):
+        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
 
 
 def _streaming(connection: _Connection) -> bool:

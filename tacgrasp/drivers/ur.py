@@ -351,14 +351,15 @@ class UrArm:
         """The worker's state, if it lives and all is well; latches what is not."""
         if self._fault:
             raise RobotError(self._fault)
-        ended = self._has_ended()  # asked first: what it left is complete then
+        # Asked first: what an ended worker left is complete; a pause of ours is none of its.
+        ended, now_s = self._has_ended(), self._clock()
         state = self._read()
         if state.phase != Phase.READY:
             self._wait_for_end()  # it brakes the arm now, and will say how
             self._latch(self._read().text)
         if ended:
             self._latch(self._last_said(state))
-        silent_s = self._clock() - state.beat_s
+        silent_s = now_s - state.beat_s
         if silent_s > HUNG_S:
             self._latch(f"supervision of the UR arm has hung for {1e3 * silent_s:.0f} ms")
         return state
@@ -381,6 +382,7 @@ class UrArm:
             self._wait_for_end()
             if self._worker is not None and self._worker.poll() is None:
                 self._worker.kill()
+                self._wait_for_end()
             how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
             self._unsafe = how != CONFIRMED
             log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")

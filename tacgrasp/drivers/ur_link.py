@@ -184,9 +184,11 @@ class UrLink:
         """Let the controller's watchdog know that we live.
 
         Raises:
-            RobotError: The library could not send it.
+            RobotError: The library could not send it, or it would hang: it waits for a program that
+                has ended.
         """
-        _taken(self._control.kickWatchdog(), "sign of life")
+        alive = self._control.isProgramRunning() and self._control.kickWatchdog()
+        _taken(alive, "sign of life")
 
     def end(self) -> None:
         """End the program; the end of the process hangs up (``disconnect`` sleeps for 0.5 s)."""
