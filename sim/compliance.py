@@ -16,6 +16,7 @@ from functools import lru_cache
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from scipy.fft import next_fast_len
 from scipy.interpolate import CubicSpline
 from torch import Tensor
@@ -124,6 +125,13 @@ def _far_part(r_mm: Tensor, scale_mm: float, pitch_mm: float) -> Tensor:
     return (value + pitch_mm**2 / (24.0 * scale_mm**2) * curved) / scale_mm
 
 
+@lru_cache(maxsize=1)
+def _quadrature() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Gauss-Legendre nodes and weights over -1 to 1; they take longer than all else here."""
+    nodes, weights = np.polynomial.legendre.leggauss(400)
+    return nodes, weights
+
+
 def _remainder(r_mm: Tensor, pitch_mm: float, material: GelMaterial) -> Tensor:
     """What the layer has beyond the near part of a half-space, per force on one element [mm/N].
 
@@ -132,7 +140,7 @@ def _remainder(r_mm: Tensor, pitch_mm: float, material: GelMaterial) -> Tensor:
     does not depend on the grid.
     """
     h, e_star = material.thickness_mm, material.plane_strain_mpa
-    nodes, weights = np.polynomial.legendre.leggauss(400)
+    nodes, weights = _quadrature()
     q = torch.from_numpy(nodes + 1.0) * (0.5 * _REMAINDER_WAVES / h)
     step = torch.from_numpy(weights) * (0.5 * _REMAINDER_WAVES / h)
     rest = layer_compliance(q, material) - 2.0 / (e_star * q) * torch.special.erf(0.5 * q * h)

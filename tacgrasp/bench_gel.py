@@ -19,9 +19,20 @@ from rich.console import Console
 from rich.table import Table
 from torch import Tensor
 
-from sim.gel import ElasticLayer, GelMaterial, Press, gel_of
+from sim.gel import ElasticLayer, GelMaterial, gel_of
+from tacgrasp.radial_profiles import (
+    FIT_DIAMETER_MM,
+    Profile,
+    Simulator,
+    fit,
+    gel,
+    match,
+    read_profiles,
+    tacto,
+    taxim,
+)
 
-PROFILE = Path(__file__).parents[2] / "shared/data/gelsight_mini_balls/profile_6.31mm.csv"
+PROFILES = Path(__file__).parents[2] / "shared/data/gelsight_mini_balls"
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
 
 
@@ -126,44 +137,67 @@ def volume() -> list[Figure]:
     ]
 
 
-def profile() -> list[Figure]:
-    """Radial profile of real GelSight Mini presses with a ball of 6.31 mm.
+def profiles(folder: Path = PROFILES) -> list[Figure]:
+    """Real balls: the gel fitted on one of them, the preset, TACTO and Taxim on all.
 
-    28 bins of 0.2 mm, median in each; the frame's median subtracted on both sides; press depth
-    free within 0.79-0.85 mm, everything else fixed.
+    Source: ``tacgrasp.radial_profiles`` has the protocol.
     """
-    what, pitches = "Real ball's profile, RMSE", (0.2, 0.127, 0.0634)
-    if not PROFILE.exists():
+    known = read_profiles(folder)
+    if not known:
+        note = f"no profile_*mm.csv in {folder}"
         return [
-            Figure(key="profile_rmse_mm", what=what, value=None, unit="mm", note=f"no {PROFILE}")
-        ]
-    real = np.loadtxt(PROFILE, delimiter=",", skiprows=3)[:, 1]
-    figures = []
-    for pitch in pitches:
-        rows, columns = round(15.2 / pitch), round(20.3 / pitch)
-        gel = ElasticLayer(gel_of("gelsight_mini"), rows=rows, columns=columns, pitch_mm=pitch)
-        r = _radius_mm(rows, columns, pitch).numpy()
-        errors: dict[float, float] = {}
-        start: Press | None = None
-        for depth in np.linspace(0.79, 0.85, 7):
-            start = gel.press_to_depth(
-                _ball(3.155, rows, columns, pitch), torch.tensor(depth), start=start
-            )
-            height = start.height_mm[0].numpy()
-            flat = height - np.median(height)
-            bins = [np.median(flat[(r >= 0.2 * k) & (r < 0.2 * (k + 1))]) for k in range(28)]
-            errors[float(depth)] = float(np.sqrt(np.mean((np.array(bins) - real) ** 2)))
-        best = min(errors, key=errors.__getitem__)
-        figures.append(
             Figure(
-                key=f"profile_rmse_mm_at_{pitch}_mm",
-                what=f"{what}, {pitch} mm grid",
-                value=errors[best],
-                unit="mm",
-                note=f"at {best:.2f} mm depth; limit 0.008",
+                key="profile_rmse_mm", what="Real ball's profile", value=None, unit="mm", note=note
             )
-        )
+        ]
+    preset = gel_of("gelsight_mini")
+    figures = []
+    for one in known:
+        if one.diameter_mm == FIT_DIAMETER_MM:
+            figures += _fitted(one, preset)
+        where = f"ball {one.diameter_mm:g} mm"
+        rows: list[tuple[str, Simulator, float]] = [
+            ("gel preset", gel(preset), 0.2),
+            ("gel preset", gel(preset), 0.127),
+            ("gel preset", gel(preset), 0.0634),
+            ("TACTO", tacto, 0.0634),
+            ("Taxim", taxim, 0.0634),
+        ]
+        for who, simulator, pitch in rows:
+            best = match(simulator, one, pitch)
+            figures.append(
+                Figure(
+                    key=f"{who.split()[0].lower()}_rmse_mm_{one.diameter_mm:g}mm_at_{pitch}",
+                    what=f"RMSE of {who}, {where}, {pitch} mm grid",
+                    value=best.rmse_mm,
+                    unit="mm",
+                    note=f"at {best.depth_mm:.2f} mm depth"
+                    + ("; limit 0.007" if who == "gel preset" and pitch < 0.2 else ""),
+                )
+            )
     return figures
+
+
+def _fitted(profile: Profile, preset: GelMaterial) -> list[Figure]:
+    best, near = fit(profile)
+    note = f"RMSE {near.rmse_mm:.5f} mm; the preset is "
+    note += "the fit" if best == preset else "NOT the fit"
+    return [
+        Figure(
+            key="fit_thickness_mm",
+            what="Fitted thickness",
+            value=best.thickness_mm,
+            unit="mm",
+            note=note,
+        ),
+        Figure(
+            key="fit_poisson",
+            what="Fitted Poisson's ratio",
+            value=best.poisson,
+            unit="",
+            note=f"on nothing but the {profile.diameter_mm:g} mm ball, 0.127 mm grid",
+        ),
+    ]
 
 
 def discretisation() -> list[Figure]:
@@ -274,7 +308,7 @@ def _cost() -> list[Figure]:
 
 def measure() -> list[Figure]:
     """All figures, in the order of the table."""
-    parts = (hertz, dimitriadis, volume, profile, discretisation, cost)
+    parts = (hertz, dimitriadis, volume, profiles, discretisation, cost)
     return [figure for part in parts for figure in part()]
 
 

@@ -23,6 +23,7 @@ from cltp.markers import marker_cloud
 from cltp.noise import NoiseUnit, spread_of
 from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import ContactState, Shape, Texture
+from cltp.train.photometric import one_thread
 from sim.fine import FineLayer
 from sim.gel import Press, gel_of
 from sim.labels import in_contact, label
@@ -88,6 +89,7 @@ class Request:
     device: str = "cpu"
 
 
+@one_thread()  # fields this small only make threads wait for each other
 def press(request: Request) -> Pressed:
     """Press a thing to a depth.
 

@@ -20,11 +20,10 @@ def test_the_figures_are_written_under_their_keys(tmp_path, monkeypatch, capsys)
     assert "Hertz" in capsys.readouterr().out
 
 
-def test_an_absent_profile_is_not_measured_and_says_where_it_was_sought(tmp_path, monkeypatch):
-    monkeypatch.setattr(bench_gel, "PROFILE", tmp_path / "profile.csv")
-    (figure,) = bench_gel.profile()
+def test_an_absent_profile_is_not_measured_and_says_where_it_was_sought(tmp_path):
+    (figure,) = bench_gel.profiles(tmp_path)
     assert figure.value is None
-    assert str(tmp_path / "profile.csv") in figure.note
+    assert str(tmp_path) in figure.note
 
 
 def test_the_volume_lost_is_a_share_of_the_volume_sunk():
