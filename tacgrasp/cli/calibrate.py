@@ -1,4 +1,4 @@
-"""``tacgrasp calibrate gelsight-mini|gripper``: make the calibration of a unit."""
+"""``tacgrasp calibrate gelsight-mini|background|gripper``: make the calibration of a unit."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tacgrasp.cli import calibrate_gripper
+from tacgrasp.cli import calibrate_background, calibrate_gripper
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.errors import UsageError
 
@@ -45,6 +45,7 @@ def main(argv: Sequence[str]) -> int:
     """Dispatch to the devices that can be calibrated."""
     devices: dict[str, Callable[[Sequence[str]], None]] = {
         "gelsight-mini": _gelsight_mini,
+        "background": calibrate_background.main,
         "gripper": calibrate_gripper.main,
     }
     name, rest = subcommand(

@@ -96,7 +96,7 @@ def mismatch(frame: Frame, background: Frame) -> str:
         return (
             f"stale background: {share:.0%} of the picture differs from it by more than "
             f"{UNTOUCHED_LEVELS:g} levels although nothing touches; another unit, another gel or "
-            "another light: take a new background"
+            "another light: take a new one: tacgrasp calibrate background"
         )
     if share > UNTOUCHED_SHARE:
         return (
@@ -157,7 +157,7 @@ def load_background(
     """
     if not path.is_file():
         raise TouchError(
-            f"no background {path}: free the gel and take one (with each unit, gel and light anew)"
+            f"no background {path}: free the gel and take one: tacgrasp calibrate background"
         )
     frame = read_frame(path, sensor)
     background = _recorded(path, frame)
@@ -165,7 +165,7 @@ def load_background(
         if dated:
             raise TouchError(
                 f"{path} does not say when and of which unit it was taken; a camera needs a "
-                "background that does: free the gel and take one with tacgrasp"
+                "background that does: free the gel and take one: tacgrasp calibrate background"
             )
         return background
     if not dated:  # a recording is as old as its own background
@@ -178,7 +178,7 @@ def load_background(
     if age_h is None or not -0.1 <= age_h <= max_age_h:
         raise TouchError(
             f"{path} was taken {age_h:.0f} h ago, expected 0 to {max_age_h:g} h "
-            "(max_background_age_h): free the gel and take a new one; if it is new, set the clock"
+            "(max_background_age_h): free the gel, tacgrasp calibrate background; if it is new, set the clock"
         )
     return background
 

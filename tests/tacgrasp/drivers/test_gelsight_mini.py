@@ -196,7 +196,7 @@ def test_a_stale_background_is_told_from_something_that_touches(sensor, camera):
         sensor.expect_untouched()
     camera.picture = (GREY - 10).astype(np.uint8)  # far too little for a read to notice
     sensor.read()
-    with pytest.raises(TouchError, match=r"stale background: 100%.*take a new background"):
+    with pytest.raises(TouchError, match=r"stale background: 100%.*tacgrasp calibrate background"):
         sensor.expect_untouched()
 
 
