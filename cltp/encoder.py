@@ -8,6 +8,8 @@ feature = one matrix on the class token beside the maximum over groups). Two tok
 ``lattice``: ours. Our clouds have one point in each of 32 × 32 cells, so that neighbours are known
     without a search: convolutions over the lattice of points mix a point with its neighbours, and
     each of 8 × 8 groups becomes a token. It learns the same contacts many times faster (README).
+``image``: patches of a rendered frame, as a vision transformer has them, for the vision-based
+    baselines of the paper's appendix A. Such an encoder takes pixels (B, 3, 64, 64) for points.
 """
 
 from __future__ import annotations
@@ -22,17 +24,19 @@ from torch import Tensor, nn
 from cltp.errors import TouchError
 from cltp.inputs import LATTICE
 
+TOKENIZERS = ("lattice", "fps", "image")
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EncoderConfig:
     """Sizes of an encoder.
 
     Attributes:
-        tokenizer: ``lattice`` or ``fps``.
+        tokenizer: Out of ``TOKENIZERS``.
         dim: Width C of the tokens.
         depth: Transformer layers.
         heads: Attention heads; divides ``dim``.
-        num_groups: Tokens beside the class token; 64 for ``lattice``.
+        num_groups: Tokens beside the class token; 64 for ``lattice`` and ``image``.
         group_size: Points in a group of ``fps``.
         stem_dim: Channels of ``lattice`` before its groups; width of the PointNet in ``fps``.
         stem_blocks: Pairs of convolutions in ``lattice``.
@@ -53,23 +57,29 @@ class EncoderConfig:
     feature_dim: int = 128
 
     def __post_init__(self) -> None:
-        if self.tokenizer not in ("lattice", "fps"):
-            raise TouchError(f"unknown tokenizer {self.tokenizer!r}; known: lattice, fps")
+        if self.tokenizer not in TOKENIZERS:
+            raise TouchError(
+                f"unknown tokenizer {self.tokenizer!r}; known: {', '.join(TOKENIZERS)}"
+            )
         if self.dim % self.heads:
             raise TouchError(f"dim {self.dim} must be a multiple of heads {self.heads}")
-        if self.tokenizer == "lattice" and self.num_groups != 64:
-            raise TouchError(f"lattice has 64 groups, got {self.num_groups}")
+        if self.tokenizer != "fps" and self.num_groups != 64:
+            raise TouchError(f"{self.tokenizer} has 64 groups, got {self.num_groups}")
 
 
 PRESETS: dict[str, EncoderConfig] = {
     "tiny": EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8),
     "small": EncoderConfig(),
+    "small_pointbert": EncoderConfig(tokenizer="fps"),
+    "small_image": EncoderConfig(tokenizer="image"),
     "pointbert": EncoderConfig(tokenizer="fps", dim=384, depth=12, heads=6, stem_dim=128),
     "ulip2": EncoderConfig(
         tokenizer="fps", dim=384, depth=18, heads=6, stem_dim=128, feature_dim=1280
     ),
 }
-"""``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14."""
+"""``small_pointbert``, ``small_image``: the reference and a vision transformer at the size of
+``small``. ``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP
+ViT-bigG-14."""
 
 
 class Encoded(NamedTuple):
@@ -100,6 +110,8 @@ class TactileEncoder(nn.Module):
         self.tokenizer: nn.Module
         if config.tokenizer == "lattice":
             self.tokenizer = LatticeTokenizer(dim, config.stem_dim, config.stem_blocks)
+        elif config.tokenizer == "image":
+            self.tokenizer = PatchTokenizer(dim)
         else:
             self.tokenizer = FpsTokenizer(
                 dim, config.stem_dim, config.num_groups, config.group_size
@@ -113,15 +125,22 @@ class TactileEncoder(nn.Module):
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3); ``lattice`` needs the order of ``cltp.inputs``."""
         tokens = self.tokenizer(points)
+        x = self.mixed(tokens, self.class_token(tokens))
+        pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
+        return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
+
+    def class_token(self, tokens: Tensor) -> Tensor:
+        """The class token, shape (B, 1, C), before it has seen anything but a survey."""
         cls = self.cls.expand(len(tokens), -1, -1)
-        if self.survey is not None:
-            cls = cls + self.survey(tokens)
+        return cls if self.survey is None else cls + self.survey(tokens)
+
+    def mixed(self, tokens: Tensor, cls: Tensor) -> Tensor:
+        """All layers over the class token and any tokens (B, T, C): shape (B, T + 1, C)."""
         x = torch.cat([cls, tokens], dim=1)
         for block in self.blocks:
             x = block(x)
-        x = self.norm(x)
-        pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
-        return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
+        found: Tensor = self.norm(x)
+        return found
 
 
 class Block(nn.Module):
@@ -247,16 +266,38 @@ class FpsTokenizer(nn.Module):
 
     def forward(self, points: Tensor) -> Tensor:
         """Points (B, N, 3) to tokens (B, num_groups, C)."""
+        return self.embedded(*self.groups(points))
+
+    def groups(self, points: Tensor) -> tuple[Tensor, Tensor]:
+        """Points around their centres, in a common size (B, G, n, 3), and the centres (B, G, 3)."""
         batch = torch.arange(len(points), device=points.device)[:, None]
         with torch.no_grad():
             centre_index = farthest_points(points, self.num_groups)
             centres = points[batch, centre_index]
             near = torch.cdist(centres, points).topk(self.group_size, largest=False).indices
-        groups = (points[batch[:, :, None], near] - centres[:, :, None]) * self.GAIN
+        return (points[batch[:, :, None], near] - centres[:, :, None]) * self.GAIN, centres
+
+    def embedded(self, groups: Tensor, centres: Tensor) -> Tensor:
+        """Tokens (B, G, C) of groups."""
         local = self.first(groups)
         whole = local.amax(dim=2, keepdim=True).expand_as(local)
         tokens = self.second(torch.cat([whole, local], dim=-1)).amax(dim=2)
-        return tokens + self.position(centres * 2.0)
+        found: Tensor = tokens + self.position(centres * 2.0)
+        return found
+
+
+class PatchTokenizer(nn.Module):
+    """8 × 8 patches of an image of 64 × 64 pixels, each a token (a vision transformer's)."""
+
+    def __init__(self, dim: int) -> None:
+        super().__init__()
+        self.patch = nn.Conv2d(3, dim, 8, stride=8)
+        self.position = nn.Parameter(torch.randn(1, 64, dim) * 0.02)
+
+    def forward(self, pixels: Tensor) -> Tensor:
+        """Pixels (B, 3, 64, 64), 0 to 1, to tokens (B, 64, C)."""
+        found: Tensor = self.patch((pixels - 0.5) / 0.25)
+        return found.flatten(2).transpose(1, 2) + self.position
 
 
 def farthest_points(points: Tensor, num: int) -> Tensor:

@@ -72,11 +72,13 @@ class Augmentation:
         noise_level: Of ``NoiseUnit.draw``; 0 leaves the heights clean.
         uncalibrated: Share of samples whose unit also has unequal gradient gains.
         mirror: Whether contacts are mirrored along x, along y and along both.
+        clean: Share of samples that stay without noise, so that a perfect sensor is known too.
     """
 
     noise_level: float = 1.0
     uncalibrated: float = 0.25
     mirror: bool = True
+    clean: float = 0.0
 
 
 CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0, mirror=False)
@@ -171,7 +173,7 @@ class Sampler:
         spread = spread_of(sensor)
         gain = spread.gain_log_ratio if rng.random() < how.uncalibrated else 0.0
         unit = None
-        if how.noise_level > 0:
+        if how.noise_level > 0 and not (how.clean > 0 and rng.random() < how.clean):
             unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain, spread=spread)
         if sensor.markers is not None:
             sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)

@@ -108,7 +108,7 @@ def train_cltp(
         "data": data.checksum(),
         "seed": seed,
         "config": str(config),
-        "variant": f"{recipe} {shuffle_labels} {augmentation} {workers.count}",
+        "variant": _variant(recipe, shuffle_labels, augmentation, workers),
     }
     folder = out_dir / "encoder"
     stage = Stage("cltp", out_dir / ".training", learner, schedule, identity, workers=workers)
@@ -128,6 +128,15 @@ def train_cltp(
         save_encoder(folder, learner.encoder, learner.heads)
     workers.wait()
     return folder
+
+
+def _variant(
+    recipe: Recipe, shuffle_labels: bool, augmentation: Augmentation | None, workers: Workers
+) -> str:
+    """What tells trainings apart; as it was before recipes for those that there were then."""
+    plain = Recipe(with_images=recipe.with_images, head_weight=recipe.head_weight)
+    known = f"{recipe.head_weight} {recipe.with_images} {shuffle_labels} {augmentation}"
+    return known if recipe == plain and workers.count == 1 else f"{known} {recipe} {workers.count}"
 
 
 class _Run:

@@ -183,7 +183,7 @@ def test_both_tokenizers_give_a_token_for_each_group(tokenizer: str) -> None:
 def test_sizes_that_do_not_fit_are_refused() -> None:
     with pytest.raises(TouchError, match="multiple"):
         EncoderConfig(dim=30, heads=4)
-    with pytest.raises(TouchError, match="known: lattice, fps"):
+    with pytest.raises(TouchError, match="known: lattice, fps, image"):
         EncoderConfig(tokenizer="voxels")
 
 
