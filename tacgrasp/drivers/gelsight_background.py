@@ -178,7 +178,8 @@ def load_background(
     if age_h is None or not -0.1 <= age_h <= max_age_h:
         raise TouchError(
             f"{path} was taken {age_h:.0f} h ago, expected 0 to {max_age_h:g} h "
-            "(max_background_age_h): free the gel, tacgrasp calibrate background; if it is new, set the clock"
+            "(max_background_age_h): free the gel and take a new one: tacgrasp calibrate "
+            "background; if it is new, set the clock"
         )
     return background
 
