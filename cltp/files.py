@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.cloud import TactileCloud, cloud_from_heights
+from cltp.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.cloud_formats import read_pcd, read_ply, read_xyz
 from cltp.errors import TouchError
 from cltp.frames import FRAME_SUFFIXES, read_frame
@@ -24,6 +24,9 @@ from cltp.sensors import SensorSpec
 
 ASPECT_TOLERANCE = 0.05
 """A height map's aspect may differ this much from the sensor's; transposed, it is 80 % off."""
+
+SURFACE_ROWS = 75
+"""Rows of the map that a cloud becomes: 0.2 mm on a GelSight Mini, finer than its points."""
 
 METRES_MM = 2e-3
 """A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
@@ -49,7 +52,70 @@ def read_touch(
             numbers that can't be a touch of this sensor; or a frame without a background.
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
-        return _frame_touch(path, sensor, background, calibration)
+        heights = _frame_heights(path, sensor, background, calibration)
+        try:
+            return cloud_from_heights(heights, sensor)
+        except TouchError as error:
+            raise TouchError(f"{path}: {error}") from None
+    array = _array(path)
+    try:
+        return _touch(array, sensor)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def read_heights(
+    path: Path,
+    sensor: SensorSpec,
+    *,
+    background: Path | None = None,
+    calibration: Path | None = None,
+) -> NDArray[np.float32]:
+    """Read the heights of a touch: a height map as it is, a frame's, or the surface of a cloud.
+
+    A cloud becomes a map of 75 rows by linear interpolation between its points; where it has none
+    around, its nearest point's height.
+
+    Args:
+        path: File; its suffix says the format.
+        sensor: Whose field and gel the numbers refer to.
+        background: As for ``read_touch``.
+        calibration: As for ``read_touch``.
+
+    Returns:
+        Shape (H, W), row 0 = top [mm].
+
+    Raises:
+        TouchError: As ``read_touch``.
+    """
+    if path.suffix.lower() in FRAME_SUFFIXES:
+        return _frame_heights(path, sensor, background, calibration)
+    array = _array(path)
+    try:
+        cloud = _touch(array, sensor)
+        return array.astype(np.float32) if array.shape[1] != 3 else _surface(cloud)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _surface(cloud: TactileCloud) -> NDArray[np.float32]:
+    """Heights on a grid over the whole field, through the points of a cloud."""
+    from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
+    from scipy.spatial import QhullError
+
+    columns = round(SURFACE_ROWS * cloud.sensor.columns / cloud.sensor.rows)
+    x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, SURFACE_ROWS, columns))
+    points = cloud.points_mm.astype(np.float64)
+    try:
+        heights = LinearNDInterpolator(points[:, :2], points[:, 2])(x, y)
+    except QhullError:
+        raise TouchError("the points of the cloud lie on a line; they span no surface") from None
+    nearest = NearestNDInterpolator(points[:, :2], points[:, 2])(x, y)
+    return np.where(np.isfinite(heights), heights, nearest).astype(np.float32)
+
+
+def _array(path: Path) -> NDArray[np.float64]:
+    """The numbers in a file, as they stand."""
     readers: dict[str, Callable[[Path], NDArray[np.float64]]] = {
         ".ply": read_ply,
         ".pcd": read_pcd,
@@ -68,17 +134,16 @@ def read_touch(
     if path.stat().st_size == 0:
         raise TouchError(f"{path} is empty; expected a cloud or a height map")
     try:
-        array = reader(path)
-        return _touch(array, sensor)
+        return reader(path)
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
     except TouchError as error:
         raise TouchError(f"{path}: {error}") from None
 
 
-def _frame_touch(
+def _frame_heights(
     path: Path, sensor: SensorSpec, background: Path | None, calibration: Path | None
-) -> TactileCloud:
+) -> NDArray[np.float32]:
     from cltp.calibration import default_calibration, load_calibration
     from cltp.photometric import Photometer
 
@@ -90,7 +155,7 @@ def _frame_touch(
         )
     net = load_calibration(calibration or default_calibration(sensor), sensor).net
     try:
-        return Photometer(net, read_frame(background, sensor), sensor).cloud(frame)
+        return Photometer(net, read_frame(background, sensor), sensor).heights(frame)
     except TouchError as error:
         raise TouchError(f"{path}: {error}") from None
 

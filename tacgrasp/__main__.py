@@ -17,7 +17,7 @@ COMMANDS = {
     "train": "clip, cltp, llm, all: from nothing to weights; goes on where it was stopped",
     "eval": "how right the trained weights are on contacts that they have not seen",
     "simulate": "press: one thing into one sensor's gel, to a depth: heights, pressure, force",
-    "data": "generate, inspect, stats, verify, gallery, sheet: contacts to learn from",
+    "data": "generate, import, inspect, stats, verify, gallery, sheet: contacts to learn from",
     "calibrate": "gelsight-mini: from presses of a ball to a sensor's calibration",
     "emulate": "ur, dynamixel, taxels, rig: emulators that speak the real protocols",
     "jog": "move a rig by keyboard in small limited steps, and see what it feels",

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.cli.data_import import import_touches
 from tacgrasp.cli.flags import parse, writable
 from tacgrasp.errors import UsageError
 
@@ -218,5 +219,6 @@ TOOLS: dict[str, Callable[[Sequence[str]], int]] = {
     "verify": verify,
     "gallery": gallery,
     "sheet": sheet,
+    "import": import_touches,
 }
 """Sub-commands of ``tacgrasp data``, registered in ``tacgrasp.cli.data``."""
