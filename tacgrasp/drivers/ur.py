@@ -1,4 +1,4 @@
-"""A UR arm as a ``primitives.devices.Arm``: the owner's side of its worker process.
+"""A UR arm as a ``primitives.devices.Arm``: orders to its worker, faults latched.
 
 ``connect_arm`` looks at the controller (``ur_preflight``), starts a worker (``ur_worker``) and
 gives it orders. A fault is latched: after it every call but ``stop`` and ``disconnect`` raises with
@@ -8,18 +8,12 @@ reconnects by itself, and no answer is older than the worker's last round.
 
 from __future__ import annotations
 
-import contextlib
 import logging
 import math
-import os
-import subprocess
-import sys
-import tempfile
 import threading
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 
@@ -28,7 +22,6 @@ from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers.ur_block import (
     MOTION,
     PERIOD,
-    Block,
     Distribution,
     Order,
     OrderRecord,
@@ -37,6 +30,7 @@ from tacgrasp.drivers.ur_block import (
     State,
 )
 from tacgrasp.drivers.ur_bounds import expected_s, nearest_rotvec, refusal
+from tacgrasp.drivers.ur_owner import LOOK_S, Owner
 from tacgrasp.drivers.ur_preflight import check, preflight
 from tacgrasp.drivers.ur_probe import CONFIRMED, Dashboard, stop_from_outside
 from tacgrasp.drivers.ur_settings import UrSettings
@@ -44,9 +38,6 @@ from tacgrasp.drivers.ur_settings import UrSettings
 __all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
 
 log = logging.getLogger(__name__)
-
-LOOK_S = 0.002
-"""How often the worker's state is looked at while waiting for it [s]."""
 
 HUNG_S = 0.25
 """A worker whose rounds have stopped for so long hangs [s]; the watchdog has stopped the arm."""
@@ -95,8 +86,7 @@ class UrArm:
         self.settings = settings
         self._clock, self._sleep = clock, sleep
         self._lock = threading.RLock()
-        self._worker: subprocess.Popen[bytes] | None = None
-        self._block: Block | None = None
+        self._owner: Owner | None = None
         self._fault = "the UR arm is not connected"
         self._unsafe = False
         self._number = 0
@@ -128,7 +118,8 @@ class UrArm:
             raise LimitError(why)
         self._send(order)
         takes_s = expected_s(order, state.pose) / max(0.01, state.speed_fraction)
-        state = self._await(order.number, takes_s + REACT_S)
+        longest_s = takes_s + self.settings.move_margin_s + REACT_S
+        state = self._await(order.number, longest_s)
         if state.done != order.number:
             raise RobotError("the move was cut short by a stop")
         if state.outcome == Outcome.REFUSED:
@@ -153,19 +144,20 @@ class UrArm:
     def disconnect(self) -> None:
         """Stop, end the program and the worker. Idempotent, never raises."""
         with self._lock:
-            if self._worker is None:
+            owner = self._owner
+            if owner is None:
                 return
             try:
                 if not self._fault:
                     self._send(self._order(Order.END))
-                    with contextlib.suppress(subprocess.TimeoutExpired):
-                        self._worker.wait(END_S)
+                    owner.wait(END_S)
             except Exception as error:
                 log.warning("UR disconnect: %s", error)
-            if self._worker.returncode != 0:
+            if not owner.ended_well:
                 self._unsafe = self._unsafe or not self._fault
                 self._make_safe()
-            self._end_worker()
+            owner.close()
+            self._owner = None
             self._fault = self._fault or "the UR arm is disconnected"
 
     # -- operator --------------------------------------------------------------------------------
@@ -193,15 +185,17 @@ class UrArm:
             RobotError: The arm is not ready, or connected already.
         """
         with self._lock:
-            if self._worker is not None:
+            if self._owner is not None:
                 raise RobotError("the UR arm is connected already: disconnect or reset it")
             preflight(self.settings)
-            self._start_worker()
+            self._unsafe = True  # whatever program is found on the controller from here on is ours
+            self._number, self._owner = 0, Owner(self.settings)
             try:
-                self._await_ready()
+                self._owner.await_ready(self._clock, self._sleep)
+                self._fault, self._unsafe = "", False
                 self._check_place()
             except BaseException:
-                self._end_worker()
+                self.disconnect()
                 raise
 
     def timing(self) -> ArmTiming:
@@ -211,93 +205,12 @@ class UrArm:
             RobotError: The arm is not connected.
         """
         with self._lock:
-            if self._block is None:
+            if self._owner is None:
                 raise RobotError("the UR arm is not connected")
             return ArmTiming(
-                period=self._block.distribution(PERIOD),
-                command_to_motion=self._block.distribution(MOTION),
+                period=self._owner.distribution(PERIOD),
+                command_to_motion=self._owner.distribution(MOTION),
             )
-
-    # -- worker ----------------------------------------------------------------------------------
-
-    def _start_worker(self) -> None:
-        self._block = Block()
-        self._block.write(State(text="starting Python", beat_s=self._clock()))
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
-        packages = str(Path(__file__).resolve().parents[2])
-        path = os.pathsep.join(filter(None, [packages, os.environ.get("PYTHONPATH", "")]))
-        self._worker = subprocess.Popen(
-            [
-                sys.executable, "-m", "tacgrasp.drivers.ur_worker", str(self._block.fd),
-                self.settings.model_dump_json(),
-            ],
-            stdin=subprocess.PIPE,
-            stdout=self._said,
-            stderr=self._said,
-            pass_fds=(self._block.fd,),
-            env=os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1"},
-            start_new_session=True,  # a Ctrl-C in the terminal is for the owner alone
-        )  # fmt: skip
-        if self._worker.stdin is not None:
-            os.set_blocking(self._worker.stdin.fileno(), False)
-        self._number = 0
-
-    def _await_ready(self) -> None:
-        """Wait for the worker; the library may hang in it, so the wait is bounded here."""
-        until_s = self._clock() + self.settings.start_timeout_s
-        while True:
-            state, ended = self._read(), self._has_ended()
-            if state.phase == Phase.READY:
-                self._fault, self._unsafe = "", False
-                return
-            if state.phase == Phase.FAULT or ended:
-                why = state.text if state.phase == Phase.FAULT else self._last_said(state)
-                raise RobotError(f"the UR arm can't be used: {why}")
-            if self._clock() > until_s:
-                raise RobotError(
-                    f"the UR arm was not ready within {self.settings.start_timeout_s:g} s, while "
-                    f"{state.text}; restart the controller if it is so again"
-                )
-            self._sleep(LOOK_S)
-
-    def _check_place(self) -> None:
-        """The TCP must start inside the workspace, or every move back in would begin outside."""
-        state = self._read()
-        here = OrderRecord(order=Order.MOVE, number=0, sent_s=0.0, pose=state.pose,
-                           speed_m_s=self.settings.max_speed_m_s,
-                           acceleration_m_s2=self.settings.max_acceleration_m_s2)  # fmt: skip
-        if why := refusal(here, state.pose, self.settings):
-            raise LimitError(f"the arm starts where it may not be: {why}. Jog it at the pendant")
-
-    def _end_worker(self) -> None:
-        """Be rid of the worker, however it is, and of what it left."""
-        with self._lock:
-            worker, self._worker = self._worker, None
-            if worker is not None:
-                if worker.stdin is not None:
-                    with contextlib.suppress(OSError):
-                        worker.stdin.close()
-                if worker.poll() is None:
-                    worker.kill()
-                worker.wait()
-                self._said.close()
-            if self._block is not None:
-                self._block.close()
-                self._block = None
-
-    def _has_ended(self) -> bool:
-        return self._worker is None or self._worker.poll() is not None
-
-    def _wait_for_end(self) -> None:
-        if self._worker is not None:
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._worker.wait(HUNG_S)
-
-    def _last_said(self, state: State) -> str:
-        code = None if self._worker is None else self._worker.returncode
-        self._said.seek(0)
-        said = " ".join(self._said.read().decode(errors="replace").split()[-40:])
-        return f"its worker ended (exit {code}) while {state.text or 'working'}: {said}"
 
     # -- orders and state ------------------------------------------------------------------------
 
@@ -316,14 +229,12 @@ class UrArm:
             )  # fmt: skip
 
     def _send(self, order: OrderRecord) -> None:
-        worker = self._worker
-        if worker is None or worker.stdin is None:
-            raise RobotError(self._fault or "the UR arm is not connected")
+        owner = self._connected()
         try:
-            os.write(worker.stdin.fileno(), order.packed())
-        except (OSError, ValueError):
+            owner.send(order)
+        except OSError as error:
             self._state()  # says why, if the worker could
-            self._latch("the UR arm's worker takes no orders any more")
+            self._latch(f"the UR arm's worker takes no orders any more ({error})")
 
     def _await(self, number: int, longest_s: float) -> State:
         """Wait until an order (or a later one) has ended."""
@@ -338,31 +249,36 @@ class UrArm:
                 )
             self._sleep(LOOK_S)
 
-    def _read(self) -> State:
-        block = self._block
-        if block is None:
+    def _connected(self) -> Owner:
+        owner = self._owner
+        if owner is None or self._fault:
             raise RobotError(self._fault or "the UR arm is not connected")
-        try:
-            return block.read()
-        except ValueError:  # closed by another thread's disconnect
-            raise RobotError("the UR arm is disconnected") from None
+        return owner
 
     def _state(self) -> State:
         """The worker's state, if it lives and all is well; latches what is not."""
-        if self._fault:
-            raise RobotError(self._fault)
+        owner = self._connected()
         # Asked first: what an ended worker left is complete; a pause of ours is none of its.
-        ended, now_s = self._has_ended(), self._clock()
-        state = self._read()
+        ended, now_s = owner.has_ended, self._clock()
+        state = owner.read()
         if state.phase != Phase.READY:
-            self._wait_for_end()  # it brakes the arm now, and will say how
-            self._latch(self._read().text)
+            owner.wait(HUNG_S)  # it brakes the arm now, and will say how
+            self._latch(owner.read().text)
         if ended:
-            self._latch(self._last_said(state))
+            self._latch(owner.last_said(state))
         silent_s = now_s - state.beat_s
         if silent_s > HUNG_S:
             self._latch(f"supervision of the UR arm has hung for {1e3 * silent_s:.0f} ms")
         return state
+
+    def _check_place(self) -> None:
+        """The TCP must start inside the workspace, or every move back in would begin outside."""
+        state = self._connected().read()
+        here = OrderRecord(order=Order.MOVE, number=0, sent_s=0.0, pose=state.pose,
+                           speed_m_s=self.settings.max_speed_m_s,
+                           acceleration_m_s2=self.settings.max_acceleration_m_s2)  # fmt: skip
+        if why := refusal(here, state.pose, self.settings):
+            raise LimitError(f"the arm starts where it may not be: {why}. Jog it at the pendant")
 
     def _latch(self, why: str) -> None:
         """Latch a fault, stop the arm by whatever way is left, and raise it."""
@@ -379,10 +295,9 @@ class UrArm:
         with self._lock:
             if not self._unsafe:
                 return
-            self._wait_for_end()
-            if self._worker is not None and self._worker.poll() is None:
-                self._worker.kill()
-                self._wait_for_end()
+            if self._owner is not None:
+                self._owner.wait(HUNG_S)  # it brakes the arm itself
+                self._owner.kill()
             how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
             self._unsafe = how != CONFIRMED
             log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")

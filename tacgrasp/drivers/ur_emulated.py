@@ -9,7 +9,10 @@ TOOL_M = (0.0, 0.0, 0.15)
 
 
 def emulated_arm(host: str) -> UrSettings:
-    """Settings for an emulator at a loopback address."""
+    """Settings for an emulator at a loopback address.
+
+    A move ends when the emulated world has followed, which takes its own time on a busy machine.
+    """
     return UrSettings(
         host=host,
         payload_kg=0.9,
@@ -17,4 +20,5 @@ def emulated_arm(host: str) -> UrSettings:
         tcp_offset_m=TOOL_M,
         workspace_low_m=(0.35, -0.20, 0.12),
         workspace_high_m=(0.55, 0.00, 0.40),
+        move_margin_s=20.0,
     )

@@ -37,6 +37,7 @@ class UrSettings(Section):
         stale_ms: Data older than this is a fault [ms].
         min_speed_fraction: Least position of the speed slider, 0 to 1.
         reach_tolerance_mm: A move that ends farther from its target is a fault [mm].
+        move_margin_s: A move may take this much longer than its trapezoid before it is a fault [s].
         start_timeout_s: Longest start of the worker [s].
     """
 
@@ -58,6 +59,7 @@ class UrSettings(Section):
     stale_ms: Number = Field(default=60.0, ge=20, le=500)
     min_speed_fraction: Number = Field(default=0.05, gt=0, le=1)
     reach_tolerance_mm: Number = Field(default=0.5, gt=0, le=5)
+    move_margin_s: Number = Field(default=1.0, ge=0.2, le=60)
     start_timeout_s: Number = Field(default=8.0, ge=1, le=60)
 
     @model_validator(mode="after")

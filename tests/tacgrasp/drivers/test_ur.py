@@ -57,7 +57,7 @@ def emulator():
 def settings(emulator):
     # twice the watchdog's and supervision's patience: these tests share a busy machine
     yield emulated_arm(str(emulator.ready["host"])).model_copy(
-        update={"watchdog_hz": 10.0, "stale_ms": 100.0}
+        update={"watchdog_hz": 10.0, "stale_ms": 100.0, "move_margin_s": 1.0}
     )
     emulator.control.clear("ur")
 
@@ -66,7 +66,7 @@ def settings(emulator):
 def kept(emulator):
     arm = UrArm(
         emulated_arm(str(emulator.ready["host"])).model_copy(
-            update={"watchdog_hz": 10.0, "stale_ms": 100.0}
+            update={"watchdog_hz": 10.0, "stale_ms": 100.0, "move_margin_s": 1.0}
         )
     )
     yield arm
@@ -211,6 +211,15 @@ def test_a_controller_that_falls_silent_later_neither_hangs_nor_freezes_the_inte
     assert max(gaps) < 1.0
 
 
+def test_a_start_that_fails_leaves_no_program_on_the_controller(kept, emulator, settings):
+    kept.disconnect()
+    heavy = settings.model_copy(update={"tcp_offset_m": (math.nan, 0.0, 0.0)})
+    with pytest.raises(RobotError, match="can't be used"):
+        connect_arm(heavy)
+    assert not emulator.control.facts("ur")["program_running"]
+    eventually(lambda: preflight(settings))
+
+
 def test_a_second_client_is_refused_while_the_first_goes_on(arm, settings):
     with pytest.raises(RobotError, match="program"):
         connect_arm(settings)
@@ -343,7 +352,7 @@ def test_with_the_rtde_link_dead_the_stop_goes_by_the_dashboard(arm, emulator):
 
 
 def test_a_killed_worker_leaves_an_arm_that_stops_and_an_owner_that_knows(arm, emulator):
-    worker = arm._worker.pid
+    worker = arm._owner.pid
 
     def kill():
         emulator.control.inject("ur", "contact_force", force_n=0.0)  # starts the measurement
@@ -355,7 +364,7 @@ def test_a_killed_worker_leaves_an_arm_that_stops_and_an_owner_that_knows(arm, e
 
 
 def test_a_worker_that_hangs_is_noticed_and_the_arm_stops(arm, emulator):
-    worker = arm._worker.pid
+    worker = arm._owner.pid
 
     def hang():
         emulator.control.inject("ur", "contact_force", force_n=0.0)
@@ -374,7 +383,7 @@ from primitives.devices import Pose
 from tacgrasp.drivers.ur import connect_arm
 from tacgrasp.drivers.ur_settings import UrSettings
 arm = connect_arm(UrSettings.model_validate_json(sys.argv[1]))
-print(arm._worker.pid, flush=True)
+print(arm._owner.pid, flush=True)
 pose = arm.pose()
 x, y, z = pose.position_m
 far = np.array([x, y, 0.13 if z > 0.26 else 0.39])
