@@ -80,16 +80,21 @@ class Towers(nn.Module):
 
 
 def text_features(clip: CLIPModel, words: Words, texts: Sequence[str]) -> Tensor:
-    """E_L: features of texts, shape (B, F), normalised."""
+    """E_L: features of texts, shape (B, F), normalised.
+
+    A text's feature is read where it ends. transformers does so too, but for the number 2 of the
+    last token, which is ours: there it takes the token of the largest number (for the sake of old
+    checkpoints), somewhere inside the text, where causal attention knows nothing of what follows.
+    """
     longest = clip.text_model.embeddings.position_embedding.num_embeddings
     rows = [[words.bos, *words.encode(text)[: longest - 2], words.eos] for text in texts]
     width = max(len(row) for row in rows)
     ids = torch.tensor([row + [words.pad] * (width - len(row)) for row in rows])
     mask = torch.tensor([[1] * len(row) + [0] * (width - len(row)) for row in rows])
-    found = clip.get_text_features(
-        input_ids=ids.to(clip.device), attention_mask=mask.to(clip.device)
-    )
-    return torch.nn.functional.normalize(found.pooler_output, dim=-1)
+    seen = clip.text_model(input_ids=ids.to(clip.device), attention_mask=mask.to(clip.device))
+    ends = mask.sum(dim=1).to(clip.device) - 1
+    last = seen.last_hidden_state[torch.arange(len(rows), device=clip.device), ends]
+    return torch.nn.functional.normalize(clip.text_projection(last), dim=-1)
 
 
 def image_features(clip: CLIPModel, pixels: Tensor) -> Tensor:

@@ -8,8 +8,10 @@ import torch
 from fake_contacts import fake_contact
 
 from cltp.captions import caption
+from cltp.clip import small_clip, text_features
 from cltp.samples import CLASSES
 from cltp.states import ContactState
+from cltp.tokenizer import Words
 from cltp.train.sayings import NOTHING, class_numbers, fits, say
 from cltp.wordings import prompts
 
@@ -60,3 +62,14 @@ def test_without_contact_nothing_but_that_is_said() -> None:
 def test_unknown_kinds_are_refused() -> None:
     with pytest.raises(ValueError, match="caption, mixed"):
         say(STATES, "songs", np.random.default_rng(0))
+
+
+def test_the_feature_of_a_text_knows_all_of_it_and_nothing_of_its_neighbours() -> None:
+    torch.manual_seed(0)
+    texts = ["Contact at top-left.", "Contact at top-right.", "Contact is deep."]
+    words = Words.train(texts * 5, 400)
+    clip = small_clip(words, dim=32, layers=1).eval()
+    alone = torch.cat([text_features(clip, words, [text]) for text in texts])
+    together = text_features(clip, words, [*texts, "a much longer text than all of the others"])
+    torch.testing.assert_close(together[:3], alone, atol=1e-5, rtol=0)
+    assert (alone[0] - alone[1]).abs().max() > 0.01  # the last word alone differs
