@@ -51,8 +51,14 @@ def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
     size = 2 * reach + 1
     # What lies beyond the border is like the border: a contact that is cut does not end there.
     mask = pad((pressure > 0).float()[:, None], (2 * reach,) * 4, mode="replicate")
-    closed = -max_pool2d(-max_pool2d(mask, size, stride=1), size, stride=1)
+    closed = -_largest(-_largest(mask, size), size)
     return np.asarray(closed[:, 0].numpy() > 0.5)
+
+
+def _largest(field: Tensor, size: int) -> Tensor:
+    """Largest value in each square of ``size``; along one axis after the other, it is the same."""
+    along_x = max_pool2d(field, (1, size), stride=1)
+    return max_pool2d(along_x, (size, 1), stride=1)
 
 
 def label(
