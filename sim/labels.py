@@ -17,8 +17,9 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+import torch
 from torch import Tensor
-from torch.nn.functional import max_pool2d, pad
+from torch.nn.functional import pad
 
 from cltp.cloud import grid_axes_mm
 from cltp.sensors import SensorSpec
@@ -56,9 +57,15 @@ def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
 
 
 def _largest(field: Tensor, size: int) -> Tensor:
-    """Largest value in each square of ``size``; along one axis after the other, it is the same."""
-    along_x = max_pool2d(field, (1, size), stride=1)
-    return max_pool2d(along_x, (size, 1), stride=1)
+    """Largest value in each square of ``size``: one axis after the other, by doubling."""
+    for axis in (-1, -2):
+        reached = 1
+        while reached < size:
+            step = min(reached, size - reached)
+            rest = field.shape[axis] - step
+            field = torch.maximum(field.narrow(axis, 0, rest), field.narrow(axis, step, rest))
+            reached += step
+    return field
 
 
 def label(
