@@ -16,8 +16,8 @@ Not here: shape and texture, which only the maker of a contact knows.
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 from torch.nn.functional import pad
 
