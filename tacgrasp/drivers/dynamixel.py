@@ -73,6 +73,17 @@ class DynamixelGripper:
         """
         self._hand.watch.tell(on_fault)
 
+    def hurry_while(self, arm_moves: Callable[[], bool]) -> None:
+        """Take silence for a fault at once only while the arm moves.
+
+        Until this is called it always is: two answers missed, about 60 ms. While the arm stands
+        there is no hurry (``patience_ms``), and a busy computer ends no episode.
+
+        Args:
+            arm_moves: Asked from the I/O thread when an answer is missing; quick.
+        """
+        self._hand.hurry_while(arm_moves)
+
     def state(self) -> GripperState:
         """Opening, read now, and the force last commanded.
 

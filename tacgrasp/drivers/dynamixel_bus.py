@@ -37,6 +37,8 @@ class Bus:
     Attributes:
         counts: Transient faults so far.
         path: Of the port; empty before it was opened.
+        hurried: Says whether a silence must be known at once, because the arm moves; it always
+            must, until this is set.
     """
 
     def __init__(
@@ -49,6 +51,7 @@ class Bus:
         self._port: ClaimedPort | None = None
         self._sdk: Any = None
         self.counts = Counts()
+        self.hurried: Callable[[], bool] = lambda: True
         self.path = ""
 
     def open(self, baud: int | None = None) -> None:
@@ -180,16 +183,27 @@ class Bus:
             self.counts.corrupt += 1
         else:
             self.counts.silent += 1
-        asked = True
-        try:
-            self._transact(servo, _PING, b"", 3)
-        except BusError as second:
-            if second.trouble is not Trouble.CORRUPT:
-                raise
-            asked = False
+        answered = self._lives(servo, failed_s)
         drain_s = self._settings.drain_ms / 1000 if error.waited else _QUIET_S
-        if self._drain(failed_s + drain_s) and asked:
+        if self._drain(self._clock() + drain_s) and answered:
             self.counts.late += 1
+
+    def _lives(self, servo: int, failed_s: float) -> bool:
+        """Ping until something comes; returns whether it was the ping's own answer.
+
+        Raises:
+            BusError: Nothing comes: at once when hurried, else when patience is over.
+        """
+        while True:
+            try:
+                self._transact(servo, _PING, b"", 3)
+                return True
+            except BusError as error:
+                if error.trouble is Trouble.CORRUPT:
+                    return False
+                over = 1000 * (self._clock() - failed_s) > self._settings.patience_ms
+                if error.trouble is not Trouble.SILENT or over or self.hurried():
+                    raise
 
     def _drain(self, until_s: float) -> bool:
         """Throw away what comes until then; returns whether anything came."""

@@ -63,6 +63,10 @@ class Hand:
         """Faults of the bus that were survived."""
         return replace(self._bus.counts)
 
+    def hurry_while(self, moving: Callable[[], bool]) -> None:
+        """Be patient with a servo that is slow to answer, unless ``moving`` says yes."""
+        self._bus.hurried = moving
+
     def width_m(self) -> float:
         """Opening between the fingers, read now [m].
 

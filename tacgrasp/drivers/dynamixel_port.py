@@ -14,7 +14,8 @@ from dynamixel_sdk import PortHandler
 from tacgrasp.drivers.serial_ports import claim
 
 _READ_S = 0.002
-_WRITE_S = 0.1
+_WRITE_S = 1.0
+_OVERTIME = 8
 
 
 class ClaimedPort(PortHandler):
@@ -29,6 +30,7 @@ class ClaimedPort(PortHandler):
         """
         super().__init__(path)
         self._reply_timeout_ms, self._what = 1000 * reply_timeout_s, what
+        self._overtime = 0
         if not self.setBaudRate(baud):
             raise OSError(f"the Dynamixel SDK can't set {baud} baud")
 
@@ -60,4 +62,18 @@ class ClaimedPort(PortHandler):
 
     def setPacketTimeout(self, packet_length: int) -> None:  # noqa: N802
         """Wait for an answer of so many bytes as long as the settings say."""
+        self._overtime = 0
         self.setPacketTimeoutMillis(self.tx_time_per_byte * packet_length + self._reply_timeout_ms)
+
+    def isPacketTimeout(self) -> bool:  # noqa: N802
+        """Whether the wait is over and nothing has come.
+
+        On a busy computer this thread may not have run for longer than the wait, while the answer
+        came in time: what lies there is read first, a few times at most.
+        """
+        if self.getTimeSinceStart() <= self.packet_timeout:
+            return False
+        if self.ser.in_waiting and self._overtime < _OVERTIME:
+            self._overtime += 1
+            return False
+        return True

@@ -63,6 +63,8 @@ class DynamixelSettings(Section):
         bus_watchdog_ms: Silence after which the servo stops taking goals [ms]; 0 turns it off.
         poll_ms: How often the servos are looked at [ms].
         reply_timeout_ms: Longest wait for an answer [ms].
+        patience_ms: Silence of a servo that is put up with while the arm stands [ms]; while it
+            moves, two answers that do not come are a fault.
         drain_ms: How long stray answers are thrown away after one did not come [ms].
         settle_polls: So many times in a row the fingers must be at rest.
         settle_timeout_s: Longest closing or opening [s].
@@ -85,6 +87,7 @@ class DynamixelSettings(Section):
     bus_watchdog_ms: int = Field(default=500, ge=0, le=2540, strict=True)
     poll_ms: Number = Field(default=15.0, ge=2, le=100)
     reply_timeout_ms: Number = Field(default=25.0, ge=5, le=100)
+    patience_ms: Number = Field(default=400.0, ge=0, le=1000)
     drain_ms: Number = Field(default=60.0, ge=60, le=500)
     settle_polls: int = Field(default=4, ge=2, le=50, strict=True)
     settle_timeout_s: Number = Field(default=4.0, ge=0.5, le=30)

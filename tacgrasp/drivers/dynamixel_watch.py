@@ -33,6 +33,7 @@ CALL_S = 2.0
 """Longest wait for the thread to do what it is given; it is busy for some 0.1 s at most."""
 
 _WATCHDOG_POLLS = 10
+_PARTS = 4
 
 _log = logging.getLogger(__name__)
 
@@ -137,14 +138,10 @@ class Watch:
             RobotError: The gripper has a fault, or none came in time.
         """
         with self._changed:
-            self._changed.wait_for(
-                lambda: (
-                    self._closed
-                    or self._fault
-                    or (self._sample is not None and self._sample.number > after)
-                ),
-                timeout_s,
-            )
+            # in parts: after a pause of the whole process the other thread must have its turn first
+            for _ in range(_PARTS):
+                if self._changed.wait_for(lambda: self._news(after), timeout_s / _PARTS):
+                    break
             if self._fault or self._closed:
                 raise RobotError(self._fault or "the gripper is disconnected")
             if self._sample is None or self._sample.number <= after:
@@ -152,6 +149,10 @@ class Watch:
                     f"the gripper was not polled for {timeout_s:g} s; is this computer overloaded?"
                 )
             return self._sample
+
+    def _news(self, after: int) -> bool:
+        newer = self._sample is not None and self._sample.number > after
+        return bool(self._closed or self._fault or newer)
 
     @property
     def num_samples(self) -> int:

@@ -211,6 +211,15 @@ def test_who_asks_late_is_told_of_a_fault_at_once(servos, gripper):
     assert told == [gripper.fault]
 
 
+def test_while_the_arm_stands_there_is_time(servos, gripper):
+    gripper.hurry_while(lambda: False)
+    servos.emulator.inject("silence")
+    threading.Timer(0.15, servos.emulator.clear).start()
+    assert eventually(lambda: gripper.transients.silent == 1)
+    assert gripper.grip(1.0).force_n == 1.0
+    assert gripper.fault == ""
+
+
 def test_a_listener_that_fails_does_not_hide_the_fault(servos, gripper, caplog):
     gripper.tell_faults_to(lambda why: 1 / 0)
     servos.emulator.inject("alert")
@@ -237,7 +246,7 @@ def test_a_fault_ends_a_grip_that_is_under_way(servos, fault):
 )
 def test_a_transient_is_survived_and_counted(servos, gripper, fault, counted):
     gripper.grip(1.0)
-    servos.emulator.inject(fault)
+    servos.emulator.inject(fault, delay_ms=70)
     assert eventually(lambda: getattr(gripper.transients, counted) == 1)
     assert gripper.grip(1.2).force_n == 1.2
     assert gripper.fault == ""
