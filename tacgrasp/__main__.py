@@ -18,10 +18,11 @@ COMMANDS = {
     "eval": "how right the trained weights are on contacts that they have not seen",
     "simulate": "press: one thing into one sensor's gel, to a depth: heights, pressure, force",
     "data": "generate, import, inspect, stats, verify, gallery, sheet: contacts to learn from",
-    "calibrate": "gelsight-mini: from presses of a ball to a sensor's calibration",
+    "calibrate": "gelsight-mini, background, gripper, pad-axes: what a unit's readings mean",
     "emulate": "ur, dynamixel, taxels, rig: emulators that speak the real protocols",
+    "doctor": "look at every device of a rig, and say what to do; moves nothing",
     "jog": "move a rig by keyboard in small limited steps, and see what it feels",
-    "bench": "strawberry, latency, gel, touch, balls, crash: measure and print figures",
+    "bench": "strawberry, latency, gel, balls, crash, faults, ...: measure and print figures",
 }
 
 EXIT_CODES = """\

@@ -13,11 +13,14 @@ from pydantic import Field, model_validator
 
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
 from tacgrasp.drivers.gelsight_settings import GelSightSettings
+from tacgrasp.drivers.recorded_settings import RecordedSettings
 from tacgrasp.drivers.taxel_settings import TaxelSettings
 from tacgrasp.drivers.ur_settings import UrSettings
 from tacgrasp.section import Number, Section, Vector
 
-SensorSettings = Annotated[GelSightSettings | TaxelSettings, Field(discriminator="kind")]
+SensorSettings = Annotated[
+    GelSightSettings | TaxelSettings | RecordedSettings, Field(discriminator="kind")
+]
 """One line for every sensor that there is a driver for."""
 
 
@@ -54,7 +57,7 @@ class HardwareConfig(Section):
     Attributes:
         arm: Of kind ur.
         gripper: Of Dynamixel servos.
-        sensor: Of kind gelsight_mini or taxels.
+        sensor: Of kind gelsight_mini, taxels or recorded.
         start: Where an episode starts.
     """
 

@@ -6,6 +6,7 @@ The same drivers run on emulators (``tacgrasp.emulated_rig``). Not here: the dri
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -19,6 +20,7 @@ from primitives.limits import check_workspace, distance_mm
 from tacgrasp.commands import CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.config import RunConfig
 from tacgrasp.drivers.gelsight_settings import GelSightSettings
+from tacgrasp.drivers.recorded_settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.guard import GuardedArm
 from tacgrasp.hardware_config import HardwareConfig, SensorSettings, StartConfig
@@ -61,7 +63,7 @@ class HardwareRig:
         commands: What arm and gripper were given.
         start_pose: Where the first grasp is made.
         first_force_n: Commanded force of the first grasp [N].
-        transients: Tells the faults of the gripper's bus that were survived, in words.
+        survived: Tells the passing faults that gripper and sensor have survived, in words.
     """
 
     arm: Arm
@@ -71,6 +73,7 @@ class HardwareRig:
     commands: CommandLog
     start_pose: Pose
     first_force_n: float
+    survived: Callable[[], str]
 
     def disconnect(self) -> None:
         """Free every device, the arm first. Idempotent, never raises."""
@@ -91,7 +94,7 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
 
     log = CommandLog(time.monotonic)
     with ExitStack() as stack:
-        sensor = _connect_sensor(hardware.sensor, config)
+        sensor = connect_sensor(hardware.sensor, config)
         stack.callback(sensor.disconnect)
         gripper = connect_gripper(hardware.gripper)
         stack.callback(gripper.disconnect)
@@ -111,16 +114,26 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         commands=log,
         start_pose=start,
         first_force_n=first_force_n,
+        survived=lambda: f"gripper: {gripper.transients}; sensor: {_counts(sensor)}",
     )
 
 
-def _connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor:
+def _counts(sensor: WatchedSensor) -> str:
+    counts = getattr(sensor, "counts", None)  # a recording has none
+    return "nothing counted" if counts is None else str(counts())
+
+
+def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor:
     """The sensor of this kind; points are drawn as on the simulated sensor of the same seed."""
     rng = np.random.default_rng([config.seed, 2])
     if isinstance(settings, GelSightSettings):
         from tacgrasp.drivers.gelsight_mini import connect_gelsight
 
         return connect_gelsight(settings, rng=rng)
+    if isinstance(settings, RecordedSettings):
+        from tacgrasp.drivers.recorded import connect_recorded
+
+        return connect_recorded(settings)
     from tacgrasp.drivers.taxels import connect_taxels
 
     return connect_taxels(settings, rng=rng)

@@ -1,4 +1,4 @@
-"""``tacgrasp calibrate gelsight-mini|background|gripper``: make the calibration of a unit."""
+"""``tacgrasp calibrate gelsight-mini|background|gripper|pad-axes``: what readings mean."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tacgrasp.cli import calibrate_background, calibrate_gripper
+from tacgrasp.cli import calibrate_background, calibrate_gripper, calibrate_pad_axes
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.errors import UsageError
 
@@ -47,6 +47,7 @@ def main(argv: Sequence[str]) -> int:
         "gelsight-mini": _gelsight_mini,
         "background": calibrate_background.main,
         "gripper": calibrate_gripper.main,
+        "pad-axes": calibrate_pad_axes.main,
     }
     name, rest = subcommand(
         "calibrate", argv, {name: device.__doc__ or "" for name, device in devices.items()}

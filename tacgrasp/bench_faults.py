@@ -1,0 +1,393 @@
+"""``tacgrasp bench faults``: inject every fault into the emulated rig and see what comes of it.
+
+Times to rest are measured by the emulator, from the injection until its tool is below 1 mm/s. One
+repeat of every fault in motion happens inside a recorded episode, whose file is then read. Not
+here: the faults (``tacgrasp.fault_cases``), the table (``tacgrasp.fault_table``).
+"""
+
+from __future__ import annotations
+
+import datetime
+import logging
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from cltp.errors import TouchError
+from cltp.sensors import sensor_named
+from primitives.devices import Pose
+from primitives.errors import RobotError
+from sim.emulators.spawn import EmulatorProcess
+from tacgrasp.config import RunConfig
+from tacgrasp.emulated_rig import settings_for
+from tacgrasp.episodes import EpisodeError, read_episode
+from tacgrasp.fault_cases import STALE_BACKGROUND, FaultCase, Phase
+from tacgrasp.hardware_config import HardwareConfig, StartConfig
+from tacgrasp.hardware_rig import HardwareRig, connect
+from tacgrasp.policy_factory import make_policy
+from tacgrasp.run import run_recorded
+
+log = logging.getLogger(__name__)
+
+REFUSED_S = 2.0
+STOPPED_MS = 150.0
+RECOVERED_MS = 100.0
+"""What must hold, by phase."""
+
+HUNG_S = 6.0
+"""A call that has not come back after so long hangs."""
+
+_ATTEMPTS = 6
+_LOW_X_M, _HIGH_X_M = 0.37, 0.53
+_SPEED_M_S, _ACCELERATION_M_S2 = 0.4, 2.5
+_INTO_S = (0.17, 0.30)
+"""When faults are injected, after the beginning of the move [s]: at full speed."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Trial:
+    """What one injected fault came to.
+
+    Attributes:
+        detected: The driver said what it must, in time.
+        told: What the operator was told.
+        noticed_ms: From the injection until the program knew [ms]; of a refusal, how long it took;
+            of a transient fault, until the next good value.
+        stop_ms: From the injection until the arm was at rest [ms], by the emulator; None when it
+            was not moving.
+        moved: The arm or the fingers moved that must not, or did not stop.
+        hung: A call did not come back.
+        invented: A value was given that was not measured.
+        episode: What became of the recorded episode; '' without one.
+    """
+
+    detected: bool
+    told: str
+    noticed_ms: float
+    stop_ms: float | None = None
+    moved: bool = False
+    hung: bool = False
+    invented: bool = False
+    episode: str = ""
+
+
+class FaultBench:
+    """Injects faults into one emulated rig, again and again."""
+
+    def __init__(self, config: RunConfig, hardware: HardwareConfig, emulators: EmulatorProcess):
+        """Take running emulators; calibration and episodes are kept until ``close``."""
+        self._config, self._named, self._emulators = config, hardware, emulators
+        self._folder = tempfile.TemporaryDirectory(prefix="tacgrasp-faults-")
+        here = StartConfig(at="here")
+        found = settings_for(hardware, emulators, Path(self._folder.name))
+        self._hardware = found.model_copy(update={"start": here})
+        self._rng = np.random.default_rng(config.seed)
+
+    def close(self) -> None:
+        """Remove what was recorded."""
+        self._folder.cleanup()
+
+    def trial(self, case: FaultCase, *, in_episode: bool) -> Trial:
+        """Inject one fault; every fault is gone afterwards."""
+        if case.name == STALE_BACKGROUND:
+            return self._stale_background(case)
+        if in_episode:
+            return self._in_episode(case)
+        try:
+            if case.phase is Phase.START:
+                return self._at_start(case)
+            if case.phase is Phase.MOTION:
+                return self._in_motion(case)
+            return self._passing(case)
+        finally:
+            for device in ("ur", "dynamixel", "taxels"):
+                self._emulators.control.clear(device)
+
+    # -- start -----------------------------------------------------------------------------------
+
+    def _at_start(self, case: FaultCase) -> Trial:
+        before = self._where()
+        self._inject(case)
+        began_s = time.monotonic()
+        told, hung = _bounded(lambda: self._connect_one(case.device))
+        took_s, told = time.monotonic() - began_s, self._plain(told)
+        moved = bool(np.abs(np.subtract(self._where(), before)).max() > 1e-6)
+        return Trial(
+            detected=_says(case, told) and took_s < REFUSED_S,
+            told=told,
+            noticed_ms=1e3 * took_s,
+            moved=moved,
+            hung=hung,
+        )
+
+    def _connect_one(self, device: str) -> None:
+        """Connect the one device that has the fault, and let it go again."""
+        if device == "ur":
+            from tacgrasp.drivers.ur import connect_arm
+
+            connect_arm(self._hardware.arm).disconnect()
+        elif device == "dynamixel":
+            from tacgrasp.drivers.dynamixel import connect_gripper
+
+            connect_gripper(self._hardware.gripper).disconnect()
+        else:
+            from tacgrasp.hardware_rig import connect_sensor
+
+            connect_sensor(self._hardware.sensor, self._config).disconnect()
+
+    def _stale_background(self, case: FaultCase) -> Trial:
+        from tacgrasp.drivers.gelsight_background import Background, save_background
+        from tacgrasp.drivers.gelsight_mini import connect_gelsight
+        from tacgrasp.drivers.gelsight_settings import GelSightSettings
+
+        sensor, path = sensor_named("gelsight_mini"), Path(self._folder.name) / "background.png"
+        taken = datetime.datetime.now().astimezone() - datetime.timedelta(days=3)
+        frame = np.full((sensor.rows, sensor.columns, 3), 128, dtype=np.uint8)
+        save_background(path, Background(frame=frame, unit="mine", taken=taken, num_frames=20))
+        settings = GelSightSettings(device="/dev/no-camera", unit="mine", background=path)
+        began_s = time.monotonic()
+        told, hung = _bounded(lambda: connect_gelsight(settings).disconnect())
+        took_s, told = time.monotonic() - began_s, self._plain(told)
+        detected = _says(case, told) and took_s < REFUSED_S
+        return Trial(detected=detected, told=told, noticed_ms=1e3 * took_s, hung=hung)
+
+    # -- motion ----------------------------------------------------------------------------------
+
+    def _in_motion(self, case: FaultCase) -> Trial:
+        with ExitStack() as stack:
+            rig = self._connected(stack)
+            move = _Move(rig, self._across(rig))
+            time.sleep(float(self._rng.uniform(*_INTO_S)))
+            injected_s = self._inject(case)
+            hung = not move.wait(HUNG_S)
+            stop_ms = self._stop_ms()
+            invented = False if hung else self._invents(rig, case)
+        return Trial(
+            detected=_says(case, move.told),
+            told=self._plain(move.told),
+            noticed_ms=1e3 * (move.ended_s - injected_s),
+            stop_ms=stop_ms,
+            moved=stop_ms is None,
+            hung=hung,
+            invented=invented,
+        )
+
+    def _passing(self, case: FaultCase) -> Trial:
+        with ExitStack() as stack:
+            rig = self._connected(stack)
+            target = self._across(rig)
+            move = _Move(rig, target)
+            time.sleep(float(self._rng.uniform(*_INTO_S)))
+            before = rig.survived()
+            injected_s = self._inject(case)
+            invented = self._wrong_value(rig, case.device)
+            good_s = time.monotonic()
+            hung = not move.wait(HUNG_S)
+            after = rig.survived()
+        recovered_ms = 1e3 * (good_s - injected_s)
+        arrived = move.reached is not None and bool(
+            np.allclose(move.reached.position_m, target.position_m, atol=1e-3)
+        )
+        return Trial(
+            detected=after != before and _says(case, after) and recovered_ms < RECOVERED_MS,
+            told=f"nothing, it is counted: {after}" if not move.told else move.told,
+            noticed_ms=recovered_ms,
+            moved=not arrived,
+            hung=hung,
+            invented=invented,
+        )
+
+    def _in_episode(self, case: FaultCase) -> Trial:
+        """The fault happens at the first motion of a recorded episode, in a world of its own."""
+        with EmulatorProcess("rig", "--seed", str(self._config.seed)) as emulators:
+            own = FaultBench(self._config, self._named, emulators)
+            try:
+                return own._episode(case)
+            finally:
+                own.close()
+
+    def _episode(self, case: FaultCase) -> Trial:
+        with ExitStack() as stack:
+            rig = self._connected(stack)
+            record = {"record": Path(self._folder.name), "policy": "rules"}
+            episode = _Episode(rig, self._config.model_copy(update=record))
+            moving = self._wait_for_motion(episode)
+            injected_s = self._inject(case)
+            hung = not episode.wait(60.0)
+            stop_ms = self._stop_ms() if case.phase is Phase.MOTION and moving else None
+            counted = rig.survived()
+        passing = case.phase is Phase.TRANSIENT
+        told = self._plain(counted if passing else episode.message)
+        return Trial(
+            detected=_says(case, told),
+            told=told,
+            noticed_ms=1e3 * (episode.ended_s - injected_s),
+            stop_ms=stop_ms,
+            moved=not moving,
+            hung=hung,
+            episode=episode.intact(want_fault=not passing),
+        )
+
+    def _wait_for_motion(self, episode: _Episode) -> bool:
+        until_s = time.monotonic() + 20.0
+        while time.monotonic() < until_s and not episode.ended:
+            speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
+            if isinstance(speed, float) and speed > 0.01:
+                return True
+        return False
+
+    # -- the rig ---------------------------------------------------------------------------------
+
+    def _connected(self, stack: ExitStack) -> HardwareRig:
+        """A connected rig; a controller that has just been restarted takes its time."""
+        for attempt in range(_ATTEMPTS):
+            try:
+                rig = connect(self._config, self._hardware, 1.0)
+                break
+            except (RobotError, TouchError) as error:
+                if attempt == _ATTEMPTS - 1:
+                    raise
+                log.info("not connected yet: %s", error)
+                time.sleep(1.0)
+        stack.callback(rig.disconnect)
+        return rig
+
+    def _across(self, rig: HardwareRig) -> Pose:
+        """The far side of the workspace."""
+        here = rig.arm.pose()
+        near_low = here.position_m[0] - _LOW_X_M < _HIGH_X_M - here.position_m[0]
+        x_m = _HIGH_X_M if near_low else _LOW_X_M
+        position_m = np.array([x_m, here.position_m[1], here.position_m[2]])
+        return Pose(position_m=position_m, rotvec_rad=here.rotvec_rad)
+
+    def _inject(self, case: FaultCase) -> float:
+        control = self._emulators.control
+        if case.device != "ur":  # the arm's emulator measures from its own injections on
+            control.inject("ur", "contact_force", force_n=0.0)
+        control.inject(case.device, case.fault, **case.details)
+        return time.monotonic()
+
+    def _plain(self, told: str) -> str:
+        """What was told, with names in place of addresses that differ from run to run."""
+        names = {"host": "HOST", "gripper_port": "PORT", "sensor_port": "PORT"}
+        for key, name in names.items():
+            told = told.replace(str(self._emulators.ready[key]), name)
+        return told.replace(f"{self._folder.name}/", "")
+
+    def _stop_ms(self) -> float | None:
+        """Time to rest as the emulator measured it; None when the tool does not come to rest."""
+        until_s = time.monotonic() + 3.0
+        while time.monotonic() < until_s:
+            stopped = self._emulators.control.facts("ur")["stopped_after_ms"]
+            if isinstance(stopped, float):
+                return stopped
+            time.sleep(0.01)
+        return None
+
+    def _where(self) -> tuple[float, ...]:
+        arm, hand = (self._emulators.control.facts(name) for name in ("ur", "dynamixel"))
+        names = ("tcp_x_m", "tcp_y_m", "tcp_z_m")
+        return (*(float(str(arm[name])) for name in names), float(str(hand["width_m"])))
+
+    def _invents(self, rig: HardwareRig, case: FaultCase) -> bool:
+        """Whether the device that failed still gives values, and they are not the true ones."""
+        try:
+            return self._wrong_value(rig, case.device)
+        except (RobotError, TouchError):
+            return False
+
+    def _wrong_value(self, rig: HardwareRig, device: str) -> bool:
+        """Read a device and compare with the truth."""
+        if device == "ur":
+            pose = rig.arm.pose()
+            return bool(np.abs(pose.position_m - self._where()[:3]).max() > 1e-3)
+        if device == "dynamixel":
+            return abs(rig.gripper.state().width_m - self._where()[3]) > 1e-3
+        cloud = rig.sensor.read()
+        return bool(np.ptp(cloud.points_mm[:, 2]) == 0)
+
+
+class _Move:
+    """A move in a thread of its own: what it came to."""
+
+    def __init__(self, rig: HardwareRig, target: Pose) -> None:
+        self.told, self.ended_s = "", float("nan")
+        self.reached: Pose | None = None
+        self._thread = threading.Thread(target=self._run, args=(rig, target), daemon=True)
+        self._thread.start()
+
+    def wait(self, seconds: float) -> bool:
+        self._thread.join(seconds)
+        return not self._thread.is_alive()
+
+    def _run(self, rig: HardwareRig, target: Pose) -> None:
+        try:
+            self.reached = rig.arm.move_to(
+                target, speed_m_s=_SPEED_M_S, acceleration_m_s2=_ACCELERATION_M_S2
+            )
+        except RobotError as error:
+            self.told = str(error)
+        finally:
+            self.ended_s = time.monotonic()
+
+
+class _Episode:
+    """A recorded episode in a thread of its own."""
+
+    def __init__(self, rig: HardwareRig, config: RunConfig) -> None:
+        self.message, self.ended_s = "", float("nan")
+        self._reason, self._path = "", Path()
+        self._thread = threading.Thread(target=self._run, args=(rig, config), daemon=True)
+        self._thread.start()
+
+    @property
+    def ended(self) -> bool:
+        return not self._thread.is_alive()
+
+    def wait(self, seconds: float) -> bool:
+        self._thread.join(seconds)
+        return self.ended
+
+    def intact(self, *, want_fault: bool) -> str:
+        """'intact', or what is wrong with the file."""
+        try:
+            episode = read_episode(self._path)
+        except EpisodeError as error:
+            return str(error)
+        if not episode.complete or episode.end is None:
+            return episode.problem or "it has no end"
+        if episode.end.reason != self._reason or (want_fault and self._reason != "fault"):
+            return f"its end is {episode.end.reason}"
+        return "intact"
+
+    def _run(self, rig: HardwareRig, config: RunConfig) -> None:
+        with suppress(RobotError, EpisodeError):
+            outcome, self._path = run_recorded(rig, make_policy("rules", config), config)
+            self.message, self._reason = outcome.message, outcome.reason.value
+        self.ended_s = time.monotonic()
+
+
+def _bounded(connect_one: Callable[[], None]) -> tuple[str, bool]:
+    """What connecting says, and whether it hangs."""
+    said: list[str] = []
+
+    def run() -> None:
+        try:
+            connect_one()
+        except (RobotError, TouchError) as error:
+            said.append(str(error))
+
+    thread = threading.Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(HUNG_S + 4)
+    return (said[0] if said else ""), thread.is_alive()
+
+
+def _says(case: FaultCase, told: str) -> bool:
+    return any(word.lower() in told.lower() for word in case.told)
