@@ -9,6 +9,7 @@ from typing import Annotated
 
 import tyro
 
+from tacgrasp.cli import bench_rigs
 from tacgrasp.cli.flags import parse, subcommand, writable
 from tacgrasp.errors import UsageError
 
@@ -142,6 +143,9 @@ def main(argv: Sequence[str]) -> int:
         "balls": _balls,
         "ball-captions": _ball_captions,
         "crash": _crash,
+        "faults": bench_rigs.faults,
+        "drivers": bench_rigs.drivers,
+        "rigs": bench_rigs.rigs,
     }
     name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
     if name is not None:
