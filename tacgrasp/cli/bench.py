@@ -64,6 +64,25 @@ class Gel:
 
 
 @dataclass(frozen=True)
+class Tcl3d:
+    """Time contacts of the data set at a sensor's own resolution, from object to caption.
+
+    Attributes:
+        series: How many series of four contacts.
+        workers: Processes of one thread each.
+        device: Where rays are cast and contacts are solved: cpu, cuda.
+        tacto: A Python in which TACTO is installed, to time its renderer in the same run.
+        json: File for the figures.
+    """
+
+    series: int = 60
+    workers: int = 2
+    device: str = "cpu"
+    tacto: Path | None = None
+    json: Path | None = None
+
+
+@dataclass(frozen=True)
 class Touch:
     """Compare the direct measurement of contacts with the truth of simulated grasps.
 
@@ -139,6 +158,7 @@ def main(argv: Sequence[str]) -> int:
         "strawberry": _strawberry,
         "latency": _latency,
         "gel": _gel,
+        "tcl3d": _tcl3d,
         "touch": _touch,
         "balls": _balls,
         "ball-captions": _ball_captions,
@@ -191,6 +211,22 @@ def _gel(argv: Sequence[str]) -> None:
     from tacgrasp import bench_gel
 
     bench_gel.run(writable(flags.json))
+
+
+def _tcl3d(argv: Sequence[str]) -> bool:
+    """Time contacts of the data set at a sensor's own resolution."""
+    flags = parse(Tcl3d, argv, prog="tacgrasp bench tcl3d")
+    if flags.workers < 1 or flags.series < 2 * flags.workers:
+        raise UsageError("--workers must be at least 1 and --series at least twice as many")
+    from tacgrasp import bench_tcl3d
+
+    return bench_tcl3d.run(
+        series=flags.series,
+        workers=flags.workers,
+        device=flags.device,
+        tacto=flags.tacto,
+        json_path=writable(flags.json),
+    )
 
 
 def _touch(argv: Sequence[str]) -> None:
