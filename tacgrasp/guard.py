@@ -31,6 +31,10 @@ class GuardedArm:
         self._thread = threading.Thread(target=self._watch, name="guard", daemon=True)
         self._thread.start()
 
+    def moves(self) -> bool:
+        """Whether a move is under way; costs nothing."""
+        return self._moving.is_set()
+
     def pose(self) -> Pose:
         """As the arm says."""
         return self._arm.pose()

@@ -98,17 +98,19 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(sensor.disconnect)
         gripper = connect_gripper(hardware.gripper)
         stack.callback(gripper.disconnect)
+        gripper.hurry_while(lambda: False)  # no arm moves yet: a busy computer is no fault
         _check_forces(config, gripper.max_force_n)
         arm = connect_arm(hardware.arm)
         stack.callback(arm.disconnect)
         guarded = GuardedArm(arm, [lambda: _look_at(gripper), sensor.check_alive])
         stack.callback(guarded.disconnect)
-        logged = LoggedArm(guarded, log, lambda: str(getattr(arm, "sent", "")))
+        gripper.hurry_while(guarded.moves)
+        logged = LoggedArm(guarded, log, lambda: arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
     return HardwareRig(
         arm=logged,
-        gripper=LoggedGripper(gripper, log, lambda: str(getattr(gripper, "sent", ""))),
+        gripper=LoggedGripper(gripper, log, lambda: gripper.sent),
         sensor=sensor,
         clock=RealClock(),
         commands=log,

@@ -37,8 +37,8 @@ class Bus:
     Attributes:
         counts: Transient faults so far.
         path: Of the port; empty before it was opened.
-        hurried: Says whether a silence must be known at once, because the arm moves; it always
-            must, until this is set.
+        hurried: Says whether a silence must be known at once, because the arm moves; never, until
+            this is set.
     """
 
     def __init__(
@@ -51,7 +51,7 @@ class Bus:
         self._port: ClaimedPort | None = None
         self._sdk: Any = None
         self.counts = Counts()
-        self.hurried: Callable[[], bool] = lambda: True
+        self.hurried: Callable[[], bool] = lambda: False
         self.path = ""
 
     def open(self, baud: int | None = None) -> None:

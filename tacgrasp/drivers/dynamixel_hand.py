@@ -286,6 +286,7 @@ def connect_hand(
     except BaseException:
         bus.close()
         raise
+    bus.hurried = lambda: True  # from here on the arm may move, as far as this driver knows
     return Hand(bus, Watch(bus, settings, on_fault, clock), settings, clock)
 
 

@@ -71,6 +71,7 @@ def test_two_corrupt_answers_are_an_error_and_no_value(bus, servos):
 
 
 def test_silence_is_known_after_two_timeouts_and_says_what_to_check(bus, servos):
+    bus.hurried = lambda: True
     servos.emulator.inject("silence")
     began = time.monotonic()
     with pytest.raises(BusError, match="does not answer within 25 ms: check power") as error:
@@ -80,7 +81,6 @@ def test_silence_is_known_after_two_timeouts_and_says_what_to_check(bus, servos)
 
 
 def test_while_the_arm_stands_a_pause_is_waited_out(bus, servos):
-    bus.hurried = lambda: False
     servos.emulator.inject("silence")
     threading.Timer(0.15, servos.emulator.clear).start()
     assert bus.read(1, at.MODEL, 2).data == MODEL
@@ -88,7 +88,6 @@ def test_while_the_arm_stands_a_pause_is_waited_out(bus, servos):
 
 
 def test_after_a_pause_the_answers_to_all_that_was_asked_meanwhile_are_thrown_away(bus, servos):
-    bus.hurried = lambda: False
     with servos.emulator._lock:  # the emulated servos stand still, the questions queue up
         thread = threading.Timer(0.0, lambda: models.append(bus.read(1, at.MODEL, 2).data))
         models: list[bytes] = []
@@ -111,7 +110,6 @@ def test_a_silence_is_a_fault_as_soon_as_the_arm_moves(bus, servos):
 
 
 def test_patience_ends(bus, servos):
-    bus.hurried = lambda: False
     servos.emulator.inject("silence")
     began = time.monotonic()
     with pytest.raises(BusError, match="does not answer"):
