@@ -21,7 +21,7 @@ from cltp.sensors import sensor_named
 
 PICTURE_PX = 300
 _COLUMNS, _GAP, _LINE_PX, _LETTERS = 2, 14, 17, 78
-_TEXT_LINES = 5
+_TEXT_LINES = 6
 _INK, _PAPER, _DIM = (232, 232, 228), (24, 26, 30), (150, 152, 156)
 
 
@@ -49,7 +49,7 @@ def contact_card(data: ContactDataset, index: int) -> Image.Image:
     lines = [*textwrap.wrap(texts.caption, _LETTERS), *textwrap.wrap(texts.numbers, _LETTERS)]
     lines += textwrap.wrap(texts.paraphrase, _LETTERS)
     draw.text((2, high + 4), head, font=_font(13), fill=_DIM)
-    for row, line in enumerate(lines[: _TEXT_LINES + 1]):
+    for row, line in enumerate(lines[:_TEXT_LINES]):
         draw.text((2, high + 4 + (row + 1) * _LINE_PX), line, font=_font(13), fill=_INK)
     return card
 

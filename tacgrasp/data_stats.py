@@ -52,6 +52,11 @@ class DataStats:
     about: Mapping[str, str]
     checksum: str
 
+    @property
+    def missing(self) -> int:
+        """Contacts that the data set was made to hold and does not."""
+        return int(self.about.get("contacts", self.contacts)) - self.contacts
+
     def smallest_class(self) -> tuple[str, str, float]:
         """Dimension, class and share of the class with the fewest contacts."""
         named = [
@@ -69,7 +74,7 @@ def stats(folder: Path) -> DataStats:
     Raises:
         TouchError: It is no data set of this version, or damaged.
     """
-    data = ContactDataset(folder)
+    data = ContactDataset(folder, partial=True)
     return DataStats(
         contacts=len(data),
         series=len(np.unique(data.column("series"))),
@@ -101,6 +106,8 @@ def as_json(found: DataStats) -> dict[str, Any]:
 def show(found: DataStats, to: Console) -> None:
     """Print tables with bars."""
     to.print(f"{found.contacts:,} contacts in {found.series:,} series")
+    if found.missing:
+        to.print(f"INCOMPLETE: {found.missing:,} contacts are missing; run the same generate again")
     for slot, counts in found.classes.items():
         to.print(_bars(slot, counts, found.contacts))
     for name, counts in (("split", found.splits), ("sensor", found.sensors)):

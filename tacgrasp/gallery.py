@@ -43,7 +43,7 @@ def write_gallery(folder: Path, indices: Sequence[int] | NDArray, path: Path, *,
         TouchError: The data set, or one of the contacts, is damaged.
         OSError: The file can't be written.
     """
-    data = ContactDataset(folder)
+    data = ContactDataset(folder, partial=True)
     found = stats(folder)
     cards = "\n".join(_card(data, int(index)) for index in indices)
     shown = [data.state(int(index)) for index in indices]
@@ -106,6 +106,8 @@ def _facts(found: DataStats, shown: int, seed: int) -> str:
         f"{found.series:,} presses of {len(found.objects)} objects",
         f"cut by the edge {found.cut / found.contacts:.1%}",
     ]
+    if found.missing:
+        parts.insert(0, f"INCOMPLETE, {found.missing:,} contacts are missing")
     if found.ambiguous is not None:
         parts.append(f"ambiguous {found.ambiguous['any'] / found.contacts:.1%}")
     said = [f"{name} {value}" for name, value in found.about.items() if name != "made_by"]

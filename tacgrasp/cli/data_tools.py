@@ -41,7 +41,7 @@ def inspect(argv: Sequence[str]) -> int:
 
     if flags.out is not None and flags.out.suffix.lower() != ".png":
         raise UsageError(f"--out expects a file ending in .png, got {flags.out}")
-    data = ContactDataset(flags.folder)
+    data = ContactDataset(flags.folder, partial=True)
     if not 0 <= flags.contact < len(data):
         raise UsageError(
             f"--contact expects 0 to {len(data) - 1} for {flags.folder}, got {flags.contact}"
@@ -104,11 +104,13 @@ def verify(argv: Sequence[str]) -> int:
 
     to, wrong = console(), 0
     if not (flags.folder / "dataset.json").is_file():
-        ContactDataset(flags.folder)  # says that it is none
+        ContactDataset(flags.folder, partial=True)  # says that it is none
     checked = 0
     try:
         with bar() as progress:
-            task = progress.add_task("contacts", total=len(ContactDataset(flags.folder)))
+            task = progress.add_task(
+                "contacts", total=len(ContactDataset(flags.folder, partial=True))
+            )
             for checked, problem in problems(flags.folder):
                 progress.update(task, completed=checked)
                 if problem is not None:
@@ -151,7 +153,7 @@ def gallery(argv: Sequence[str]) -> int:
     from tacgrasp.view import console
 
     _check_draw(flags.contacts, flags.seed)
-    data = ContactDataset(flags.folder)
+    data = ContactDataset(flags.folder, partial=True)
     indices = drawn(len(data), flags.contacts, flags.seed)
     _saved(lambda path: write_gallery(flags.folder, indices, path, seed=flags.seed), flags.out)
     size = flags.out.stat().st_size / 1e6
@@ -184,7 +186,7 @@ def sheet(argv: Sequence[str]) -> int:
     from tacgrasp.view import console
 
     _check_draw(flags.contacts, flags.seed)
-    data = ContactDataset(flags.folder)
+    data = ContactDataset(flags.folder, partial=True)
     indices = [int(index) for index in drawn(len(data), flags.contacts, flags.seed)]
     try:
         written = write_pages(data, indices, flags.out)

@@ -219,3 +219,13 @@ def test_a_place_that_can_t_be_written_is_named(untouched, tmp_path, capsys):
     missing = tmp_path / "none" / "gallery.html"
     assert main(["data", "gallery", str(untouched), "--out", str(missing), "--contacts", "1"]) == 2
     assert str(missing) in capsys.readouterr().err
+
+
+def test_a_set_in_the_making_is_shown_and_called_incomplete(tmp_path, capsys):
+    folder = written(tmp_path, *map(cap_contact, range(4, 12)))
+    (folder / "shard-0-00001.parquet").unlink()
+    page = tmp_path / "gallery.html"
+    assert main(["data", "stats", str(folder)]) == 0
+    assert "INCOMPLETE: 4 contacts are missing" in capsys.readouterr().out
+    assert main(["data", "gallery", str(folder), "--out", str(page)]) == 0
+    assert "INCOMPLETE, 4 contacts are missing" in page.read_text(encoding="utf-8")
