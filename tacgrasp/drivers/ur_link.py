@@ -116,7 +116,7 @@ class UrLink:
             ) from None
 
     def set_up(self, step: Callable[[str], None]) -> None:
-        """Payload, TCP, zeroed force sensor, stop mode, watchdog: all at rest, all read back.
+        """Payload, TCP, zeroed force sensor, stop mode: all at rest, all read back.
 
         Raises:
             RobotError: Something was not taken as set, or the arm is not at rest.
@@ -138,10 +138,17 @@ class UrLink:
         step("zeroing the force sensor")
         _taken(control.zeroFtSensor(), "zero of the force sensor")
         self._until(lambda s: s.force_n < ZEROED_N, "the force sensor does not come to zero")
-        step("setting up stop and watchdog")
+        step("setting up stops")
         # Until the first asynchronous stop, stopL brakes in joint space; make it the straight one.
         self.stop()
-        _taken(control.setWatchdog(settings.watchdog_hz), "watchdog")
+
+    def arm_watchdog(self) -> None:
+        """From now on the program ends unless it is kicked: rounds must begin at once.
+
+        Raises:
+            RobotError: The controller did not take it.
+        """
+        _taken(self._control.setWatchdog(self._settings.watchdog_hz), "watchdog")
 
     @property
     def connected(self) -> bool:

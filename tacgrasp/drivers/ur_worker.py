@@ -14,7 +14,9 @@ import math
 import os
 import signal
 import sys
+import threading
 import time
+from pathlib import Path
 from typing import NoReturn
 
 from primitives.errors import RobotError
@@ -28,15 +30,14 @@ LIBRARY_END_S = 0.2
 DASHBOARD_S = 0.1
 """Longest wait for the dashboard, which is asked when a stop can't wait [s]."""
 
-PRIORITY = 10
-"""Real-time priority (SCHED_FIFO), asked for: any is above all ordinary work."""
+ROUNDS, LIBRARY = 10, 12
+"""Real-time priorities (SCHED_FIFO) of supervision and of the library's threads."""
 
 
 def main(argv: list[str]) -> NoReturn:
     """Connect, supervise, end. Never returns: the library's destructors would reconnect."""
     block = Block(int(argv[0]))
     settings = UrSettings.model_validate_json(argv[1])
-    _ask_for_real_time()
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the owner's: it stops the arm
     # A library that hangs holds the interpreter: only the kernel can end this process then.
     signal.alarm(math.ceil(settings.start_timeout_s) + 1)
@@ -48,16 +49,18 @@ def main(argv: list[str]) -> NoReturn:
 
     try:
         link = UrLink(settings, step)
+        _ask_for_real_time()
         link.set_up(step)
         dashboard = Dashboard(settings.host, DASHBOARD_S)
         supervisor = Supervisor(settings, link, block, sys.stdin.fileno())
         supervisor.state.phase = Phase.READY
-        signal.signal(signal.SIGTERM, _gone)
+        gc.collect()
+        gc.disable()  # a collection would be a hole in the supervision
+        link.arm_watchdog()
     except Exception as error:
         _last_words(block, starting, f"{error}" or repr(error))
     signal.alarm(0)
-    gc.collect()
-    gc.disable()  # a collection would be a hole in the supervision
+    signal.signal(signal.SIGTERM, _gone)
     try:
         supervisor.run()
     except NoOwnerError as gone:
@@ -82,9 +85,16 @@ def _stop_from_outside(settings: UrSettings, dashboard: Dashboard) -> str:
 
 
 def _ask_for_real_time() -> None:
-    """Run before ordinary work where the system allows it; else a busy machine shows as jitter."""
+    """Run before ordinary work where the system allows it; else a busy machine shows as jitter.
+
+    The library's threads come first: its calls spin while they wait for an answer, and with equal
+    priorities they kept the thread that receives it off the processor, measured up to a second.
+    """
     with contextlib.suppress(OSError, AttributeError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
+        for task in Path("/proc/self/task").iterdir():
+            rounds = int(task.name) == threading.get_native_id()
+            priority = os.sched_param(ROUNDS if rounds else LIBRARY)
+            os.sched_setscheduler(int(task.name), os.SCHED_FIFO, priority)
 
 
 def _gone(signum: int, frame: object) -> NoReturn:

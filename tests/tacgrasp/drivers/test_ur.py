@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -258,6 +259,17 @@ def test_supervision_and_latency_are_counted(arm):
     assert 0 < timing.command_to_motion.p50_ms < 500
 
 
+def test_the_librarys_threads_come_before_the_thread_that_spins_for_their_answers(arm):
+    """With equal real-time priorities a command hung for a second while nothing could receive."""
+    worker = arm._owner.pid
+    if os.sched_getscheduler(worker) != os.SCHED_FIFO:
+        pytest.skip("this system grants no real-time priority")
+    tasks = [int(task.name) for task in Path(f"/proc/{worker}/task").iterdir()]
+    others = [os.sched_getparam(task).sched_priority for task in tasks if task != worker]
+    assert others
+    assert min(others) > os.sched_getparam(worker).sched_priority
+
+
 @pytest.mark.parametrize(
     ("position_m", "speed", "words"),
     [
@@ -420,8 +432,7 @@ def test_when_the_owner_vanishes_the_worker_stops_the_arm_and_ends(kept, emulato
 def gone(pid):
     """Ended, be it not yet buried by whoever adopted it."""
     try:
-        with open(f"/proc/{pid}/stat") as file:  # noqa: PTH123 - not a file of ours
-            return file.read().rsplit(")", 1)[1].split()[0] == "Z"
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
     except (FileNotFoundError, ProcessLookupError):
         return True
 
