@@ -1,4 +1,4 @@
-"""``tacgrasp simulate press``: one rigid thing pressed into one sensor's gel.
+"""``tacgrasp simulate press``: one thing pressed into one sensor's gel.
 
 Not here: the gel (``sim``), data sets of contacts (``tacgrasp.generate``).
 """
@@ -14,7 +14,6 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 from rich.console import Console
-from torch import Tensor
 
 from cltp.captions import caption, numeric_caption
 from cltp.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
@@ -24,16 +23,22 @@ from cltp.noise import NoiseUnit, spread_of
 from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import ContactState, Shape, Texture
 from cltp.train.photometric import one_thread
+from sim.bodies import FAR_MM
+from sim.casting import feel
+from sim.catalogue import thing_named
 from sim.fine import FineLayer
 from sim.gel import Press, gel_of
 from sim.labels import in_contact, label
+from sim.poses import draw_pose
 from sim.probes import Probe
+from sim.touched import Touch, name_shape
 from tacgrasp.errors import UsageError
 
 NOISES = ("none", "unit", "uncalibrated")
 """No noise; a drawn unit; a drawn unit whose gradients nobody calibrated."""
 
 _LEAST_GRID, _MOST_GRID = 24, 1280
+_POSES = 40
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,14 +71,14 @@ class Request:
     """What to press.
 
     Attributes:
-        object: Its name.
+        object: A probe such as ball:9.5, or the name of an object of the catalogue.
         depth_mm: Its tip below the undeformed surface [mm].
         sensor: Name of the sensor.
         x_mm, y_mm: Where its tip is [mm, gel frame].
         turn_deg: Its rotation in the plane [°].
         grid: Columns and rows; None is the sensor's own.
         noise: One of ``NOISES``.
-        seed: Draws the noise.
+        seed: Draws the noise, and the pose of an object.
         device: Where torch computes.
     """
 
@@ -98,29 +103,44 @@ def press(request: Request) -> Pressed:
             or a thing that misses the gel.
     """
     sensor = _sensor(request)
-    gap, shape = _gap(request, sensor)
+    laid = _laid(request, sensor)
     columns, rows = request.grid or (sensor.columns, sensor.rows)
     layer = FineLayer(
         gel_of(sensor.name),
         rows=rows,
         columns=columns,
         pitch_mm=sensor.width_mm / columns,
+        body_modulus_mpa=laid.modulus_mpa,
         device=_device(request.device),
     )
     with torch.inference_mode():
-        solved = layer.press_to_depth(gap, request.depth_mm)
+        solved = layer.press_to_depth(torch.from_numpy(laid.gap_mm)[None], request.depth_mm)
     if not bool(solved.converged.all()):
         raise TouchError(f"the press of {request.object} did not converge; try another --grid")
-    return _read(solved, request, sensor, shape)
+    return _read(solved, request, sensor, laid)
 
 
-def _read(solved: Press, request: Request, sensor: SensorSpec, shape: Shape) -> Pressed:
+def _read(solved: Press, request: Request, sensor: SensorSpec, laid: _Laid) -> Pressed:
     pressure, force_n = solved.pressure_kpa.cpu(), float(solved.force_n)
     height_mm = solved.height_mm[0].cpu().numpy()
+    pitch_mm = sensor.width_mm / pressure.shape[2]
+    closed = in_contact(pressure, pitch_mm)[0]
+    shape = laid.shape
+    if shape is None:
+        touch = Touch(
+            gap_mm=laid.gap_mm,
+            cells=laid.cells,
+            table=thing_named(request.object).cells,
+            touching=pressure[0].numpy() > 0,
+            closed=closed,
+            depth_mm=float(height_mm.max()),
+            pitch_mm=pitch_mm,
+        )
+        shape = name_shape(touch).shape
     state = label(
         height_mm=height_mm,
         pressure_kpa=pressure[0].numpy(),
-        touching=in_contact(pressure, sensor.width_mm / pressure.shape[2])[0],
+        touching=closed,
         force_n=force_n,
         sensor=sensor,
         shape=shape,
@@ -178,28 +198,72 @@ def _device(name: str) -> torch.device:
     return device
 
 
-def _gap(request: Request, sensor: SensorSpec) -> tuple[Tensor, Shape]:
-    """Gap (1, H, W) below the thing's tip [mm], and what its contact is called."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Laid:
+    """What lies over the pad: a probe, whose shape is known, or an object of the catalogue.
+
+    Attributes:
+        gap_mm: Shape (H, W), behind its tip; inf where nothing is [mm].
+        shape: Of a probe; None is named from where it touches.
+        cells: Shape (H, W), which part of an object's surface is there; -1 where none is.
+        modulus_mpa: Of a soft object [MPa]; None if it is rigid.
+    """
+
+    gap_mm: NDArray[np.float64]
+    shape: Shape | None
+    cells: NDArray[np.int64]
+    modulus_mpa: float | None
+
+
+def _laid(request: Request, sensor: SensorSpec) -> _Laid:
     columns, rows = request.grid or (sensor.columns, sensor.rows)
     x, y = np.meshgrid(*grid_axes_mm(sensor, rows, columns))
     x, y, turn = x - request.x_mm, y - request.y_mm, np.radians(request.turn_deg)
+    u, v = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
+    if ":" not in request.object:
+        return _object(request, sensor, u, v)
     try:
         probe = Probe.named(request.object)
     except ValueError as error:
         raise UsageError(f"--object: {error}") from None
-    behind = probe.behind_mm(
-        x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
-    )
-    if not behind.min() < request.depth_mm:
+    behind = probe.behind_mm(u, v)
+    nearest = float(behind.min())
+    if not nearest < request.depth_mm:
         why = "no part of it is over the field"
-        if np.isfinite(behind.min()):
-            why = f"what is over the field lies {behind.min():.2f} mm behind the tip"
-        raise UsageError(
-            f"{request.object} at x {request.x_mm:g}, y {request.y_mm:g} mm misses the gel: {why} "
-            f"({sensor.name} sees ±{sensor.width_mm / 2:.1f}, ±{sensor.height_mm / 2:.1f} mm); "
-            "move it with --x-mm and --y-mm or press deeper"
-        )
-    return torch.from_numpy(behind)[None], probe.shape
+        if np.isfinite(nearest):
+            why = f"what is over the field lies {nearest:.2f} mm behind the tip"
+        raise _missed(request, sensor, why)
+    cells = np.where(np.isfinite(behind), 0, -1)
+    return _Laid(gap_mm=behind, shape=probe.shape, cells=cells, modulus_mpa=None)
+
+
+def _missed(request: Request, sensor: SensorSpec, why: str) -> UsageError:
+    return UsageError(
+        f"{request.object} at x {request.x_mm:g}, y {request.y_mm:g} mm misses the gel: {why} "
+        f"({sensor.name} sees ±{sensor.width_mm / 2:.1f}, ±{sensor.height_mm / 2:.1f} mm); "
+        "move it with --x-mm and --y-mm or press deeper"
+    )
+
+
+def _object(
+    request: Request, sensor: SensorSpec, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> _Laid:
+    """An object of the catalogue, its bare surface, in a pose that the seed draws."""
+    try:
+        thing = thing_named(request.object)
+    except ValueError as error:
+        raise UsageError(f"--object: {error}; or a probe such as ball:9.5") from None
+    rng = np.random.default_rng(request.seed)
+    for _ in range(_POSES):
+        pose = draw_pose(thing, rng, sensor, request.depth_mm)
+        felt = feel(thing, pose.object_from_pad, pose.point, x, y)
+        if felt is not None:
+            there = felt.gap_mm < FAR_MM
+            cells = np.full(there.shape, -1, dtype=np.int64)
+            cells[there] = thing.cell(torch.from_numpy(felt.points[there])).numpy()
+            gap = np.where(there, felt.gap_mm, np.inf)
+            return _Laid(gap_mm=gap, shape=None, cells=cells, modulus_mpa=thing.modulus_mpa)
+    raise _missed(request, sensor, f"none of {_POSES} poses brings it to the pad")
 
 
 def _unit(noise: str, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit | None:

@@ -13,14 +13,15 @@ from tacgrasp.errors import UsageError
 
 @dataclass(frozen=True)
 class Press:
-    """Press a rigid thing into a sensor's gel; print force, area, pressure and label.
+    """Press a thing into a sensor's gel; print force, area, pressure and label.
 
     The file holds height_mm (H, W), + into the gel, row 0 at the top, over the whole field,
     pressure_kpa (H, W), force_n, and what the sensor would report: cloud_mm (N, 3), and with noise
     seen_mm (H, W).
 
     Attributes:
-        object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm.
+        object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm; or
+            an object of the catalogue by name, its bare surface, in a pose that the seed draws.
         depth_mm: Its tip below the undeformed surface [mm].
         sensor: gelsight_mini, digit or gelstereo.
         x_mm: Where its tip is, + to the right of the pad's centre [mm].
@@ -28,7 +29,7 @@ class Press:
         turn_deg: Its rotation in the plane [°].
         grid: COLUMNSxROWS over the whole field; the sensor's own (320x240) when not given.
         noise: Of what the sensor reports: none, unit, or uncalibrated.
-        seed: Draws the noise.
+        seed: Draws the noise, and the pose of an object.
         device: Where to compute: cpu, cuda.
         out: File to write (.npz).
     """
@@ -56,7 +57,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _press(argv: Sequence[str]) -> None:
-    """Press a rigid thing into a sensor's gel."""
+    """Press a thing into a sensor's gel."""
     flags = parse(Press, argv, prog="tacgrasp simulate press")
     grid = None
     if flags.grid:

@@ -96,6 +96,22 @@ def test_a_gelstereo_reports_its_markers(tmp_path):
         assert "seen_mm" not in data
 
 
+def test_an_object_of_the_catalogue_is_laid_as_the_seed_draws(tmp_path, capsys):
+    heights = []
+    for seed in (3, 3, 4):
+        file = tmp_path / "mug.npz"
+        flags = ["--object", "golf_ball", "--depth-mm", "0.5", "--seed", str(seed)]
+        assert main(
+            ["simulate", "press", *flags, "--grid", "80x60", "--out", str(file)]
+        ) == 0  # fmt: skip
+        with np.load(file) as data:
+            heights.append(data["height_mm"])
+    np.testing.assert_array_equal(heights[0], heights[1])
+    assert np.abs(heights[0] - heights[2]).max() > 0.05
+    assert heights[0].max() == pytest.approx(0.5, abs=0.02)
+    assert "object, pressed moderate" in capsys.readouterr().out
+
+
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
@@ -104,7 +120,8 @@ def test_a_gelstereo_reports_its_markers(tmp_path):
         (["--depth-mm", "nan"], "above 0"),
         (["--x-mm", "40"], "no part of it is over the field"),
         (["--x-mm", "13", "--depth-mm", "0.5"], "behind the tip"),
-        (["--object", "orange"], "ball:DIAMETER"),
+        (["--object", "spaceship"], "mug"),
+        (["--object", "ball:"], "ball:DIAMETER"),
         (["--object", "cone:3"], "unknown probe 'cone'"),
         (["--sensor", "gelsite"], "gelsight_mini"),
         (["--noise", "much"], "uncalibrated"),
