@@ -42,6 +42,9 @@ STOP_MS = 400.0
 """Generous: the machine may be busy. The benchmark of faults holds 150 ms."""
 
 
+WATCHDOG = "watchdog: no input within 100 ms"
+
+
 def loopback(row):
     """An address that no other run of these tests uses now."""
     high, low = divmod(os.getpid() % (254 * 254), 254)
@@ -356,11 +359,17 @@ def test_a_fault_in_motion_stops_the_arm_is_latched_and_explained(
     arm.move_to(above(arm.pose(), -0.003))
 
 
-def test_with_the_rtde_link_dead_the_stop_goes_by_the_dashboard(arm, emulator):
+@pytest.mark.parametrize(
+    ("already_down", "way"),
+    [(None, "dashboard: stop"), ("dashboard", "a one-line script replaced it")],
+)
+def test_with_the_rtde_link_dead_the_stop_takes_another_way(arm, emulator, already_down, way):
+    if already_down:
+        emulator.control.inject("ur", "link_drop", ports=already_down)
     in_motion(arm, emulator, lambda: emulator.control.inject("ur", "link_drop"))
-    stopped_after_ms(emulator)
-    assert emulator.control.facts("ur")["program_ended"] in ("dashboard: stop", "watchdog: no "
-        "input within 100 ms")  # fmt: skip
+    assert stopped_after_ms(emulator) < STOP_MS
+    # on a machine that is busy enough the controller's own watchdog may have been sooner
+    assert emulator.control.facts("ur")["program_ended"] in (way, WATCHDOG)
 
 
 def test_a_killed_worker_leaves_an_arm_that_stops_and_an_owner_that_knows(arm, emulator):
