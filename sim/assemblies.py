@@ -28,7 +28,7 @@ from sim.stock import (
 
 def mug() -> tuple[Solid, ...]:
     """A mug, open at +z, with a handle."""
-    wall = Hollow(rod(82, 90, 1.0), moved(rod(74, 86, 1.0), z=0.5))
+    wall = Hollow(rod(82, 90, 1.0, Shape.CRESCENT), moved(rod(74, 86, 1.0), z=0.5))
     handle = moved(along("y", Hoop(24, 5, 1.5, Form.CURVED)), 41, 0, -45)
     return wall, handle
 

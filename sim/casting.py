@@ -33,7 +33,7 @@ BACK_MM = 25.0
 BEYOND_MM = 4.0
 """What lies further behind the foremost point is out of the gel's reach."""
 
-_STEPS, _NEAR_MM = 96, 2e-4
+_STEPS, _NEAR_MM, _ALONGSIDE_MM = 64, 2e-4, 0.01
 
 
 class Castable(Protocol):
@@ -74,6 +74,7 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
     travelled = torch.zeros(origins.shape[0], dtype=origins.dtype, device=origins.device)
     hit = torch.full_like(travelled, torch.inf)
     index = torch.arange(origins.shape[0], device=origins.device)
+    away, going = travelled, travelled < far_mm
     for step in range(_STEPS):
         away = solid.distance(origins + travelled[:, None] * along)
         arrived = away < _NEAR_MM
@@ -82,11 +83,15 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
             found = torch.where(away < -_NEAR_MM, torch.nan, found)
         hit[index[arrived]] = found[arrived]
         travelled = travelled + away / solid.steep
+        if step % 8 == 7:  # what lies behind the gel's reach needs no more steps
+            nearest = float(hit.nan_to_num(nan=torch.inf).amin())
+            far_mm = min(far_mm, nearest + 1.2 * BEYOND_MM)
         going = ~arrived & (travelled < far_mm)
         if not bool(going.any()):
             return hit
         origins, travelled, index = origins[going], travelled[going], index[going]
-    hit[index] = travelled  # grazing: as near as makes no difference
+    # Still on their way: along a steep wall. They have arrived there, or end far behind the rim.
+    hit[index] = torch.where(away[going] < _ALONGSIDE_MM, travelled, torch.inf)
     return hit
 
 

@@ -101,19 +101,25 @@ PEGS: tuple[Thing, ...] = (
         prism(polygon(6, 12), 22, Shape.HEXAGON),
         rough(0.06, 0.55),
     ),
-    _peg("peg_bored_9", "round with a bore", bored(rod(9, 20), 4.2)),
+    _peg("peg_bored_9", "round with a bore", bored(rod(9, 20), 4.2), ridged(0.1, 0.9)),
     _peg("peg_bored_square", "square with a bore", bored(block(10, 10, 20), 4.6)),
     _peg("peg_pipe", "thin-walled tube", tube(8, 5.8, 22)),
 )
 
 INDENTERS: tuple[Thing, ...] = (
     _indenter("ball_5", "ball end", rounded(2.5, 16, 5), holds=_LEANING),
-    _indenter("ball_9", "ball end", rounded(4.5, 18, 9), holds=_LEANING),
+    _indenter("ball_9", "ball end", rounded(4.5, 18, 9), rough(0.04, 0.4), holds=_LEANING),
     _indenter(
         "ball_16_studded", "ball end, studded", rounded(8, 18, 15.5), bumpy(0.12, 1.4), _LEANING
     ),
     _indenter("dome_50", "shallow dome", rounded(25, 14, 16), rough(0.05, 0.5), _LEANING),
-    _indenter("egg_tip_12x7", "ellipsoid end", moved(oval(12, 6.5, 9), z=-4.5), holds=_LEANING),
+    _indenter(
+        "egg_tip_12x7",
+        "ellipsoid end",
+        moved(oval(12, 6.5, 9), z=-4.5),
+        ridged(0.08, 0.7),
+        holds=_LEANING,
+    ),
     _indenter(
         "egg_tip_17x9", "ellipsoid end", moved(oval(17, 9.4, 9), z=-4.5), woven(0.1, 0.8), _LEANING
     ),
@@ -123,7 +129,7 @@ INDENTERS: tuple[Thing, ...] = (
     _indenter("pyramid_4_40", "four-sided pyramid", pyramid(4, 40, 16), holds=_LEANING),
     _indenter("pyramid_6_52", "six-sided pyramid", pyramid(6, 52, 14), holds=_LEANING),
     _indenter("chisel_70", "wedge, 70°, on its edge", roof(70, 10, 13)),
-    _indenter("chisel_100", "wedge, 100°, on its edge", roof(100, 8, 22, 6)),
+    _indenter("chisel_100", "wedge, 100°, on its edge", roof(100, 8, 22, 6), rough(0.04, 0.4)),
     _indenter(
         "cube_corner",
         "cube on its corner",

@@ -34,6 +34,7 @@ from sim.solids import (
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 _SIDE = Cell(form=Form.TAPER, outline=Shape.TRIANGLE)
 _TIP = Cell(form=Form.TAPER, outline=Shape.PEAK)
+_FACE = Cell(form=Form.FLAT, outline=Shape.TRIANGLE)
 
 
 def _end(outline: Shape) -> Flat:
@@ -162,10 +163,12 @@ def pyramid(
     """A pyramid on its point, by the angle [°] between axis and faces, on a round shank."""
     rise, run = math.sin(math.radians(half_angle)), math.cos(math.radians(half_angle))
     low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC))
-    faces: list[Face] = [Flat(UP, 0.0, _TIP), low, Barrel(shank / 2)]
+    # Three faces are a corner.
+    tip, side = (_TIP, _SIDE) if num > 3 else (_FACE, _FACE)
+    faces: list[Face] = [Flat(UP, 0.0, tip), low, Barrel(shank / 2)]
     for i in range(num):
         turn = 2 * math.pi * i / num
-        faces.append(Flat((run * math.cos(turn), run * math.sin(turn), rise), blunt * run, _SIDE))
+        faces.append(Flat((run * math.cos(turn), run * math.sin(turn), rise), blunt * run, side))
     return Cut(tuple(faces), blunt, math.hypot(shank / 2, length))
 
 

@@ -18,7 +18,7 @@ from sim.touched import Touch
 
 SHAPE, TEXTURE, DEPTH, POSITION, AREA = "shape", "texture", "depth", "position", "area"
 
-DEPTH_MM, POSITION_MM, AREA_FACTOR = 0.002, 0.03, 1.006
+DEPTH_MM, POSITION_MM, AREA_FACTOR = 0.002, 0.02, 1.006
 """Distances from a limit within which a label is unsure. Our choice: twice what the
 solver's tolerance moves a depth by, a small part of a grid point, and one such point in a rim."""
 

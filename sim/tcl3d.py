@@ -135,6 +135,11 @@ def series_numbers(contacts: int) -> list[int]:
     ]
 
 
+def num_loads(number: int) -> int:
+    """Contacts in series ``number``."""
+    return LOADS if number < GELSTEREO_FIRST else DOMAIN_LOADS
+
+
 def order_of(seed: int, number: int) -> Order:
     """What series ``number`` of the data set of ``seed`` is to be."""
     rng = np.random.default_rng([seed, number, 3])

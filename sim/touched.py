@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -38,12 +38,17 @@ CAP_RATIOS = (1.4, 4.0)
 BAR_MM = 1.6
 """Widest bar that is a line: 1.5 mm and half a grid point."""
 
-_RATIO_UNSURE = (0.92, 1.09)  # factors about a limit between which a ratio is unsure
+_RATIO_UNSURE = (0.95, 1.05)  # factors about a limit between which a ratio is unsure
 _RUNS_OUT, _RUNS_OUT_UNSURE = 0.32, 0.06  # of the depth, over a face: tilted rather than flat
-_CUT_UNSURE = 0.22  # of the outline, at the pad's border
+_CUT_UNSURE = 0.3  # of the outline, at the pad's border
 _SHARP_MM = 1.6  # radius of curvature from which an edge is a round
+_ENDS_SEEN = 0.15  # share of an outline at the border up to which a face is seen as a whole
+_ASLANT = 0.2  # slope up to which a face that touches as a whole is seen as that face
 _LEVEL_MM = 0.35  # how far a round falls away within 0.6 mm, at most
-_LONG, _COMPACT = 2.2, 2.0  # elongations of edges, of corners and peaks
+_LONG = 2.1  # elongation between corners and edges
+_BEHIND_MM = 0.3  # what counts as about to touch
+_FLAT_PER_MM = 1 / 120  # curvature of what is as good as flat
+_CAVITY_MM2 = 0.8  # smallest hole
 _TINY = 30  # grid points of a contact that is no larger than an edge's fillet
 _FEW = 3  # grid points that a cell must touch with to count
 
@@ -80,10 +85,9 @@ class Touch:
 
 def name_shape(touch: Touch) -> Named:
     """Name the shape of what touches."""
+    if touch.touching.sum() < _TINY:
+        touch = _about_to_touch(touch)
     numbers, counts = np.unique(touch.cells[touch.touching], return_counts=True)
-    if touch.touching.sum() < _TINY:  # less than a fillet: what is about to touch tells more
-        about = binary_dilation(touch.touching)
-        numbers, counts = np.unique(touch.cells[about], return_counts=True)
     known = numbers >= 0
     numbers, counts = numbers[known], counts[known]
     shares: dict[Form, int] = {}
@@ -106,6 +110,15 @@ def name_shape(touch: Touch) -> Named:
         case _:
             return _plain(touch, present or [int(numbers[counts.argmax()])])
     return Named(named.shape, named.sure and pure)
+
+
+def _about_to_touch(touch: Touch) -> Touch:
+    """A contact no larger than the fillet of an edge, with what lies just behind it."""
+    near = binary_dilation(touch.touching, iterations=4)
+    touching = touch.touching | (near & (touch.gap_mm < _BEHIND_MM))
+    closed = touch.closed | touching
+    depth_mm = max(touch.depth_mm, 1.5 * _BEHIND_MM)
+    return replace(touch, touching=touching, closed=closed, depth_mm=depth_mm)
 
 
 def _bars(touch: Touch, bars: list[int]) -> Named:
@@ -174,13 +187,20 @@ def _plain(touch: Touch, present: list[int]) -> Named:
     cell = touch.table[main]
     own = (touch.cells == main) & touch.touching
     flank = cell.form is Form.TAPER and cell.outline in (None, Shape.PEAK)
+    if cell.outline is Shape.LINE and share >= 0.5:  # the edge of a blade, however it leans
+        spread = _spread(touch.touching, touch.pitch_mm)
+        return Named(Shape.LINE, spread.length > 2.4 * spread.width and pieces == 1)
     if cell.form is not Form.CURVED and not flank and share >= 0.5:
         runs_out = float(np.ptp(np.percentile(touch.gap_mm[own], [8, 92]))) / touch.depth_mm
-        if runs_out < _RUNS_OUT:
+        covered = own.sum() / (touch.cells == main).sum()
+        seen = _cut_share(touch.closed) < _ENDS_SEEN
+        whole = covered > 0.9 and seen and _slope(touch, own) < _ASLANT
+        if runs_out < _RUNS_OUT or whole:
             named = _outline(touch, cell, own)
-            sure = named.sure and runs_out < _RUNS_OUT - _RUNS_OUT_UNSURE and share >= 0.6
+            level = runs_out < _RUNS_OUT - _RUNS_OUT_UNSURE or whole
+            sure = named.sure and level and share >= 0.6
             return Named(named.shape, sure and pieces == 1)
-    elif cell.form is Form.CURVED and share >= 0.85 and _rounds_off(touch):
+    elif cell.form is Form.CURVED and share >= 0.85 and (_rounds_off(touch) or _lies_level(touch)):
         named = _cap(touch)
         return Named(named.shape, named.sure and pieces == 1)
     named = _sharp(touch, present, counts)
@@ -194,9 +214,34 @@ def _rounds_off(touch: Touch) -> bool:
     return float(about.max()) < _LEVEL_MM
 
 
+def _slopes(touch: Touch) -> tuple[FloatArray, FloatArray]:
+    """Slopes of the bare surface along rows downwards and along columns, (H, W) each."""
+    down, right = np.gradient(touch.gap_mm, touch.pitch_mm)
+    return np.asarray(down), np.asarray(right)
+
+
+def _slope(touch: Touch, where: Mask) -> float:
+    """Mean slope of the bare surface."""
+    down, right = _slopes(touch)
+    return math.hypot(float(np.median(right[where])), float(np.median(down[where])))
+
+
+def _lies_level(touch: Touch) -> bool:
+    """Whether the flanks of what touches balance: a rod near its end, not on it."""
+    down, right = _slopes(touch)
+    own = touch.touching & (np.hypot(down, right) < 1.5)
+    if not own.any():
+        return False
+    return math.hypot(float(right[own].mean()), float(down[own].mean())) < 0.06
+
+
 def _outline(touch: Touch, cell: Cell, own: Mask) -> Named:
     """A flat contact by its outline."""
     field = float(touch.closed.mean())
+    if field >= PLANE_SHARE and cell.outline is Shape.HOLE:
+        if _enclosed(touch.closed) * touch.pitch_mm**2 > _CAVITY_MM2:
+            return Named(Shape.HOLE, True)
+        return Named(Shape.PLANE, field > 0.97)
     if field >= PLANE_SHARE:
         return Named(Shape.PLANE, field >= PLANE_SHARE + 0.015)
     spread = _spread(own, touch.pitch_mm)
@@ -206,7 +251,7 @@ def _outline(touch: Touch, cell: Cell, own: Mask) -> Named:
         named = _loop(touch, own)
         return named if named.shape in (Shape.RING, Shape.CRESCENT) else Named(Shape.LINE, False)
     if cell.outline is Shape.HOLE:
-        around = _enclosed(touch.closed) * touch.pitch_mm**2 > 0.8
+        around = _enclosed(touch.closed) * touch.pitch_mm**2 > _CAVITY_MM2
         return Named(Shape.HOLE, around)
     bar = BAR_MM if cell.outline is not Shape.LINE else 2 * BAR_MM  # made to be one
     if spread.width <= bar and aspect >= 2:
@@ -240,7 +285,7 @@ def _sharp(touch: Touch, present: list[int], counts: dict[int, int]) -> Named:
     tapers = [n for n in around if touch.table[n].form is Form.TAPER]
     if any(touch.table[n].outline is Shape.PEAK for n in tapers):
         return Named(Shape.PEAK, long < 2.1)
-    if len(present) == 1 and touch.table[present[0]].form is Form.TAPER:
+    if len(present) == 1 and touch.table[present[0]] == Cell(form=Form.TAPER):  # a cone's side
         return _cap(touch)
     level = _rounds_off(touch)
     radius = 1 / max(curvatures(touch.gap_mm, _top(touch), touch.pitch_mm)[1], 1e-3)
@@ -250,14 +295,15 @@ def _sharp(touch: Touch, present: list[int], counts: dict[int, int]) -> Named:
     faces = [n for n in around if counts.get(n, 0) >= _FEW or n not in present]
     cliffs = bool((touch.gap_mm[near] >= FAR_MM).any())
     sides = len(faces) + cliffs
-    if any(touch.table[n].form is Form.CURVED for n in present):
-        return Named(Shape.EDGE, long > 1.8 and sides >= 2)  # a rim
     bend = _bend(touch, present, counts)
+    if any(touch.table[n].form is Form.CURVED for n in around):  # a rim
+        blunt = bend is not None and bend < math.radians(42)
+        return Named(Shape.EDGE, long > 1.25 and sides >= 2 and not blunt)
     dull = bend is not None and not math.radians(50) < bend < math.radians(130)
     whole = _cut_share(touch.closed) < 0.45
-    if sides >= 3 and long < 0.5 * (_LONG + _COMPACT):
-        return Named(Shape.CORNER, long < _COMPACT and not dull and whole)
-    return Named(Shape.EDGE, long > _LONG and not dull and sides >= 2)
+    if sides >= 3 and long < _LONG:
+        return Named(Shape.CORNER, long < 0.93 * _LONG and not dull and whole)
+    return Named(Shape.EDGE, long > (1.07 * _LONG if sides >= 3 else 1.4) and not dull)
 
 
 def _bend(touch: Touch, present: list[int], counts: dict[int, int]) -> float | None:
@@ -265,15 +311,15 @@ def _bend(touch: Touch, present: list[int], counts: dict[int, int]) -> float | N
     if len(present) < 2:
         return None
     first, second = sorted(present, key=lambda n: -counts[n])[:2]
-    normals = []
-    down, right = np.gradient(touch.gap_mm, touch.pitch_mm)
+    normals: list[FloatArray] = []
+    down, right = _slopes(touch)
     near = binary_dilation(touch.touching, iterations=5) & (touch.gap_mm < FAR_MM)
     fillet = binary_dilation(touch.touching) if touch.touching.sum() < 60 else touch.touching
     for number in (first, second):
         own = (touch.cells == number) & near
         beside = own & ~fillet
         own = beside if beside.sum() >= _FEW else own
-        slope = np.median(right[own]), np.median(down[own])
+        slope = float(np.median(right[own])), float(np.median(down[own]))
         normals.append(np.array([*slope, 1.0]) / math.hypot(*slope, 1.0))
     return math.acos(float(np.clip(np.dot(normals[0], normals[1]), -1, 1)))
 
@@ -281,8 +327,8 @@ def _bend(touch: Touch, present: list[int], counts: dict[int, int]) -> float | N
 def _cap(touch: Touch) -> Named:
     """Sphere, ellipsoid, cylinder or line by the curvatures of what touches."""
     low, high = curvatures(touch.gap_mm, _top(touch), touch.pitch_mm)
-    if high <= 1e-4:
-        return Named(Shape.PLANE if touch.closed.mean() >= PLANE_SHARE else Shape.SPHERE, False)
+    if high < _FLAT_PER_MM:
+        return Named(Shape.PLANE if touch.closed.mean() >= PLANE_SHARE else Shape.CUBOID, False)
     ratio = high / max(low, 1e-9)
     sure = low > -0.15 * high
     for limit in CAP_RATIOS:
@@ -299,10 +345,12 @@ def _cap(touch: Touch) -> Named:
 
 def _top(touch: Touch) -> Mask:
     """What touches first: there a quadric tells the curvatures, further out it overstates them."""
-    own = touch.touching
+    # Not only the tops of a texture: all that lies as near as they do.
+    reach = float(np.percentile(touch.gap_mm[touch.touching], 90))
+    own = binary_dilation(touch.closed, iterations=2) & (touch.gap_mm <= reach)
     if own.sum() < 16:
-        own = binary_dilation(own, iterations=2) & (touch.gap_mm < FAR_MM)
-    top = own & (touch.gap_mm <= 0.5 * float(touch.gap_mm[own].max()))
+        own = binary_dilation(touch.touching, iterations=2) & (touch.gap_mm < FAR_MM)
+    top = own & (touch.gap_mm <= 0.6 * float(touch.gap_mm[own].max()))
     return top if top.sum() >= 24 else own
 
 

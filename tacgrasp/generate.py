@@ -1,21 +1,21 @@
 """Make a data set of simulated contacts: worker processes, progress, resumable after ``kill -9``.
 
-Work is cut into shards of ``SHARD_GROUPS`` groups. A shard exists when its index file does, and its
-bytes depend on the seed and its number alone; so whatever is missing is made, by any number of
-workers, and the result is that of an undisturbed run.
+A recipe (``tacgrasp.recipes``) cuts the work into shards. A shard exists when its index file does,
+and its bytes depend on the recipe and its number alone; so whatever is missing is made, by any
+number of workers and on any number of machines, and the result is that of an undisturbed run.
 
-Not here: what contacts are made (``sim.contacts``), files (``cltp.dataset``).
+Not here: what contacts are made (``sim.tcl3d``, ``sim.contacts``), files (``cltp.dataset``).
 """
 
 from __future__ import annotations
 
 import contextlib
 import json
-import math
 import multiprocessing
 import os
+import re
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
@@ -26,35 +26,36 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cltp.dataset import ContactDataset, DatasetWriter
 from cltp.errors import TouchError
-from cltp.sensors import sensor_named
-from sim.contacts import GROUP_CONTACTS, make_group
-from sim.rig import BENCHMARK_SEED
+from tacgrasp.dataset_card import write_card
 from tacgrasp.errors import UsageError
-
-MAKER = "1"
-"""Version of what is made; counted up when the same seed makes other contacts."""
-
-SHARD_GROUPS = 5
-SHARD_CONTACTS = SHARD_GROUPS * GROUP_CONTACTS
+from tacgrasp.recipes import Recipe, recipe
 
 
 def generate(
     out: Path,
     *,
-    contacts: int = 24_000,
+    contacts: int | None = None,
     seed: int = 0,
     workers: int | None = None,
     sensor_name: str = "gelsight_mini",
+    set_name: str = "starter",
+    meshes: Path | None = None,
+    shard: str | None = None,
+    device: str = "cpu",
     console: Console | None = None,
 ) -> None:
     """Make a data set, or what is missing of it; a complete one is left as it is.
 
     Args:
         out: Folder; made when missing.
-        contacts: How many.
-        seed: Draws everything; below ``BENCHMARK_SEED``.
+        contacts: How many; by default as many as the set has.
+        seed: Draws everything; below ``sim.rig.BENCHMARK_SEED``.
         workers: Processes; by default one for each core. Does not change the result.
-        sensor_name: Whose field is pressed.
+        sensor_name: Whose field is pressed; only for the set ``starter``.
+        set_name: Which set: a key of ``tacgrasp.recipes.SETS``.
+        meshes: Folder of meshes whose contacts are added; only for the set ``tcl3d``.
+        shard: "i/n": only the i-th of n parts, 1 to n, for several machines.
+        device: Where contacts are computed; 'cuda' gives heights within 2 µm of 'cpu'.
         console: Where progress is shown; by default standard error.
 
     Raises:
@@ -63,25 +64,31 @@ def generate(
     """
     if workers is None:
         workers = len(os.sched_getaffinity(0))
-    if contacts < 1 or not 0 <= seed < BENCHMARK_SEED or workers < 1:
-        raise UsageError(
-            f"expected at least 1 contact, at least 1 worker and a seed from 0 to "
-            f"{BENCHMARK_SEED - 1} (larger ones are for benchmarks), got {contacts} contacts, "
-            f"{workers} workers, seed {seed}"
-        )
-    sensor_named(sensor_name)
-    _open(out, {"seed": str(seed), "contacts": str(contacts), "sensor": sensor_name})
-    shards = range(math.ceil(contacts / SHARD_CONTACTS))
-    missing = [shard for shard in shards if not _index_of(out, shard).exists()]
-    jobs = {
-        shard: (out, shard, min(SHARD_CONTACTS, contacts - shard * SHARD_CONTACTS), seed)
-        for shard in missing
-    }
+    if workers < 1:
+        raise UsageError(f"expected at least 1 worker, got {workers}")
+    what = recipe(
+        set_name,
+        contacts=contacts,
+        seed=seed,
+        sensor_name=sensor_name,
+        meshes=meshes,
+        device=device,
+    )
+    sizes = what.shard_sizes()
+    mine = _part_of(len(sizes), shard)
+    _open(out, what.about())
+    _clear(out, mine)
+    jobs = [(out, number, sizes[number]) for number in mine if not _index_of(out, number).exists()]
     with _progress(console) as progress:
-        bar = progress.add_task("contacts", total=contacts)
-        progress.advance(bar, contacts - sum(job[2] for job in jobs.values()))
-        for shard in _done(list(jobs.values()), sensor_name, min(workers, len(jobs))):
-            progress.advance(bar, jobs[shard][2])
+        bar = progress.add_task("contacts", total=sum(sizes[number] for number in mine))
+        progress.advance(bar, sum(sizes[n] for n in mine) - sum(job[2] for job in jobs))
+        for number in _done(jobs, what, min(workers, len(jobs))):
+            progress.advance(bar, sizes[number])
+    if what.carded and is_complete(out):
+        try:
+            write_card(out, what.command())
+        except OSError as error:
+            raise TouchError(f"can't write the card of {out}: {error}") from error
 
 
 def is_complete(out: Path) -> bool:
@@ -91,7 +98,7 @@ def is_complete(out: Path) -> bool:
         TouchError: It is no data set of this version.
     """
     try:
-        data = ContactDataset(out)
+        data = ContactDataset(out, partial=True)
     except TouchError:
         if (out / "dataset.json").exists() and not any(out.glob("shard-*.parquet")):
             return False
@@ -99,20 +106,34 @@ def is_complete(out: Path) -> bool:
     return len(data) == int(data.about.get("contacts", len(data)))
 
 
-_Job = tuple[Path, int, int, int]
+def _part_of(shards: int, which: str | None) -> list[int]:
+    """Numbers of the shards that this machine makes."""
+    if which is None:
+        return list(range(shards))
+    found = re.fullmatch(r"(\d+)/(\d+)", which)
+    if found is None or not 1 <= int(found[1]) <= int(found[2]):
+        raise UsageError(
+            f"--shard expects i/n with i from 1 to n, such as 1/4 to 4/4 on four machines, "
+            f"got {which!r}"
+        )
+    return list(range(int(found[1]) - 1, shards, int(found[2])))
 
 
-def _done(jobs: list[_Job], sensor_name: str, workers: int) -> Iterator[int]:
+_Job = tuple[Path, int, int]
+"""Folder, number of the shard, and how many contacts it holds."""
+
+
+def _done(jobs: list[_Job], what: Recipe, workers: int) -> Iterator[int]:
     """Make shards here or in processes of their own; yields each one's number when it is safe."""
     if workers <= 1:
         with _one_thread():
             for job in jobs:
-                yield _make_shard(job, sensor_name)
+                yield _make_shard(job, what)
         return
     spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
     pool = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_start_worker)
     try:
-        for made in as_completed([pool.submit(_make_shard, job, sensor_name) for job in jobs]):
+        for made in as_completed([pool.submit(_make_shard, job, what) for job in jobs]):
             yield made.result()
     except BrokenProcessPool as error:
         raise TouchError(
@@ -123,19 +144,20 @@ def _done(jobs: list[_Job], sensor_name: str, workers: int) -> Iterator[int]:
         pool.shutdown(cancel_futures=True)
 
 
-def _make_shard(job: _Job, sensor_name: str) -> int:
-    out, shard, count, seed = job
-    sensor = sensor_named(sensor_name)
-    first = shard * SHARD_GROUPS
-    groups = range(first, first + math.ceil(count / GROUP_CONTACTS))
-    contacts = [contact for group in groups for contact in make_group(seed, group, sensor)]
+def _make_shard(job: _Job, what: Recipe) -> int:
+    out, number, count = job
+    contacts = what.make(number)
+    if len(contacts) != count:
+        raise RuntimeError(f"shard {number} has {len(contacts)} contacts instead of {count}")
     try:
-        with DatasetWriter(out, part=_part(shard), shard_size=count) as writer:
-            for contact in contacts[:count]:
+        with DatasetWriter(out, part=_part(number), shard_size=count) as writer:
+            for contact in contacts:
                 writer.add(contact)
     except OSError as error:
-        raise TouchError(f"can't write contacts to {out}: {error}") from error
-    return shard
+        raise TouchError(
+            f"can't write contacts to {out}: {error}; the same command goes on from there"
+        ) from error
+    return number
 
 
 def _start_worker() -> None:
@@ -162,29 +184,40 @@ def _one_thread() -> Iterator[None]:
         torch.set_num_threads(before)
 
 
-def _open(out: Path, wanted: dict[str, str]) -> None:
-    """Start or go on with a data set, without what an interrupted writer left half written.
+def _open(out: Path, about: Mapping[str, str]) -> None:
+    """Start or go on with a data set.
 
     Raises:
         UsageError: The folder was made by another command.
         TouchError: It is no data set of this version, or can't be written.
     """
-    about = {"made_by": "tacgrasp data generate", "maker": MAKER, **wanted}
     try:
         DatasetWriter(out, about=about)
         found = json.loads((out / "dataset.json").read_text()).get("about", {})
-        if found != about:
-            differing = [
-                f"{name} {found.get(name)!r} instead of {value!r}"
-                for name, value in about.items()
-                if found.get(name) != value
-            ]
-            raise UsageError(
-                f"{out} holds the data of another command: {', '.join(differing)}; "
-                "choose another folder or delete this one"
-            )
+    except OSError as error:
+        raise TouchError(f"can't write contacts to {out}: {error}") from error
+    differing = [
+        f"{name} {found.get(name)!r} instead of {about.get(name)!r}"
+        for name in sorted({*found, *about})
+        if found.get(name) != about.get(name)
+    ]
+    if differing:
+        raise UsageError(
+            f"{out} holds the data of another command: {', '.join(differing)}; "
+            "choose another folder or delete this one"
+        )
+
+
+def _clear(out: Path, mine: list[int]) -> None:
+    """Remove what an interrupted writer left half written of these shards, and of the header.
+
+    Other shards may be in the making on another machine that writes to the same folder.
+    """
+    own = {f"shard-{_part(number)}-" for number in mine}
+    try:
         for left_over in out.glob("*.part"):
-            left_over.unlink()
+            if left_over.name[:13] in own or not left_over.name.startswith("shard-"):
+                left_over.unlink(missing_ok=True)
     except OSError as error:
         raise TouchError(f"can't write contacts to {out}: {error}") from error
 

@@ -16,16 +16,26 @@ class Generate:
 
     Attributes:
         out: Folder; made when missing.
-        contacts: How many.
+        set: 'tcl3d': 117 objects, splits and further domains; 'starter': what the weights that
+            come along were trained on.
+        contacts: How many; by default all: 52425 of tcl3d, 24000 of starter.
         seed: Draws everything; below 1000000, larger ones are for benchmarks.
+        shard: Only part i of n, as i/n, 1/4 to 4/4: for several machines. Copy the files of all
+            parts into one folder and run the command once more without it.
         workers: Processes; by default one for each core. They don't change the result.
-        sensor: Whose field is pressed.
+        meshes: Folder of meshes (PLY, OBJ, STL; mm) whose contacts are added; only for tcl3d.
+        device: Where to compute: 'cpu' or 'cuda'; only for tcl3d.
+        sensor: Whose field is pressed; only for starter.
     """
 
     out: Path
-    contacts: int = 24_000
+    set: str = "tcl3d"
+    contacts: int | None = None
     seed: int = 0
+    shard: str | None = None
     workers: int | None = None
+    meshes: Path | None = None
+    device: str = "cpu"
     sensor: str = "gelsight_mini"
 
 
@@ -47,4 +57,8 @@ def _generate(argv: Sequence[str]) -> None:
         seed=flags.seed,
         workers=flags.workers,
         sensor_name=flags.sensor,
+        set_name=flags.set,
+        meshes=flags.meshes,
+        shard=flags.shard,
+        device=flags.device,
     )

@@ -14,6 +14,7 @@ from rich.console import Console
 from cltp.dataset import ContactDataset
 from cltp.errors import TouchError
 from tacgrasp import generate as made
+from tacgrasp import recipes
 from tacgrasp.errors import UsageError
 
 ROOT = Path(__file__).parents[2]
@@ -21,8 +22,7 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(autouse=True)
 def small_shards(monkeypatch):
-    monkeypatch.setattr(made, "SHARD_GROUPS", 1)
-    monkeypatch.setattr(made, "SHARD_CONTACTS", made.GROUP_CONTACTS)
+    monkeypatch.setattr(recipes, "SHARD_GROUPS", 1)
 
 
 def generate(out, contacts=90, seed=7, **options):
@@ -37,8 +37,7 @@ def files(folder):
 def undisturbed(tmp_path_factory):
     folder = tmp_path_factory.mktemp("undisturbed") / "data"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(made, "SHARD_GROUPS", 1)
-        patch.setattr(made, "SHARD_CONTACTS", made.GROUP_CONTACTS)
+        patch.setattr(recipes, "SHARD_GROUPS", 1)
         generate(folder, workers=1)
     return folder
 
@@ -63,7 +62,7 @@ def test_what_is_missing_is_made_again_with_the_same_bytes(undisturbed, tmp_path
 
 
 def test_a_complete_data_set_is_left_as_it_is(undisturbed, monkeypatch):
-    monkeypatch.setattr(made, "make_group", lambda *_: pytest.fail("nothing is to be made"))
+    monkeypatch.setattr(recipes, "make_group", lambda *_: pytest.fail("nothing is to be made"))
     before = files(undisturbed)
     generate(undisturbed, workers=1)
     assert files(undisturbed) == before
@@ -127,7 +126,7 @@ def test_a_folder_of_another_command_is_refused_and_names_the_difference(undistu
     "wrong", [{"contacts": 0}, {"seed": 1_000_000}, {"seed": -1}, {"workers": -1}]
 )
 def test_impossible_values_are_refused_before_anything_is_made(wrong, tmp_path):
-    with pytest.raises(UsageError, match="expected at least 1 contact"):
+    with pytest.raises(UsageError, match="expected at least 1"):
         generate(tmp_path / "data", **wrong)
     assert not (tmp_path / "data").exists()
 

@@ -1,0 +1,190 @@
+"""What data sets there are to generate, each cut into shards that can be made in any order.
+
+- ``tcl3d``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d``);
+- ``starter``: 19 indenters and four bodies at a gripper's forces, 24,000 contacts
+  (``sim.contacts``): what the weights that come along were trained on.
+
+Not here: workers and files (``tacgrasp.generate``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import torch
+
+from cltp.contacts import Contact
+from cltp.sensors import sensor_named
+from sim.contacts import GROUP_CONTACTS, make_group
+from sim.rig import BENCHMARK_SEED
+from sim.tcl3d import ALL_CONTACTS, make_series, num_loads, series_numbers
+from tacgrasp.errors import UsageError
+
+SETS = ("tcl3d", "starter")
+STARTER_CONTACTS = 24_000
+
+STARTER_MAKER, TCL3D_MAKER = "1", "tcl3d 1"
+"""Versions of what is made; counted up when the same seed makes other contacts."""
+
+SHARD_GROUPS = 5
+SHARD_SERIES = 50
+
+
+class Recipe(Protocol):
+    """A data set to make. Sent to worker processes."""
+
+    @property
+    def carded(self) -> bool:
+        """Whether its folder gets a card."""
+        ...
+
+    def about(self) -> dict[str, str]:
+        """What ``dataset.json`` says of it: the same for every part of it."""
+        ...
+
+    def command(self) -> str:
+        """What makes it again."""
+        ...
+
+    def shard_sizes(self) -> list[int]:
+        """How many contacts each shard holds."""
+        ...
+
+    def make(self, shard: int) -> list[Contact]:
+        """The contacts of one shard; they depend on nothing but the recipe and the number."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Starter:
+    """See the module."""
+
+    contacts: int
+    seed: int
+    sensor_name: str
+
+    @property
+    def carded(self) -> bool:
+        """See ``Recipe``."""
+        return False
+
+    def about(self) -> dict[str, str]:
+        """See ``Recipe``."""
+        return {
+            "made_by": "tacgrasp data generate",
+            "maker": STARTER_MAKER,
+            "seed": str(self.seed),
+            "contacts": str(self.contacts),
+            "sensor": self.sensor_name,
+        }
+
+    def command(self) -> str:
+        """See ``Recipe``."""
+        return (
+            f"tacgrasp data generate --set starter --contacts {self.contacts} --seed {self.seed}"
+            f" --sensor {self.sensor_name}"
+        )
+
+    def shard_sizes(self) -> list[int]:
+        """See ``Recipe``."""
+        return _cut(self.contacts, SHARD_GROUPS * GROUP_CONTACTS)
+
+    def make(self, shard: int) -> list[Contact]:
+        """See ``Recipe``."""
+        count = self.shard_sizes()[shard]
+        first = shard * SHARD_GROUPS
+        groups = range(first, first + math.ceil(count / GROUP_CONTACTS))
+        sensor = sensor_named(self.sensor_name)
+        return [c for group in groups for c in make_group(self.seed, group, sensor)][:count]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tcl3d:
+    """See the module."""
+
+    contacts: int
+    seed: int
+    device: str = "cpu"
+
+    @property
+    def carded(self) -> bool:
+        """See ``Recipe``."""
+        return True
+
+    def about(self) -> dict[str, str]:
+        """See ``Recipe``; the device is named since it may move a height by 1 µm."""
+        return {
+            "made_by": "tacgrasp data generate",
+            "set": "tcl3d",
+            "maker": TCL3D_MAKER,
+            "seed": str(self.seed),
+            "contacts": str(self.contacts),
+            "torch": torch.__version__.split("+")[0],
+            "device": self.device.split(":")[0],
+        }
+
+    def command(self) -> str:
+        """See ``Recipe``."""
+        count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
+        device = "" if self.device == "cpu" else f" --device {self.device}"
+        return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{device}"
+
+    def shard_sizes(self) -> list[int]:
+        """See ``Recipe``."""
+        sizes = [sum(map(num_loads, shard)) for shard in self._shards()]
+        sizes[-1] -= sum(sizes) - self.contacts
+        return sizes
+
+    def make(self, shard: int) -> list[Contact]:
+        """See ``Recipe``."""
+        made = [
+            contact
+            for number in self._shards()[shard]
+            for contact in make_series(self.seed, number, self.device)
+        ]
+        return made[: self.shard_sizes()[shard]]
+
+    def _shards(self) -> list[list[int]]:
+        numbers = series_numbers(self.contacts)
+        return [numbers[i : i + SHARD_SERIES] for i in range(0, len(numbers), SHARD_SERIES)]
+
+
+def recipe(
+    set_name: str,
+    *,
+    contacts: int | None,
+    seed: int,
+    sensor_name: str,
+    meshes: Path | None,
+    device: str,
+) -> Recipe:
+    """A recipe by the flags of ``tacgrasp data generate``.
+
+    Raises:
+        UsageError: There is no such set, or a value makes no sense for it.
+        TouchError: The sensor is not known.
+    """
+    if set_name not in SETS:
+        raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
+    if (contacts is not None and contacts < 1) or not 0 <= seed < BENCHMARK_SEED:
+        raise UsageError(
+            f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
+            f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
+        )
+    sensor_named(sensor_name)
+    if set_name == "starter":
+        if meshes is not None or device != "cpu":
+            raise UsageError("--meshes and --device belong to --set tcl3d")
+        return Starter(contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name)
+    if sensor_name != "gelsight_mini":
+        raise UsageError(
+            f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
+        )
+    return Tcl3d(contacts=contacts or ALL_CONTACTS, seed=seed, device=device)
+
+
+def _cut(contacts: int, size: int) -> list[int]:
+    return [min(size, contacts - first) for first in range(0, contacts, size)]
