@@ -28,6 +28,7 @@ class GuardedArm:
         self._arm, self._looks = arm, looks
         self._why = ""
         self._moving, self._ended = threading.Event(), threading.Event()
+        self._deciding = threading.Lock()  # no stop is sent for a move that has ended
         self._thread = threading.Thread(target=self._watch, name="guard", daemon=True)
         self._thread.start()
 
@@ -61,7 +62,8 @@ class GuardedArm:
                 raise RobotError(f"{self._why}; the arm was stopped") from None
             raise
         finally:
-            self._moving.clear()
+            with self._deciding:
+                self._moving.clear()
         if self._why:
             raise RobotError(f"{self._why}; the arm was stopped")
         return reached
@@ -83,9 +85,10 @@ class GuardedArm:
             if self._ended.is_set():
                 return
             why = self._trouble()
-            if why and not self._why:
-                self._why = why
-                self._arm.stop()
+            with self._deciding:
+                if why and not self._why and self._moving.is_set():
+                    self._why = why
+                    self._arm.stop()
             self._ended.wait(LOOK_S)
 
     def _trouble(self) -> str:

@@ -41,7 +41,7 @@ def run_recorded(
     header = _header(rig, policy, config)
     executor = make_executor(rig, config)
     directory = record_directory(config.record)
-    path = episode_path(directory, Path(config.task).stem, header.stamp, config.seed)
+    path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)
     outcome: Outcome | None = None
     try:
         with EpisodeWriter(path, header) as recorder:
@@ -72,7 +72,7 @@ def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
         task=Path(config.task).stem,
         instruction=config.instruction,
         policy=policy.name,
-        seed=config.seed,
+        seed=None if config.devices == "hardware" else config.seed,
         sensor=rig.sensor.spec,
         config_yaml=config_yaml(config),
         versions=_versions(),

@@ -97,6 +97,11 @@ def _execute(episode: Episode, path: Path, to: Console) -> int:
     from tacgrasp.rig import make_rig
 
     config = config_of(episode, path)
+    if config.devices == "hardware":
+        raise UsageError(
+            f"{path} was recorded on real devices (rig {episode.header.rig}), which --execute does "
+            "not move; replay it without, or with --decide"
+        )
     rig = make_rig(config)
     worst_mm, count = 0.0, 0
     try:

@@ -73,7 +73,11 @@ def connect_arm(settings: UrSettings) -> UrArm:
 
 
 class UrArm:
-    """A UR arm; see ``primitives.devices.Arm`` for the contract of each method."""
+    """A UR arm; see ``primitives.devices.Arm`` for the contract of each method.
+
+    Attributes:
+        sent: What the last command put on the wire, in the controller's words; '' for nothing.
+    """
 
     def __init__(
         self,
@@ -91,6 +95,7 @@ class UrArm:
         self._unsafe = False
         self._number = 0
         self._rotvec: tuple[float, ...] = (math.pi, 0.0, 0.0)
+        self.sent = ""
 
     @property
     def fault(self) -> str:
@@ -107,7 +112,7 @@ class UrArm:
         self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
     ) -> Pose:
         """Move on a straight line; returns the pose reached, at rest and within tolerance."""
-        state = self._state()
+        self.sent, state = "", self._state()
         order = self._order(
             Order.MOVE,
             (*pose.position_m.tolist(), *pose.rotvec_rad.tolist()),
@@ -129,6 +134,7 @@ class UrArm:
 
     def stop(self) -> None:
         """Bring the arm to rest; from outside where the worker can't. Never raises."""
+        self.sent = ""
         try:
             if self._fault:
                 self._make_safe()
@@ -232,6 +238,7 @@ class UrArm:
         owner = self._connected()
         try:
             owner.send(order)
+            self.sent = _in_words(order, self.settings)
         except OSError as error:
             self._state()  # says why, if the worker could
             self._latch(f"the UR arm's worker takes no orders any more ({error})")
@@ -305,3 +312,11 @@ class UrArm:
     def _as_pose(self, state: State) -> Pose:
         rotvec = nearest_rotvec(state.pose[3:], self._rotvec)
         return Pose(position_m=np.array(state.pose[:3]), rotvec_rad=np.array(rotvec))
+
+
+def _in_words(order: OrderRecord, settings: UrSettings) -> str:
+    """What the worker tells the controller for an order."""
+    if order.order == Order.MOVE:
+        pose = ", ".join(f"{value:.6f}" for value in order.pose)
+        return f"moveL([{pose}], {order.speed_m_s:g}, {order.acceleration_m_s2:g}, asynchronous)"
+    return f"stopL({settings.stop_deceleration_m_s2:g})" if order.order == Order.STOP else "end"
