@@ -17,7 +17,6 @@ from torch import Tensor, nn
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
 from cltp.encoder import EncoderConfig, TactileEncoder
-from cltp.gathering import gathered
 from cltp.heads import StateHeads, Targets, targets
 from cltp.losses import CltpLoss
 from cltp.samples import CLASSES, Augmentation, Sampler
@@ -25,11 +24,10 @@ from cltp.train.ahead import ahead
 from cltp.train.curves import plot_curves
 from cltp.train.features import FrozenFeatures
 from cltp.train.finite import check_batch
-from cltp.train.sayings import Sayings, fits, say
+from cltp.train.sayings import drawn_prompts, say, true_of
 from cltp.train.stage import Report, Schedule, Stage, silent
 from cltp.train.workers import Workers
 from cltp.weights import load_clip, save_encoder
-from cltp.wordings import prompts
 
 SCHEDULE = Schedule(steps=6000, batch_size=32, learning_rate=1e-3)
 
@@ -172,7 +170,8 @@ class _Run:
         with self.workers.autocast():
             encoded = self.learner.encoder(torch.from_numpy(batch.points).to(to))
         feature = encoded.feature.float()
-        terms = loss(feature, texts, images, self._fits(said))
+        belong = true_of(said, to) if self.recipe.several else None
+        terms = loss(feature, texts, images, belong)
         if self.recipe.prompt_weight > 0:
             found = self._prompt_terms(feature, said.classes.to(to), rng)
             terms |= {name: self.recipe.prompt_weight * term for name, term in found.items()}
@@ -182,20 +181,11 @@ class _Run:
             terms |= {name: self.recipe.head_weight * term for name, term in found.items()}
         return terms | {"temperature": 1 / loss.contrast.scale.detach()}
 
-    def _fits(self, said: Sayings) -> Tensor | None:
-        if not self.recipe.several:
-            return None
-        to = self.workers.device
-        classes, named = gathered(said.classes.to(to)), gathered(said.named.to(to).long())
-        return fits(classes, classes, named.bool())
-
     def _prompt_terms(
         self, feature: Tensor, classes: Tensor, rng: np.random.Generator
     ) -> dict[str, Tensor]:
         terms = {}
-        for column, (slot, names) in enumerate(CLASSES.items()):
-            wordings = [prompts(slot, name) for name in names]
-            texts = [of_class[rng.integers(len(of_class))] for of_class in wordings]
+        for column, (slot, texts) in enumerate(zip(CLASSES, drawn_prompts(rng), strict=True)):
             found = self.frozen.texts(texts).to(feature.device)
             goal = classes[:, column]
             terms[f"prompt_{slot}"] = self.learner.loss.against_prompts(feature, found, goal)

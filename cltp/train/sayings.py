@@ -16,6 +16,7 @@ import torch
 from torch import Tensor
 
 from cltp.captions import caption, slots_of
+from cltp.gathering import gathered
 from cltp.samples import CLASSES
 from cltp.states import ContactState
 from cltp.wordings import prompts
@@ -94,3 +95,15 @@ def fits(contacts: Tensor, told: Tensor, named: Tensor) -> Tensor:
     """
     same = contacts[:, None] == told[None]
     return (same | ~named[None]).all(dim=-1)
+
+
+def true_of(said: Sayings, device: torch.device) -> Tensor:
+    """Which contacts each text is true of, over the rows of all processes; see ``fits``."""
+    classes = gathered(said.classes.to(device))
+    return fits(classes, classes, gathered(said.named.to(device).long()).bool())
+
+
+def drawn_prompts(rng: np.random.Generator) -> list[list[str]]:
+    """For each dimension a prompt for every class, one of its wordings."""
+    wordings = [[prompts(slot, name) for name in names] for slot, names in CLASSES.items()]
+    return [[of[rng.integers(len(of))] for of in of_slot] for of_slot in wordings]

@@ -10,16 +10,18 @@ import torch
 from torch import Tensor, nn
 from transformers import CLIPModel
 
-from cltp.captions import caption
 from cltp.clip import image_features, small_clip, text_features
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.losses import ContrastiveLoss
-from cltp.samples import Augmentation, Batch, Sampler
+from cltp.losses import CltpLoss
+from cltp.samples import CLASSES, Augmentation, Batch, Sampler
 from cltp.tokenizer import Words
 from cltp.train.ahead import ahead
+from cltp.train.curves import plot_curves
 from cltp.train.features import rendered
-from cltp.train.stage import Report, Schedule, Stage, device, silent
+from cltp.train.sayings import drawn_prompts, fits, say, true_of
+from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.workers import Workers
 from cltp.weights import save_clip
 
 SCHEDULE = Schedule(steps=500, batch_size=128, learning_rate=1e-3)
@@ -31,7 +33,7 @@ RENDERED = Augmentation(noise_level=0.0, uncalibrated=0.0)
 class _Learner(nn.Module):
     def __init__(self, clip: CLIPModel) -> None:
         super().__init__()
-        self.clip, self.loss = clip, ContrastiveLoss()
+        self.clip, self.loss = clip, CltpLoss()
 
 
 def train_clip(
@@ -41,8 +43,12 @@ def train_clip(
     *,
     schedule: Schedule = SCHEDULE,
     dim: int = 128,
+    texts: str = "caption",
+    several: bool = False,
+    prompt_weight: float = 0.0,
     seed: int = 0,
     report: Report = silent,
+    workers: Workers | None = None,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/clip``.
 
@@ -52,40 +58,76 @@ def train_clip(
         words: The tokenizer of captions.
         schedule: How long and how fast.
         dim: Width of the towers and of the shared space.
+        texts: What is said of contacts, out of ``cltp.train.sayings.KINDS``.
+        several: Whether all texts that are true of a contact belong to its image.
+        prompt_weight: Of a contrast with one prompt for every class, dimension by dimension.
         seed: Of weights, order and mirroring.
         report: Told about progress.
+        workers: The processes that train together.
 
     Raises:
         TouchError: The data can't be read, or a checkpoint is of another training.
     """
+    workers = workers or Workers()
     data = ContactDataset(data_dir, split=Split.TRAIN)
     torch.manual_seed(seed)
-    learner = _Learner(small_clip(words, dim=dim)).to(device())
-    identity = {"data": data.checksum(), "seed": seed, "dim": dim, "words": words.fingerprint()}
-    stage = Stage("clip", out_dir / ".training", learner, schedule, identity)
+    learner = _Learner(small_clip(words, dim=dim)).to(workers.device)
+    identity = {
+        "data": data.checksum(),
+        "seed": seed,
+        "dim": dim,
+        "words": words.fingerprint(),
+        "variant": f"{texts} {several} {prompt_weight} {workers.count}, read where a text ends",
+    }
+    stage = Stage("clip", out_dir / ".training", learner, schedule, identity, workers=workers)
     folder = out_dir / "clip"
     if stage.done and folder.exists():
         return folder
-    batches = ahead(_batches(data, seed, schedule, stage.step))
+    batches = ahead(_batches(data, seed, stage, workers))
 
     def losses(step: int) -> dict[str, Tensor]:
         batch, pixels = next(batches)
-        captions = [caption(state) for state in batch.states]
-        texts = text_features(learner.clip, words, captions)
-        images = image_features(learner.clip, pixels.to(device()))
-        similar = (texts @ images.T).argmax(dim=1).cpu().numpy()
-        right = np.mean([captions[found] == own for found, own in zip(similar, captions)])  # noqa: B905
-        return {"contrast": learner.loss(images, texts), "right": torch.tensor(float(right))}
+        rng = np.random.default_rng([seed, 56, workers.part(step)])
+        said = say(batch.states, texts, rng)
+        with workers.autocast():
+            spoken = text_features(learner.clip, words, said.texts).float()
+            images = image_features(learner.clip, pixels.to(workers.device)).float()
+        belong = true_of(said, workers.device) if several else None
+        terms = {"contrast": learner.loss.contrast(images, spoken, belong)}
+        if prompt_weight > 0:
+            found = _prompt_terms(learner, words, images, said.classes.to(workers.device), rng)
+            terms |= {name: prompt_weight * term for name, term in found.items()}
+        near = (spoken @ images.T).argmax(dim=1).cpu()
+        right = fits(said.classes, said.classes, said.named)[near, torch.arange(len(near))]
+        temperature = 1 / learner.loss.contrast.scale.detach()
+        return terms | {"right": right.float().mean(), "temperature": temperature}
 
     learner.train()
     stage.run(losses, report)
-    save_clip(folder, learner.clip.cpu().eval(), words)
+    if workers.is_first:
+        plot_curves(stage.curves, stage.curves.with_suffix(".png"))
+        save_clip(folder, learner.clip.cpu().eval(), words)
+    workers.wait()
     return folder
 
 
+def _prompt_terms(
+    learner: _Learner, words: Words, images: Tensor, classes: Tensor, rng: np.random.Generator
+) -> dict[str, Tensor]:
+    drawn = drawn_prompts(rng)
+    found = text_features(learner.clip, words, [text for of_slot in drawn for text in of_slot])
+    parts = found.float().split([len(of_slot) for of_slot in drawn])
+    return {
+        f"prompt_{slot}": learner.loss.against_prompts(images, part, classes[:, column])
+        for column, (slot, part) in enumerate(zip(CLASSES, parts, strict=True))
+    }
+
+
 def _batches(
-    data: ContactDataset, seed: int, schedule: Schedule, first_step: int
+    data: ContactDataset, seed: int, stage: Stage, workers: Workers
 ) -> Iterator[tuple[Batch, Tensor]]:
     sampler = Sampler(data, RENDERED, seed=seed)
-    for batch in sampler.training(schedule.batch_size, first_step):
+    size = workers.share(stage.schedule.batch_size)
+    for step in range(stage.step, stage.schedule.steps):
+        batch = sampler.numbered(size, workers.part(step))
         yield batch, rendered(data, batch)
