@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from cltp.cloud import Stamp
+from cltp.errors import TouchError
 from primitives.devices import Arm, Gripper, Pose
 from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
@@ -87,14 +88,16 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     Raises:
         RobotError: A device can't be had or is not as it must be; nothing has moved. Or the way to
             the start pose failed.
-        TouchError: The sensor can't be had.
     """
     from tacgrasp.drivers.dynamixel import connect_gripper
     from tacgrasp.drivers.ur import connect_arm
 
     log = CommandLog(time.monotonic)
     with ExitStack() as stack:
-        sensor = connect_sensor(hardware.sensor, config)
+        try:
+            sensor = connect_sensor(hardware.sensor, config)
+        except TouchError as error:  # before an episode it is the rig that can't be had
+            raise RobotError(str(error)) from None
         stack.callback(sensor.disconnect)
         gripper = connect_gripper(hardware.gripper)
         stack.callback(gripper.disconnect)
@@ -126,7 +129,11 @@ def _counts(sensor: WatchedSensor) -> str:
 
 
 def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor:
-    """The sensor of this kind; points are drawn as on the simulated sensor of the same seed."""
+    """The sensor of this kind; points are drawn as on the simulated sensor of the same seed.
+
+    Raises:
+        TouchError: It can't be had.
+    """
     rng = np.random.default_rng([config.seed, 2])
     if isinstance(settings, GelSightSettings):
         from tacgrasp.drivers.gelsight_mini import connect_gelsight

@@ -91,7 +91,7 @@ def make_rig(config: RunConfig) -> Rig:
     Raises:
         UsageError: The simulator knows no such object, or the mesh doesn't exist.
         RobotError: A device can't be reached, or is not as it must be.
-        TouchError: The sensor can't be reached, or the mesh can't be used.
+        TouchError: The mesh can't be used.
     """
     if config.hardware is None:
         return _simulated(config)
