@@ -1,4 +1,4 @@
-"""A whole emulated rig in one process: arm, gripper and taxel array around one world.
+"""A whole emulated rig: arm (a child process), gripper and taxel array around one world.
 
 ``python -m sim.emulators rig --object strawberry --seed 0``. Each rig has an address and ports of
 its own, so that several run side by side on one machine.
@@ -20,7 +20,7 @@ from sim.emulators.control import ControlServer, Emulated
 from sim.emulators.dynamixel import DynamixelEmulator
 from sim.emulators.lifetime import announce_and_wait
 from sim.emulators.taxels import TaxelEmulator
-from sim.emulators.ur import UrEmulator
+from sim.emulators.ur_child import UrChild
 from sim.emulators.world import SharedWorld
 from sim.rig import build
 
@@ -92,13 +92,13 @@ def main(argv: Sequence[str]) -> int:
     return 0
 
 
-def _arm(host: str | None, world: SharedWorld) -> UrEmulator:
-    """An arm at the address asked for, or at the first that is free."""
+def _arm(host: str | None, world: SharedWorld) -> UrChild:
+    """An arm at the address asked for, or at the first that is free; a process of its own."""
     if host is not None:
-        return UrEmulator(host, listener=world)
+        return UrChild(host, world.moved)
     for tried in addresses(os.getpid()):
         try:
-            return UrEmulator(tried, listener=world)
+            return UrChild(tried, world.moved)
         except OSError:
             continue
     raise RobotError(f"none of {_TRIES} loopback addresses has the ports of a UR free")

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from sim.emulators.control import ControlServer, Facts
 from sim.emulators.lifetime import announce_and_wait
+from sim.emulators.ur_child import RemoteWorld
 from sim.emulators.ur_controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur_robot import Stretch
 from sim.emulators.ur_server import PORTS, Server, ask_for_real_time
@@ -233,6 +234,9 @@ def main(argv: Sequence[str]) -> int:
     parser.add_argument(
         "--tcp-offset", type=float, nargs=6, default=TCP_OFFSET, help="flange to TCP [m, rad]"
     )
+    parser.add_argument(
+        "--world-port", type=int, default=None, help="local port of a world that follows (ur_child)"
+    )
     chosen = parser.parse_args(argv)
     major, minor = (int(part) for part in chosen.version.split("."))
     ask_for_real_time()  # control channel too: a thread that waits for it must not wait long
@@ -242,6 +246,7 @@ def main(argv: Sequence[str]) -> int:
         stream_hz=chosen.stream_hz,
         start_tcp=chosen.start_tcp,
         tcp_offset=chosen.tcp_offset,
+        listener=None if chosen.world_port is None else RemoteWorld(chosen.world_port),
     )
     control = ControlServer({"ur": emulator})
     announce_and_wait({"host": chosen.host, "control_port": control.port})

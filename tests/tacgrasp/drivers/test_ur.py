@@ -17,6 +17,7 @@ from pydantic import ValidationError
 from primitives import LimitError, RobotError
 from primitives.devices import Pose
 from sim.emulators.spawn import EmulatorProcess
+from sim.emulators.ur_child import UrChild
 from tacgrasp.drivers import ur, ur_link
 from tacgrasp.drivers.ur import UrArm, check, connect_arm
 from tacgrasp.drivers.ur_block import (
@@ -316,6 +317,35 @@ def test_a_slider_that_is_moved_to_zero_ends_the_move_as_a_fault_in_bounded_time
     raised = in_motion(arm, emulator, lambda: emulator.control.inject("ur", "speed_slider"))
     assert "slider is at 0%" in raised[0]
     assert time.monotonic() - began_s < 8.0
+
+
+def test_a_move_ends_only_when_the_world_of_a_child_has_followed_it():
+    told = []
+
+    def moved(by_base_m, rotvec_rad, speed_m_s, acceleration_m_s2):
+        time.sleep(0.3)
+        told.append((by_base_m, rotvec_rad, speed_m_s, acceleration_m_s2))
+
+    child = UrChild(loopback(45), moved)
+    try:
+        with pytest.raises(OSError, match="in use"):
+            UrChild(loopback(45), moved)
+        arm = connect_arm(
+            emulated_arm(loopback(45)).model_copy(update={"watchdog_hz": 10.0, "stale_ms": 100.0})
+        )
+        began_s = time.monotonic()
+        arm.move_to(above(arm.pose(), 0.01), speed_m_s=0.3, acceleration_m_s2=2.5)
+        assert time.monotonic() - began_s > 0.3
+        assert len(told) == 1
+        assert told[0][0] == pytest.approx([0, 0, 0.01], abs=1e-9)
+        assert told[0][1] == pytest.approx([0, 0, 0], abs=1e-9)
+        assert told[0][2:] == (0.3, 2.5)
+        child.inject("local_control")
+        assert child.facts()["injected_ago_ms"] >= 0
+        child.clear()
+        arm.disconnect()
+    finally:
+        child.close()
 
 
 # -- faults in motion ----------------------------------------------------------------------------
