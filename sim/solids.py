@@ -3,7 +3,8 @@
 A solid tells how far a point is from its surface (negative inside) and which *cell* of it is
 nearest: a face, a bar, a bump, a crest. A cell's ``Form`` says what it is called when it touches
 (``sim.touched``). Edges of a solid cut from faces are rounded by a fillet; where faces meet at an
-angle other than 90° the distance is a bound, and ``steep`` says by how much it may be too large.
+angle other than 90° the distance is a bound, too small rather than too large; where it may be too
+large, ``steep`` says by how much.
 
 Points are tensors (..., 3) [mm]. Works on any device; on the same kind of device the result for a
 point does not depend on its company.
@@ -174,12 +175,25 @@ _MOST_CRESTS = 64
 
 @dataclass(frozen=True, slots=True)
 class Cut:
-    """What lies behind all of its faces, its edges rounded by ``fillet`` [mm]."""
+    """What lies behind all of its faces, its edges rounded by ``fillet`` [mm].
+
+    Attributes:
+        faces: At least one.
+        fillet: Radius of its edges where faces meet at 90° [mm].
+        reach_mm: See ``Solid``.
+        leaning: Slope of the sum of squares that rounds the edges, where its faces lean most
+            towards each other: 1 where they meet at 90°.
+    """
 
     faces: tuple[Face, ...]
     fillet: float
     reach_mm: float
-    steep: float = 1.3
+    leaning: float = 1.25
+
+    @property
+    def steep(self) -> float:
+        """See ``Solid``: both bounds below are at most as steep as the distance."""
+        return 1.0
 
     @property
     def cells(self) -> tuple[Cell, ...]:
@@ -194,7 +208,9 @@ class Cut:
         """See ``Solid``."""
         behind = self._behind(points)
         rim = (behind + self.fillet).clamp_(min=0).square_().sum(0).sqrt_()
-        return behind.amax(0).clamp_(max=-self.fillet) + rim
+        foremost = behind.amax(0)
+        rounded = foremost.clamp(max=-self.fillet) + rim
+        return torch.maximum(foremost, rounded / self.leaning)
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
@@ -211,13 +227,17 @@ class Cut:
 class Oval:
     """Ellipsoid about the origin with three half axes [mm].
 
-    Source: a first-order distance, |p/r| (|p/r| - 1) / |p/r²| (Quilez); a little too large outside.
+    Source: a first-order distance, |p/r| (|p/r| - 1) / |p/r²| (Quilez); too large beside flat ones.
     """
 
     x: float
     y: float
     z: float
-    steep: float = 1.25
+
+    @property
+    def steep(self) -> float:
+        """See ``Solid``; measured, over a range of proportions."""
+        return max(1.25, 0.77 * max(self.x, self.y, self.z) / min(self.x, self.y, self.z))
 
     @property
     def cells(self) -> tuple[Cell, ...]:

@@ -61,14 +61,14 @@ def box(x: float, y: float, z: float, fillet: float = 0.4) -> Cut:
             normal = [0.0, 0.0, 0.0]
             normal[axis] = sign
             faces.append(Flat((normal[0], normal[1], normal[2]), reach))
-    return Cut(tuple(faces), fillet, math.hypot(*half), steep=1.0)
+    return Cut(tuple(faces), fillet, math.hypot(*half), leaning=1.0)
 
 
 def rod(diameter: float, length: float, fillet: float = 0.3, end: Shape = Shape.DISC) -> Cut:
     """A cylinder with two flat ends."""
     low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=end))
     faces = (_end(end), low, Barrel(diameter / 2))
-    return Cut(faces, fillet, math.hypot(diameter / 2, length), steep=1.0)
+    return Cut(faces, fillet, math.hypot(diameter / 2, length), leaning=1.0)
 
 
 def taper(top: float, bottom: float, length: float, fillet: float = 0.3) -> Cut:
@@ -124,7 +124,7 @@ def tube(outer: float, inner: float, length: float, fillet: float = 0.2) -> Cut:
     outline = Shape.RING if (outer - inner) / 2 <= 1.5 else Shape.HOLE
     low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=outline))
     faces = (_end(outline), low, Barrel(outer / 2), Bore(inner / 2))
-    return Cut(faces, fillet, math.hypot(outer / 2, length), steep=1.0)
+    return Cut(faces, fillet, math.hypot(outer / 2, length), leaning=1.0)
 
 
 def bored(solid: Cut, diameter: float, fillet: float = 0.2) -> Cut:
@@ -136,7 +136,7 @@ def bored(solid: Cut, diameter: float, fillet: float = 0.2) -> Cut:
             faces.append(Flat(face.normal, face.offset, hole))
         else:
             faces.append(face)
-    return Cut((*faces, Bore(diameter / 2)), fillet, solid.reach_mm, solid.steep)
+    return Cut((*faces, Bore(diameter / 2)), fillet, solid.reach_mm, solid.leaning)
 
 
 def dished(diameter: float, length: float, sphere: float, depth: float) -> Hollow:
@@ -154,7 +154,7 @@ def cone(half_angle: float, length: float, blunt: float = 0.25, shank: float = 1
         Barrel(shank / 2),
         Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC)),
     )
-    return Cut(faces, blunt, math.hypot(shank / 2, length))
+    return Cut(faces, blunt, math.hypot(shank / 2, length), 1.42)
 
 
 def pyramid(
@@ -169,7 +169,8 @@ def pyramid(
     for i in range(num):
         turn = 2 * math.pi * i / num
         faces.append(Flat((run * math.cos(turn), run * math.sin(turn), rise), blunt * run, side))
-    return Cut(tuple(faces), blunt, math.hypot(shank / 2, length))
+    leaning = math.sqrt(1 + num * rise**2)
+    return Cut(tuple(faces), blunt, math.hypot(shank / 2, length), leaning)
 
 
 def roof(angle: float, width: float, length: float, lean: float = 0.0, fillet: float = 0.2) -> Cut:
@@ -190,7 +191,7 @@ def rounded(radius: float, length: float, diameter: float) -> Cut:
     """A rod with a domed end, of radius ``radius``."""
     low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC))
     faces = (Dome(radius, -radius), Barrel(diameter / 2), low)
-    return Cut(faces, 0.3, math.hypot(diameter / 2, length))
+    return Cut(faces, 0.3, math.hypot(diameter / 2, length), 1.42)
 
 
 def on_base(pattern: Solid, diameter: float, below: float = 1.8, length: float = 14.0) -> Blend:

@@ -135,21 +135,36 @@ def series_numbers(contacts: int) -> list[int]:
     ]
 
 
+MESH_FIRST, MESH_SERIES = 3_000_000, 105
+"""Where the numbers of series of meshes begin, and how many each mesh has: 420 contacts, of the
+paper's 400-500."""
+
+
+def mesh_numbers(which: int) -> range:
+    """Numbers of the series of mesh ``which``, from 0."""
+    first = MESH_FIRST + MESH_SERIES * which
+    return range(first, first + MESH_SERIES)
+
+
 def num_loads(number: int) -> int:
     """Contacts in series ``number``."""
-    return LOADS if number < GELSTEREO_FIRST else DOMAIN_LOADS
+    return DOMAIN_LOADS if GELSTEREO_FIRST <= number < MESH_FIRST else LOADS
 
 
 def order_of(seed: int, number: int) -> Order:
     """What series ``number`` of the data set of ``seed`` is to be."""
-    rng = np.random.default_rng([seed, number, 3])
     if number >= GELSIGHT_FIRST:
+        rng = np.random.default_rng([seed, number, 3])
         thing, sensor = LARGE[int(rng.integers(len(LARGE)))], sensor_named("gelsight_mini")
         return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSIGHT, DOMAIN_LOADS)
     if number >= GELSTEREO_FIRST:
         thing, sensor = SMALL[number % len(SMALL)], sensor_named("gelstereo")
         return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSTEREO, DOMAIN_LOADS)
-    thing, sensor = THINGS[number % len(THINGS)], sensor_named("gelsight_mini")
+    return _main_order(seed, number, THINGS[number % len(THINGS)])
+
+
+def _main_order(seed: int, number: int, thing: Thing) -> Order:
+    rng = np.random.default_rng([seed, number, 3])
     u, which = float(rng.random()), int(rng.integers(1 << 30))
     split = Split.TRAIN
     if thing.name in UNSEEN:
@@ -161,6 +176,7 @@ def order_of(seed: int, number: int) -> Order:
     elif u < TEST_SHARE + VALIDATION_SHARE + PHYSICS_SHARE:
         split = Split.PHYSICS
     gels = OTHER_GELS if split is Split.PHYSICS else GELS
+    sensor = sensor_named("gelsight_mini")
     return _order(number, thing, sensor, gels[which % len(gels)], split, LOADS)
 
 
@@ -170,15 +186,18 @@ def _order(
     return Order(number=number, thing=thing, sensor=sensor, gel=gel, split=split, loads=loads)
 
 
-def make_series(seed: int, number: int, device: torch.device | str = "cpu") -> list[Contact]:
+def make_series(
+    seed: int, number: int, device: torch.device | str = "cpu", *, thing: Thing | None = None
+) -> list[Contact]:
     """Make the contacts of one series, lightest first.
 
     Args:
         seed: Of the data set.
-        number: Of the series (``series_numbers``).
+        number: Of the series (``series_numbers``, ``mesh_numbers``).
         device: Where rays are cast and contacts are solved.
+        thing: What is pressed, instead of an object of the catalogue.
     """
-    order = order_of(seed, number)
+    order = order_of(seed, number) if thing is None else _main_order(seed, number, thing)
     rng = np.random.default_rng([seed, number, 1])
     scene, depths = draw_scene(order, rng, device)
     soft = order.thing.modulus_mpa
@@ -215,10 +234,11 @@ def draw_scene(
     shares = rng.random(order.loads)
     lightest = _depths(order, shares, lowest, gentle=False)[0]
     held = order.split is Split.GELSTEREO
-    for _ in range(_TRIES):
+    for tries in range(_TRIES):
         pose = draw_pose(thing, rng, sensor, lightest, held=held)
         felt = feel(thing, pose.object_from_pad, pose.point, x, y, device)
-        if felt is not None and (pose.flat or not _at_border(felt.gap_mm)):
+        slips = felt is not None and not pose.flat and _at_border(felt.gap_mm)
+        if felt is not None and not (slips and tries < _TRIES // 2):
             break
     else:
         raise ValueError(f"{thing.name} could not be brought to the pad in {_TRIES} tries")

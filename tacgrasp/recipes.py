@@ -9,7 +9,9 @@ Not here: workers and files (``tacgrasp.generate``).
 
 from __future__ import annotations
 
+import hashlib
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -18,9 +20,11 @@ import torch
 
 from cltp.contacts import Contact
 from cltp.sensors import sensor_named
+from sim.catalogue import THINGS
 from sim.contacts import GROUP_CONTACTS, make_group
+from sim.mesh_objects import meshes_in, thing_from_mesh
 from sim.rig import BENCHMARK_SEED
-from sim.tcl3d import ALL_CONTACTS, make_series, num_loads, series_numbers
+from sim.tcl3d import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.errors import UsageError
 
 SETS = ("tcl3d", "starter")
@@ -107,6 +111,7 @@ class Tcl3d:
 
     contacts: int
     seed: int
+    meshes: tuple[Path, ...] = ()
     device: str = "cpu"
 
     @property
@@ -121,7 +126,8 @@ class Tcl3d:
             "set": "tcl3d",
             "maker": TCL3D_MAKER,
             "seed": str(self.seed),
-            "contacts": str(self.contacts),
+            "contacts": str(sum(self.shard_sizes())),
+            **({"meshes": _names(self.meshes)} if self.meshes else {}),
             "torch": torch.__version__.split("+")[0],
             "device": self.device.split(":")[0],
         }
@@ -130,26 +136,32 @@ class Tcl3d:
         """See ``Recipe``."""
         count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
         device = "" if self.device == "cpu" else f" --device {self.device}"
-        return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{device}"
+        meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
+        return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{meshes}{device}"
 
     def shard_sizes(self) -> list[int]:
         """See ``Recipe``."""
         sizes = [sum(map(num_loads, shard)) for shard in self._shards()]
         sizes[-1] -= sum(sizes) - self.contacts
-        return sizes
+        per_mesh = [sum(map(num_loads, part)) for part in _parts(mesh_numbers(0))]
+        return [*sizes, *per_mesh * len(self.meshes)]
 
     def make(self, shard: int) -> list[Contact]:
         """See ``Recipe``."""
-        made = [
-            contact
-            for number in self._shards()[shard]
-            for contact in make_series(self.seed, number, self.device)
-        ]
+        own = self._shards()
+        thing, part = None, shard - len(own)
+        if part >= 0:
+            which, part = divmod(part, len(_parts(mesh_numbers(0))))
+            thing, numbers = thing_from_mesh(self.meshes[which]), _parts(mesh_numbers(which))[part]
+        else:
+            numbers = own[shard]
+        series = (make_series(self.seed, number, self.device, thing=thing) for number in numbers)
+        made = [contact for one in series for contact in one]
         return made[: self.shard_sizes()[shard]]
 
-    def _shards(self) -> list[list[int]]:
-        numbers = series_numbers(self.contacts)
-        return [numbers[i : i + SHARD_SERIES] for i in range(0, len(numbers), SHARD_SERIES)]
+    def _shards(self) -> list[Sequence[int]]:
+        """Series of the catalogue, by shard; those of meshes follow, each mesh by itself."""
+        return _parts(series_numbers(self.contacts))
 
 
 def recipe(
@@ -165,7 +177,7 @@ def recipe(
 
     Raises:
         UsageError: There is no such set, or a value makes no sense for it.
-        TouchError: The sensor is not known.
+        TouchError: The sensor is not known, or a mesh can't be used.
     """
     if set_name not in SETS:
         raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
@@ -183,8 +195,22 @@ def recipe(
         raise UsageError(
             f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
         )
-    return Tcl3d(contacts=contacts or ALL_CONTACTS, seed=seed, device=device)
+    found = () if meshes is None else tuple(meshes_in(meshes))
+    for path in found:  # all faults before the first contact
+        thing_from_mesh(path)
+    if len({path.stem for path in found} | {t.name for t in THINGS}) < len(found) + len(THINGS):
+        raise UsageError(f"{meshes} has meshes of one name, or that of an object of tcl3d; rename")
+    return Tcl3d(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=found, device=device)
 
 
 def _cut(contacts: int, size: int) -> list[int]:
     return [min(size, contacts - first) for first in range(0, contacts, size)]
+
+
+def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:
+    return [numbers[i : i + SHARD_SERIES] for i in range(0, len(numbers), SHARD_SERIES)]
+
+
+def _names(meshes: Sequence[Path]) -> str:
+    """Names and checksums: another mesh of the same name is other data."""
+    return " ".join(f"{p.name}:{hashlib.sha256(p.read_bytes()).hexdigest()[:12]}" for p in meshes)
