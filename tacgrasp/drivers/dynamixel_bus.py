@@ -11,7 +11,7 @@ For one thread only: the one that owns the port (``dynamixel_watch``).
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from primitives.errors import RobotError
@@ -26,7 +26,7 @@ WHAT = "the gripper"
 
 _PING, _READ, _WRITE, _REBOOT, _SYNC_WRITE = 1, 2, 3, 8, 0x83
 _BROADCAST = 0xFE
-_SHORTEST = 11  # bytes of a status packet without parameters
+_ERROR_AT, _SHORTEST = 8, 11  # bytes of a status packet without parameters
 _TX_BUSY, _CORRUPT = -1000, -3002
 _QUIET_S = 0.003
 
@@ -218,29 +218,31 @@ class Bus:
         port = self._opened()
         size = len(body) + 3
         sent = [0, 0, 0, 0, servo, size & 0xFF, size >> 8, code, *body, 0, 0]
-        began_s = self._clock()
+        began_s, stray = self._clock(), 0
         with _PortErrors(self):
-            received, result, error = self._sdk.txRxPacket(port, sent)
+            received, result, _ = self._sdk.txRxPacket(port, sent)
+            while result == 0 and servo != _BROADCAST and _is_stray(received, servo, length):
+                stray += 1  # an answer to an earlier question; ours is still to come
+                received, result = self._sdk.rxPacket(port, False)
         what = f"servo {servo} on {self.path}"
+        self.counts.late += stray
         if result == _TX_BUSY:
             self.open()
             self.counts.rebuilt += 1
             raise BusError(Trouble.CORRUPT, f"the port of {what} was stuck and was rebuilt")
+        if result != 0 and stray:
+            raise BusError(
+                Trouble.CORRUPT, f"{what} answered an earlier question only", waited=True
+            )
         if result != 0:
             raise self._failure(result, what, self._clock() - began_s)
         if servo == _BROADCAST:
             return Answer(data=b"", alert=False)
-        told = received[5] + (received[6] << 8) + 7 - _SHORTEST
+        error = received[_ERROR_AT]
         if error & 0x7F:
             raise BusError(Trouble.REFUSED, f"{what} refused: {refusal_words(error & 0x7F)}")
-        if told != length:
-            self.counts.late += 1
-            raise BusError(
-                Trouble.CORRUPT,
-                f"{what} answered with {told} bytes where {length} were asked for: an answer to an "
-                "earlier question",
-            )
-        return Answer(data=bytes(received[9 : 9 + told]), alert=bool(error & 0x80))
+        data = bytes(received[_ERROR_AT + 1 : _ERROR_AT + 1 + length])
+        return Answer(data=data, alert=bool(error & 0x80))
 
     def _failure(self, result: int, what: str, took_s: float) -> BusError:
         timeout_ms = self._settings.reply_timeout_ms
@@ -283,6 +285,13 @@ class _PortErrors:
                 f"the serial port {path} of {WHAT} is gone ({error}): unplugged, or the adapter "
                 "lost power; what it grips is still held by the servo",
             ) from error
+
+
+def _is_stray(received: Sequence[int], servo: int, length: int) -> bool:
+    """Whether this is not the answer that was asked for, by its sender or its length."""
+    told = received[5] + (received[6] << 8) + 7 - _SHORTEST
+    refused = told == 0 and received[_ERROR_AT] & 0x7F
+    return received[4] != servo or (told != length and not refused)
 
 
 def _u16(value: int) -> bytes:

@@ -9,6 +9,7 @@ import pytest
 from emulated_servos import EmulatedServos, eventually
 
 from primitives import RobotError
+from sim.emulators.dynamixel_packets import status
 from tacgrasp.drivers import dynamixel_registers as at
 from tacgrasp.drivers.dynamixel_bus import Bus
 from tacgrasp.drivers.dynamixel_trouble import BusError, Trouble
@@ -61,6 +62,22 @@ def test_however_late_an_answer_is_the_next_reads_are_true(bus, servos, delay_ms
         assert bus.read(1, at.MODEL, 2).data == MODEL
         assert bus.read(1, at.VOLTAGE, 2).data == (111).to_bytes(2, "little")
         assert bus.read_number(1, at.GOAL_CURRENT, 2) == 910
+
+
+def test_stray_answers_do_not_use_up_the_second_try(bus, servos, monkeypatch):
+    port, write, lag = bus._port, bus._port.writePort, []
+
+    def first_stray(sent):
+        """The answers to three earlier questions, later than any drain, come before this one's."""
+        if not lag:
+            lag.append(True)
+            for body in (bytes(3), bytes(25), bytes(3)):
+                servos.emulator._wire.write(status(1, 0, body))
+        return write(sent)
+
+    monkeypatch.setattr(port, "writePort", first_stray)
+    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert (bus.counts.late, bus.counts.corrupt, bus.counts.silent) == (3, 0, 0)
 
 
 def test_two_corrupt_answers_are_an_error_and_no_value(bus, servos):
