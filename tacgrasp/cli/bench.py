@@ -152,6 +152,21 @@ class Crash:
     json: Path | None = None
 
 
+@dataclass(frozen=True)
+class Generate:
+    """Kill the generation of a data set at random moments and compare the bytes.
+
+    Attributes:
+        kills: How many.
+        contacts: In the data set.
+        json: File for the figures.
+    """
+
+    kills: int = 10
+    contacts: int = 600
+    json: Path | None = None
+
+
 def main(argv: Sequence[str]) -> int:
     """Dispatch to the benchmarks; 0 when what was measured is as it must be."""
     benches: dict[str, Callable[[Sequence[str]], bool | None]] = {
@@ -163,6 +178,7 @@ def main(argv: Sequence[str]) -> int:
         "balls": _balls,
         "ball-captions": _ball_captions,
         "crash": _crash,
+        "generate": _generate,
         "faults": bench_rigs.faults,
         "drivers": bench_rigs.drivers,
         "rigs": bench_rigs.rigs,
@@ -283,3 +299,11 @@ def _crash(argv: Sequence[str]) -> None:
     from tacgrasp import bench_crash
 
     bench_crash.run(flags.kills, writable(flags.json))
+
+
+def _generate(argv: Sequence[str]) -> bool:
+    """Kill the generation of a data set at random moments and compare the bytes."""
+    flags = parse(Generate, argv, prog="tacgrasp bench generate")
+    from tacgrasp import bench_generate
+
+    return bench_generate.run(flags.kills, flags.contacts, writable(flags.json))

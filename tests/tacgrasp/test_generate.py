@@ -2,19 +2,21 @@
 
 import io
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
 
+import pyarrow.parquet as pq
 import pytest
 from rich.console import Console
 
 from cltp.dataset import ContactDataset
 from cltp.errors import TouchError
+from tacgrasp import bench_generate, recipes
 from tacgrasp import generate as made
-from tacgrasp import recipes
 from tacgrasp.errors import UsageError
 
 ROOT = Path(__file__).parents[2]
@@ -149,3 +151,93 @@ def test_a_folder_that_can_t_be_written_is_an_error(tmp_path):
     tmp_path.chmod(0o500)
     with pytest.raises(TouchError, match="can't write"):
         generate(tmp_path / "data")
+
+
+def tcl3d(out, contacts=24, seed=5, **options):
+    generate(out, contacts, seed, set_name="tcl3d", **options)
+
+
+@pytest.fixture(scope="module")
+def whole_tcl3d(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("tcl3d") / "data"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(recipes, "SHARD_SERIES", 2)
+        tcl3d(folder, workers=1)
+    return folder
+
+
+@pytest.fixture
+def shards_of_two_series(monkeypatch):
+    monkeypatch.setattr(recipes, "SHARD_SERIES", 2)
+
+
+def test_parts_from_several_machines_give_the_same_bytes(
+    whole_tcl3d, tmp_path, shards_of_two_series
+):
+    joined = tmp_path / "joined"
+    for part in ("2/2", "1/2"):
+        tcl3d(tmp_path / part[0], shard=part, workers=1)
+        shutil.copytree(tmp_path / part[0], joined, dirs_exist_ok=True)
+    assert not (joined / "README.md").exists()
+    with pytest.raises(TouchError, match=r"holds 16 of 24 contacts|holds 8 of 24 contacts"):
+        ContactDataset(tmp_path / "1")
+    tcl3d(joined, workers=1)
+    assert files(joined) == files(whole_tcl3d)
+
+
+def test_a_card_says_what_is_in_the_folder(whole_tcl3d):
+    data = ContactDataset(whole_tcl3d)
+    card = (whole_tcl3d / "README.md").read_text()
+    assert data.checksum() in card
+    assert "`tacgrasp data generate --set tcl3d --seed 5 --contacts 24`" in card
+    assert len(data) == 24
+    assert data.contact(0).unsure is not None
+    assert data.contact(0).approach_mm > 0
+
+
+def test_the_starter_set_has_no_column_that_it_did_not_have(undisturbed):
+    stored = pq.read_schema(undisturbed / "shard-s00000-00000.parquet")
+    assert "unsure" not in stored.names
+    assert ContactDataset(undisturbed).contact(0).unsure is None
+    assert ContactDataset(undisturbed).contact(0).peak_kpa is None
+
+
+@pytest.mark.parametrize("wrong", ["0/2", "3/2", "1/0", "1", "a/b", "-1/2"])
+def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
+    with pytest.raises(UsageError, match="--shard expects i/n"):
+        tcl3d(tmp_path / "data", shard=wrong)
+    assert not (tmp_path / "data").exists()
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"set_name": "tcl4d"}, "unknown set 'tcl4d'; known: tcl3d, starter"),
+        ({"set_name": "tcl3d", "sensor_name": "digit"}, "belongs to --set starter"),
+        ({"set_name": "starter", "meshes": Path("x")}, "belong to --set tcl3d"),
+    ],
+)
+def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):
+    with pytest.raises(UsageError, match=message):
+        generate(tmp_path / "data", **wrong)
+
+
+def test_a_full_disk_is_an_error_that_leaves_no_shard(tmp_path, monkeypatch, shards_of_two_series):
+    def full(*_args, **_options):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("cltp.dataset.pq.write_table", full)
+    with pytest.raises(TouchError, match="No space left on device"):
+        tcl3d(tmp_path / "data", contacts=8, workers=1)
+    assert not made.is_complete(tmp_path / "data")
+    monkeypatch.undo()
+
+
+def test_a_folder_without_meshes_is_refused(tmp_path):
+    with pytest.raises(TouchError, match="has no mesh"):
+        tcl3d(tmp_path / "data", meshes=tmp_path)
+
+
+@pytest.mark.slow
+def test_killed_at_random_and_in_parts_the_bytes_are_the_same():
+    assert bench_generate.run(3, 250, console=Console(file=io.StringIO()))

@@ -1,0 +1,75 @@
+"""Distances of solids: closed forms, and no step of a ray that could jump over a surface."""
+
+import math
+
+import pytest
+import torch
+
+from cltp.states import Shape
+from sim.catalogue import LARGE, SMALL, THINGS, thing_named
+from sim.solids import Form, Hoop, along, leaning, moved
+from sim.stock import ball, bars, box, on_corner, polygon, prism, pyramid, rod
+
+
+def at(*point):
+    return torch.tensor([point], dtype=torch.float64)
+
+
+@pytest.mark.parametrize(
+    ("solid", "point", "expected"),
+    [
+        (ball(10), (0, 0, 8), 3),
+        (box(20, 10, 6, 0.5), (0, 0, 5), 2),
+        (box(20, 10, 6, 0.5), (0, 0, 0), -3),
+        # the corner of a rounded box is a ball
+        (box(20, 10, 6, 0.5), (13, 8, 6), math.hypot(3.5, 3.5, 3.5) - 0.5),
+        (rod(8, 20), (0, 0, 3), 3),
+        (rod(8, 20), (9, 0, -10), 5),
+        (along("x", rod(8, 20)), (3, 0, 0), 3),
+        (moved(ball(4), 1, 2, 3), (1, 2, 8), 3),
+        (leaning(90, rod(8, 20)), (5, 0, 0), 5),
+        (Hoop(5, 1), (9, 0, 0), 3),
+        (Hoop(5, 1, math.pi / 2), (-5, 0, 0), math.hypot(5, 5) - 1),
+        (bars([(-3, 0, 3, 0)], 1.0), (0, 0, 2), 2),
+    ],
+)
+def test_distances_are_those_of_closed_forms(solid, point, expected):
+    assert float(solid.distance(at(*point))) == pytest.approx(expected, abs=1e-9)
+
+
+def test_a_cube_on_its_corner_reaches_half_its_diagonal_less_the_fillet():
+    solid = on_corner(9.0, 0.3)
+    tip = 4.5 * math.sqrt(3) - 0.3 * (math.sqrt(3) - 1)
+    assert float(solid.distance(at(0, 0, tip))) == pytest.approx(0, abs=1e-6)
+
+
+def test_cells_are_the_faces_that_are_nearest():
+    solid = prism(polygon(6, 10), 20, Shape.HEXAGON)
+    assert solid.cells[int(solid.cell(at(0, 0, 0.1)))].outline is Shape.HEXAGON
+    side = solid.cells[int(solid.cell(at(6, 0.1, -10)))]
+    assert side.form is Form.FLAT
+    assert side.outline is None
+
+
+@pytest.mark.parametrize("thing", THINGS, ids=lambda thing: thing.name)
+def test_no_distance_grows_faster_than_it_says(thing):
+    draw = torch.Generator().manual_seed(3)
+    reach = min(1.4 * thing.reach_mm, 80)
+    points = (2 * torch.rand(1500, 3, generator=draw, dtype=torch.float64) - 1) * reach
+    beside = points + 0.02 * torch.randn(1500, 3, generator=draw, dtype=torch.float64)
+    away = thing.distance(points)
+    growth = (away - thing.distance(beside)).abs() / (points - beside).norm(dim=1)
+    assert float(growth[away > 0].max()) < 1.05 * thing.steep
+
+
+def test_a_pyramid_is_not_thought_further_away_than_it_is():
+    solid = pyramid(6, 52, 14)
+    assert 0 < float(solid.distance(at(0, 0, 25))) < 25.2  # its blunt tip lies a little below 0
+
+
+def test_there_are_55_small_objects_and_62_large_ones():
+    assert (len(SMALL), len(LARGE)) == (55, 62)
+    assert all(thing.small for thing in SMALL)
+    assert not any(thing.small for thing in LARGE)
+    with pytest.raises(ValueError, match="unknown object 'teapot'"):
+        thing_named("teapot")
