@@ -1,4 +1,7 @@
-"""``tacgrasp eval``: how right trained weights are on contacts that they have not seen."""
+"""``tacgrasp eval``: how right trained weights are on contacts that they have not seen.
+
+Pre-trained encoders by themselves are in ``tacgrasp.cli.eval_methods``.
+"""
 
 from __future__ import annotations
 
@@ -6,13 +9,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tacgrasp.cli.flags import parse, writable
+from tacgrasp.cli.flags import parse, subcommand, writable
 from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
 class Eval:
     """Measure captions, numbers, answers, instructions and alignment on the test split.
+
+    Pre-trained encoders: tacgrasp eval zero-shot, probe, retrieval, report.
 
     Attributes:
         weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
@@ -41,6 +46,14 @@ class Eval:
 
 def main(argv: Sequence[str]) -> int:
     """Measure, print, write."""
+    if argv and not argv[0].startswith("-"):
+        from tacgrasp.cli.eval_methods import COMMANDS
+
+        known = {name: command.__doc__ or "" for name, command in COMMANDS.items()}
+        name, rest = subcommand("eval", argv, known)
+        if name is not None:
+            COMMANDS[name](rest)
+        return 0
     flags = parse(Eval, argv, prog="tacgrasp eval")
     if min(flags.captions, flags.answers, flags.pairs, flags.per_wording) < 1 or flags.seed < 0:
         raise UsageError("every number of eval must be at least 1, --seed at least 0")

@@ -1,10 +1,11 @@
-"""``tacgrasp train clip | cltp | llm | all``: from nothing to weights."""
+"""``tacgrasp train``: from nothing to weights, by CLTP and by every method beside it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from tacgrasp.cli.flags import parse, subcommand
 from tacgrasp.errors import UsageError
@@ -14,7 +15,17 @@ STAGES = {
     "cltp": "Align the tactile encoder with the frozen CLIP.",
     "llm": "Train the language model behind the encoder: text, projector, both together.",
     "all": "All three, one after the other.",
+    "point-mae": "Baseline: draw hidden patches of clouds again.",
+    "point-bert": "Baseline: name hidden patches in a vocabulary of local shapes.",
+    "tvl": "Baseline: an image encoder aligned with words for how a surface feels.",
+    "unitouch": "Baseline: an image encoder aligned with what is touched.",
+    "random": "Floor: an encoder that has learned nothing.",
+    "probe": "MLPs on frozen encoders; also measures them, as tacgrasp eval probe does.",
+    "all-methods": "CLIP, CLTP with and without image, all baselines, their tables, the report.",
 }
+
+WEIGHTS = ("clip", "cltp", "llm", "all")
+"""Stages that make the weights of the language model, with a model card."""
 
 
 @dataclass(frozen=True)
@@ -39,11 +50,70 @@ class Train:
     blind_of: Path | None = None
 
 
+@dataclass(frozen=True)
+class Pretrain:
+    """Pre-train by one method, or all, with one budget; goes on where it was stopped.
+
+    Several processes: accelerate launch --num-processes N -m tacgrasp train ...
+
+    Attributes:
+        out: Folder of all methods: OUT/clip and OUT/METHOD/encoder.
+        data: Folder of contacts; it must be there.
+        preset: Encoder; by default small for CLTP, and for the others the same size as they are
+            published.
+        steps: Optimiser steps, the same for every method; by default 6000.
+        batch_size: Contacts in a step; by default 32.
+        clip_steps: Steps of CLIP; by default 500.
+        no_image: Leave L_T2I out (cltp; it becomes OUT/cltp_no_image).
+        texts: What CLTP and CLIP are told: the paper's captions, or half of the time a prompt for
+            one dimension.
+        prompt_weight: Of a contrast with one prompt for every class.
+        head_weight: Of the state heads beside CLTP's losses; 0 is the paper.
+        precision: Of matrix products.
+        seed: Of weights, order, noise and probes.
+        seeds: Of probes (probe, all-methods): so many, counted from seed, for CLTP alone.
+        results: Folder of results (probe, all-methods).
+        threads: Of torch; by default one for each core.
+    """
+
+    out: Path = Path("runs/methods")
+    data: Path = Path("runs/tcl3d")
+    preset: str | None = None
+    steps: int | None = None
+    batch_size: int | None = None
+    clip_steps: int | None = None
+    no_image: bool = False
+    texts: Literal["caption", "mixed"] = "mixed"
+    prompt_weight: float = 0.2
+    head_weight: float = 0.0
+    precision: Literal["no", "bf16"] = "no"
+    seed: int = 0
+    seeds: int = 1
+    results: Path = Path("runs/results")
+    threads: int | None = None
+
+
 def main(argv: Sequence[str]) -> int:
-    """Train one stage, or all of them."""
+    """Train one stage or method, or all of them."""
     stage, rest = subcommand("train", argv, STAGES)
     if stage is None:
         return 0
+    if stage in WEIGHTS and not _for_methods(rest):
+        return _weights(stage, rest)
+    if stage in ("llm", "all"):
+        raise UsageError(f"tacgrasp train {stage} takes no flags of methods; see its --help")
+    return _methods(stage, rest, " ".join(["tacgrasp train", stage, *rest]))
+
+
+def _for_methods(rest: Sequence[str]) -> bool:
+    """Whether flags speak of methods and budgets: CLIP and CLTP can be trained either way."""
+    own = {"preset", "steps", "batch-size", "clip-steps", "no-image", "texts", "prompt-weight"}
+    own |= {"head-weight", "precision", "seeds", "results"}
+    given = {token.split("=")[0].removeprefix("--").replace("_", "-") for token in rest}
+    return bool(own & given)
+
+
+def _weights(stage: str, rest: Sequence[str]) -> int:
     flags = parse(Train, rest, prog=f"tacgrasp train {stage}")
     if flags.threads is not None and flags.threads < 1:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
@@ -62,5 +132,39 @@ def main(argv: Sequence[str]) -> int:
         blind=flags.blind_of is not None,
         threads=flags.threads,
         command=f"tacgrasp train {stage}",
+    )
+    return 0
+
+
+def _methods(stage: str, rest: Sequence[str], command: str) -> int:
+    flags = parse(Pretrain, rest, prog=f"tacgrasp train {stage}")
+    if flags.threads is not None and flags.threads < 1:
+        raise UsageError(f"--threads must be at least 1, got {flags.threads}")
+    if flags.seeds < 1 or min(flags.prompt_weight, flags.head_weight) < 0:
+        raise UsageError("--seeds must be at least 1, weights of losses at least 0")
+    if flags.no_image and stage != "cltp":
+        raise UsageError("--no-image is for `tacgrasp train cltp`; all-methods trains both")
+    from tacgrasp.all_methods import Order, carry_out
+
+    carry_out(
+        stage,
+        Order(
+            out=flags.out,
+            data=flags.data,
+            results=flags.results,
+            preset=flags.preset,
+            steps=flags.steps,
+            batch_size=flags.batch_size,
+            clip_steps=flags.clip_steps,
+            with_images=not flags.no_image,
+            texts=flags.texts,
+            prompt_weight=flags.prompt_weight,
+            head_weight=flags.head_weight,
+            precision=flags.precision,
+            seed=flags.seed,
+            seeds=flags.seeds,
+            threads=flags.threads,
+            command=command,
+        ),
     )
     return 0

@@ -1,0 +1,193 @@
+"""Results of pre-training on disk: one JSON file for each table, method, trial and seed.
+
+Each names the data by checksum, the budget, the seed and the command, so that a report can be put
+together later from results alone, and refuses to put together what was measured on other data.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from cltp.errors import TouchError
+from tacgrasp.errors import UsageError
+
+FORMAT, VERSION = "tacgrasp-result", 1
+
+TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval")
+
+METHODS = {
+    "point_bert": "Point-BERT",
+    "point_mae": "Point-MAE",
+    "cltp_no_image": "CLTP w/o image",
+    "cltp": "CLTP",
+    "unitouch": "UniTouch (image)",
+    "tvl": "TVL (image)",
+    "random": "random encoder",
+    "ceiling": "ceiling",
+}
+"""Names of the methods, in the paper's order, and as tables write them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Budget:
+    """How much a method could learn.
+
+    Attributes:
+        steps: Optimiser steps of pre-training.
+        batch_size: Contacts in each.
+    """
+
+    steps: int
+    batch_size: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Result:
+    """One row of a table.
+
+    Attributes:
+        table: Out of ``TABLES``.
+        method: Out of ``METHODS``.
+        variant: Encoder preset, and what differs from the method's usual recipe.
+        trial: What it was tried on, out of ``cltp.trials.TRIALS``, or ``real``.
+        seed: Of what was learned here (probes) or drawn (noise).
+        data: Checksum of the data set.
+        budget: Of the pre-training; None where there was none.
+        command: That measured this.
+        contacts: How many were judged.
+        values: Percent right, or median errors and coverages; None where nothing could be judged.
+        confusion: By dimension, counts, truth by row; empty where there are no classes.
+
+    Raises:
+        UsageError: An unknown table or method.
+    """
+
+    table: str
+    method: str
+    variant: str
+    trial: str
+    seed: int
+    data: str
+    budget: Budget | None
+    command: str
+    contacts: int
+    values: Mapping[str, float | None]
+    confusion: Mapping[str, list[list[int]]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if self.table not in TABLES or self.method not in METHODS:
+            raise UsageError(
+                f"no table {self.table!r} or method {self.method!r}; tables are "
+                f"{', '.join(TABLES)}, methods {', '.join(METHODS)}"
+            )
+
+    @property
+    def file(self) -> str:
+        """Its name in a folder: the same measurement again takes its place."""
+        parts = (self.table, self.method, self.variant, self.trial, f"s{self.seed}")
+        return "-".join(parts).replace("/", "_") + ".json"
+
+
+def save(folder: Path, result: Result) -> Path:
+    """Write a result, beside and then in its place.
+
+    Raises:
+        UsageError: It can't be written.
+    """
+    path = folder / result.file
+    content = {"format": FORMAT, "version": VERSION, **asdict(result)}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        beside = path.with_name(f"{path.name}.part")
+        beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+        beside.replace(path)
+    except OSError as error:
+        raise UsageError(f"the result {path} can't be written: {error.strerror}") from None
+    return path
+
+
+def load(folder: Path) -> list[Result]:
+    """All results of a folder.
+
+    Raises:
+        TouchError: One is damaged, of another version, or of other data than the others.
+        UsageError: There are none.
+    """
+    found = [_read(path) for path in sorted(folder.glob("*.json"))]
+    if not found:
+        raise UsageError(f"no results in {folder}; measure with `tacgrasp eval zero-shot|probe`")
+    checksums = {result.data: result.file for result in found}
+    if len(checksums) > 1:
+        named = ", ".join(f"{file} ({data[:12]})" for data, file in checksums.items())
+        raise TouchError(
+            f"results in {folder} are of different data sets and make no table: {named}; "
+            "measure again or keep them in folders of their own"
+        )
+    return found
+
+
+def _read(path: Path) -> Result:
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        if (content.pop("format"), content.pop("version")) != (FORMAT, VERSION):
+            raise TouchError(f"{path} is no result of this version; measure again")
+        budget = content.pop("budget")
+        return Result(**content, budget=Budget(**budget) if budget is not None else None)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise TouchError(f"the result {path} is damaged; measure again: {error}") from error
+
+
+def percent(right: Mapping[str, float]) -> dict[str, float | None]:
+    """Shares in %, None where there is no number."""
+    return {name: None if math.isnan(v) else 100 * v for name, v in right.items()}
+
+
+def nested(results: Iterable[Result]) -> dict[str, Any]:
+    """Figures by table, method (with its variant where it has several) and trial; the seeds' mean.
+
+    ``numbers`` has no methods: ``numbers.<trial>.<quantity>`` is of CLTP.
+    """
+    found: dict[str, Any] = {}
+    for (table, method, _, trial), rows in grouped(results).items():
+        figures = {name: mean([row.values.get(name) for row in rows]) for name in rows[0].values}
+        place = found.setdefault(table, {})
+        if table == "numbers":
+            if method == "cltp":
+                place.setdefault(trial, figures)
+        else:
+            place.setdefault(method, {}).setdefault(trial, figures)
+    return found
+
+
+Key = tuple[str, str, str, str]
+"""Table, method, variant, trial."""
+
+
+def grouped(results: Iterable[Result]) -> dict[Key, list[Result]]:
+    """Results that differ in nothing but the seed, in the order of tables, methods and variants."""
+    rows: dict[Key, list[Result]] = {}
+    order = list(METHODS)
+    ranked = sorted(
+        results, key=lambda r: (TABLES.index(r.table), order.index(r.method), r.variant, r.trial)
+    )
+    for result in ranked:
+        key = (result.table, result.method, result.variant, result.trial)
+        rows.setdefault(key, []).append(result)
+    return rows
+
+
+def mean(values: Sequence[float | None]) -> float | None:
+    """Of those that there are."""
+    there = [value for value in values if value is not None]
+    return sum(there) / len(there) if there else None
+
+
+def spread(values: Sequence[float | None]) -> float | None:
+    """Largest minus smallest; None for fewer than two."""
+    there = [value for value in values if value is not None]
+    return max(there) - min(there) if len(there) > 1 else None

@@ -1,0 +1,308 @@
+"""Try pre-trained encoders: zero-shot, probes, numbers, retrieval; each figure into a result.
+
+Every method is tried in the same way: the same contacts, the same noise, the same probes. What can
+be computed directly from the same 1024 points stands beside all of them as the ceiling.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import torch
+
+from cltp.captions import caption
+from cltp.clip import Towers
+from cltp.contacts import Split
+from cltp.dataset import ContactDataset
+from cltp.frozen import Frozen, load_frozen
+from cltp.observed import Observed, observe
+from cltp.probes import ClassProbes, Judged, NumberProbe, judge, number_scores
+from cltp.samples import CLASSES, CLEAN, NOISY, Augmentation
+from cltp.train.stage import Report, silent
+from cltp.trials import LEARNING, Trial, trials_of
+from cltp.weights import load_clip
+from cltp.zero_shot import PROMPTINGS, Prompts, measured, nearest_contacts, nearest_texts, retrieve
+from tacgrasp.errors import UsageError
+from tacgrasp.pretraining import METHODS, Trained, trained
+from tacgrasp.results import Result, percent, save
+
+ALIGNED = ("cltp_no_image", "cltp")
+"""Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
+
+MEASURED = ("depth", "position", "area")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Place:
+    """Where things lie, and what is tried.
+
+    Attributes:
+        weights: Folder of all methods.
+        data: A data set of contacts.
+        results: Folder of results.
+        trials: Names of trials; all of the data's when empty.
+        limit: Contacts of each trial; None for all.
+        seed: Of noise and probes.
+        command: For the results.
+        report: Told about progress.
+    """
+
+    weights: Path
+    data: Path
+    results: Path
+    trials: tuple[str, ...] = ()
+    limit: int | None = None
+    seed: int = 0
+    command: str = ""
+    report: Report = silent
+
+    @property
+    def checksum(self) -> str:
+        """Of the data."""
+        return ContactDataset(self.data).checksum()
+
+    def trying(self) -> list[Trial]:
+        """The trials."""
+        return trials_of(self.data, self.trials)
+
+    def seen(
+        self,
+        encoder: Frozen,
+        split: Split,
+        noise: Augmentation,
+        *,
+        views: int = 1,
+        whole: bool = False,
+    ) -> Observed:
+        """Features of a split, from the cache where they are there already."""
+        return observe(
+            encoder,
+            ContactDataset(self.data, split=split),
+            noise,
+            views=views,
+            limit=None if whole else self.limit,
+            seed=self.seed,
+            cache=self.results / ".features",
+            report=self.report,
+        )
+
+
+def trainable(place: Place, methods: Sequence[str]) -> dict[str, Trained]:
+    """The methods asked for, or all that were trained; see ``tacgrasp.pretraining.trained``.
+
+    Raises:
+        UsageError: One was not trained, or none.
+        TouchError: One was trained on other data.
+    """
+    checksum = place.checksum
+    if methods:
+        return {method: trained(method, place.weights, checksum) for method in methods}
+    found = {}
+    for method in METHODS:
+        try:
+            found[method] = trained(method, place.weights, checksum)
+        except UsageError:
+            continue
+    if not found:
+        raise UsageError(f"no method was trained in {place.weights}; see `tacgrasp train --help`")
+    return found
+
+
+def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
+    """Table 1: classes by the nearest prompt, with one prompt a class and with several.
+
+    Raises:
+        UsageError: A method is not aligned with language in all dimensions, or was not trained.
+        TouchError: Weights or data can't be used.
+    """
+    for method in methods:
+        if method not in ALIGNED:
+            raise UsageError(f"{method} has no prompts for contact states; {', '.join(ALIGNED)} do")
+    found = []
+    for method, how in trainable(place, methods or _there(place, ALIGNED)).items():
+        encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+        for trial in place.trying():
+            seen = place.seen(encoder, trial.split, trial.noise)
+            for prompting, table in zip(
+                PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True
+            ):
+                judged = judge(Prompts(towers, prompting).said(seen.feature), seen.classes)
+                found.append(_result(place, table, method, how, trial, judged))
+    return found + ceiling(place, ("zero_shot",))
+
+
+def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[Result]:
+    """Table 2 and appendix A: MLPs on frozen features, and for CLTP numbers with intervals.
+
+    Args:
+        place: What is tried.
+        methods: All that were trained when empty.
+        views: How often each training contact is seen, half of the time without noise.
+
+    Raises:
+        UsageError: A method was not trained.
+        TouchError: Weights or data can't be used.
+    """
+    found, trials = [], place.trying()
+    for method, how in trainable(place, methods).items():
+        encoder = load_frozen(how.folder / "encoder")
+        learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
+        probes = ClassProbes(learned, seed=place.seed, report=_named(place.report, method))
+        for trial in trials:
+            seen = place.seen(encoder, trial.split, trial.noise)
+            judged = judge(probes.said(seen), seen.classes)
+            found.append(_result(place, "probe", method, how, trial, judged))
+        if method == "cltp":
+            found += _numbers(place, encoder, learned, method, how)
+    return found + ceiling(place, ("probe",))
+
+
+def _numbers(
+    place: Place, encoder: Frozen, learned: Observed, method: str, how: Trained
+) -> list[Result]:
+    """Regression and its intervals, calibrated on the validation split with the trial's noise."""
+    reader = NumberProbe(learned, seed=place.seed, report=place.report)
+    stretches = {
+        str(noise): reader.calibrate(
+            place.seen(encoder, Split.VALIDATION, noise, views=2, whole=True)
+        )
+        for noise in (CLEAN, NOISY)
+    }
+    found = []
+    for trial in place.trying():
+        seen = place.seen(encoder, trial.split, trial.noise)
+        scores = number_scores(reader.said(seen, stretches[str(trial.noise)]), seen)
+        judged = Judged(scores, {}, len(seen))
+        result = _result(place, "numbers", method, how, trial, judged)
+        found.append(replace(result, values=dict(scores)))
+        save(place.results, found[-1])
+    return found
+
+
+def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
+    """What direct computation gives, as a row of tables. Shape and texture are not computed."""
+    found = []
+    for trial in place.trying():
+        data = ContactDataset(place.data, split=trial.split)
+        said, truth = measured(data, trial.noise, limit=place.limit, seed=place.seed)
+        judged = judge(said, truth)
+        right = {s: v if s in MEASURED else math.nan for s, v in judged.right.items()}
+        judged = Judged(right, {s: judged.confusion[s] for s in MEASURED}, judged.count)
+        how = Trained(folder=place.weights, variant="measured", budget=None)
+        found += [_result(place, table, "ceiling", how, trial, judged) for table in tables]
+    return found
+
+
+def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
+    """How often contacts and captions find each other, all of a split against all.
+
+    Raises:
+        UsageError: A method was not trained.
+        TouchError: Weights or data can't be used.
+    """
+    found = []
+    for method, how in trainable(place, methods or _there(place, ALIGNED)).items():
+        encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+        for trial in place.trying():
+            seen = place.seen(encoder, trial.split, trial.noise)
+            captions = _captions(place, trial.split, seen)
+            scores = retrieve(towers, seen, captions)
+            values: dict[str, float | None] = {
+                **{f"contact_to_text_{k}": 100 * v for k, v in scores.contact_to_text.items()},
+                **{f"text_to_contact_{k}": 100 * v for k, v in scores.text_to_contact.items()},
+                "chance": 100 * scores.chance,
+                "captions": float(scores.captions),
+            }
+            result = _result(place, "retrieval", method, how, trial, Judged({}, {}, len(seen)))
+            found.append(replace(result, values=values))
+            save(place.results, found[-1])
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class Likeness:
+    """Something found, and how near it is.
+
+    Attributes:
+        what: A caption, with the contact's number where it is one.
+        cosine: Nearness.
+    """
+
+    what: str
+    cosine: float
+
+
+def find(
+    place: Place, *, text: str | None, contact: int | None, count: int = 5, method: str = "cltp"
+) -> list[Likeness]:
+    """The contacts most similar to a text, or the texts most similar to a contact.
+
+    Raises:
+        UsageError: Neither or both were given, there is no such contact, or it was not trained.
+        TouchError: Weights or data can't be used.
+    """
+    if (text is None) == (contact is None):
+        raise UsageError("name a text or a contact (--contact N), one of them")
+    how = trained(method, place.weights, place.checksum)
+    encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+    trial = place.trying()[0]
+    seen = place.seen(encoder, trial.split, trial.noise)
+    captions = _captions(place, trial.split, seen)
+    if text is not None:
+        near = nearest_contacts(towers, seen, text, count)
+        return [Likeness(f"contact {int(seen.index[n])}: {captions[n]}", v) for n, v in near]
+    rows = torch.eq(seen.index, contact if contact is not None else -1).nonzero()
+    if not len(rows):
+        raise UsageError(
+            f"no contact {contact} in {trial.name}; it has 0 to {int(seen.index.max())}"
+        )
+    row = int(rows[0, 0])
+    own = Likeness(f"(contact {contact} is: {captions[row]})", math.nan)
+    near_texts = nearest_texts(towers, seen.feature[row], sorted(set(captions)), count)
+    return [own, *(Likeness(said, value) for said, value in near_texts)]
+
+
+def _captions(place: Place, split: Split, seen: Observed) -> list[str]:
+    data = ContactDataset(place.data, split=split)
+    return [caption(data.state(int(index))) for index in seen.index]
+
+
+def _there(place: Place, methods: Sequence[str]) -> list[str]:
+    """Those of some methods that were trained."""
+    return [method for method in methods if method in trainable(place, ())]
+
+
+def _towers(place: Place, how: Trained) -> Towers:
+    return load_clip(place.weights / "clip" if (place.weights / "clip").exists() else how.folder)
+
+
+def _named(report: Report, method: str) -> Report:
+    def told(stage: str, step: int, steps: int, scores: object) -> None:
+        report(f"{method} {stage}", step, steps, {})
+
+    return told
+
+
+def _result(
+    place: Place, table: str, method: str, how: Trained, trial: Trial, judged: Judged
+) -> Result:
+    """A result, written at once: what is interrupted loses nothing that was measured."""
+    result = Result(
+        table=table,
+        method=method,
+        variant=how.variant,
+        trial=trial.name,
+        seed=place.seed,
+        data=place.checksum,
+        budget=how.budget,
+        command=place.command,
+        contacts=judged.count,
+        values=percent({s: judged.right.get(s, math.nan) for s in CLASSES}),
+        confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
+    )
+    if table not in ("numbers", "retrieval"):
+        save(place.results, result)
+    return result

@@ -1,0 +1,313 @@
+"""Pre-training methods on the command line: trained, tried, reported, and everything refused."""
+
+import csv
+import json
+import shutil
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cltp"))
+from fake_contacts import fake_contact
+
+from cltp.contacts import Split
+from cltp.dataset import DatasetWriter
+from cltp.errors import TouchError
+from cltp.probes import SCHEDULE
+from cltp.samples import CLASSES
+from cltp.train.stage import Schedule
+from tacgrasp import all_methods, trying
+from tacgrasp.__main__ import main
+from tacgrasp.pretraining_report import PAPER, report
+from tacgrasp.results import METHODS, Budget, Result, grouped, load, mean, nested, save, spread
+
+QUICK = ["--steps", "3", "--batch-size", "4", "--threads", "1"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def threads_as_before() -> Iterator[None]:
+    before = torch.get_num_threads()
+    yield
+    torch.set_num_threads(before)
+
+
+def write_data(folder: Path, first: int = 0) -> Path:
+    with DatasetWriter(folder) as writer:
+        for seed in range(first, first + 10):
+            writer.add(fake_contact(seed))
+        for seed in range(first + 100, first + 105):
+            writer.add(fake_contact(seed, split=Split.VALIDATION))
+        for seed in range(first + 200, first + 206):
+            writer.add(fake_contact(seed, split=Split.TEST))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_data(tmp_path_factory.mktemp("data"))
+
+
+@pytest.fixture(scope="module")
+def out(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with CLIP, CLTP and the floor, hardly trained."""
+    folder = tmp_path_factory.mktemp("methods")
+    where = ["--out", str(folder), "--data", str(data), "--threads", "1"]
+    assert main(["train", "clip", *where, "--clip-steps", "2"]) == 0
+    assert main(["train", "cltp", *where, "--preset", "tiny", *QUICK]) == 0
+    assert main(["train", "random", *where, "--preset", "tiny"]) == 0
+    return folder
+
+
+@pytest.fixture
+def places(out: Path, data: Path, tmp_path: Path) -> list[str]:
+    flags = ["--weights", str(out), "--data", str(data), "--results", str(tmp_path / "results")]
+    return [*flags, "--threads", "1"]
+
+
+@pytest.fixture
+def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
+    for probe in (trying.ClassProbes, trying.NumberProbe):
+        keywords = {**probe.__init__.__kwdefaults__}
+        keywords["schedule"] = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
+        monkeypatch.setattr(probe.__init__, "__kwdefaults__", keywords)
+
+
+def complaint(argv: list[str], capsys: pytest.CaptureFixture[str]) -> str:
+    capsys.readouterr()
+    assert main(argv) == 2
+    *_, last = capsys.readouterr().err.splitlines()  # progress may stand above it
+    assert last.startswith("tacgrasp: ")
+    return last
+
+
+def test_a_trained_method_says_how_it_came_about_and_is_not_trained_again(
+    out: Path, data: Path
+) -> None:
+    about = json.loads((out / "cltp" / "about.json").read_text())
+    assert (about["method"], about["preset"], about["steps"]) == ("cltp", "tiny", 3)
+    assert about["recipe"]["head_weight"] == 0.0
+    assert "tacgrasp train cltp" in about["command"]
+    weights = out / "cltp" / "encoder" / "model.safetensors"
+    before = weights.stat().st_mtime_ns
+    argv = ["train", "cltp", "--out", str(out), "--data", str(data), "--preset", "tiny", *QUICK]
+    assert main(argv) == 0
+    assert weights.stat().st_mtime_ns == before
+
+
+def test_tables_are_measured_stored_and_reported(
+    places: list[str], tmp_path: Path, quick_probes: None
+) -> None:
+    figures = tmp_path / "figures.json"
+    assert main(["eval", "zero-shot", *places, "--json", str(figures)]) == 0
+    zero = json.loads(figures.read_text())["zero_shot"]
+    assert set(zero) == {"cltp", "ceiling"}
+    assert set(zero["cltp"]["contact"]) == set(CLASSES)
+    assert zero["ceiling"]["contact"]["shape"] is None
+    assert zero["ceiling"]["contact"]["depth"] > 30
+    assert main(["eval", "probe", *places, "--seeds", "2", "--json", str(figures)]) == 0
+    found = json.loads(figures.read_text())
+    assert set(found["probe"]) == {"cltp", "random", "ceiling"}
+    assert {"depth_mm", "coverage_depth"} <= set(found["numbers"]["contact_noisy"])
+    assert main(["eval", "retrieval", *places]) == 0
+    results = tmp_path / "results"
+    argv = ["eval", "report", "--results", str(results), "--json", str(figures)]
+    assert main(argv) == 0
+    assert {"zero_shot", "probe", "numbers", "retrieval"} <= set(json.loads(figures.read_text()))
+    text = (results / "pretraining.md").read_text()
+    assert "| CLTP | " in text
+    assert "84.8" in text  # the paper's
+    assert "tacgrasp eval probe" in text
+    page = (results / "pretraining.html").read_text()
+    assert page.count("<table>") == text.count("\n## ") - 1
+    assert "data:image/png;base64," in page
+
+
+def test_text_finds_contacts_and_a_contact_finds_texts(
+    places: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert (
+        main(["eval", "retrieval", *places, "--text", "Contact at top-left.", "--count", "2"]) == 0
+    )
+    assert capsys.readouterr().out.count("contact ") >= 2
+    assert main(["eval", "retrieval", *places, "--contact", "3"]) == 0
+    assert "(contact 3 is: a" in capsys.readouterr().out
+    assert "one of them" in complaint(
+        ["eval", "retrieval", *places, "--contact", "3", "--text", "x"], capsys
+    )
+    assert "it has 0 to" in complaint(["eval", "retrieval", *places, "--contact", "900"], capsys)
+
+
+def test_real_touches_are_named_from_a_table(
+    places: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = tmp_path / "real"
+    folder.mkdir()
+    for number in range(3):
+        np.save(folder / f"{number}.npy", fake_contact(number).height_mm)
+    table = folder / "labels.csv"
+    head = "file,shape,texture,depth,position,area\n"
+    table.write_text(head + "0.npy,sphere,,deep,,\n1.npy,,smooth,,centered,\n2.npy,,,,,tiny\n")
+    predictions = tmp_path / "said.csv"
+    real = ["--real", str(folder), "--labels", str(table), "--out", str(predictions)]
+    assert main(["eval", "zero-shot", *places, *real]) == 0
+    rows = list(csv.DictReader(predictions.open()))
+    assert len(rows) == 3
+    assert rows[0]["shape"] in CLASSES["shape"]
+    (stored,) = (tmp_path / "results").glob("*real*.json")
+    judged = json.loads(stored.read_text())
+    assert sum(map(sum, judged["confusion"]["depth"])) == 1
+    table.write_text(head + "0.npy,blob,,,,\n")
+    assert "row 2: no shape 'blob'" in complaint(["eval", "zero-shot", *places, *real], capsys)
+    table.write_text(head + "9.npy,,,,,\n")
+    assert "9.npy does not exist" in complaint(["eval", "zero-shot", *places, *real], capsys)
+    table.write_text("file,shape\n0.npy,sphere\n")
+    assert "needs the columns" in complaint(["eval", "zero-shot", *places, *real], capsys)
+    assert "belong together" in complaint(["eval", "zero-shot", *places, *real[:2]], capsys)
+
+
+def result(**changed: object) -> Result:
+    usual: dict[str, object] = {
+        "table": "probe",
+        "method": "cltp",
+        "variant": "small",
+        "trial": "contact",
+        "seed": 0,
+        "data": "abc",
+        "budget": Budget(steps=10, batch_size=4),
+        "command": "tacgrasp eval probe",
+        "contacts": 7,
+        "values": dict.fromkeys(CLASSES, 50.0),
+    }
+    return Result(**{**usual, **changed})  # type: ignore[arg-type]
+
+
+def test_results_come_back_as_they_were(tmp_path: Path) -> None:
+    save(tmp_path, result())
+    save(tmp_path, result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
+    save(tmp_path, result(seed=1))
+    found = load(tmp_path)
+    assert len(found) == 2
+    assert found[0].values["shape"] == 60.0
+    assert nested(found)["probe"]["cltp"]["contact"]["shape"] == 55.0
+    (rows,) = grouped(found).values()
+    assert spread([row.values["shape"] for row in rows]) == 10.0
+    assert mean([None, None]) is None
+
+
+def test_a_report_never_mixes_data(tmp_path: Path) -> None:
+    save(tmp_path, result())
+    save(tmp_path, result(method="random", data="def"))
+    with pytest.raises(TouchError, match="different data sets"):
+        report(tmp_path, tmp_path)
+    assert not list(tmp_path.glob("*.html"))
+
+
+def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    argv = ["eval", "report", "--results", str(tmp_path)]
+    assert "no results" in complaint(argv, capsys)
+    path = save(tmp_path, result())
+    path.write_text(path.read_text().replace('"version": 1', '"version": 9'))
+    assert "no result of this version" in complaint(argv, capsys)
+    path.write_text("{")
+    assert "is damaged" in complaint(argv, capsys)
+
+
+def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
+    for method in reversed(METHODS):
+        save(tmp_path, result(method=method))
+    (page, _) = report(tmp_path, tmp_path)
+    lines = [line.split(" | ")[0][2:] for line in page.read_text().splitlines()]
+    named = [line for line in lines if line in METHODS.values()]
+    assert named == list(METHODS.values())
+    assert "one budget for all methods: 10 × 4" in page.read_text()
+
+
+def test_the_papers_numbers_have_five_dimensions() -> None:
+    assert all(len(row) == len(CLASSES) for row in PAPER.values())
+    assert {method for _, method, _ in PAPER} <= set(METHODS)
+
+
+def test_encoders_of_other_data_are_not_tried(
+    out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = write_data(tmp_path / "other", first=1000)
+    argv = ["eval", "probe", "--weights", str(out), "--data", str(other), "--methods", "cltp"]
+    assert "test contacts could have been learned from" in complaint(
+        [*argv, "--results", str(tmp_path / "r")], capsys
+    )
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["eval", "zero-shot", "--methods", "random"], "no prompts for contact states"),
+        (["eval", "probe", "--methods", "tvl"], "do `tacgrasp train tvl"),
+        (["eval", "probe", "--trials", "moon"], "it has contact, contact_noisy"),
+        (["eval", "probe", "--limit", "0"], "--limit must be at least 1"),
+        (["eval", "dance"], "expects one of zero-shot, probe, retrieval, report"),
+    ],
+)
+def test_wrong_use_of_eval_is_told_in_one_line(
+    argv: list[str], expected: str, places: list[str], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert expected in complaint([*argv, *places], capsys)
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["cltp", "--preset", "giant"], "unknown preset 'giant'"),
+        (["tvl", "--no-image"], "--no-image is for"),
+        (["point-mae", "--steps", "0"], "positive steps"),
+        (["all", "--steps", "5"], "takes no flags of methods"),
+        (["point-mae", "--seeds", "0"], "--seeds must be at least 1"),
+        (["tvl", "--preset", "tiny"], "tvl needs an encoder of image"),
+    ],
+)
+def test_wrong_use_of_train_is_told_in_one_line(
+    argv: list[str],
+    expected: str,
+    data: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    where = ["--out", str(tmp_path), "--data", str(data)]
+    assert expected in complaint(["train", *argv, *where], capsys)
+
+
+def test_all_methods_are_carried_out_in_order_and_reported(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done: list[str] = []
+
+    def noted(name: str):  # type: ignore[no-untyped-def]
+        return lambda *args, **_: done.append(args[0] if name == "pretrain" else name)
+
+    for name in ("pretrain_clip", "pretrain", "zero_shot", "retrieval", "probe", "report"):
+        monkeypatch.setattr(all_methods, name, noted(name))
+    argv = ["train", "all-methods", "--data", str(data), "--out", str(tmp_path), "--seeds", "3"]
+    assert main(argv) == 0
+    trained = ["cltp", "cltp_no_image", "random", "point_mae", "point_bert", "tvl", "unitouch"]
+    measured = ["zero_shot", "retrieval", "probe", "probe", "probe", "report"]
+    assert done == ["pretrain_clip", *trained, *measured]
+
+
+def test_training_never_reads_a_test_contact(data: Path, out: Path, tmp_path: Path) -> None:
+    """The same curve and weights come out when every test contact is another one."""
+    weights = []
+    for name, first in (("one", 0), ("other", 50)):
+        folder = tmp_path / name
+        with DatasetWriter(folder) as writer:
+            for seed in range(10):
+                writer.add(fake_contact(seed))
+            for seed in range(200 + first, 206 + first):
+                writer.add(fake_contact(seed, split=Split.TEST))
+        shutil.copytree(out / "clip", tmp_path / f"{name}-out" / "clip")
+        where = ["--out", str(tmp_path / f"{name}-out"), "--data", str(folder)]
+        assert main(["train", "cltp", *where, "--preset", "tiny", *QUICK]) == 0
+        weights.append((tmp_path / f"{name}-out/cltp/encoder/model.safetensors").read_bytes())
+    assert weights[0] == weights[1]
