@@ -7,6 +7,7 @@ world comes through the control channel, for records and people, never for a pol
 
 from __future__ import annotations
 
+import datetime
 import tempfile
 from contextlib import ExitStack
 from dataclasses import dataclass, fields
@@ -14,10 +15,16 @@ from pathlib import Path
 from typing import Any
 
 from primitives.errors import RobotError
+from sim.emulators.rig import FINGERS
 from sim.emulators.spawn import EmulatorProcess
 from sim.rig import Truth
 from tacgrasp.config import RunConfig
-from tacgrasp.drivers.dynamixel_emulated import emulated_gripper
+from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+from tacgrasp.drivers.gripper_calibration import (
+    MIN_READINGS,
+    GripperCalibration,
+    save_calibration,
+)
 from tacgrasp.errors import UsageError
 from tacgrasp.hardware_config import HardwareConfig
 from tacgrasp.hardware_rig import HardwareRig, connect
@@ -70,7 +77,8 @@ def settings_for(
 ) -> HardwareConfig:
     """The rig's settings with the addresses of these emulators.
 
-    The gripper's calibration is written into ``folder``, which has to last until it is connected.
+    The gripper's calibration, which is the emulator's own line since nobody can measure it, is
+    written into ``folder``, which has to last until the gripper is connected.
 
     Raises:
         UsageError: The sensor is none that there is an emulator for.
@@ -81,16 +89,31 @@ def settings_for(
             f"the emulated rig has a sensor of kind taxels, its file names {hardware.sensor.kind}"
         )
     ready = emulators.ready
-    host, port = str(ready["host"]), str(ready["gripper_port"])
-    gripper = emulated_gripper(port, folder)
+    calibration = folder / "gripper_calibration.yaml"
+    save_calibration(calibration, emulated_calibration(hardware.gripper))
+    gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
-            "arm": hardware.arm.model_copy(update={"host": host}),
-            "gripper": hardware.gripper.model_copy(
-                update={"port": port, "calibration": folder / gripper.calibration}
-            ),
+            "arm": hardware.arm.model_copy(update={"host": str(ready["host"])}),
+            "gripper": hardware.gripper.model_copy(update=gripper),
             "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
         }
+    )
+
+
+def emulated_calibration(settings: DynamixelSettings) -> GripperCalibration:
+    """The emulated rig's own line of force over current, as if it had been measured today."""
+    return GripperCalibration(
+        unit=settings.unit,
+        model=settings.model,
+        ids=tuple(servo.id for servo in settings.servos),
+        date=datetime.date.today(),
+        newtons_per_ma=FINGERS.newtons_per_ma,
+        friction_ma=FINGERS.friction_ma,
+        residual_n=0.0,
+        max_force_n=FINGERS.force_n(settings.max_current_ma),
+        num_readings=MIN_READINGS,
+        source="the emulator's own line",
     )
 
 

@@ -154,6 +154,17 @@ MODELS = {
         shutdown=0x34,
         watchdog_stops=True,
     ),
+    "XM540-W270": Model(
+        number=1120,
+        firmware=45,
+        current_limit=2047,
+        unit_ma=2.69,
+        volts=12.0,
+        volt_limits=(9.5, 16.0),
+        hottest_c=80,
+        shutdown=0x34,
+        watchdog_stops=True,
+    ),
     "XL430-W250": Model(
         number=1060,
         firmware=45,

@@ -17,7 +17,8 @@ from pathlib import Path
 from primitives.errors import RobotError
 from sim.bodies import OBJECTS
 from sim.emulators.control import ControlServer, Emulated
-from sim.emulators.dynamixel import DynamixelEmulator
+from sim.emulators.dynamixel import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel_fingers import Linkage
 from sim.emulators.lifetime import announce_and_wait
 from sim.emulators.taxels import TaxelEmulator
 from sim.emulators.ur_child import UrChild
@@ -25,6 +26,11 @@ from sim.emulators.world import SharedWorld
 from sim.rig import build
 
 TAXEL_RATE_HZ = 50.0
+
+GRIPPER = ServoOptions(model="XM540-W270")
+FINGERS = Linkage(newtons_per_ma=0.0026, friction_ma=54.0)
+"""A large servo on a slow linkage: the forces of the simulated gripper, in steps of 7 mN, so that
+rounding to the servo's units of current decides as little as possible."""
 
 SWITCH_S = 0.001
 """How long one thread may keep the others waiting [s]: the arm's stream is due every 8 ms."""
@@ -67,7 +73,7 @@ def main(argv: Sequence[str]) -> int:
     with ExitStack() as stack:
         world = stack.enter_context(closing(SharedWorld(simulated)))
         arm = stack.enter_context(closing(_arm(flags.host, world)))
-        gripper = stack.enter_context(closing(DynamixelEmulator(world)))
+        gripper = stack.enter_context(closing(DynamixelEmulator(world, GRIPPER, FINGERS)))
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="tacgrasp-rig-"))
         link = Path(folder) / "taxel-array"
         taxels = stack.enter_context(

@@ -12,7 +12,9 @@ from patient_rig import fields
 
 from sim.emulators.spawn import EmulatorProcess
 from tacgrasp.__main__ import main
-from tacgrasp.drivers.dynamixel_emulated import emulated_gripper
+from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
+from tacgrasp.drivers.gripper_calibration import save_calibration
+from tacgrasp.emulated_rig import emulated_calibration
 
 pytest.importorskip("rtde_control")
 pytest.importorskip("dynamixel_sdk")
@@ -33,7 +35,8 @@ def rig(emulators, tmp_path):
     rig["hardware"]["arm"]["host"] = ready["host"]
     rig["hardware"]["gripper"]["port"] = ready["gripper_port"]
     rig["hardware"]["sensor"]["port"] = ready["sensor_port"]
-    emulated_gripper(str(ready["gripper_port"]), tmp_path)
+    settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    save_calibration(tmp_path / settings.calibration, emulated_calibration(settings))
     yield rig
     for device in ("ur", "dynamixel", "taxels"):
         emulators.control.clear(device)
