@@ -214,6 +214,7 @@ class _Deciders:
 
 def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | None:
     """A primitive's name, ``NONE`` for success, None where the policy holds or refuses."""
+    policy.start()  # each case is an episode of its own: nothing is barred for the one before
     try:
         decision = policy.decide(cloud, instruction)
     except PolicyError:

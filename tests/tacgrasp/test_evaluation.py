@@ -8,10 +8,15 @@ import numpy as np
 import pytest
 from tiny_weights import make_data, make_weights, state
 
+from cltp.cloud import TactileCloud, cloud_from_heights
 from cltp.dataset import ContactDataset
+from cltp.sensors import sensor_named
 from cltp.states import ContactState, Side
+from policies import Decision
 from policies.teacher import teacher
+from primitives import Primitive
 from tacgrasp.__main__ import main
+from tacgrasp.evaluation import _decided
 from tacgrasp.instruction_pairs import (
     MOVES,
     NONE,
@@ -200,3 +205,25 @@ def test_wrong_use_of_eval_is_told_in_one_line(
     said = capsys.readouterr().err
     assert expected in said
     assert said.count("\n") == 1
+
+
+def test_no_case_remembers_the_one_before() -> None:
+    class Remembering:
+        name = "remembering"
+
+        def __init__(self) -> None:
+            self.asked = 0
+
+        def start(self) -> None:
+            self.asked = 0
+
+        def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+            self.asked += 1
+            text = f"<{Primitive.RESET}>"
+            action = Primitive.RESET if self.asked == 1 else None
+            return Decision(text=text, action=action, success=False, reason="")
+
+    policy = Remembering()
+    cloud = cloud_from_heights(np.zeros((75, 100)), sensor_named("gelsight_mini"))
+    answers = [_decided(policy, cloud, "Pick it up.") for _ in range(3)]
+    assert answers == [Primitive.RESET.value] * 3
