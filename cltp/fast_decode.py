@@ -7,7 +7,7 @@ a few million parameters a token costs little arithmetic: what counts is the num
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import torch
@@ -130,7 +130,7 @@ def greedy(
     max_tokens: int,
     watch: Callable[[int, Tensor], None] | None = None,
     prefilled: Callable[[], None] | None = None,
-    banned: Sequence[int] = (),
+    against: Mapping[int, float] | None = None,
 ) -> list[int]:
     """Tokens that follow the given inputs, the likeliest each time.
 
@@ -141,7 +141,7 @@ def greedy(
         max_tokens: At most so many.
         watch: Called with every chosen token and the logits that it was chosen from.
         prefilled: Called once, when the given inputs have been gone through.
-        banned: Tokens that are never chosen.
+        against: Taken from the logits of these tokens; infinite: never chosen.
     """
     room = decoder.longest - len(embeddings)
     ids: list[int] = []
@@ -149,7 +149,8 @@ def greedy(
     if prefilled is not None:
         prefilled()
     while len(ids) < min(max_tokens, room):
-        logits[list(banned)] = -torch.inf
+        for costly, cost in (against or {}).items():
+            logits[costly] -= cost
         token = int(logits.argmax())
         if token == stop:
             break

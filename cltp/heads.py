@@ -8,6 +8,7 @@ losses and in evaluation.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import torch
@@ -72,6 +73,38 @@ def restored(values: Tensor) -> Tensor:
     return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
 
 
+def felt(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
+    """States with what the heads read in place of their numbers; words stay, as does no contact.
+
+    Args:
+        states: B of them.
+        numbers: Shape (B, 5), transformed ``NUMBERS``, as the heads give them.
+    """
+    read = restored(numbers.detach().float().cpu())
+    read[:, NUMBERS.index("depth_mm")].clamp_(min=0)
+    read[:, NUMBERS.index("area_share")].clamp_(max=1)
+    return [
+        replace(state, **dict(zip(NUMBERS, row, strict=True))) if state.in_contact else state
+        for state, row in zip(states, read.tolist(), strict=True)
+    ]
+
+
+class HeadsOutput(NamedTuple):
+    """What the heads say of a batch.
+
+    Attributes:
+        logits: Of the five slots, each (B, classes).
+        numbers: Shape (B, 5), transformed ``NUMBERS``.
+        touching: Shape (B,), logit of contact.
+        cut: Shape (B, 4), logit of each side's cutting the contact.
+    """
+
+    logits: tuple[Tensor, ...]
+    numbers: Tensor
+    touching: Tensor
+    cut: Tensor
+
+
 class StateHeads(nn.Module):
     """All heads behind one hidden layer.
 
@@ -87,11 +120,11 @@ class StateHeads(nn.Module):
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
         self.out = nn.Linear(hidden_dim, outputs)
 
-    def forward(self, pooled: Tensor) -> tuple[tuple[Tensor, ...], Tensor, Tensor, Tensor]:
-        """Logits of the five slots, transformed numbers (B, 5), touching (B,), cut (B, 4)."""
+    def forward(self, pooled: Tensor) -> HeadsOutput:
+        """Read states from ``Encoded.pooled`` (B, 2 C)."""
         out = self.out(F.gelu(self.hidden(pooled)))
         *logits, numbers, touching, cut = out.split([*self.sizes, len(NUMBERS), 1, len(Side)], -1)
-        return tuple(logits), numbers, touching[:, 0], cut
+        return HeadsOutput(tuple(logits), numbers, touching[:, 0], cut)
 
     def losses(self, pooled: Tensor, wanted: Targets) -> dict[str, Tensor]:
         """Named terms, each a mean over the batch."""

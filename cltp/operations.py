@@ -14,6 +14,7 @@ from torch import Tensor, nn
 
 from cltp.cloud import NUM_POINTS
 from cltp.encoder import Block, TactileEncoder
+from cltp.readings import NUM_READINGS
 from cltp.tac3d_llm import Projector
 
 
@@ -44,9 +45,17 @@ def encoder_operations(encoder: TactileEncoder) -> int:
 
 
 def projector_operations(projector: Projector, num_tokens: int) -> int:
-    """Operations of the MLP on one cloud's tokens."""
+    """Operations of the MLP on one cloud's tokens, and of the readings' tokens beside them.
+
+    Args:
+        projector: Its widths count.
+        num_tokens: Of the encoder: the groups and the class token.
+    """
     dim = projector.lm_dim
-    return 2 * num_tokens * (projector.encoder_dim * dim + dim * dim)
+    readings = projector.readings
+    inputs = sum(m.in_features * m.out_features for m in (readings.words, *readings.numbers))
+    outputs = NUM_READINGS * dim * dim
+    return 2 * (num_tokens * (projector.encoder_dim * dim + dim * dim) + inputs + outputs)
 
 
 def prefill_operations(config: Any, num_tokens: int) -> int:

@@ -1,7 +1,8 @@
 """Tac3D-LLM: encoder tokens, projected into a causal language model's input space.
 
 Source: paper, section 5.3, after LLaVA: a small MLP maps the encoder's tokens to embeddings, which
-stand before the prompt. Not here: how replies are generated (``cltp.talk``).
+stand before the prompt; beyond the paper, what the encoder's state heads read follows them as a few
+tokens more (``cltp.readings``). Not here: how replies are generated (``cltp.talk``).
 """
 
 from __future__ import annotations
@@ -12,13 +13,15 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder import TactileEncoder
+from cltp.encoder import Encoded, TactileEncoder
+from cltp.heads import HeadsOutput, StateHeads
 from cltp.language import Language
 from cltp.packing import NOT_LEARNED, Packed
+from cltp.readings import NUM_READINGS, ReadingTokens
 
 
 class Projector(nn.Module):
-    """Two layers from the encoder's width to the language model's.
+    """Two layers from the encoder's width to the language model's, and the heads' readings.
 
     Args:
         encoder_dim: Width C of the encoder's tokens.
@@ -30,10 +33,12 @@ class Projector(nn.Module):
         self.encoder_dim, self.lm_dim = encoder_dim, lm_dim
         self.first = nn.Linear(encoder_dim, lm_dim)
         self.second = nn.Linear(lm_dim, lm_dim)
+        self.readings = ReadingTokens(lm_dim)
 
-    def forward(self, tokens: Tensor) -> Tensor:
-        """Tokens (B, G + 1, C) to embeddings (B, G + 1, D)."""
-        return self.second(F.gelu(self.first(tokens)))
+    def forward(self, tokens: Tensor, readings: HeadsOutput) -> Tensor:
+        """Tokens (B, G + 1, C) and what the heads read to embeddings (B, G + 1 + 6, D)."""
+        seen = self.second(F.gelu(self.first(tokens)))
+        return torch.cat([seen, self.readings(readings)], dim=1)
 
 
 class Tac3dLlm(nn.Module):
@@ -41,26 +46,37 @@ class Tac3dLlm(nn.Module):
 
     Args:
         encoder: E_T.
+        heads: Its state heads.
         projector: The MLP between.
         language: The causal language model.
     """
 
     lm: Any
 
-    def __init__(self, encoder: TactileEncoder, projector: Projector, language: Language) -> None:
+    def __init__(
+        self,
+        encoder: TactileEncoder,
+        heads: StateHeads,
+        projector: Projector,
+        language: Language,
+    ) -> None:
         super().__init__()
-        self.encoder, self.projector = encoder, projector
+        self.encoder, self.heads, self.projector = encoder, heads, projector
         self.lm = language.lm
         self.language = language
 
     @property
     def num_touch(self) -> int:
-        """Touch tokens in front of a prompt: the groups and the class token."""
-        return self.encoder.config.num_groups + 1
+        """Touch tokens in front of a prompt: the groups, the class token and the readings."""
+        return self.encoder.config.num_groups + 1 + NUM_READINGS
 
     def touch(self, points: Tensor) -> Tensor:
-        """Embeddings of scaled points (B, 1024, 3): shape (B, G + 1, D)."""
-        return self.projector(self.encoder(points).tokens)
+        """Embeddings of scaled points (B, 1024, 3): shape (B, P, D)."""
+        return self.projected(self.encoder(points))
+
+    def projected(self, encoded: Encoded) -> Tensor:
+        """Embeddings of what the encoder made of a batch: shape (B, P, D)."""
+        return self.projector(encoded.tokens, self.heads(encoded.pooled))
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.

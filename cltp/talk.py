@@ -7,8 +7,9 @@ trie leaves only what continues one of the eight names. Nothing else in a reply 
 
 from __future__ import annotations
 
+import math
 import time
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -80,7 +81,7 @@ class Talker:
         prompt: str,
         *,
         max_tokens: int = MAX_TOKENS,
-        banned: Collection[str] = (),
+        against: Mapping[str, float] | None = None,
     ) -> Reply:
         """Ask about one contact.
 
@@ -88,12 +89,14 @@ class Talker:
             points: Shape (1024, 3), from ``cltp.inputs.encoder_input``.
             prompt: What a person asks.
             max_tokens: Bound on the reply.
-            banned: Out of ``cltp.tokenizer.ACTIONS``: what the reply must not ask for.
+            against: What speaks against actions out of ``cltp.tokenizer.ACTIONS``, in nats taken
+                from their logits: the logarithm of how many times likelier one has to be than what
+                is said in its place. Infinite: the reply must not ask for it.
         """
         marks = [self._clock()]
-        tokens = self._model.encoder(torch.from_numpy(points)[None]).tokens
+        encoded = self._model.encoder(torch.from_numpy(points)[None])
         marks.append(self._clock())
-        touch = self._model.projector(tokens)[0]
+        touch = self._model.projected(encoded)[0]
         marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
 
@@ -101,7 +104,9 @@ class Talker:
             marks.append(self._clock())
 
         say = partial(_own, self._fast) if self._fast is not None else _stock
-        ids, ended, chances = say(self._language, inputs, max_tokens, prefilled, banned)
+        ids, ended, chances = say(
+            self._language, inputs, max_tokens, prefilled, dict(against or {})
+        )
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
         stages = ("encode", "project", "prefill", "generate")
@@ -124,7 +129,7 @@ def _own(
     inputs: Tensor,
     max_tokens: int,
     prefilled: Callable[[], None],
-    banned: Collection[str],
+    against: Mapping[str, float],
 ) -> tuple[list[int], bool, list[float]]:
     actions = [tokens[0] for tokens in language.actions()]
     found: list[Tensor] = []
@@ -140,7 +145,7 @@ def _own(
         max_tokens=max_tokens,
         watch=watch,
         prefilled=prefilled,
-        banned=[token for token, name in zip(actions, ACTIONS, strict=True) if name in banned],
+        against={t: against[a] for t, a in zip(actions, ACTIONS, strict=True) if a in against},
     )
     return ids, len(ids) < max_tokens, found[0].tolist() if found else []
 
@@ -150,7 +155,7 @@ def _stock(
     inputs: Tensor,
     max_tokens: int,
     prefilled: Callable[[], None],
-    banned: Collection[str],
+    against: Mapping[str, float],
 ) -> tuple[list[int], bool, list[float]]:
     """The same by transformers' own forward, with its cache, for any checkpoint of the family."""
     run = _Run(language)
@@ -164,7 +169,11 @@ def _stock(
         ids.append(token)
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
             chances = _score(run, logits_after(run, token), language.actions())
-            chances = [0.0 if a in banned else c for a, c in zip(ACTIONS, chances, strict=True)]
+            chances = [
+                chance * math.exp(-against.get(name, 0.0))
+                for name, chance in zip(ACTIONS, chances, strict=True)
+            ]
+            chances = [chance / (sum(chances) or 1.0) for chance in chances]
             ids += language.actions()[int(np.argmax(chances))]
             return ids, True, chances
         logits = logits_after(run, token)

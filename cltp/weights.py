@@ -39,6 +39,8 @@ if TYPE_CHECKING:
     from transformers import CLIPModel
 
 VERSION = 1
+PROJECTOR_VERSION = 2
+"""2: the heads' readings go with the tokens."""
 
 
 class WeightsError(TouchError):
@@ -94,7 +96,7 @@ def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
     if words is None:
         raise WeightsError("a stock checkpoint is used from its own directory and not written")
     config = {
-        "version": VERSION,
+        "version": PROJECTOR_VERSION,
         "encoder_dim": model.projector.encoder_dim,
         "lm_dim": model.projector.lm_dim,
         "tokenizer_sha256": words.fingerprint(),
@@ -114,8 +116,8 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
         WeightsError: A part is missing, damaged, or belongs to other weights.
         TouchError: The language model can't be read.
     """
-    encoder, _ = load_encoder(folder / "encoder")
-    config = _config(folder / "projector")
+    encoder, heads = load_encoder(folder / "encoder")
+    config = _config(folder / "projector", PROJECTOR_VERSION)
     if lm_folder is None:
         _present(folder / "lm")
         language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
@@ -135,7 +137,7 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
         )
     projector = Projector(encoder.config.dim, language.dim)
     _load(folder / "projector", projector)
-    return Tac3dLlm(encoder, projector, language).eval()
+    return Tac3dLlm(encoder, heads, projector, language).eval()
 
 
 def size_bytes(folder: Path) -> int:
@@ -193,14 +195,14 @@ def _present(folder: Path) -> None:
             )
 
 
-def _config(folder: Path) -> dict[str, Any]:
+def _config(folder: Path, version: int = VERSION) -> dict[str, Any]:
     _present(folder)
     try:
         config = json.loads((Path(folder) / "config.json").read_text())
     except (OSError, ValueError) as error:
         raise WeightsError(f"{folder}/config.json can't be read: {error}") from error
-    if not isinstance(config, dict) or config.get("version") != VERSION:
-        raise WeightsError(f"{folder} holds weights of another version than {VERSION}; train again")
+    if not isinstance(config, dict) or config.get("version") != version:
+        raise WeightsError(f"{folder} holds weights of another version than {version}; train again")
     return config
 
 

@@ -90,7 +90,7 @@ def operations(talker: Talker, instruction: str, num_tokens: int) -> dict[str, i
     before = model.num_touch + len(model.language.prompt(instruction))
     return {
         "encode": encoder_operations(model.encoder),
-        "project": projector_operations(model.projector, model.num_touch),
+        "project": projector_operations(model.projector, model.encoder.config.num_groups + 1),
         "prefill": prefill_operations(config, before),
         "generate": generate_operations(config, before, num_tokens),
     }

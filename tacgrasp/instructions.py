@@ -2,7 +2,8 @@
 
 Four levels of firmness are the four tasks (their goals are read from the task files). Between them
 lie goals that an instruction names in newtons; a named force counts more than any word beside it.
-Wordings that are kept out of training are in ``tacgrasp.paraphrases``.
+The words are in ``tacgrasp.wordings``, the sentences here. Wordings that are kept out of training
+are in ``tacgrasp.paraphrases``.
 """
 
 from __future__ import annotations
@@ -18,9 +19,11 @@ import yaml
 
 from cltp.states import ContactState
 from policies.goal import Band, Goal
+from tacgrasp import wordings
 from tacgrasp.config import GoalConfig
+from tacgrasp.wordings import Level
 
-LEVELS = ("cherry_tomato", "strawberry", "egg", "peg")
+LEVELS = tuple(wordings.LEVELS)
 """Gentle to firm."""
 
 
@@ -36,102 +39,6 @@ class Instruction:
     text: str
     goal: Goal
 
-
-OBJECTS: dict[str, tuple[str, ...]] = {
-    "cherry_tomato": ("cherry tomato", "tomato", "raspberry", "blackberry", "grape", "blueberry"),
-    "strawberry": ("strawberry", "berry", "ripe strawberry", "apricot", "fig", "ripe fruit"),
-    "egg": ("egg", "raw egg", "hen's egg", "light bulb", "wine glass", "eggshell"),
-    "peg": ("peg", "metal peg", "bolt", "steel rod", "screwdriver", "hammer"),
-}
-MANNERS: dict[str, tuple[str, ...]] = {
-    "cherry_tomato": (
-        "very gently",
-        "extremely gently",
-        "with the lightest touch",
-        "as softly as you can",
-        "very softly",
-        "with hardly any force",
-        "with very little force",
-        "barely squeezing it",
-        "very lightly",
-        "ever so gently",
-    ),
-    "strawberry": (
-        "gently",
-        "softly",
-        "with care",
-        "with a soft grip",
-        "delicately",
-        "with a gentle grip",
-        "tenderly",
-        "with little force",
-        "with a light hand",
-        "without squeezing hard",
-    ),
-    "egg": (
-        "securely",
-        "safely",
-        "with a secure but careful grip",
-        "reliably, but not too hard",
-        "with moderate force",
-        "with a medium grip",
-        "steadily and carefully",
-        "not too hard and not too loosely",
-        "with a safe hold",
-        "fairly firmly, but with care",
-    ),
-    "peg": (
-        "firmly",
-        "tightly",
-        "with a strong grip",
-        "with plenty of force",
-        "hard",
-        "as firmly as you can",
-        "with a tight grip",
-        "very firmly",
-        "strongly",
-        "with high force",
-    ),
-}
-REASONS: dict[str, tuple[str, ...]] = {
-    "cherry_tomato": (
-        "it splits easily",
-        "it bursts at the slightest pressure",
-        "its skin is very thin",
-        "it is very fragile and light",
-        "the least pressure will burst it",
-    ),
-    "strawberry": (
-        "without bruising it",
-        "it bruises easily",
-        "do not leave marks on it",
-        "it is soft and ripe",
-        "do not bruise it",
-        "it must not get bruised",
-        "do not squash it",
-    ),
-    "egg": (
-        "do not crack it",
-        "but do not crack it",
-        "it must neither crack nor fall",
-        "it is heavy but brittle",
-        "the shell must not break",
-        "without breaking it",
-        "do not drop it and do not break it",
-    ),
-    "peg": (
-        "so that it does not turn when it is inserted",
-        "it must not slip",
-        "so that it can not turn",
-        "it is hard and can not be damaged",
-        "it must not rotate in the fingers",
-        "nothing can break",
-        "it has to withstand a push",
-    ),
-}
-VERBS = ("Pick", "Pick up", "Grasp", "Grip", "Hold", "Lift", "Take", "Grab", "Seize", "Pick up")
-THINGS = ("it", "the object", "this", "the thing", "what you feel", "this object", "the item")
-POLITE = ("Please", "Now", "Could you", "I want you to", "Carefully:", "Next,", "Robot,", "Okay,")
 
 FORCE_RATIO = 1.44
 """A goal between the tasks reaches from its force over this to its force times this, as theirs."""
@@ -198,36 +105,132 @@ def draw_instruction_near(state: ContactState, rng: np.random.Generator) -> Inst
 
 
 def in_words(level: str, rng: np.random.Generator) -> Instruction:
-    """A wording of a level: an object, a manner, a reason; at least one that tells the level."""
+    """A wording of a level; every one says at least one thing that tells the level."""
+    words = wordings.LEVELS[level]
+    form = _FORMS[int(rng.choice(len(_FORMS), p=_FORM_SHARES))]
+    return Instruction(text=_dressed(form(words, rng), rng), goal=task_goals()[level])
+
+
+def _asked(words: Level, rng: np.random.Generator) -> str:
+    """'Pick up the egg securely, it must not crack'."""
     named = rng.random() < 0.5
-    thing = f"the {_one(OBJECTS[level], rng)}" if named else _one(THINGS, rng)
-    manner = _one(MANNERS[level], rng) if rng.random() < 0.75 else ""
-    reason = _one(REASONS[level], rng) if rng.random() < 0.6 else ""
-    if not (named or manner or reason):
-        manner = _one(MANNERS[level], rng)
+    thing = _thing(words, rng, named=named)
+    manner = _one(words.manners, rng) if rng.random() < 0.7 else ""
+    because = _because(words, rng) if rng.random() < 0.55 else ""
+    if not (named or manner or because):
+        manner = _one(words.manners, rng)
+    verb = _one(wordings.VERBS, rng)
     if manner and rng.random() < 0.25:
-        text = f"{manner[0].upper()}{manner[1:]}, {_one(VERBS, rng).lower()} {thing}"
-    elif manner:
-        text = f"{_one(VERBS, rng)} {thing} {manner}"
+        text = f"{manner}, {verb} {thing}"
     else:
-        text = f"{_one(VERBS, rng)} {thing}"
-    if reason:
-        text += _one((", ", "; ", ": ", ". ", " because "), rng) + reason
-    return Instruction(text=_dressed(text, rng), goal=task_goals()[level])
+        text = f"{verb} {thing} {manner}".rstrip()
+    return text + (_joint(rng) + because if because else "")
+
+
+def _of_the_grip(words: Level, rng: np.random.Generator) -> str:
+    """'A firm grip on the bolt', 'Use little force', 'Be gentle with this'."""
+    thing = _thing(words, rng, named=rng.random() < 0.4)
+    grip = f"{_one(words.grips, rng)} {_one(wordings.GRIPS, rng)}"
+    force = f"{_one(words.forces, rng)} {_one(('force', 'pressure'), rng)}"
+    text = _one(
+        (
+            grip,
+            f"{grip} on {thing}",
+            f"{grip} is what {thing} needs",
+            f"use {grip}",
+            f"take {thing} with {grip}",
+            f"{_one(wordings.VERBS, rng)} {thing} with {grip}",
+            f"use {force}",
+            f"{force} on {thing}",
+            f"apply {force} to {thing}",
+            f"be {_one(words.be, rng)}",
+            f"be {_one(words.be, rng)} with {thing}",
+            f"{_one(words.manners, rng)}",
+            f"{_one(words.manners, rng)} now: {_one(wordings.VERBS, rng)} {thing}",
+        ),
+        rng,
+    )
+    return text + (_joint(rng) + _because(words, rng) if rng.random() < 0.45 else "")
+
+
+def _of_the_object(words: Level, rng: np.random.Generator) -> str:
+    """'The egg cracks, so hold it securely', 'It must not slip'."""
+    thing = _thing(words, rng, named=rng.random() < 0.5)
+    about = _one(
+        (
+            f"{thing} {_one(words.fates, rng)}",
+            f"{thing} is {_one(words.likes, rng)}",
+            f"{thing} must not {_one(words.nots, rng)}",
+            f"{thing} mustn't {_one(words.nots, rng)}",
+            f"do not {_one(words.bans, rng)}",
+            f"don't {_one(words.bans, rng)}",
+            _one(words.ends, rng),
+        ),
+        rng,
+    )
+    if rng.random() < 0.25:
+        return about
+    then = _one(
+        (
+            f"{_one(wordings.VERBS, rng)} it {_one(words.manners, rng)}",
+            f"use {_one(words.grips, rng)} {_one(wordings.GRIPS, rng)}",
+            f"use {_one(words.forces, rng)} force",
+            f"be {_one(words.be, rng)}",
+        ),
+        rng,
+    )
+    return about + _one((", so ", "; ", ": ", ". ", ", "), rng) + then
+
+
+_FORMS = (_asked, _of_the_grip, _of_the_object)
+_FORM_SHARES = (0.5, 0.27, 0.23)
+
+
+def _because(words: Level, rng: np.random.Generator) -> str:
+    """A reason, as a clause that stands behind another."""
+    it = _one(("it", "it", "this", "this one"), rng)
+    return _one(
+        (
+            f"{it} {_one(words.fates, rng)}",
+            f"{it} is {_one(words.likes, rng)}",
+            f"{it} must not {_one(words.nots, rng)}",
+            f"it should not {_one(words.nots, rng)}",
+            f"do not {_one(words.bans, rng)}",
+            f"but do not {_one(words.bans, rng)}",
+            f"and don't {_one(words.bans, rng)}",
+            f"without {_one(words.withouts, rng)}",
+            _one(words.ends, rng),
+        ),
+        rng,
+    )
+
+
+def _thing(words: Level, rng: np.random.Generator, *, named: bool) -> str:
+    if not named:
+        return _one(wordings.THINGS, rng)
+    return f"{_one(('the', 'the', 'the', 'this', 'that'), rng)} {_one(words.objects, rng)}"
+
+
+def _joint(rng: np.random.Generator) -> str:
+    return _one((", ", ", ", "; ", ": ", ". ", " - "), rng)
 
 
 def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
     """A wording with numbers, for a goal around ``force_n``; any object may be named with it."""
-    level = LEVELS[rng.integers(len(LEVELS))]
-    thing = f"the {_one(OBJECTS[level], rng)}" if rng.random() < 0.5 else _one(THINGS, rng)
+    words = wordings.LEVELS[LEVELS[rng.integers(len(LEVELS))]]
+    thing = _thing(words, rng, named=rng.random() < 0.5)
     low, high = round(force_n / FORCE_RATIO, 1), round(force_n * FORCE_RATIO, 1)
     about = round(math.sqrt(low * high), 1)
     wording = _one(
         (
             f"with {low:.1f} to {high:.1f} N",
+            f"using {low:.1f} - {high:.1f} N of force",
+            f"with no less than {low:.1f} and no more than {high:.1f} N",
             f"with a force between {low:.1f} and {high:.1f} N",
             f"with {low:.1f}-{high:.1f} newtons",
             f"with about {about:.1f} N",
+            f"with a grip of about {about:.1f} N",
+            f"at about {about:.1f} N of force",
             f"at around {about:.1f} newtons",
             f"so that the force is about {about:.1f} N",
         ),
@@ -235,13 +238,20 @@ def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
     )
     if "about" in wording or "around" in wording:
         low, high = round(about / FORCE_RATIO, 1), round(about * FORCE_RATIO, 1)
-    text = f"{_one(VERBS, rng)} {thing} {wording}"
+    text = f"{_one(wordings.VERBS, rng)} {thing} {wording}"
+    if rng.random() < 0.3:
+        text = f"{wording}, {_one(wordings.VERBS, rng)} {thing}"
     return Instruction(text=_dressed(text, rng), goal=goal_of_force(low, high))
 
 
 def _dressed(text: str, rng: np.random.Generator) -> str:
+    """A sentence: first letters large, or nothing large; with a polite word, a stop, or not."""
     if rng.random() < 0.2:
-        text = f"{_one(POLITE, rng)} {text[0].lower()}{text[1:]}"
+        text = f"{_one(wordings.POLITE, rng)} {text}"
+    elif rng.random() < 0.1:
+        text = f"{text}, please"
+    parts = text.split(". ")
+    text = ". ".join(f"{part[0].upper()}{part[1:]}" for part in parts)
     if rng.random() < 0.15:
         text = text.lower()
     return text + _one((".", ".", ".", "", "!"), rng)

@@ -7,6 +7,9 @@ D_t, in this order: the contact in words and numbers; the force that the instruc
 ``Action:`` and one of eight tokens; the reason. It is short, since every token costs time in the
 loop; the paper's caption is said when somebody asks for a description. The action comes before the
 reason so that the softmax at its place is the model's own doubt, not an echo of a given reason.
+
+Where a state is ``felt``, its words are the truth and its numbers are as the encoder's heads read
+them (``cltp.train.llm`` says why); advice always comes from the truth.
 """
 
 from __future__ import annotations
@@ -26,6 +29,15 @@ from tacgrasp.questions import CAPTION_REQUESTS, draw_question, percent
 
 ADVICE_PER_CONTACT = 3
 """Advice for goals that differ, on the same touch. Our choice: the touch tokens cost most."""
+
+GOAL_QUESTIONS = (
+    "What force is meant by: {}",
+    "Which force does this ask for? {}",
+    "In newtons, what does this mean? {}",
+    "How many newtons are wanted here? {}",
+)
+MEANINGS_PER_CONTACT = 2
+"""Instructions read for their force alone: more wordings for fewer tokens than whole advice."""
 
 
 def numbers(state: ContactState) -> str:
@@ -57,11 +69,11 @@ def wanted(goal: Goal) -> str:
     return f"Goal {goal.force_n.low:.2f} - {goal.force_n.high:.2f} N."
 
 
-def advice_reply(state: ContactState, goal: Goal) -> str:
+def advice_reply(state: ContactState, goal: Goal, felt: ContactState | None = None) -> str:
     """D_t for a contact and a goal. ``policies.extract`` reads the teacher's advice in it."""
     advice = teacher(state, goal)
     action = f"<{advice.action}>" if advice.action is not None else "<none>"
-    return f"{described(state)} {wanted(goal)} Action: {action}. {_why(advice)}"
+    return f"{described(felt or state)} {wanted(goal)} Action: {action}. {_why(advice)}"
 
 
 def _why(advice: Advice) -> str:
@@ -70,9 +82,18 @@ def _why(advice: Advice) -> str:
     return REASON_WORDINGS[advice.why][0]
 
 
-def advice_exchange(state: ContactState, instruction: Instruction) -> Exchange:
+def advice_exchange(
+    state: ContactState, instruction: Instruction, felt: ContactState | None = None
+) -> Exchange:
     """An instruction and D_t."""
-    return Exchange(prompt=instruction.text, reply=advice_reply(state, instruction.goal))
+    return Exchange(prompt=instruction.text, reply=advice_reply(state, instruction.goal, felt))
+
+
+def meaning_exchange(rng: np.random.Generator) -> Exchange:
+    """A question what force an instruction means, and the force as D_t names it."""
+    instruction = draw_instruction(rng)
+    question = GOAL_QUESTIONS[rng.integers(len(GOAL_QUESTIONS))]
+    return Exchange(prompt=question.format(instruction.text), reply=wanted(instruction.goal))
 
 
 def caption_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
@@ -93,21 +114,24 @@ class TouchLessons:
     def __init__(self, *, blind: bool = False) -> None:
         self._blind = blind
 
-    def captions(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
         """One description."""
-        return [caption_exchange(state, rng)]
+        return [caption_exchange(felt, rng)]
 
-    def mixed(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """A caption or a question, and advice for several goals, some near the contact's force."""
-        first = caption_exchange(state, rng) if rng.random() < 0.3 else draw_question(state, rng)
+    def mixed(
+        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+    ) -> Sequence[Exchange]:
+        """A caption or a question, advice for several goals, and instructions to be understood."""
+        first = caption_exchange(felt, rng) if rng.random() < 0.3 else draw_question(felt, rng)
         drawn = [
             draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
             for _ in range(ADVICE_PER_CONTACT)
         ]
-        exchanges = [advice_exchange(state, instruction) for instruction in drawn]
+        exchanges = [advice_exchange(state, instruction, felt) for instruction in drawn]
         if self._blind:
             exchanges = [Exchange(prompt=BLIND, reply=e.reply) for e in exchanges]
-        return [first, *exchanges]
+            return [first, *exchanges]
+        return [first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
 
 
 BLIND = "Do what is needed."

@@ -7,6 +7,10 @@ joint: projector and language model learn captions, questions and advice togethe
     stays as CLTP left it.
 
 What is said about a contact comes from ``Lessons``; this package knows no goals and no actions.
+Words and advice are learned from the truth. Numbers are learned as the encoder's heads read them:
+spoken digit by digit, the likeliest digits of the truth are not its likeliest number (where 0.97
+and 1.03 are as likely, the first digit is a coin's toss and the next ones follow it), while the
+reading is there to be copied.
 """
 
 from __future__ import annotations
@@ -21,7 +25,8 @@ from torch import Tensor, nn
 
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.encoder import TactileEncoder
+from cltp.encoder import Encoded, TactileEncoder
+from cltp.heads import felt
 from cltp.language import Language, small_lm
 from cltp.packing import Exchange, Packed, pack
 from cltp.samples import Augmentation, Sampler
@@ -32,9 +37,9 @@ from cltp.train.ahead import ahead
 from cltp.train.stage import Report, Schedule, Stage, device, silent
 from cltp.weights import load_encoder, save_tac3d_llm
 
-TEXT = Schedule(steps=500, batch_size=24, learning_rate=2e-3)
-PROJECTOR = Schedule(steps=150, batch_size=32, learning_rate=2e-3)
-JOINT = Schedule(steps=750, batch_size=16, learning_rate=1e-3)
+TEXT = Schedule(steps=300, batch_size=24, learning_rate=2e-3)
+PROJECTOR = Schedule(steps=200, batch_size=32, learning_rate=2e-3)
+JOINT = Schedule(steps=1800, batch_size=16, learning_rate=1e-3)
 
 ACTION_WEIGHT = 4.0
 """Of the one token that moves the robot, beside about sixty that describe."""
@@ -43,12 +48,20 @@ ACTION_WEIGHT = 4.0
 class Lessons(Protocol):
     """What can be asked and said about a contact."""
 
-    def captions(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """Descriptions of a contact, in one or more wordings."""
+    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Descriptions of a contact, in one or more wordings; ``felt`` as in ``mixed``."""
         ...
 
-    def mixed(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """Captions, questions and advice on a contact."""
+    def mixed(
+        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+    ) -> Sequence[Exchange]:
+        """Captions, questions and advice on a contact.
+
+        Args:
+            state: The truth, from which advice comes.
+            felt: The same words with the numbers that are to be said.
+            rng: Draws wordings.
+        """
         ...
 
 
@@ -61,7 +74,7 @@ def train_words(
     texts: list[str] = []
     for index in rng.integers(len(data), size=num_contacts):
         state = data.state(int(index))
-        for exchange in (*lessons.mixed(state, rng), *lessons.captions(state, rng)):
+        for exchange in (*lessons.mixed(state, state, rng), *lessons.captions(state, rng)):
             texts += [exchange.prompt, exchange.reply]
     return Words.train(texts, size)
 
@@ -97,12 +110,12 @@ def train_llm(
         TouchError: Data, encoder or a checkpoint can't be used.
     """
     data = ContactDataset(data_dir, split=Split.TRAIN)
-    encoder, _ = load_encoder(out_dir / "encoder")
+    encoder, heads = load_encoder(out_dir / "encoder")
     torch.manual_seed(seed)
     lm = small_lm(words, dim=dim, layers=layers)
     language = Language(lm, words=words)
     projector = Projector(encoder.config.dim, language.dim)
-    model = Tac3dLlm(encoder, projector, language).to(device())
+    model = Tac3dLlm(encoder, heads, projector, language).to(device())
     learner = _Learner(model, data, lessons, augmentation, seed)
     identity = {
         "data": data.checksum(),
@@ -154,34 +167,36 @@ class _Learner:
         batches = ahead(self._batches(name, stage))
 
         def losses(step: int) -> dict[str, Tensor]:
-            points, packed = next(batches)
+            encoded, packed = next(batches)
             packed = Packed(*(part.to(device()) for part in packed))
-            touch = None
-            if points is not None:
-                with torch.no_grad():
-                    tokens = self.model.encoder(points.to(device())).tokens
-                touch = self.model.projector(tokens)
+            touch = self.model.projected(encoded) if encoded is not None else None
             return self.model.loss(touch, packed)
 
         stage.run(losses, report)
 
-    def _batches(self, name: str, stage: Stage) -> Iterator[tuple[Tensor | None, Packed]]:
+    def _batches(self, name: str, stage: Stage) -> Iterator[tuple[Encoded | None, Packed]]:
         words = self.model.language.words
         if words is None:
             raise ValueError("a stock language model is not trained here")
         number = {"text": 1, "projector": 2, "joint": 3}[name]
         sampler = Sampler(self.data, self.augmentation, seed=1000 * self.seed + number)
-        make = self.lessons.captions if name == "projector" else self.lessons.mixed
         size, step = stage.schedule.batch_size, stage.step
         while True:
             rng = np.random.default_rng([self.seed, number, step])
             if name == "text":
                 states = [self.data.state(int(i)) for i in rng.integers(len(self.data), size=size)]
-                points, num_touch = None, 0
+                encoded, read, num_touch = None, states, 0
             else:
                 batch = sampler.numbered(size, step)
                 states, num_touch = batch.states, self.model.num_touch
-                points = torch.from_numpy(batch.points)
-            groups = [make(state, rng) for state in states]
-            yield points, pack(words, groups, num_touch, action_weight=ACTION_WEIGHT)
+                with torch.no_grad():
+                    encoded = self.model.encoder(torch.from_numpy(batch.points).to(device()))
+                    read = felt(states, self.model.heads(encoded.pooled).numbers)
+            groups = [
+                self.lessons.captions(said, rng)
+                if name == "projector"
+                else self.lessons.mixed(state, said, rng)
+                for state, said in zip(states, read, strict=True)
+            ]
+            yield encoded, pack(words, groups, num_touch, action_weight=ACTION_WEIGHT)
             step += 1

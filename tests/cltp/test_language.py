@@ -1,3 +1,4 @@
+import math
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,7 @@ from transformers import (
 from cltp.encoder import PRESETS, TactileEncoder
 from cltp.errors import TouchError
 from cltp.fast_decode import FastDecoder, greedy
+from cltp.heads import StateHeads
 from cltp.language import Language, load_language, small_lm
 from cltp.packing import NOT_LEARNED, Exchange, pack
 from cltp.tac3d_llm import Projector, Tac3dLlm
@@ -49,7 +51,7 @@ def tiny_model(words: Words) -> Tac3dLlm:
     torch.manual_seed(0)
     encoder = TactileEncoder(PRESETS["tiny"])
     language = Language(perturbed(small_lm(words, dim=48, layers=2)), words=words)
-    return Tac3dLlm(encoder, Projector(48, 48), language)
+    return Tac3dLlm(encoder, StateHeads(2 * encoder.config.dim), Projector(48, 48), language)
 
 
 @given(st.text(max_size=60))
@@ -182,12 +184,22 @@ def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words
     assert chances == pytest.approx([1 / 14] * 4 + [0.5] + [1 / 14] * 3)
 
 
-def test_a_banned_action_is_neither_said_nor_given_a_chance(words: Words) -> None:
+def test_a_barred_action_is_neither_said_nor_given_a_chance(words: Words) -> None:
     language = tiny_model(words).language
     decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
-    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, ("<increase_force>",))
+    barred = {"<increase_force>": math.inf}
+    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, barred)
     assert words.decode(ids).strip() != "<increase_force>"
     assert chances == pytest.approx([1 / 7] * 4 + [0.0] + [1 / 7] * 3)
+
+
+def test_what_speaks_against_an_action_takes_from_its_chance(words: Words) -> None:
+    language = tiny_model(words).language
+    decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
+    against = {"<increase_force>": math.log(3.5)}
+    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, against)
+    assert words.decode(ids).strip() == "<increase_force>"  # still the likeliest, by 2 to 1
+    assert chances == pytest.approx([1 / 9] * 4 + [2 / 9] + [1 / 9] * 3)
 
 
 def test_a_reply_reports_its_stages_and_whether_it_ended(words: Words) -> None:
@@ -242,7 +254,9 @@ def test_a_stock_checkpoint_goes_through_the_same_class(kind: str, tmp_path: Pat
     language = load_language(stock_directory(tmp_path, kind))
     assert language.words is None
     assert len({tuple(a) for a in language.actions()}) == 8
-    model = Tac3dLlm(TactileEncoder(PRESETS["tiny"]), Projector(48, language.dim), language)
+    model = Tac3dLlm(
+        TactileEncoder(PRESETS["tiny"]), StateHeads(96), Projector(48, language.dim), language
+    )
     reply = Talker(model).reply(torch.rand(1024, 3).numpy(), "Pick it.", max_tokens=6)
     assert reply.num_tokens <= 6
 

@@ -50,14 +50,16 @@ def schedule(steps: int, batch_size: int, rate: float = 3e-3) -> Schedule:
 class Sayings:
     """Lessons for tests: the caption, and an action that the prompt and the depth decide."""
 
-    def captions(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        return [Exchange(prompt="Describe the contact.", reply=caption(state))]
+    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="Describe the contact.", reply=caption(felt))]
 
-    def mixed(self, state: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+    def mixed(
+        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+    ) -> Sequence[Exchange]:
         hard = "<decrease_force>" if state.depth_mm > 0.3 else "<none>"
         soft = "<none>" if state.depth_mm > 0.3 else "<increase_force>"
         return [
-            *self.captions(state, rng),
+            *self.captions(felt, rng),
             Exchange(prompt="Hold it gently.", reply=f"Action: {hard}."),
             Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
         ]
@@ -418,7 +420,15 @@ def test_the_shipped_sizes_stay_within_twenty_megabytes(tmp_path: Path) -> None:
     save_encoder(tmp_path / "encoder", encoder, StateHeads(2 * encoder.config.dim))
     save_clip(tmp_path / "clip", small_clip(words), words)
     language = Language(small_lm(words), words=words)
-    save_tac3d_llm(tmp_path, Tac3dLlm(encoder, Projector(encoder.config.dim, 192), language))
+    save_tac3d_llm(
+        tmp_path,
+        Tac3dLlm(
+            encoder,
+            StateHeads(2 * encoder.config.dim),
+            Projector(encoder.config.dim, 192),
+            language,
+        ),
+    )
     assert size_bytes(tmp_path) < 20e6
 
 

@@ -44,8 +44,10 @@ def test_the_matrices_of_a_qwen2_are_all_counted() -> None:
     assert prefill_operations(config(), 1) == 2 * weights + 2 * 4 * 8 + 2 * 8 * 100
 
 
-def test_the_projector_is_two_products_for_each_token() -> None:
-    assert projector_operations(Projector(3, 5), 7) == 7 * 2 * (3 * 5 + 5 * 5)
+def test_the_projector_is_two_products_for_each_token_and_as_many_for_each_reading() -> None:
+    words = 19 + 5 + 4 + 9 + 5 + 1 + 4
+    readings = words * 5 + 5 * 9 * 5 + 6 * 5 * 5
+    assert projector_operations(Projector(3, 5), 7) == 7 * 2 * (3 * 5 + 5 * 5) + 2 * readings
 
 
 def test_the_encoder_agrees_with_torchs_own_counter() -> None:

@@ -15,7 +15,13 @@ from cltp.tokenizer import ACTIONS, Words
 from cltp.weights import WeightsError, save_encoder, save_tac3d_llm
 from policies.errors import PolicyError
 from policies.extract import extract
-from policies.llm import LlmPolicy, check_instruction, going_in_circles, held_because
+from policies.llm import (
+    LlmPolicy,
+    as_request,
+    check_instruction,
+    going_in_circles,
+    held_because,
+)
 from primitives import Primitive
 
 TEXTS = [
@@ -37,7 +43,9 @@ def untrained(words: Words, tmp_path_factory: pytest.TempPathFactory) -> Path:
     encoder = TactileEncoder(PRESETS["tiny"])
     save_encoder(folder / "encoder", encoder, StateHeads(2 * encoder.config.dim))
     language = Language(small_lm(words, dim=48, layers=1), words=words)
-    save_tac3d_llm(folder, Tac3dLlm(encoder, Projector(48, 48), language))
+    save_tac3d_llm(
+        folder, Tac3dLlm(encoder, StateHeads(2 * encoder.config.dim), Projector(48, 48), language)
+    )
     return folder
 
 
@@ -148,3 +156,8 @@ def test_missing_weights_say_what_to_do(tmp_path: Path) -> None:
 )
 def test_a_move_and_its_undoing_ban_both_and_nothing_else(moves, banned):
     assert going_in_circles([Primitive(move) for move in moves]) == banned
+
+
+def test_an_instruction_worded_as_a_question_is_no_question() -> None:
+    assert as_request("Could you pick up the egg?") == "Could you pick up the egg."
+    assert as_request("Pick it up gently.") == "Pick it up gently."

@@ -4,7 +4,7 @@ import json
 import shutil
 import subprocess
 import sys
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -64,7 +64,9 @@ class Scripted:
             stage_ms={},
         )
 
-    def reply(self, points: np.ndarray, prompt: str, *, banned: Collection[str] = ()) -> Reply:
+    def reply(
+        self, points: np.ndarray, prompt: str, *, against: Mapping[str, float] | None = None
+    ) -> Reply:
         return self._reply
 
 

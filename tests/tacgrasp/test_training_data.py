@@ -1,3 +1,4 @@
+import dataclasses
 import itertools
 
 import numpy as np
@@ -29,7 +30,9 @@ from tacgrasp.instructions import (
 )
 from tacgrasp.paraphrases import PARAPHRASES
 from tacgrasp.questions import HELD_OUT, QUESTIONS, answer
-from tacgrasp.training_data import BLIND, TouchLessons, advice_reply
+from tacgrasp.training_data import BLIND, TouchLessons, advice_reply, meaning_exchange
+from tacgrasp.wordings import LEVELS as LEVEL_WORDS
+from tacgrasp.wordings import Level
 
 MINI = SENSORS["gelsight_mini"]
 SMOOTH_BALL = {"shape": Shape.SPHERE, "texture": Texture.SMOOTH}
@@ -121,6 +124,28 @@ def test_instructions_in_newtons_mean_what_they_say() -> None:
             assert numbers[0] in drawn.goal.force_n
 
 
+def test_every_form_of_a_wording_tells_the_level() -> None:
+    rng = np.random.default_rng(4)
+    for level, words in LEVEL_WORDS.items():
+        telling = [str(part) for field in dataclasses.fields(words)
+                   for part in getattr(words, field.name)]  # fmt: skip
+        for _ in range(300):
+            text = in_words(level, rng).text.lower()
+            assert any(part.lower() in text for part in telling), text
+
+
+def test_no_words_tell_two_levels() -> None:
+    for field in dataclasses.fields(Level):
+        parts = [part for words in LEVEL_WORDS.values() for part in getattr(words, field.name)]
+        assert len(parts) == len(set(parts)), field.name
+
+
+def test_a_question_for_the_meaning_is_answered_by_the_goals_force() -> None:
+    exchange = meaning_exchange(np.random.default_rng(3))
+    low, high = (float(w) for w in exchange.reply.split()[1:4:2])
+    assert 0 < low < high
+
+
 def test_drawing_repeats_with_its_seed_and_covers_all_levels() -> None:
     one = [draw_instruction(np.random.default_rng(s)).text for s in range(30)]
     assert one == [draw_instruction(np.random.default_rng(s)).text for s in range(30)]
@@ -150,11 +175,12 @@ def test_answers_name_the_slot_and_its_number() -> None:
     assert answer("shape", NOTHING) == "Nothing touches the pad."
 
 
-def test_lessons_give_a_description_and_advice_and_the_blind_ones_hide_the_instruction() -> None:
+def test_lessons_describe_advise_and_read_instructions_and_the_blind_ones_hide_them() -> None:
     state = contact()
-    seeing = TouchLessons().mixed(state, np.random.default_rng(0))
-    blind = TouchLessons(blind=True).mixed(state, np.random.default_rng(0))
-    assert [e.reply for e in seeing] == [e.reply for e in blind]
+    seeing = TouchLessons().mixed(state, state, np.random.default_rng(0))
+    blind = TouchLessons(blind=True).mixed(state, state, np.random.default_rng(0))
+    assert [e.reply for e in seeing[:4]] == [e.reply for e in blind]
+    assert all(e.reply.startswith("Goal ") for e in seeing[4:])
     assert [e.prompt for e in blind[1:]] == [BLIND] * 3
     assert seeing[0].prompt == blind[0].prompt
     described = TouchLessons().captions(state, np.random.default_rng(0))[0].reply

@@ -82,6 +82,8 @@ def make_weights(folder: Path) -> Path:
     save_encoder(folder / "encoder", encoder, StateHeads(2 * encoder.config.dim))
     save_clip(folder / "clip", small_clip(words, dim=32), words)
     language = Language(small_lm(words, dim=48, layers=1), words=words)
-    save_tac3d_llm(folder, Tac3dLlm(encoder, Projector(48, 48), language))
+    save_tac3d_llm(
+        folder, Tac3dLlm(encoder, StateHeads(2 * encoder.config.dim), Projector(48, 48), language)
+    )
     (folder / "README.md").write_text("# Tac3D-LLM, small\n\nfacts\n\n## Scores\n\nold\n")
     return folder
