@@ -9,7 +9,7 @@ from typing import Annotated
 
 import tyro
 
-from tacgrasp.cli import bench_rigs
+from tacgrasp.cli import bench_encoders, bench_rigs
 from tacgrasp.cli.flags import parse, subcommand, writable
 from tacgrasp.errors import UsageError
 
@@ -181,6 +181,7 @@ def main(argv: Sequence[str]) -> int:
         "generate": _generate,
         "faults": bench_rigs.faults,
         "drivers": bench_rigs.drivers,
+        "encoder": bench_encoders.encoder,
         "rigs": bench_rigs.rigs,
     }
     name, rest = subcommand("bench", argv, {n: b.__doc__ or "" for n, b in benches.items()})
