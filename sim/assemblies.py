@@ -82,8 +82,8 @@ def spatula() -> tuple[Solid, ...]:
 
 
 def pencil() -> tuple[Solid, ...]:
-    """A hexagonal rod with a sharpened end."""
-    return cone(20, 9.2, 0.3, 7.4), moved(prism(polygon(6, 7.4), 100, Shape.HEXAGON, 0.5), z=-9.0)
+    """A round rod with a sharpened end."""
+    return cone(26, 6.9, 0.3, 7.4), moved(rod(7.4, 100), z=-6.7)
 
 
 def hairbrush() -> tuple[Solid, ...]:
@@ -107,10 +107,10 @@ def link() -> Solid:
     return moved(Blend((moved(bend, 2.5), Placed(bend, (-2.5, 0.0, 0.0), back), sides)), z=-0.75)
 
 
-def gear() -> Solid:
-    """A wheel with 38 narrow round teeth."""
-    tooth = Rods((((21.0, 0.0, -11.0), (21.0, 0.0, -1.0)),), 0.7)
-    return Blend((rod(40, 12, 0.5), Around(tooth, 38)))
+def pulley() -> Solid:
+    """A wheel for a toothed belt: 38 narrow round teeth, 24 mm long."""
+    tooth = Rods((((21.0, 0.0, -23.0), (21.0, 0.0, -1.0)),), 0.7)
+    return Blend((rod(40, 24, 0.5), Around(tooth, 38)))
 
 
 def heat_sink() -> tuple[Solid, ...]:

@@ -129,7 +129,7 @@ INDENTERS: tuple[Thing, ...] = (
     _indenter("pyramid_4_40", "four-sided pyramid", pyramid(4, 40, 16), holds=_LEANING),
     _indenter("pyramid_6_52", "six-sided pyramid", pyramid(6, 52, 14), holds=_LEANING),
     _indenter("chisel_70", "wedge, 70°, on its edge", roof(70, 10, 13)),
-    _indenter("chisel_100", "wedge, 100°, on its edge", roof(100, 8, 22, 6), rough(0.04, 0.4)),
+    _indenter("chisel_100", "wedge, 100°, on its edge", roof(100, 8, 22, 6)),
     _indenter(
         "cube_corner",
         "cube on its corner",

@@ -18,14 +18,14 @@ from sim.touched import Touch
 
 SHAPE, TEXTURE, DEPTH, POSITION, AREA = "shape", "texture", "depth", "position", "area"
 
-DEPTH_MM, POSITION_MM, AREA_FACTOR = 0.002, 0.02, 1.006
+DEPTH_MM, POSITION_MM, AREA_FACTOR = 0.0015, 0.02, 1.004
 """Distances from a limit within which a label is unsure. Our choice: twice what the
 solver's tolerance moves a depth by, a small part of a grid point, and one such point in a rim."""
 
 FELT_MM = 0.015
 """Relief under a contact below which its surface is smooth: 10 µm and a little."""
 
-PERIODS = 1.5
+PERIODS = 1.3
 """Widths of a texture's pitch that a contact must span for the texture to be told."""
 
 

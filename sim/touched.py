@@ -40,7 +40,8 @@ BAR_MM = 1.6
 
 _RATIO_UNSURE = (0.95, 1.05)  # factors about a limit between which a ratio is unsure
 _RUNS_OUT, _RUNS_OUT_UNSURE = 0.32, 0.06  # of the depth, over a face: tilted rather than flat
-_CUT_UNSURE = 0.3  # of the outline, at the pad's border
+_CUT_UNSURE = 0.34  # of the outline, at the pad's border
+_CUT_STRAIGHT = 0.42  # the same for a rectangle, of which less needs to be seen
 _SHARP_MM = 1.6  # radius of curvature from which an edge is a round
 _ENDS_SEEN = 0.15  # share of an outline at the border up to which a face is seen as a whole
 _ASLANT = 0.2  # slope up to which a face that touches as a whole is seen as that face
@@ -158,7 +159,7 @@ def _loop(touch: Touch, mask: Mask) -> Named:
     """Ring, crescent, or the side of a bent bar, by how far round the contact goes."""
     share = _way_round(mask)
     if share >= 0.8:
-        return Named(Shape.RING, share >= 0.85)
+        return Named(Shape.RING, share >= 0.82)
     if share >= 0.14:  # about 50°
         return Named(Shape.CRESCENT, 0.17 <= share < 0.76)
     named = _cap(touch)
@@ -180,7 +181,7 @@ def _way_round(mask: Mask) -> float:
 
 def _plain(touch: Touch, present: list[int]) -> Named:
     """Faces, edges, corners, tips and curved surfaces."""
-    pieces = int(label(touch.closed, structure=np.ones((3, 3)))[1])
+    pieces = _pieces(touch.closed)
     counts = {n: int(((touch.cells == n) & touch.touching).sum()) for n in present}
     main = max(present, key=lambda n: counts[n])
     share = counts[main] / int(touch.touching.sum())
@@ -212,6 +213,13 @@ def _rounds_off(touch: Touch) -> bool:
     row, column = np.unravel_index(int(touch.gap_mm.argmin()), touch.gap_mm.shape)
     about = touch.gap_mm[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
     return float(about.max()) < _LEVEL_MM
+
+
+def _pieces(mask: Mask) -> int:
+    """Parts of a mask that are more than crumbs of the largest one."""
+    parts, _ = label(mask, structure=np.ones((3, 3)))
+    sizes = np.bincount(parts.ravel())[1:]
+    return int((sizes > 0.12 * sizes.max()).sum())
 
 
 def _slopes(touch: Touch) -> tuple[FloatArray, FloatArray]:
@@ -257,7 +265,8 @@ def _outline(touch: Touch, cell: Cell, own: Mask) -> Named:
     if spread.width <= bar and aspect >= 2:
         return Named(Shape.LINE, aspect >= 2.4)
     if cell.outline in (None, Shape.CUBOID, Shape.LINE):
-        return Named(Shape.CUBOID, whole and aspect < 2.4)
+        straight = _cut_share(touch.closed) < _CUT_STRAIGHT and field < PLANE_SHARE - 0.05
+        return Named(Shape.CUBOID, straight and aspect < 2.4)
     return Named(cell.outline, whole and aspect < 2.4)
 
 
@@ -284,7 +293,7 @@ def _sharp(touch: Touch, present: list[int], counts: dict[int, int]) -> Named:
     long = spread.length / spread.width
     tapers = [n for n in around if touch.table[n].form is Form.TAPER]
     if any(touch.table[n].outline is Shape.PEAK for n in tapers):
-        return Named(Shape.PEAK, long < 2.1)
+        return Named(Shape.PEAK, long < 2.6)
     if len(present) == 1 and touch.table[present[0]] == Cell(form=Form.TAPER):  # a cone's side
         return _cap(touch)
     level = _rounds_off(touch)

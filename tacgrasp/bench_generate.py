@@ -29,7 +29,7 @@ from tacgrasp.generate import is_complete
 
 PARTS = 3
 START_S = 8.0
-"""Kills come at most this long, or a sixth of the undisturbed time, after a start [s]."""
+"""Kills come at most this long, or a third of the undisturbed time, after a start [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,7 +96,7 @@ def _measure(
         if struck == kills or (killed.exists() and is_complete(killed)):
             break
         console.print(f"kill {number + 1} of {kills}, {len(safe) and safe[-1]} shards safe")
-        moment = draw.uniform(0.3, max(START_S, seconds / 6))
+        moment = draw.uniform(0.3, max(START_S, seconds / 3))
         if _kill_after(_command(killed, contacts, seed, "--workers", "2"), moment):
             struck += 1
             safe.append(len(list(killed.glob("shard-*.parquet"))))
