@@ -10,14 +10,13 @@ from __future__ import annotations
 import datetime
 import logging
 import tempfile
-import threading
 import time
-from collections.abc import Callable
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from cltp.errors import TouchError
 from cltp.sensors import sensor_named
@@ -26,14 +25,14 @@ from primitives.errors import RobotError
 from sim.emulators.spawn import EmulatorProcess
 from tacgrasp.config import RunConfig
 from tacgrasp.emulated_rig import settings_for
-from tacgrasp.episodes import EpisodeError, read_episode
 from tacgrasp.fault_cases import STALE_BACKGROUND, FaultCase, Phase
+from tacgrasp.fault_threads import Move, RecordedEpisode, bounded
 from tacgrasp.hardware_config import HardwareConfig, StartConfig
 from tacgrasp.hardware_rig import HardwareRig, connect
-from tacgrasp.policy_factory import make_policy
-from tacgrasp.run import run_recorded
 
 log = logging.getLogger(__name__)
+
+FloatArray = NDArray[np.float64]
 
 REFUSED_S = 2.0
 STOPPED_MS = 150.0
@@ -45,7 +44,6 @@ HUNG_S = 6.0
 
 _ATTEMPTS = 6
 _LOW_X_M, _HIGH_X_M = 0.37, 0.53
-_SPEED_M_S, _ACCELERATION_M_S2 = 0.4, 2.5
 _INTO_S = (0.17, 0.30)
 """When faults are injected, after the beginning of the move [s]: at full speed."""
 
@@ -115,7 +113,7 @@ class FaultBench:
         before = self._where()
         self._inject(case)
         began_s = time.monotonic()
-        told, hung = _bounded(lambda: self._connect_one(case.device))
+        told, hung = bounded(lambda: self._connect_one(case.device))
         took_s, told = time.monotonic() - began_s, self._plain(told)
         moved = bool(np.abs(np.subtract(self._where(), before)).max() > 1e-6)
         return Trial(
@@ -152,7 +150,7 @@ class FaultBench:
         save_background(path, Background(frame=frame, unit="mine", taken=taken, num_frames=20))
         settings = GelSightSettings(device="/dev/no-camera", unit="mine", background=path)
         began_s = time.monotonic()
-        told, hung = _bounded(lambda: connect_gelsight(settings).disconnect())
+        told, hung = bounded(lambda: connect_gelsight(settings).disconnect())
         took_s, told = time.monotonic() - began_s, self._plain(told)
         detected = _says(case, told) and took_s < REFUSED_S
         return Trial(detected=detected, told=told, noticed_ms=1e3 * took_s, hung=hung)
@@ -162,7 +160,7 @@ class FaultBench:
     def _in_motion(self, case: FaultCase) -> Trial:
         with ExitStack() as stack:
             rig = self._connected(stack)
-            move = _Move(rig, self._across(rig))
+            move = Move(rig, self._across(rig))
             time.sleep(float(self._rng.uniform(*_INTO_S)))
             injected_s = self._inject(case)
             hung = not move.wait(HUNG_S)
@@ -182,12 +180,16 @@ class FaultBench:
         with ExitStack() as stack:
             rig = self._connected(stack)
             target = self._across(rig)
-            move = _Move(rig, target)
+            move = Move(rig, target)
             time.sleep(float(self._rng.uniform(*_INTO_S)))
             before = rig.survived()
             injected_s = self._inject(case)
-            invented = self._wrong_value(rig, case.device)
-            good_s = time.monotonic()
+            error, invented = "", False
+            try:
+                value, good_s = _read(rig, case.device), time.monotonic()
+                invented = self._is_wrong(case.device, value)
+            except (RobotError, TouchError) as failure:  # it was not survived
+                error, good_s = str(failure), time.monotonic()
             hung = not move.wait(HUNG_S)
             after = rig.survived()
         recovered_ms = 1e3 * (good_s - injected_s)
@@ -195,8 +197,11 @@ class FaultBench:
             np.allclose(move.reached.position_m, target.position_m, atol=1e-3)
         )
         return Trial(
-            detected=after != before and _says(case, after) and recovered_ms < RECOVERED_MS,
-            told=f"nothing, it is counted: {after}" if not move.told else move.told,
+            detected=not error
+            and after != before
+            and _says(case, after)
+            and recovered_ms < RECOVERED_MS,
+            told=self._plain(error or move.told or f"nothing, it is counted: {after}"),
             noticed_ms=recovered_ms,
             moved=not arrived,
             hung=hung,
@@ -216,7 +221,7 @@ class FaultBench:
         with ExitStack() as stack:
             rig = self._connected(stack)
             record = {"record": Path(self._folder.name), "policy": "rules"}
-            episode = _Episode(rig, self._config.model_copy(update=record))
+            episode = RecordedEpisode(rig, self._config.model_copy(update=record))
             moving = self._wait_for_motion(episode)
             injected_s = self._inject(case)
             hung = not episode.wait(60.0)
@@ -234,7 +239,7 @@ class FaultBench:
             episode=episode.intact(want_fault=not passing),
         )
 
-    def _wait_for_motion(self, episode: _Episode) -> bool:
+    def _wait_for_motion(self, episode: RecordedEpisode) -> bool:
         until_s = time.monotonic() + 20.0
         while time.monotonic() < until_s and not episode.ended:
             speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
@@ -298,95 +303,26 @@ class FaultBench:
     def _invents(self, rig: HardwareRig, case: FaultCase) -> bool:
         """Whether the device that failed still gives values, and they are not the true ones."""
         try:
-            return self._wrong_value(rig, case.device)
+            value = _read(rig, case.device)
         except (RobotError, TouchError):
             return False
+        return self._is_wrong(case.device, value)
 
-    def _wrong_value(self, rig: HardwareRig, device: str) -> bool:
-        """Read a device and compare with the truth."""
-        if device == "ur":
-            pose = rig.arm.pose()
-            return bool(np.abs(pose.position_m - self._where()[:3]).max() > 1e-3)
-        if device == "dynamixel":
-            return abs(rig.gripper.state().width_m - self._where()[3]) > 1e-3
-        cloud = rig.sensor.read()
-        return bool(np.ptp(cloud.points_mm[:, 2]) == 0)
+    def _is_wrong(self, device: str, value: FloatArray) -> bool:
+        """Compare what was read with the truth; of a touch, whether it is one at all."""
+        if device == "taxels":
+            return float(np.ptp(value)) == 0
+        truth = self._where()[:3] if device == "ur" else self._where()[3:]
+        return bool(np.abs(value - truth).max() > 1e-3)
 
 
-class _Move:
-    """A move in a thread of its own: what it came to."""
-
-    def __init__(self, rig: HardwareRig, target: Pose) -> None:
-        self.told, self.ended_s = "", float("nan")
-        self.reached: Pose | None = None
-        self._thread = threading.Thread(target=self._run, args=(rig, target), daemon=True)
-        self._thread.start()
-
-    def wait(self, seconds: float) -> bool:
-        self._thread.join(seconds)
-        return not self._thread.is_alive()
-
-    def _run(self, rig: HardwareRig, target: Pose) -> None:
-        try:
-            self.reached = rig.arm.move_to(
-                target, speed_m_s=_SPEED_M_S, acceleration_m_s2=_ACCELERATION_M_S2
-            )
-        except RobotError as error:
-            self.told = str(error)
-        finally:
-            self.ended_s = time.monotonic()
-
-
-class _Episode:
-    """A recorded episode in a thread of its own."""
-
-    def __init__(self, rig: HardwareRig, config: RunConfig) -> None:
-        self.message, self.ended_s = "", float("nan")
-        self._reason, self._path = "", Path()
-        self._thread = threading.Thread(target=self._run, args=(rig, config), daemon=True)
-        self._thread.start()
-
-    @property
-    def ended(self) -> bool:
-        return not self._thread.is_alive()
-
-    def wait(self, seconds: float) -> bool:
-        self._thread.join(seconds)
-        return self.ended
-
-    def intact(self, *, want_fault: bool) -> str:
-        """'intact', or what is wrong with the file."""
-        try:
-            episode = read_episode(self._path)
-        except EpisodeError as error:
-            return str(error)
-        if not episode.complete or episode.end is None:
-            return episode.problem or "it has no end"
-        if episode.end.reason != self._reason or (want_fault and self._reason != "fault"):
-            return f"its end is {episode.end.reason}"
-        return "intact"
-
-    def _run(self, rig: HardwareRig, config: RunConfig) -> None:
-        with suppress(RobotError, EpisodeError):
-            outcome, self._path = run_recorded(rig, make_policy("rules", config), config)
-            self.message, self._reason = outcome.message, outcome.reason.value
-        self.ended_s = time.monotonic()
-
-
-def _bounded(connect_one: Callable[[], None]) -> tuple[str, bool]:
-    """What connecting says, and whether it hangs."""
-    said: list[str] = []
-
-    def run() -> None:
-        try:
-            connect_one()
-        except (RobotError, TouchError) as error:
-            said.append(str(error))
-
-    thread = threading.Thread(target=run, daemon=True)
-    thread.start()
-    thread.join(HUNG_S + 4)
-    return (said[0] if said else ""), thread.is_alive()
+def _read(rig: HardwareRig, device: str) -> FloatArray:
+    """What a device measures: position of the tool [m], opening [m], or depths [mm]."""
+    if device == "ur":
+        return rig.arm.pose().position_m
+    if device == "dynamixel":
+        return np.array([rig.gripper.state().width_m])
+    return np.array(rig.sensor.read().points_mm[:, 2], dtype=np.float64)
 
 
 def _says(case: FaultCase, told: str) -> bool:

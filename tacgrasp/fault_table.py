@@ -96,7 +96,8 @@ def table_of(rows: Sequence[FaultRow]) -> Table:
     """For the screen; rows that are not as they must be are red."""
     table = Table(title="faults of the emulated rig: p50 / max")
     for column in _COLUMNS:
-        table.add_column(column, justify="left" if column in ("fault", "phase") else "right")
+        left = column in ("fault", "phase")
+        table.add_column(column, justify="left" if left else "right", no_wrap=column == "fault")
     for row in rows:
         table.add_row(*_cells(row), style="" if row.passed else "red")
     return table
