@@ -1,6 +1,13 @@
 """Jogging: what each key means, and that every step is held to the limits."""
 
 import io
+import os
+import pty
+import select
+import subprocess
+import sys
+import termios
+import time
 
 import pytest
 
@@ -130,3 +137,29 @@ def test_a_refused_step_is_said_and_jogging_goes_on(monkeypatch, capsys):
     printed = capsys.readouterr().out
     assert "refused: " in printed
     assert printed.splitlines()[-1].startswith("open at")
+
+
+@pytest.mark.slow
+def test_on_a_terminal_single_keys_move_and_the_terminal_is_set_back():
+    ours, theirs = pty.openpty()
+    before = termios.tcgetattr(theirs)
+    command = [sys.executable, "-m", "tacgrasp", "jog", "--seed", "3"]
+    child = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs)
+    printed = b""
+
+    def until(words: bytes) -> None:
+        nonlocal printed
+        deadline = time.monotonic() + 60
+        while words not in printed and time.monotonic() < deadline:
+            if select.select([ours], [], [], 0.1)[0]:
+                printed += os.read(ours, 65536)
+        assert words in printed, printed
+
+    until(b"step 1 mm")
+    os.write(ours, b"d")
+    until(b"at (451.0, -100.0, 200.0) mm")
+    os.write(ours, b"q")
+    assert child.wait(30) == 0
+    assert termios.tcgetattr(theirs) == before
+    os.close(ours)
+    os.close(theirs)
