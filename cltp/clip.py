@@ -5,12 +5,14 @@ Not here: how the small one is aligned (``cltp.train.clip``).
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import torch
 from safetensors import SafetensorError
+from tokenizers import Tokenizer
 from torch import Tensor, nn
 
 from cltp.errors import TouchError
@@ -50,6 +52,60 @@ def small_clip(words: Words, *, dim: int = 128, layers: int = 2) -> CLIPModel:
     return CLIPModel(config)
 
 
+class Tokens(Protocol):
+    """A tokenizer as the tower of language needs it."""
+
+    pad: int
+    bos: int
+    eos: int
+
+    def encode(self, text: str) -> list[int]:
+        """Tokens of a text, without those at its ends."""
+        ...
+
+    def fingerprint(self) -> str:
+        """Tells tokenizers apart."""
+        ...
+
+
+class StockTokens:
+    """The tokenizer of a stock CLIP checkpoint: ``tokenizer.json`` as its makers wrote it.
+
+    Args:
+        folder: Of the checkpoint.
+        config: Its configuration of the text tower, which names the ends of a text.
+
+    Raises:
+        TouchError: The file is missing or damaged.
+    """
+
+    def __init__(self, folder: Path, config: Any) -> None:
+        path = Path(folder) / "tokenizer.json"
+        try:
+            self._tokenizer = Tokenizer.from_file(str(path))
+        except Exception as error:  # the library raises bare Exception for anything it can't read
+            raise TouchError(f"no tokenizer could be read from {path}: {error}") from error
+        # Old configurations name 0 and 2, which are letters: the vocabulary knows better.
+        first, last = (self._tokenizer.token_to_id(token) for token in STOCK_ENDS)
+        self.bos = int(config.bos_token_id if first is None else first)
+        self.eos = int(config.eos_token_id if last is None else last)
+        self.pad = self.eos
+
+    def encode(self, text: str) -> list[int]:
+        """Tokens of a text, without those at its ends."""
+        return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
+
+    def __contains__(self, token: str) -> bool:
+        return self._tokenizer.token_to_id(token) is not None
+
+    def fingerprint(self) -> str:
+        """SHA-256 of the whole tokenizer."""
+        return hashlib.sha256(self._tokenizer.to_str().encode()).hexdigest()
+
+
+STOCK_ENDS = ("<|startoftext|>", "<|endoftext|>")
+
+
 class Towers(nn.Module):
     """E_L and E_I of a CLIP, frozen, with texts and images going in as they are.
 
@@ -58,7 +114,7 @@ class Towers(nn.Module):
         words: Its tokenizer.
     """
 
-    def __init__(self, clip: CLIPModel, words: Words) -> None:
+    def __init__(self, clip: CLIPModel, words: Tokens) -> None:
         super().__init__()
         self.clip = clip.eval().requires_grad_(False)
         self.words = words
@@ -79,7 +135,7 @@ class Towers(nn.Module):
         return image_features(self.clip, pixels)
 
 
-def text_features(clip: CLIPModel, words: Words, texts: Sequence[str]) -> Tensor:
+def text_features(clip: CLIPModel, words: Tokens, texts: Sequence[str]) -> Tensor:
     """E_L: features of texts, shape (B, F), normalised.
 
     A text's feature is read where it ends. transformers does so too, but for the number 2 of the
@@ -124,4 +180,15 @@ def load_towers(folder: Path) -> Towers:
     wrong = [*info["missing_keys"], *info["unexpected_keys"]]
     if wrong:
         raise TouchError(f"CLIP in {folder} lacks or adds weights: {', '.join(sorted(wrong)[:5])}")
-    return Towers(clip, Words.load(folder))
+    return Towers(clip, _tokens_of(folder, clip.config.text_config))
+
+
+def _tokens_of(folder: Path, config: Any) -> Tokens:
+    """Our tokenizer, or that of a stock checkpoint."""
+    try:
+        return Words.load(folder)
+    except TouchError:
+        stock = StockTokens(folder, config)
+        if all(token in stock for token in STOCK_ENDS):
+            return stock
+        raise

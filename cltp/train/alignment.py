@@ -52,6 +52,19 @@ class Recipe:
     head_weight: float = 1.0
 
 
+RECIPE = Recipe(texts="mixed", several=True, prompt_weight=0.2)
+"""What weights are trained by when nothing else is asked for.
+
+Measured on 1,417 unseen noisy contacts, shape / texture / depth / position / area, % right by the
+paper's prompts, with a linear feature on a frozen encoder and a text tower trained in 400 steps of
+128: captions alone 27 / 51 / 59 / 82 / 58; mixed, each text to its own contact alone
+73 / 82 / 81 / 94 / 82; mixed, each to all that it fits 78 / 86 / 83 / 96 / 86, and 75 / 85 / 84 /
+95 / 78 where the very prompts of the test were held back; captions and the prompt contrast
+78 / 85 / 84 / 96 / 88; both 79 / 87 / 84 / 96 / 86. Duplicate captions alone make no difference:
+texts that are equal share what they win in any case.
+"""
+
+
 class _Learner(nn.Module):
     def __init__(self, config: EncoderConfig) -> None:
         super().__init__()
@@ -85,7 +98,7 @@ def train_cltp(
         config: Sizes of the encoder; its feature is made as wide as CLIP's.
         schedule: How long and how fast; the batch is that of all processes together.
         augmentation: How contacts are varied.
-        recipe: What is minimised.
+        recipe: What is minimised; ``RECIPE`` when not given.
         clip_dir: The towers; ``out_dir/clip`` when not given.
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
         seed: Of weights, order, noise and mirroring.
@@ -95,7 +108,7 @@ def train_cltp(
     Raises:
         TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
     """
-    workers, recipe = workers or Workers(), recipe or Recipe()
+    workers, recipe = workers or Workers(), recipe or RECIPE
     data = ContactDataset(data_dir, split=Split.TRAIN)
     clip_dir = clip_dir or out_dir / "clip"
     towers = load_clip(clip_dir).to(workers.device)

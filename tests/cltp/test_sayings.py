@@ -1,14 +1,17 @@
 """What is said of contacts, and what else it is true of."""
 
 import dataclasses
+from pathlib import Path
 
 import numpy as np
 import pytest
 import torch
 from fake_contacts import fake_contact
+from tokenizers import Tokenizer, models, pre_tokenizers, trainers
 
 from cltp.captions import caption
-from cltp.clip import small_clip, text_features
+from cltp.clip import load_towers, small_clip, text_features
+from cltp.errors import TouchError
 from cltp.samples import CLASSES
 from cltp.states import ContactState
 from cltp.tokenizer import Words
@@ -73,3 +76,24 @@ def test_the_feature_of_a_text_knows_all_of_it_and_nothing_of_its_neighbours() -
     together = text_features(clip, words, [*texts, "a much longer text than all of the others"])
     torch.testing.assert_close(together[:3], alone, atol=1e-5, rtol=0)
     assert (alone[0] - alone[1]).abs().max() > 0.01  # the last word alone differs
+
+
+def test_a_stock_checkpoint_brings_its_own_tokenizer(tmp_path: Path) -> None:
+    texts = ["Contact at top-left.", "Contact is deep."]
+    stock = Tokenizer(models.BPE(unk_token="?"))
+    stock.pre_tokenizer = pre_tokenizers.Whitespace()
+    ends = ["?", "<|startoftext|>", "<|endoftext|>"]
+    stock.train_from_iterator(texts, trainers.BpeTrainer(vocab_size=200, special_tokens=ends))
+    clip = small_clip(Words.train(texts * 5, 400), dim=32, layers=1)
+    clip.save_pretrained(tmp_path)
+    with pytest.raises(TouchError, match="no tokenizer"):
+        load_towers(tmp_path)
+    stock.save(str(tmp_path / "tokenizer.json"))
+    towers = load_towers(tmp_path)
+    assert (towers.words.bos, towers.words.eos) == (1, 2)
+    assert towers.texts(texts).shape == (2, 32)
+    other = Tokenizer(models.BPE(unk_token="?"))
+    other.train_from_iterator(texts, trainers.BpeTrainer(vocab_size=200, special_tokens=["?"]))
+    other.save(str(tmp_path / "tokenizer.json"))
+    with pytest.raises(TouchError, match="lacks"):
+        load_towers(tmp_path)
