@@ -134,7 +134,7 @@ def _did(row: FaultRow) -> str:
         return "nothing moved."
     if row.phase == Phase.TRANSIENT:
         return "the arm moved on and arrived."
-    return "the arm came to rest and was not moved again."
+    return "the arm came to rest."
 
 
 def _cells(row: FaultRow) -> tuple[str, ...]:
