@@ -33,7 +33,7 @@ from sim.surety import TEXTURE, doubts, name_texture
 from sim.touched import Touch, name_shape
 
 ROWS, COLUMNS = 75, 100
-"""Grid over the field: 0.2 mm on a GelSight Mini."""
+"""Grid over the field of a GelSight Mini: 0.2 mm. Other sensors get elements of that size."""
 
 CONTACTS, GELSTEREO_CONTACTS, GELSIGHT_CONTACTS = 50_860, 1_450, 115
 """Contacts of the main set and of two further domains. Source: the paper, section 3.1."""
@@ -119,6 +119,13 @@ class Order:
     loads: int
 
 
+def grid_over(sensor: SensorSpec) -> tuple[int, int]:
+    """Rows and columns of square elements over a sensor's field, as large as those of ``ROWS``."""
+    element_mm = sensor_named("gelsight_mini").height_mm / ROWS
+    columns = round(sensor.width_mm / element_mm)
+    return round(sensor.height_mm * columns / sensor.width_mm), columns
+
+
 def series_numbers(contacts: int) -> list[int]:
     """Numbers of the series of a data set of so many contacts, domains included in proportion.
 
@@ -201,11 +208,12 @@ def make_series(
     rng = np.random.default_rng([seed, number, 1])
     scene, depths = draw_scene(order, rng, device)
     soft = order.thing.modulus_mpa
+    rows, columns = grid_over(order.sensor)
     layer = ElasticLayer(
         order.gel,
-        rows=ROWS,
-        columns=COLUMNS,
-        pitch_mm=order.sensor.width_mm / COLUMNS,
+        rows=rows,
+        columns=columns,
+        pitch_mm=order.sensor.width_mm / columns,
         body_modulus_mpa=soft,
         device=device,
     )
@@ -228,7 +236,7 @@ def draw_scene(
         ValueError: The object can't be brought to the pad.
     """
     thing, sensor = order.thing, order.sensor
-    x, y = np.meshgrid(*grid_axes_mm(sensor, ROWS, COLUMNS))
+    x, y = np.meshgrid(*grid_axes_mm(sensor, *grid_over(sensor)))
     textured = any(part.skin is not SMOOTH for part in thing.parts)
     lowest = _SHALLOWEST_FINE_MM if textured else _SHALLOWEST_MM
     shares = rng.random(order.loads)
@@ -286,7 +294,7 @@ def _scene(
     axis = pose.object_from_pad[2, :2]
     if np.hypot(*axis) < 0.3:
         axis = pose.object_from_pad[0, :2]
-    down, right = np.gradient(felt.gap_mm, sensor.width_mm / COLUMNS)
+    down, right = np.gradient(felt.gap_mm, sensor.width_mm / felt.gap_mm.shape[1])
     slope = np.hypot(down, right)
     relief = np.zeros(there.shape)
     part_of_cell = np.array([*thing.part_of_cell, -1])
@@ -299,7 +307,7 @@ def _scene(
 def _labelled(
     seed: int, order: Order, scene: Scene, approach: list[float], press: Press
 ) -> list[Contact]:
-    pitch = order.sensor.width_mm / COLUMNS
+    pitch = order.sensor.width_mm / scene.cells.shape[1]
     pressure = press.pressure_kpa.cpu()
     closed = in_contact(pressure, pitch)
     material = order.gel

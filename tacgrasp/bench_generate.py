@@ -92,10 +92,12 @@ def _measure(
     draw = random.Random(seed)
     struck, lied = 0, 0
     safe: list[int] = []
-    for number in range(10 * kills):
-        if struck == kills or (killed.exists() and is_complete(killed)):
+    for _ in range(10 * kills):
+        if struck == kills:
             break
-        console.print(f"kill {number + 1} of {kills}, {len(safe) and safe[-1]} shards safe")
+        if killed.exists() and is_complete(killed):
+            shutil.rmtree(killed)  # made in spite of the kills so far: the next begin anew
+        console.print(f"kill {struck + 1} of {kills}, {len(safe) and safe[-1]} shards safe")
         moment = draw.uniform(0.3, max(START_S, seconds / 3))
         if _kill_after(_command(killed, contacts, seed, "--workers", "2"), moment):
             struck += 1

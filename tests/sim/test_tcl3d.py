@@ -50,6 +50,14 @@ def test_a_series_is_the_same_whatever_is_made_beside_it():
     assert [c.unsure for c in alone] == [c.unsure for c in again]
 
 
+def test_the_elements_of_every_sensor_s_grid_are_squares_of_a_fifth_of_a_millimetre():
+    assert tcl3d.grid_over(GEL) == (tcl3d.ROWS, tcl3d.COLUMNS)
+    for sensor in SENSORS.values():
+        rows, columns = tcl3d.grid_over(sensor)
+        assert sensor.width_mm / columns == pytest.approx(sensor.height_mm / rows, rel=1e-3)
+        assert sensor.width_mm / columns == pytest.approx(0.203, abs=0.002)
+
+
 def test_force_and_depth_rise_along_a_series():
     contacts = tcl3d.make_series(0, 20)
     assert len(contacts) == tcl3d.LOADS
