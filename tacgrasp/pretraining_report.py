@@ -77,7 +77,7 @@ def report(results: Path, out: Path, name: str = "pretraining") -> list[Path]:
         TouchError: Results are damaged or of different data.
     """
     found = load(results)
-    tables = list(_tables(found))
+    tables = [*_tables(found), *_failures(found)]
     plots = [*_bars(found), *_confusions(found)]
     pages = {f"{name}.md": _markdown(found, tables), f"{name}.html": _html(found, tables, plots)}
     try:
@@ -121,6 +121,48 @@ def _table(table: str, trial: str, about: str, rows: Sequence[Result]) -> Table:
     if has_paper and trial == "physics":
         note += " The paper's columns are its real-world ones."
     return Table(title=f"{TITLES[table]} – {trial}", head=head, rows=lines, note=note)
+
+
+NAMED_FAILURES = (("triangle", "peak"), ("sphere", "ellipsoid"))
+"""Shapes that the paper's section 5.2 says are taken for each other."""
+
+
+def _failures(found: Sequence[Result]) -> Iterator[Table]:
+    """The paper's failure cases by name, and the shapes most often taken for another one."""
+    names = CLASSES["shape"]
+    rows = []
+    for result in found:
+        counts = result.confusion.get("shape")
+        if (result.table, result.method) != ("probe", "cltp") or result.seed or counts is None:
+            continue
+        cells = [result.trial]
+        for one, other in NAMED_FAILURES:
+            there = _said_as(counts, names.index(one), names.index(other))
+            back = _said_as(counts, names.index(other), names.index(one))
+            cells.append(f"{there} / {back}")
+        wrong = [
+            (count, truth, said)
+            for truth, row in enumerate(counts)
+            for said, count in enumerate(row)
+            if said != truth and count
+        ]
+        named = [
+            f"{names[truth]} as {names[said]} ({n})" for n, truth, said in sorted(wrong)[:-6:-1]
+        ]
+        rows.append([*cells, ", ".join(named) or "none"])
+    if rows:
+        pairs = [f"{one} as {other} / back, %" for one, other in NAMED_FAILURES]
+        yield Table(
+            title="Failures of CLTP's shape probe",
+            head=["", *pairs, "most frequent (contacts)"],
+            rows=rows,
+            note="The paper names triangle and peak, sphere and ellipsoid.",
+        )
+
+
+def _said_as(counts: Sequence[Sequence[int]], truth: int, said: int) -> str:
+    total = sum(counts[truth])
+    return f"{100 * counts[truth][said] / total:.0f}" if total else "–"
 
 
 def _cell(values: Sequence[float | None]) -> str:

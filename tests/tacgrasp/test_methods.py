@@ -311,3 +311,13 @@ def test_training_never_reads_a_test_contact(data: Path, out: Path, tmp_path: Pa
         assert main(["train", "cltp", *where, "--preset", "tiny", *QUICK]) == 0
         weights.append((tmp_path / f"{name}-out/cltp/encoder/model.safetensors").read_bytes())
     assert weights[0] == weights[1]
+
+
+def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
+    names = CLASSES["shape"]
+    counts = [[0] * len(names) for _ in names]
+    triangle, peak = names.index("triangle"), names.index("peak")
+    counts[triangle][triangle], counts[triangle][peak], counts[peak][peak] = 3, 1, 5
+    save(tmp_path, result(confusion={"shape": counts}))
+    page = report(tmp_path, tmp_path)[0].read_text()
+    assert "| contact | 25 / 0 | – / – | triangle as peak (1) |" in page
