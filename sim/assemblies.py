@@ -8,9 +8,11 @@ from __future__ import annotations
 import math
 
 from cltp.states import Shape
+from sim.faces import Form
 from sim.objects import Part
+from sim.placing import Placed, along, moved
 from sim.skins import SMOOTH, ridged, rough
-from sim.solids import Around, Blend, Form, Hollow, Hoop, Placed, Rods, Solid, along, moved
+from sim.solids import Around, Blend, Hollow, Hoop, Rods, Solid
 from sim.stock import (
     ball,
     box,

@@ -29,9 +29,11 @@ from sim.assemblies import (
     spatula,
     strawberry,
 )
+from sim.faces import Form
 from sim.objects import Family, Hold, Part, Thing
+from sim.placing import along, moved
 from sim.skins import SMOOTH, Skin, bumpy, ridged, rough, woven
-from sim.solids import Blend, Form, Hoop, Solid, along, moved
+from sim.solids import Blend, Hoop, Solid
 from sim.stock import (
     ball,
     block,

@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from cltp.states import Shape
 from sim.objects import Family, Hold, Part, Thing
+from sim.placing import moved
 from sim.skins import SMOOTH, Skin, bumpy, ridged, rough, woven
-from sim.solids import Hoop, Solid, moved
+from sim.solids import Hoop, Solid
 from sim.stock import (
     bars,
     block,

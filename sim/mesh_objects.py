@@ -22,9 +22,9 @@ from torch import Tensor
 from cltp.errors import TouchError
 from cltp.states import Shape
 from sim.casting import FloatArray
+from sim.faces import Cell, Form
 from sim.meshes import SUFFIXES, checked_mesh
 from sim.objects import Family, Part, Thing
-from sim.solids import Cell, Form
 
 IntArray = NDArray[np.int64]
 

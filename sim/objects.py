@@ -13,8 +13,9 @@ import torch
 from torch import Tensor
 
 from sim.casting import march
+from sim.faces import Cell, Vector
 from sim.skins import SMOOTH, Skin
-from sim.solids import Cell, Solid, Vector
+from sim.solids import Solid
 
 
 class Family(StrEnum):

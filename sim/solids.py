@@ -9,48 +9,21 @@ large, ``steep`` says by how much.
 Points are tensors (..., 3) [mm]. Works on any device; on the same kind of device the result for a
 point does not depend on its company.
 
-Not here: objects (``sim.catalogue``), rays (``sim.casting``), textures (``sim.skins``).
+Not here: the faces that solids are cut from (``sim.faces``), turning and moving (``sim.placing``),
+objects (``sim.catalogue``), rays (``sim.casting``), textures (``sim.skins``).
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
-from enum import StrEnum
+from dataclasses import dataclass
 from typing import Protocol
 
 import torch
 from torch import Tensor
 
-from cltp.states import Shape
-
-Vector = tuple[float, float, float]
-
-
-class Form(StrEnum):
-    """What a cell of a surface is."""
-
-    FLAT = "flat"
-    CURVED = "curved"  # what it is called depends on its curvatures where it touches
-    TAPER = "taper"  # a face, flat or conical, that runs to a tip
-    BAR = "bar"
-    LOOP = "loop"  # a ring or an arc of one
-    DOT = "dot"
-    CREST = "crest"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Cell:
-    """A part of a surface that has one name.
-
-    Attributes:
-        form: What it is.
-        outline: What a flat cell is called when all of it touches; None: by its proportions.
-    """
-
-    form: Form
-    outline: Shape | None = None
+from sim.faces import Cell, Face, Form, Ripple, Vector
 
 
 class Solid(Protocol):
@@ -78,96 +51,6 @@ class Solid(Protocol):
     def cell(self, points: Tensor) -> Tensor:
         """Number of the nearest cell for ``points`` (..., 3) near the surface, int64 (...)."""
         ...
-
-
-class Face(Protocol):
-    """A surface without end that a solid lies behind."""
-
-    @property
-    def cell(self) -> Cell:
-        """What it is."""
-        ...
-
-    def behind(self, points: Tensor) -> Tensor:
-        """Signed distance [mm] of ``points`` (..., 3): positive in front."""
-        ...
-
-
-@dataclass(frozen=True, slots=True)
-class Flat:
-    """Plane with an outward normal, ``offset`` from the origin [mm]."""
-
-    normal: Vector
-    offset: float
-    cell: Cell = Cell(form=Form.FLAT)
-
-    def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
-        x, y, z = self.normal
-        return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - self.offset
-
-
-@dataclass(frozen=True, slots=True)
-class Barrel:
-    """Cylinder or cone about z: ``radius`` at z = 0, wider by ``widening`` mm per mm of z."""
-
-    radius: float
-    widening: float = 0.0
-    cell: Cell = Cell(form=Form.CURVED)
-
-    def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
-        across = torch.hypot(points[..., 0], points[..., 1])
-        level = self.radius + self.widening * points[..., 2]
-        return (across - level) / math.hypot(1.0, self.widening)
-
-
-@dataclass(frozen=True, slots=True)
-class Bore:
-    """Inside of a cylinder about z through (``x``, ``y``)."""
-
-    radius: float
-    x: float = 0.0
-    y: float = 0.0
-    cell: Cell = Cell(form=Form.CURVED)
-
-    def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
-        return self.radius - torch.hypot(points[..., 0] - self.x, points[..., 1] - self.y)
-
-
-@dataclass(frozen=True, slots=True)
-class Dome:
-    """Sphere about (0, 0, ``centre_z``)."""
-
-    radius: float
-    centre_z: float = 0.0
-    cell: Cell = Cell(form=Form.CURVED)
-
-    def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
-        height = points[..., 2] - self.centre_z
-        across = points[..., 0] ** 2 + points[..., 1] ** 2
-        return (across + height**2).sqrt() - self.radius
-
-
-@dataclass(frozen=True, slots=True)
-class Ripple:
-    """Crests along y on a face towards +z at ``offset``, ``period`` apart [mm].
-
-    Its cells are the crests (``Cut.cell``).
-    """
-
-    offset: float
-    period: float
-    amplitude: float
-    cell: Cell = Cell(form=Form.CREST)
-
-    def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
-        waves = 2 * math.pi / self.period
-        below = self.amplitude * (1 - torch.cos(waves * points[..., 0]))
-        return (points[..., 2] - self.offset + below) / math.hypot(1.0, waves * self.amplitude)
 
 
 _MOST_CRESTS = 64
@@ -455,69 +338,3 @@ class Around:
         """See ``Solid``."""
         folded, copy = self._folded(points)
         return self.solid.cell(folded) + copy * len(self.solid.cells)
-
-
-@dataclass(frozen=True, slots=True)
-class Placed:
-    """A solid turned by ``turn`` (rows: its axes in the new frame), then moved."""
-
-    solid: Solid
-    move: Vector = (0.0, 0.0, 0.0)
-    turn: tuple[Vector, Vector, Vector] | None = field(default=None)
-
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """Those of the solid."""
-        return self.solid.cells
-
-    @property
-    def reach_mm(self) -> float:
-        """Of the solid where it is now."""
-        return self.solid.reach_mm + math.hypot(*self.move)
-
-    @property
-    def steep(self) -> float:
-        """Of the solid."""
-        return self.solid.steep
-
-    def _back(self, points: Tensor) -> Tensor:
-        own = points - points.new_tensor(self.move)
-        if self.turn is None:
-            return own
-        x, y, z = own.unbind(-1)
-        # Not a matrix product: its rounding may depend on the number of points.
-        return torch.stack([x * a + y * b + z * c for a, b, c in self.turn], dim=-1)
-
-    def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        return self.solid.distance(self._back(points))
-
-    def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        return self.solid.cell(self._back(points))
-
-
-_ALONG: dict[str, tuple[Vector, Vector, Vector]] = {
-    "x": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
-    "y": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
-    "-z": ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)),
-}
-
-
-def moved(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Placed:
-    """A solid moved [mm]."""
-    if isinstance(solid, Placed):
-        a, b, c = solid.move
-        return replace(solid, move=(a + x, b + y, c + z))
-    return Placed(solid, (x, y, z))
-
-
-def along(axis: str, solid: Solid) -> Placed:
-    """A solid turned so that its z axis lies along ``axis``: 'x', 'y' or '-z'."""
-    return Placed(solid, turn=_ALONG[axis])
-
-
-def leaning(degrees: float, solid: Solid) -> Placed:
-    """A solid turned about y, so that its z axis leans towards +x by an angle."""
-    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return Placed(solid, turn=((cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)))

@@ -24,7 +24,7 @@ from scipy.ndimage import binary_dilation, label
 
 from cltp.states import Shape
 from sim.bodies import FAR_MM
-from sim.solids import Cell, Form
+from sim.faces import Cell, Form
 
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -6,8 +6,8 @@ import trimesh
 
 from cltp.errors import TouchError
 from cltp.states import Shape
+from sim.faces import Form
 from sim.mesh_objects import meshes_in, thing_from_mesh
-from sim.solids import Form
 from sim.tcl3d import make_series
 
 

@@ -7,7 +7,9 @@ import torch
 
 from cltp.states import Shape
 from sim.catalogue import LARGE, SMALL, THINGS, thing_named
-from sim.solids import Form, Hoop, along, leaning, moved
+from sim.faces import Form
+from sim.placing import along, leaning, moved
+from sim.solids import Hoop
 from sim.stock import ball, bars, box, on_corner, polygon, prism, pyramid, rod
 
 

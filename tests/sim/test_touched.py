@@ -11,7 +11,8 @@ from cltp.sensors import SENSORS
 from cltp.states import Shape, Texture
 from sim.casting import feel, frame_at
 from sim.objects import Family, Part, Thing
-from sim.solids import Hoop, along, moved
+from sim.placing import along, moved
+from sim.solids import Hoop
 from sim.stock import (
     ball,
     block,
