@@ -410,7 +410,7 @@ def test_a_blind_copy_stands_behind_the_same_encoder_in_a_folder_of_its_own(
 @pytest.mark.parametrize(
     ("argv", "expected"),
     [
-        ([], "expects one of clip, cltp, llm, all, got nothing"),
+        ([], "expects one of clip, cltp, llm, all, point-mae"),
         (["everything"], "got 'everything'"),
         (["all", "--threads", "0"], "--threads must be at least 1"),
         (["all", "--contacts", "0"], "at least 1 contact"),
