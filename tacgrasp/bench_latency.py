@@ -176,12 +176,12 @@ def _print_language(report: dict[str, Any], to: Console) -> None:
         f"{report['threads']} thread(s); floors at the {report['product_gflops']:.1f} GFLOP/s of a "
         "matrix product in this run"
     )
-    ways = {"no_cache": "without its cache (naive)", "with_cache": "with its cache"}
+    ways = {
+        "no_cache": "transformers, all computed anew for every token (naive)",
+        "with_cache": "transformers' generate with its cache",
+    }
     for name, words in ways.items():
         way = report["naive"][name]
         same = "the same text" if way["same_text"] else "another text"
-        to.print(
-            f"transformers' generate {words}: {way['ms']:.0f} ms, {way['ratio']:.1f} times ours, "
-            f"{same}"
-        )
+        to.print(f"{words}: {way['ms']:.0f} ms, {way['ratio']:.1f} times ours, {same}")
     to.print(f"from start to first action: {report['start_to_first_action_s']:.1f} s")
