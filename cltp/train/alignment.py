@@ -29,7 +29,7 @@ from cltp.train.stage import Report, Schedule, Stage, silent
 from cltp.train.workers import Workers
 from cltp.weights import load_clip, save_encoder
 
-SCHEDULE = Schedule(steps=6000, batch_size=32, learning_rate=1e-3)
+SCHEDULE = Schedule(steps=5000, batch_size=32, learning_rate=1e-3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

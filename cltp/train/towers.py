@@ -24,7 +24,7 @@ from cltp.train.stage import Report, Schedule, Stage, silent
 from cltp.train.workers import Workers
 from cltp.weights import save_clip
 
-SCHEDULE = Schedule(steps=500, batch_size=128, learning_rate=1e-3)
+SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
 
 RENDERED = Augmentation(noise_level=0.0, uncalibrated=0.0)
 """Images are of the clean gel, as the paper's are rendered from simulation."""
