@@ -61,7 +61,7 @@ class Pretrain:
         data: Folder of contacts; it must be there.
         preset: Encoder; by default small for CLTP, and for the others the same size as they are
             published.
-        steps: Optimiser steps, the same for every method; by default 6000.
+        steps: Optimiser steps, the same for every method; by default 5000.
         batch_size: Contacts in a step; by default 32.
         clip_steps: Steps of CLIP; by default 500.
         no_image: Leave L_T2I out (cltp; it becomes OUT/cltp_no_image).
