@@ -1,6 +1,5 @@
 """Masked and vision-based pre-training: what is hidden stays hidden, and every method learns."""
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -34,12 +33,7 @@ SIZES = {
 SEES = {"tvl": "image", "unitouch": "image", "point_mae": "fps", "point_bert": "fps"}
 
 
-@pytest.fixture(scope="module", autouse=True)
-def one_thread() -> Iterator[None]:
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 @pytest.fixture(scope="module")

@@ -1,7 +1,6 @@
 """Trials, frozen features, probes, intervals, prompts and retrieval, each against what is known."""
 
 import math
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -30,12 +29,7 @@ QUICK = Schedule(steps=150, batch_size=64, learning_rate=3e-3)
 SMALL = EncoderConfig(dim=24, depth=1, heads=2, stem_dim=8, feature_dim=32)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def one_thread() -> Iterator[None]:
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 @pytest.fixture(scope="module")
