@@ -168,7 +168,11 @@ class Sampler:
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
     ) -> NDArray[np.float32]:
-        """One noisy cloud of clean heights: shape (1024, 3), scaled, in lattice order."""
+        """One cloud of clean heights: shape (1024, 3), scaled, in lattice order.
+
+        Noise takes the zero of heights away, as photometric sensors lose it; a cloud without noise
+        is a perfect sensor's, whose heights count from the untouched gel.
+        """
         how = self.augmentation
         spread = spread_of(sensor)
         gain = spread.gain_log_ratio if rng.random() < how.uncalibrated else 0.0
@@ -180,8 +184,6 @@ class Sampler:
             return scaled(densified(sparse, rng=rng).points_mm, sensor)
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
-        else:
-            height_mm = height_mm - np.median(height_mm)
         return scaled(_sampled(height_mm, sensor, rng), sensor)
 
 
