@@ -57,7 +57,11 @@ class Frozen:
             batch: Contacts.
             frames: Their noisy frames (``noisy_frames``), where the encoder sees images.
         """
-        taken = frames if frames is not None else torch.from_numpy(batch.points)
+        return self.read(frames if frames is not None else torch.from_numpy(batch.points))
+
+    @torch.inference_mode()
+    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+        """Pooled tokens (B, 2 C) and aligned features (B, F) of scaled points, or of frames."""
         found = self.encoder(taken)
         return found.pooled, found.feature
 

@@ -150,6 +150,11 @@ class ClassProbes:
         """Classes, shape (N, 5)."""
         return torch.stack([probe(seen.pooled).argmax(1) for probe in self._probes], dim=1)
 
+    @torch.no_grad()
+    def sure(self, seen: Observed) -> list[Tensor]:
+        """Probabilities of the classes of each dimension, (N, classes) each."""
+        return [probe(seen.pooled).softmax(dim=1) for probe in self._probes]
+
 
 @dataclass(frozen=True, slots=True)
 class Interval:

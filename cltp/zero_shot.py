@@ -45,14 +45,18 @@ class Prompts:
                 rows.append(F.normalize(towers.texts(chosen).mean(dim=0), dim=0))
             self._features.append(torch.stack(rows).cpu())
 
+    def cosines(self, feature: Tensor) -> list[Tensor]:
+        """Cosines of contacts with aligned features (N, F) and every prompt: (N, classes) each."""
+        unit = F.normalize(feature, dim=1)
+        return [unit @ rows.T for rows in self._features]
+
     def said(self, feature: Tensor) -> Tensor:
         """Classes (N, 5) of contacts with aligned features (N, F)."""
         return torch.stack([(feature @ rows.T).argmax(1) for rows in self._features], dim=1)
 
     def surety(self, feature: Tensor) -> Tensor:
         """Cosine of each contact with the prompt that was chosen, shape (N, 5)."""
-        unit = F.normalize(feature, dim=1)
-        return torch.stack([(unit @ rows.T).amax(1) for rows in self._features], dim=1)
+        return torch.stack([found.amax(1) for found in self.cosines(feature)], dim=1)
 
 
 def measured(

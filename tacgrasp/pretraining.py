@@ -14,9 +14,10 @@ import json
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+import torch
+
 from cltp.dataset import ContactDataset
 from cltp.encoder import PRESETS, EncoderConfig
-from cltp.errors import TouchError
 from cltp.train.alignment import SCHEDULE as CLTP_SCHEDULE
 from cltp.train.alignment import Recipe, train_cltp
 from cltp.train.baselines import DEFAULT_PRESETS, train_baseline
@@ -27,7 +28,6 @@ from cltp.train.towers import train_clip
 from cltp.train.workers import Workers
 from cltp.trials import LEARNING
 from tacgrasp.errors import UsageError
-from tacgrasp.results import Budget
 from tacgrasp.training_data import TouchLessons
 
 ABOUT = "about.json"
@@ -190,8 +190,14 @@ def pretrain(
             workers=workers,
         )
     if workers is None or workers.is_first:
-        _write_about(folder, method, wish, schedule, data, seed, command)
+        on = device_name((workers or Workers()).device)
+        _write_about(folder, method, wish, schedule, data, seed, command, on)
     return folder
+
+
+def device_name(device: torch.device) -> str:
+    """What a device is called: ``cpu``, or the accelerator's name."""
+    return torch.cuda.get_device_name(device) if device.type == "cuda" else device.type
 
 
 def _write_about(
@@ -202,7 +208,9 @@ def _write_about(
     data: Path,
     seed: int,
     command: str,
+    device: str,
 ) -> None:
+    """Say how an encoder came about; a training that was done before keeps its device."""
     aligned = method in ("cltp", "cltp_no_image")
     content = {
         "method": method,
@@ -212,69 +220,15 @@ def _write_about(
         "recipe": asdict(wish.recipe()) if aligned else None,
         "data": ContactDataset(data).checksum(),
         "seed": seed,
+        "device": device,
         "command": command,
     }
+    try:
+        before = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        before = {}
+    if {**before, "device": device, "command": command} == content and "device" in before:
+        content["device"] = before["device"]
     beside = folder / f"{ABOUT}.part"
     beside.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
     beside.replace(folder / ABOUT)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Trained:
-    """A method's folder, and how it came about.
-
-    Attributes:
-        folder: With ``encoder`` in it.
-        variant: Preset, and what differs from the usual recipe.
-        budget: Of the pre-training.
-    """
-
-    folder: Path
-    variant: str
-    budget: Budget | None
-
-
-def trained(method: str, out: Path, data: str) -> Trained:
-    """What a method learned.
-
-    Args:
-        method: Out of ``METHODS``.
-        out: Folder of all methods; for ``cltp`` also a folder of shipped weights.
-        data: Checksum of the data that it will be tried on.
-
-    Raises:
-        UsageError: It was not trained yet.
-        TouchError: It was trained on other data, so that test contacts may be among them.
-    """
-    folder = out / method
-    if method == "cltp" and not (folder / "encoder").exists() and (out / "encoder").exists():
-        folder = out
-    path = folder / ABOUT
-    try:
-        about = json.loads(path.read_text(encoding="utf-8"))
-        seen, recipe = about["data"], about["recipe"]
-        budget = Budget(steps=int(about["steps"]), batch_size=int(about["batch_size"]))
-        variant = _variant(about["preset"], recipe)
-    except FileNotFoundError:
-        raise UsageError(
-            f"{method} was not trained in {out}: no {path}; "
-            f"do `tacgrasp train {method.replace('_', '-')} --out {out}` first"
-        ) from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise TouchError(f"{path} can't be read; train again: {error}") from error
-    if seen != data:
-        raise TouchError(
-            f"{method} in {folder} was trained on data {seen[:12]}, these are {data[:12]}: test "
-            "contacts could have been learned from; name the same data"
-        )
-    return Trained(folder=folder, variant=variant, budget=budget if budget.steps else None)
-
-
-def _variant(preset: str, recipe: dict[str, object] | None) -> str:
-    usual = asdict(Wish().recipe())
-    other = [
-        f"{name}={value}"
-        for name, value in (recipe or usual).items()
-        if name not in ("with_images", "several") and value != usual[name]
-    ]
-    return "+".join([preset, *other])

@@ -1,4 +1,4 @@
-"""Zero-shot on real touches: a folder of frames, height maps or clouds with a table of labels.
+"""Real touches to try encoders on: frames, height maps or clouds, and a table of labels.
 
 The table is CSV with the columns ``file, shape, texture, depth, position, area``: a file relative
 to the folder, and words of ``cltp.states``, empty where unknown. Frames need a picture of the same
@@ -8,22 +8,28 @@ unit untouched; it is ``background.png`` of the folder unless another is named.
 from __future__ import annotations
 
 import csv
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 import torch
+from torch import Tensor
 
-from cltp.clip import Towers
+from cltp.cloud import TactileCloud
 from cltp.errors import TouchError
-from cltp.files import read_touch
+from cltp.files import read_heights, read_touch
 from cltp.frames import FRAME_SUFFIXES
 from cltp.frozen import Frozen
+from cltp.heads import NUMBERS
 from cltp.inputs import encoder_input
+from cltp.observed import Observed
 from cltp.probes import Judged, judge
+from cltp.render import render
 from cltp.samples import CLASSES
 from cltp.sensors import SensorSpec
 from cltp.train.sayings import NOTHING
-from cltp.zero_shot import Prompts
 from tacgrasp.errors import UsageError
 
 COLUMNS = ("file", *CLASSES)
@@ -92,50 +98,66 @@ def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> La
     return Labelled(file=path, classes=tuple(classes))
 
 
-def predict(
-    encoder: Frozen,
-    towers: Towers,
-    rows: list[Labelled],
-    sensor: SensorSpec,
-    *,
-    background: Path | None,
-    prompting: str = "single",
-) -> Predictions:
-    """Name the classes of every touch.
-
-    Args:
-        encoder: Aligned with ``towers``; of points.
-        towers: Whose prompts are compared.
-        rows: The touches.
-        sensor: That made them.
-        background: Frame of the unit untouched, for frames.
-        prompting: Out of ``cltp.zero_shot.PROMPTINGS``.
+def read_inputs(
+    rows: list[Labelled], sensor: SensorSpec, background: Path | None
+) -> tuple[list[TactileCloud], Tensor]:
+    """What encoders take of touches: their clouds, and rendered frames (N, 3, 64, 64).
 
     Raises:
         TouchError: A file is no touch of this sensor.
     """
-    points = []
+    clouds, frames = [], []
     for row in rows:
         is_frame = row.file.suffix.lower() in FRAME_SUFFIXES
-        cloud = read_touch(row.file, sensor, background=background if is_frame else None)
-        points.append(torch.from_numpy(encoder_input(cloud)))
-    with torch.inference_mode():
-        batches = torch.stack(points).split(64)
-        feature = torch.cat([encoder.encoder(batch).feature for batch in batches])
+        untouched = background if is_frame else None
+        clouds.append(read_touch(row.file, sensor, background=untouched))
+        heights = read_heights(row.file, sensor, background=untouched)
+        frames.append(render(heights - np.float32(np.median(heights)), sensor))
+    return clouds, torch.stack(frames)
+
+
+def observed(
+    encoder: Frozen, rows: list[Labelled], clouds: Sequence[TactileCloud], frames: Tensor
+) -> Observed:
+    """Features of touches with their labels; of numbers nothing is known.
+
+    Raises:
+        TouchError: A feature is not finite; it names the file.
+    """
+    points = torch.from_numpy(np.stack([encoder_input(cloud) for cloud in clouds]))
+    taken = frames if encoder.sees_images else points
+    parts = [encoder.read(batch) for batch in taken.split(64)]
+    pooled, feature = (torch.cat(found).float() for found in zip(*parts, strict=True))
     if not feature.isfinite().all():
         bad = int((~feature.isfinite().all(dim=1)).nonzero()[0, 0])
         raise TouchError(f"{rows[bad].file}: its feature is not finite")
-    prompts = Prompts(towers, prompting)
-    said, near = prompts.said(feature), prompts.surety(feature)
-    truth = torch.tensor([row.classes for row in rows])
-    told = []
+    return Observed(
+        pooled=pooled,
+        feature=feature,
+        classes=torch.tensor([row.classes for row in rows]),
+        numbers=torch.full((len(rows), len(NUMBERS)), math.nan),
+        index=torch.arange(len(rows)),
+    )
+
+
+def told(rows: list[Labelled], sure: Sequence[Tensor], measure: str) -> Predictions:
+    """Name the classes of every touch.
+
+    Args:
+        rows: The touches.
+        sure: For each dimension, how sure of each class, shape (N, classes).
+        measure: What that is: ``cosine`` or ``probability``.
+    """
+    said = torch.stack([found.argmax(1) for found in sure], dim=1)
+    lines = []
     for number, row in enumerate(rows):
-        words = {
-            slot: names[int(said[number, c])] for c, (slot, names) in enumerate(CLASSES.items())
-        }
-        sure = {f"{s}_cosine": f"{float(near[number, c]):.3f}" for c, s in enumerate(CLASSES)}
-        told.append({"file": str(row.file), **words, **sure})
-    return Predictions(told, judge(said, truth))
+        words, near = {}, {}
+        for column, (slot, names) in enumerate(CLASSES.items()):
+            chosen = int(said[number, column])
+            words[slot] = names[chosen]
+            near[f"{slot}_{measure}"] = f"{float(sure[column][number, chosen]):.3f}"
+        lines.append({"file": str(row.file), **words, **near})
+    return Predictions(lines, judge(said, torch.tensor([row.classes for row in rows])))
 
 
 def write_predictions(path: Path, found: Predictions) -> None:

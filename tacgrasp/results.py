@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from cltp.errors import TouchError
+from cltp.samples import CLASSES
 from tacgrasp.errors import UsageError
 
 FORMAT, VERSION = "tacgrasp-result", 1
@@ -62,6 +63,8 @@ class Result:
         contacts: How many were judged.
         values: Percent right, or median errors and coverages; None where nothing could be judged.
         confusion: By dimension, counts, truth by row; empty where there are no classes.
+        device: On which the encoder was trained; None where nobody knows or nothing was.
+        learned_seed: Of the pre-training; None likewise.
 
     Raises:
         UsageError: An unknown table or method.
@@ -78,6 +81,8 @@ class Result:
     contacts: int
     values: Mapping[str, float | None]
     confusion: Mapping[str, list[list[int]]] = field(default_factory=dict)
+    device: str | None = None
+    learned_seed: int | None = None
 
     def __post_init__(self) -> None:
         if self.table not in TABLES or self.method not in METHODS:
@@ -191,3 +196,17 @@ def spread(values: Sequence[float | None]) -> float | None:
     """Largest minus smallest; None for fewer than two."""
     there = [value for value in values if value is not None]
     return max(there) - min(there) if len(there) > 1 else None
+
+
+def as_one(result: Result, one: str, other: str) -> float | None:
+    """Percent of shapes right when two of them count as one; None where none is judged.
+
+    Sphere and ellipsoid are hard to tell apart on frames of an uncalibrated unit.
+    """
+    counts = result.confusion.get("shape")
+    total = sum(map(sum, counts)) if counts else 0
+    if counts is None or not total:
+        return None
+    a, b = (CLASSES["shape"].index(name) for name in (one, other))
+    right = sum(row[n] for n, row in enumerate(counts)) + counts[a][b] + counts[b][a]
+    return 100 * right / total

@@ -14,20 +14,19 @@ from pathlib import Path
 import torch
 
 from cltp.captions import caption
-from cltp.clip import Towers
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.frozen import Frozen, load_frozen
+from cltp.frozen import Frozen
 from cltp.observed import Observed, observe
 from cltp.probes import ClassProbes, Judged, NumberProbe, judge, number_scores
 from cltp.samples import CLASSES, CLEAN, NOISY, Augmentation
 from cltp.train.stage import Report, silent
 from cltp.trials import LEARNING, Trial, trials_of
-from cltp.weights import load_clip
 from cltp.zero_shot import PROMPTINGS, Prompts, measured, nearest_contacts, nearest_texts, retrieve
 from tacgrasp.errors import UsageError
-from tacgrasp.pretraining import METHODS, Trained, trained
+from tacgrasp.pretraining import METHODS
 from tacgrasp.results import Result, percent, save
+from tacgrasp.trained import Trained, trained
 
 ALIGNED = ("cltp_no_image", "cltp")
 """Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
@@ -91,7 +90,7 @@ class Place:
 
 
 def trainable(place: Place, methods: Sequence[str]) -> dict[str, Trained]:
-    """The methods asked for, or all that were trained; see ``tacgrasp.pretraining.trained``.
+    """The methods asked for, or all that were trained; see ``tacgrasp.trained``.
 
     Raises:
         UsageError: One was not trained, or none.
@@ -123,7 +122,7 @@ def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
             raise UsageError(f"{method} has no prompts for contact states; {', '.join(ALIGNED)} do")
     found = []
     for method, how in trainable(place, methods or _there(place, ALIGNED)).items():
-        encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+        encoder, towers = how.encoder(), how.towers(place.weights)
         for trial in place.trying():
             seen = place.seen(encoder, trial.split, trial.noise)
             for prompting, table in zip(
@@ -148,7 +147,7 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
     """
     found, trials = [], place.trying()
     for method, how in trainable(place, methods).items():
-        encoder = load_frozen(how.folder / "encoder")
+        encoder = how.encoder()
         learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
         probes = ClassProbes(learned, seed=place.seed, report=_named(place.report, method))
         for trial in trials:
@@ -205,7 +204,7 @@ def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
     """
     found = []
     for method, how in trainable(place, methods or _there(place, ALIGNED)).items():
-        encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+        encoder, towers = how.encoder(), how.towers(place.weights)
         for trial in place.trying():
             seen = place.seen(encoder, trial.split, trial.noise)
             captions = _captions(place, trial.split, seen)
@@ -247,7 +246,7 @@ def find(
     if (text is None) == (contact is None):
         raise UsageError("name a text or a contact (--contact N), one of them")
     how = trained(method, place.weights, place.checksum)
-    encoder, towers = load_frozen(how.folder / "encoder"), _towers(place, how)
+    encoder, towers = how.encoder(), how.towers(place.weights)
     trial = place.trying()[0]
     seen = place.seen(encoder, trial.split, trial.noise)
     captions = _captions(place, trial.split, seen)
@@ -275,10 +274,6 @@ def _there(place: Place, methods: Sequence[str]) -> list[str]:
     return [method for method in methods if method in trainable(place, ())]
 
 
-def _towers(place: Place, how: Trained) -> Towers:
-    return load_clip(place.weights / "clip" if (place.weights / "clip").exists() else how.folder)
-
-
 def _named(report: Report, method: str) -> Report:
     def told(stage: str, step: int, steps: int, scores: object) -> None:
         report(f"{method} {stage}", step, steps, {})
@@ -302,6 +297,8 @@ def _result(
         contacts=judged.count,
         values=percent({s: judged.right.get(s, math.nan) for s in CLASSES}),
         confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
+        device=how.device,
+        learned_seed=how.seed,
     )
     if table not in ("numbers", "retrieval"):
         save(place.results, result)

@@ -13,6 +13,9 @@ from tacgrasp.errors import UsageError
 if TYPE_CHECKING:
     from tacgrasp.results import Result
     from tacgrasp.trying import Place
+    from tacgrasp.trying_real import RealSet
+
+METHODS_DIR = Path("runs/methods")
 
 
 @dataclass(frozen=True)
@@ -20,7 +23,8 @@ class Common:
     """Where things lie.
 
     Attributes:
-        weights: Folder of all methods (tacgrasp train), with clip in it.
+        weights: Folder of all methods (tacgrasp train), with clip in it; runs/methods when not
+            given, but for zero-shot of real touches the weights that come along.
         data: Folder of contacts that they were trained on.
         results: Folder of results.
         methods: Names, separated by commas; all that were trained when empty.
@@ -32,7 +36,7 @@ class Common:
         threads: Of torch; by default one for each core.
     """
 
-    weights: Path = Path("runs/methods")
+    weights: Path | None = None
     data: Path = Path("runs/tcl3d")
     results: Path = Path("runs/results")
     methods: str = ""
@@ -44,8 +48,8 @@ class Common:
 
 
 @dataclass(frozen=True)
-class ZeroShot(Common):
-    """Name contacts by the nearest prompt (table 1), of a data set or of real touches.
+class Real(Common):
+    """Where real touches lie.
 
     Attributes:
         real: Folder of real frames, height maps or clouds.
@@ -54,7 +58,6 @@ class ZeroShot(Common):
         sensor: That made them.
         background: Frame of the unit untouched; background.png in the folder when not given.
         out: CSV with one row a prediction.
-        ensemble: Several prompts a class for real touches, instead of the paper's one.
     """
 
     real: Path | None = None
@@ -62,12 +65,24 @@ class ZeroShot(Common):
     sensor: str = "gelsight_mini"
     background: Path | None = None
     out: Path = Path("predictions.csv")
+
+
+@dataclass(frozen=True)
+class ZeroShot(Real):
+    """Name contacts by the nearest prompt (table 1), of a data set or of real touches.
+
+    Attributes:
+        ensemble: Several prompts a class for real touches, instead of the paper's one.
+    """
+
     ensemble: bool = False
 
 
 @dataclass(frozen=True)
-class Probe(Common):
+class Probe(Real):
     """Train MLPs on frozen encoders and measure them (table 2, appendix A), and CLTP's numbers.
+
+    With --real they are tried on real touches.
 
     Attributes:
         seeds: So many, counted from --seed.
@@ -112,16 +127,20 @@ def zero_shot(argv: Sequence[str]) -> None:
     """Name contacts by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
     flags = parse(ZeroShot, argv, prog="tacgrasp eval zero-shot")
     json_path = _checked(flags)
-    if (flags.real is None) != (flags.labels is None):
-        raise UsageError("--real and --labels belong together: a folder, and what is in it")
     from tacgrasp import trying
+    from tacgrasp.show_results import show
 
     place = _place(flags, "zero-shot", argv)
-    if flags.real is not None and flags.labels is not None:
-        found = [_real(flags, place, flags.real, flags.labels)]
-    else:
-        found = trying.zero_shot(place, _names(flags.methods))
-    _show(found, json_path)
+    if flags.real is None and flags.labels is None:
+        show(trying.zero_shot(place, _names(flags.methods)), json_path)
+        return
+    from tacgrasp.show_results import show_real
+    from tacgrasp.trying_real import zero_shot_real
+
+    prompting = "ensemble" if flags.ensemble else "single"
+    found = zero_shot_real(place, _names(flags.methods), _real_set(flags), prompting=prompting)
+    show(found, json_path)
+    show_real(found, flags.out)
 
 
 def probe(argv: Sequence[str]) -> None:
@@ -133,13 +152,21 @@ def probe(argv: Sequence[str]) -> None:
     import dataclasses
 
     from tacgrasp import trying
+    from tacgrasp.show_results import show, show_real
+    from tacgrasp.trying_real import probe_real
 
+    real = _real_set(flags) if flags.real is not None or flags.labels is not None else None
     found: list[Result] = []
     for number in range(flags.seeds):
         seeded = dataclasses.replace(flags, seed=flags.seed + number)
         place = _place(seeded, "probe", argv)
-        found += trying.probe(place, _names(flags.methods), views=flags.views)
-    _show(found, json_path)
+        if real is None:
+            found += trying.probe(place, _names(flags.methods), views=flags.views)
+        else:
+            found += probe_real(place, _names(flags.methods), real, views=flags.views)
+    show(found, json_path)
+    if real is not None:
+        show_real(found, flags.out)
 
 
 def retrieval(argv: Sequence[str]) -> None:
@@ -149,10 +176,11 @@ def retrieval(argv: Sequence[str]) -> None:
     from rich.console import Console
 
     from tacgrasp import trying
+    from tacgrasp.show_results import show
 
     place = _place(flags, "retrieval", argv)
     if flags.text is None and flags.contact is None:
-        _show(trying.retrieval(place, _names(flags.methods)), json_path)
+        show(trying.retrieval(place, _names(flags.methods)), json_path)
         return
     method = flags.methods or "cltp"
     to = Console(soft_wrap=True)
@@ -169,13 +197,14 @@ def report(argv: Sequence[str]) -> None:
     json_path = writable(flags.json)
     from tacgrasp import pretraining_report
     from tacgrasp.results import load
+    from tacgrasp.show_results import write_figures
 
     pages = pretraining_report.report(flags.results, flags.out or flags.results)
     from rich.console import Console
 
     for page in pages:
         Console(soft_wrap=True).print(str(page), markup=False, highlight=False)
-    _write(load(flags.results), json_path)
+    write_figures(load(flags.results), json_path)
 
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
@@ -205,12 +234,15 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
     from transformers.utils.logging import disable_progress_bar
 
     from cltp.train.progress import Bar
+    from tacgrasp.policy_factory import default_weights
     from tacgrasp.trying import Place
 
+    come_along = isinstance(flags, ZeroShot) and flags.real is not None
+    usual = default_weights() if come_along else METHODS_DIR
     disable_progress_bar()  # of reading weights, over in milliseconds
     torch.set_num_threads(flags.threads or os.cpu_count() or 1)
     return Place(
-        weights=flags.weights,
+        weights=flags.weights or usual,
         data=flags.data,
         results=flags.results,
         trials=tuple(_names(flags.trials)),
@@ -221,75 +253,17 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
     )
 
 
-def _real(flags: ZeroShot, place: Place, folder: Path, labels: Path) -> Result:
-    from cltp.frozen import load_frozen
+def _real_set(flags: Real) -> RealSet:
     from cltp.sensors import sensor_named
-    from cltp.weights import load_clip
-    from tacgrasp import real_touches
-    from tacgrasp.pretraining import trained
-    from tacgrasp.results import Result, percent, save
+    from tacgrasp.real_touches import BACKGROUND, read_labels
+    from tacgrasp.trying_real import RealSet
 
-    rows = real_touches.read_labels(folder, labels)
-    method = (_names(flags.methods) or ["cltp"])[0]
-    how = trained(method, flags.weights, place.checksum)
-    background = flags.background or folder / real_touches.BACKGROUND
-    found = real_touches.predict(
-        load_frozen(how.folder / "encoder"),
-        load_clip(flags.weights / "clip"),
-        rows,
-        sensor_named(flags.sensor),
-        background=background if background.exists() else None,
-        prompting="ensemble" if flags.ensemble else "single",
+    if flags.real is None or flags.labels is None:
+        raise UsageError("--real and --labels belong together: a folder, and what is in it")
+    background = flags.background or flags.real / BACKGROUND
+    return RealSet(
+        rows=read_labels(flags.real, flags.labels),
+        sensor=sensor_named(flags.sensor),
+        background=background if flags.background or background.exists() else None,
+        predictions=flags.out,
     )
-    real_touches.write_predictions(flags.out, found)
-    result = Result(
-        table="zero_shot_ensemble" if flags.ensemble else "zero_shot",
-        method=method,
-        variant=how.variant,
-        trial="real",
-        seed=flags.seed,
-        data=place.checksum,
-        budget=how.budget,
-        command=place.command,
-        contacts=len(rows),
-        values=percent(found.judged.right),
-        confusion={slot: counts.tolist() for slot, counts in found.judged.confusion.items()},
-    )
-    save(flags.results, result)
-    return result
-
-
-def _show(found: Sequence[Result], json_path: Path | None) -> None:
-    from rich.console import Console
-    from rich.table import Table
-
-    from tacgrasp.results import METHODS, grouped, mean
-
-    to = Console()
-    to = to if to.is_terminal else Console(width=160)
-    by_table: dict[tuple[str, str], list[tuple[str, list[Result]]]] = {}
-    for (table, method, variant, trial), rows in grouped(found).items():
-        name = METHODS[method] + (f" ({variant})" if method != "ceiling" else "")
-        by_table.setdefault((table, trial), []).append((name, rows))
-    for (table, trial), lines in by_table.items():
-        count = lines[0][1][0].contacts
-        shown = Table(title=f"{table.replace('_', ' ')}, {trial}: {count} contacts")
-        shown.add_column("", justify="left")
-        columns = list(lines[0][1][0].values)
-        for column in columns:
-            shown.add_column(column.replace("_", " "), justify="right")
-        for name, rows in lines:
-            values = (mean([row.values.get(column) for row in rows]) for column in columns)
-            shown.add_row(name, *("-" if v is None else f"{v:.3g}" for v in values))
-        to.print(shown)
-    _write(found, json_path)
-
-
-def _write(found: Sequence[Result], json_path: Path | None) -> None:
-    if json_path is None:
-        return
-    import json
-
-    from tacgrasp.results import nested
-
-    json_path.write_text(json.dumps(nested(found), indent=1) + "\n", encoding="utf-8")

@@ -157,9 +157,11 @@ def test_real_touches_are_named_from_a_table(
     rows = list(csv.DictReader(predictions.open()))
     assert len(rows) == 3
     assert rows[0]["shape"] in CLASSES["shape"]
-    (stored,) = (tmp_path / "results").glob("*real*.json")
+    (stored,) = (tmp_path / "results").glob("*cltp*real*.json")
     judged = json.loads(stored.read_text())
     assert sum(map(sum, judged["confusion"]["depth"])) == 1
+    (ceiling,) = (tmp_path / "results").glob("*ceiling*real*.json")
+    assert json.loads(ceiling.read_text())["values"]["shape"] is None
     table.write_text(head + "0.npy,blob,,,,\n")
     assert "row 2: no shape 'blob'" in complaint(["eval", "zero-shot", *places, *real], capsys)
     table.write_text(head + "9.npy,,,,,\n")
@@ -167,6 +169,38 @@ def test_real_touches_are_named_from_a_table(
     table.write_text("file,shape\n0.npy,sphere\n")
     assert "needs the columns" in complaint(["eval", "zero-shot", *places, *real], capsys)
     assert "belong together" in complaint(["eval", "zero-shot", *places, *real[:2]], capsys)
+
+
+def test_probes_name_real_touches_by_points_and_by_frames(
+    places: list[str], tmp_path: Path, quick_probes: None
+) -> None:
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    table = tmp_path / "labels.csv"
+    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
+    figures, said = tmp_path / "figures.json", tmp_path / "said.csv"
+    real = ["--real", str(tmp_path), "--labels", str(table), "--out", str(said)]
+    assert main(["eval", "probe", *places, *real, "--json", str(figures)]) == 0
+    found = json.loads(figures.read_text())["probe"]
+    assert set(found) == {"cltp", "random", "ceiling"}
+    assert found["cltp"]["real"]["shape"] in (0.0, 100.0)
+    assert found["cltp"]["real"]["depth"] is None
+    (row,) = csv.DictReader((tmp_path / "said-random.csv").open())
+    assert 0 < float(row["depth_probability"]) <= 1
+
+
+def test_weights_that_come_along_name_real_touches_and_store_nothing(
+    out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for part in ("clip", "cltp/encoder"):
+        shutil.copytree(out / part, tmp_path / "weights" / Path(part).name)
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    table = tmp_path / "labels.csv"
+    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
+    argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(tmp_path / "said.csv")]
+    argv += ["--weights", str(tmp_path / "weights"), "--results", str(tmp_path / "results")]
+    assert main(["eval", "zero-shot", *argv]) == 0
+    assert "not stored for the report" in capsys.readouterr().out
+    assert not list(tmp_path.glob("results/*.json"))
 
 
 def result(**changed: object) -> Result:

@@ -1,0 +1,137 @@
+"""Try encoders on real touches: table 1 by prompts, table 2 by probes, the ceiling beside them.
+
+Only the labels that somebody gave are judged. Weights that don't say what they were trained on, as
+those that come along, are tried too, but their results are not stored: a report is of one data
+set.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import torch
+
+from cltp.cloud import TactileCloud
+from cltp.contacts import Split
+from cltp.measure import contact_state
+from cltp.probes import ClassProbes, Judged, judge
+from cltp.samples import CLASSES
+from cltp.sensors import SensorSpec
+from cltp.train.sayings import class_numbers
+from cltp.trials import LEARNING
+from cltp.zero_shot import Prompts
+from tacgrasp.errors import UsageError
+from tacgrasp.real_touches import Labelled, observed, read_inputs, told, write_predictions
+from tacgrasp.results import Result, percent, save
+from tacgrasp.trained import Trained, stored
+from tacgrasp.trying import ALIGNED, MEASURED, Place, trainable
+
+TRIAL = "real"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RealSet:
+    """Labelled touches of one sensor.
+
+    Attributes:
+        rows: The touches.
+        sensor: That made them.
+        background: Frame of the unit untouched, for frames.
+        predictions: CSV file for one row a prediction; with several methods, ``NAME-METHOD.csv``.
+    """
+
+    rows: list[Labelled]
+    sensor: SensorSpec
+    background: Path | None
+    predictions: Path
+
+
+def zero_shot_real(
+    place: Place, methods: Sequence[str], real: RealSet, *, prompting: str = "single"
+) -> list[Result]:
+    """Name real touches by the nearest prompt; ``cltp`` when no method is named.
+
+    Raises:
+        UsageError: A method has no prompts or was not trained, or the rows can't be written.
+        TouchError: A file is no touch of this sensor, or weights can't be used.
+    """
+    methods = methods or ("cltp",)
+    for method in methods:
+        if method not in ALIGNED:
+            raise UsageError(f"{method} has no prompts for contact states; {', '.join(ALIGNED)} do")
+    table = "zero_shot" if prompting == "single" else "zero_shot_ensemble"
+    clouds, frames = read_inputs(real.rows, real.sensor, real.background)
+    found = []
+    for method in methods:
+        how = stored(method, place.weights)
+        seen = observed(how.encoder(), real.rows, clouds, frames)
+        prompts = Prompts(how.towers(place.weights), prompting)
+        said = told(real.rows, prompts.cosines(seen.feature), "cosine")
+        write_predictions(_file(real, methods, method), said)
+        found.append(_stored(place, table, method, how, said.judged))
+    how = stored(methods[0], place.weights)
+    return [*found, _ceiling(place, table, how.data, real, clouds)]
+
+
+def probe_real(
+    place: Place, methods: Sequence[str], real: RealSet, *, views: int = 2
+) -> list[Result]:
+    """Name real touches by probes that learned from the training contacts of the data set.
+
+    Raises:
+        UsageError: A method was not trained, or the rows can't be written.
+        TouchError: A file is no touch of this sensor, or weights or data can't be used.
+    """
+    clouds, frames = read_inputs(real.rows, real.sensor, real.background)
+    found = []
+    hows = trainable(place, methods)
+    for method, how in hows.items():
+        encoder = how.encoder()
+        learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
+        probes = ClassProbes(learned, seed=place.seed, report=place.report)
+        sure = probes.sure(observed(encoder, real.rows, clouds, frames))
+        said = told(real.rows, sure, "probability")
+        write_predictions(_file(real, list(hows), method), said)
+        found.append(_stored(place, "probe", method, how, said.judged))
+    return [*found, _ceiling(place, "probe", place.checksum, real, clouds)]
+
+
+def _file(real: RealSet, methods: Sequence[str], method: str) -> Path:
+    path = real.predictions
+    return path if len(methods) == 1 else path.with_name(f"{path.stem}-{method}{path.suffix}")
+
+
+def _ceiling(
+    place: Place, table: str, data: str | None, real: RealSet, clouds: Sequence[TactileCloud]
+) -> Result:
+    """What direct computation from the same points gives; shape and texture are not computed."""
+    said = class_numbers([contact_state(cloud) for cloud in clouds])
+    judged = judge(said, torch.tensor([row.classes for row in real.rows]))
+    right = {slot: v if slot in MEASURED else math.nan for slot, v in judged.right.items()}
+    judged = Judged(right, {slot: judged.confusion[slot] for slot in MEASURED}, judged.count)
+    how = Trained(folder=place.weights, variant="measured", budget=None, data=data)
+    return _stored(place, table, "ceiling", how, judged)
+
+
+def _stored(place: Place, table: str, method: str, how: Trained, judged: Judged) -> Result:
+    result = Result(
+        table=table,
+        method=method,
+        variant=how.variant,
+        trial=TRIAL,
+        seed=place.seed,
+        data=how.data or "",
+        budget=how.budget,
+        command=place.command,
+        contacts=judged.count,
+        values=percent({slot: judged.right[slot] for slot in CLASSES}),
+        confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
+        device=how.device,
+        learned_seed=how.seed,
+    )
+    if how.data is not None:
+        save(place.results, result)
+    return result
