@@ -146,8 +146,9 @@ def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cel
     region = region.astype(np.int64)
     normals, areas = np.asarray(mesh.face_normals), np.asarray(mesh.area_faces)
     cells: list[Cell] = []
-    for number in range(count):
-        own = region == number
+    in_order = np.argsort(region, kind="stable")
+    ends = np.cumsum(np.bincount(region, minlength=count))
+    for own in np.split(in_order, ends[:-1]):  # each of a scan's many regions without the others
         mean = (normals[own] * areas[own, None]).sum(axis=0)
         mean /= max(float(np.linalg.norm(mean)), 1e-12)
         level = bool((normals[own] @ mean > np.cos(np.radians(_LEVEL_DEG))).all())
@@ -158,6 +159,7 @@ def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cel
 
 def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray, tuple[Cell, ...]]:
     """Cones: a curved region around a vertex with little angle left is a side and its tip."""
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     defects = np.asarray(mesh.vertex_defects)
     for vertex in np.flatnonzero(defects > _TIP_DEFECT):
         around = mesh.vertex_faces[vertex]
@@ -165,11 +167,11 @@ def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray
         of = np.unique(region[around])
         if len(of) != 1 or cells[of[0]].form is Form.FLAT:
             continue
-        corners = np.asarray(mesh.triangles)
-        near = np.linalg.norm(corners - mesh.vertices[vertex], axis=2).max(axis=1) < _TIP_MM
-        near[around] = True
+        side = np.flatnonzero(region == of[0])
+        corners = vertices[faces[side]]
+        near = np.linalg.norm(corners - vertices[vertex], axis=2).max(axis=1) < _TIP_MM
         cells[of[0]] = Cell(form=Form.TAPER)
-        region[near & (region == of[0])] = len(cells)
+        region[side[near | np.isin(side, around)]] = len(cells)
         cells.append(Cell(form=Form.TAPER, outline=Shape.PEAK))
     return region, tuple(cells)
 
@@ -209,8 +211,10 @@ def _num_loops(rim: IntArray) -> int:
 
 def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
     """Whether an outline is its own image when turned by half a turn: a hexagon, no triangle."""
+    from scipy.spatial import cKDTree
+
     corners = vertices[np.unique(rim)]
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     turned = 2 * middle - corners
-    apart = np.linalg.norm(turned[:, None] - corners[None], axis=2).min(axis=1)
+    apart, _ = cKDTree(corners).query(turned)
     return float(apart.max()) < 0.05 * float(np.ptp(corners, axis=0).max())

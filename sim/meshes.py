@@ -7,6 +7,7 @@ Not here: what a mesh becomes (``sim.mesh_bodies``: a body between the fingers).
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -29,8 +30,9 @@ SMALLEST_MM = 2.0
 LARGEST_MM = 5000.0
 """A mesh that is larger is taken to be in micrometres or inches times something. Our choice."""
 
-_FACE_LINE = {".obj": b"\nf ", ".stl": b"endfacet"}  # what files without a count in a header repeat
+_HEADER_BYTES = 1 << 16  # of a PLY with many comments; more than that is nobody's
 _CHUNK_BYTES = 1 << 22
+_REASON_LENGTH = 200  # readers quote what they can't read, be it the whole file
 
 
 def checked_mesh(path: Path) -> tuple[FloatArray, IntArray]:
@@ -83,6 +85,8 @@ def _check_file(path: Path) -> None:
         declared = _declared_faces(path, size)
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
     if size == 0:
         raise TouchError(f"{path} is an empty file; expected a closed surface in mm")
     if declared is not None:
@@ -98,21 +102,38 @@ def _check_count(path: Path, faces: int) -> None:
 
 def _declared_faces(path: Path, size: int) -> int | None:
     """Faces that a file announces in its header or has lines for; None where it doesn't say."""
-    kind = path.suffix.lower()
     with path.open("rb") as file:
-        head = file.read(4096)
-        if kind == ".stl" and size == 84 + 50 * int.from_bytes(head[80:84], "little"):
-            return int.from_bytes(head[80:84], "little")  # binary
-        if kind in _FACE_LINE:
-            return _occurrences(file, head, _FACE_LINE[kind]) or None  # none: for the reader to say
-    words = head.split(b"end_header")[0].split()
-    if kind == ".off":
-        counts = [word for word in words[:4] if word.isdigit()]
-        return int(counts[1]) if len(counts) > 1 else None
-    for place, word in enumerate(words[:-2]):
-        if word == b"element" and words[place + 1] == b"face" and words[place + 2].isdigit():
-            return int(words[place + 2])
-    return None
+        head = file.read(_HEADER_BYTES)
+        match path.suffix.lower():
+            case ".stl":
+                binary = _binary_stl_faces(head, size)
+                return (_occurrences(file, head, b"endfacet") or None) if binary is None else binary
+            case ".obj":  # none: for the reader to say, as above
+                return _occurrences(file, head, b"\nf ") or None
+            case ".off":
+                lines = (line.partition(b"#")[0] for line in head.splitlines())
+                counts = [word for word in b" ".join(lines).split()[:4] if word.isdigit()]
+                return int(counts[1]) if len(counts) > 1 else None
+    found = re.search(rb"[\r\n]element\s+face\s+(\d+)", head.split(b"end_header")[0])
+    return int(found[1]) if found else None
+
+
+def _binary_stl_faces(head: bytes, size: int) -> int | None:
+    """Faces by the header of a binary STL, bytes after them allowed; None for one in text.
+
+    Raises:
+        TouchError: It ends before its last face.
+    """
+    announced = int.from_bytes(head[80:84], "little")
+    text = head.lstrip()[:5] == b"solid" and b"facet" in head
+    if len(head) < 84 or (text and size != 84 + 50 * announced):
+        return None
+    if size < 84 + 50 * announced:
+        raise TouchError(
+            f"its header announces {announced:,} faces, but it ends after "
+            f"{(size - 84) // 50:,}; is the file cut off, or no STL?"
+        )
+    return announced
 
 
 def _occurrences(file: BinaryIO, head: bytes, wanted: bytes) -> int:
@@ -133,8 +154,9 @@ def _loaded(path: Path) -> tuple[FloatArray, IntArray]:
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
     except Exception as error:  # trimesh raises whatever its readers meet
+        reason = " ".join(str(error).split())[:_REASON_LENGTH]
         raise TouchError(
-            f"{path} can't be read as a mesh ({', '.join(SUFFIXES)}): {error}"
+            f"{path} can't be read as a mesh ({', '.join(SUFFIXES)}): {reason}"
         ) from None
     _check_count(path, len(faces))
     return vertices, faces

@@ -110,6 +110,38 @@ def test_ten_million_faces_are_refused_before_they_are_read(tmp_path):
         checked_mesh(stl)
 
 
+@pytest.mark.parametrize(
+    ("name", "head", "size"),
+    [
+        ("comments.ply", b"ply\n" + b"comment scan\n" * 600 + b"element face 10000000\n", 20_000),
+        ("comment.off", b"OFF # made by hand\n# 5 6\n5000000 10000000 0\n", 20_000),
+        ("longer.stl", b" " * 80 + struct.pack("<I", 10_000_000), 86 + 50 * 10_000_000),
+    ],
+)
+def test_faces_are_counted_whatever_stands_around_the_count(name, head, size, tmp_path):
+    with (tmp_path / name).open("wb") as file:
+        file.write(head)
+        file.truncate(size)
+    with pytest.raises(TouchError, match="10,000,000 faces; simplify it"):
+        checked_mesh(tmp_path / name)
+
+
+def test_a_binary_stl_that_is_cut_off_is_not_called_empty(tmp_path):
+    path = tmp_path / "half.stl"
+    path.write_bytes(BOX.export(file_type="stl")[: 84 + 50 * 7])
+    with pytest.raises(TouchError, match="announces 12 faces, but it ends after 7"):
+        checked_mesh(path)
+
+
+def test_what_a_reader_says_of_a_file_is_one_short_line(tmp_path):
+    path = tmp_path / "thing.off"
+    path.write_bytes(b"OFF\n3 1 0\n" + b"\0" * 100_000 + b"\n")
+    with pytest.raises(TouchError, match="can't be read as a mesh") as error:
+        checked_mesh(path)
+    assert len(str(error.value)) < 500 + len(str(path))
+    assert "\n" not in str(error.value)
+
+
 def test_the_faces_of_an_obj_are_counted_across_chunks(tmp_path):
     path = tmp_path / "huge.obj"
     path.write_bytes(b"v 0 0 0\n" * 3 + b"f 1 2 3\n" * (MAX_FACES + 1))
