@@ -26,6 +26,7 @@ from sim.mesh_objects import meshes_in, thing_from_mesh
 from sim.rig import BENCHMARK_SEED
 from sim.tcl3d import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.errors import UsageError
+from tacgrasp.torch_device import usable_device
 
 SETS = ("tcl3d", "starter")
 STARTER_CONTACTS = 24_000
@@ -176,7 +177,8 @@ def recipe(
     """A recipe by the flags of ``tacgrasp data generate``.
 
     Raises:
-        UsageError: There is no such set, or a value makes no sense for it.
+        UsageError: There is no such set, or a value makes no sense for it, or the device can't be
+            used here.
         TouchError: The sensor is not known, or a mesh can't be used.
     """
     if set_name not in SETS:
@@ -195,6 +197,7 @@ def recipe(
         raise UsageError(
             f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
         )
+    usable_device(device)
     found = () if meshes is None else tuple(meshes_in(meshes))
     for path in found:  # all faults before the first contact
         thing_from_mesh(path)

@@ -215,11 +215,14 @@ def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
         ({"set_name": "tcl4d"}, "unknown set 'tcl4d'; known: tcl3d, starter"),
         ({"set_name": "tcl3d", "sensor_name": "digit"}, "belongs to --set starter"),
         ({"set_name": "starter", "meshes": Path("x")}, "belong to --set tcl3d"),
+        ({"set_name": "tcl3d", "device": "abacus"}, "abacus can't be used: .*; cpu always can"),
+        ({"set_name": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),
     ],
 )
 def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):
     with pytest.raises(UsageError, match=message):
         generate(tmp_path / "data", **wrong)
+    assert not (tmp_path / "data").exists()
 
 
 def test_a_full_disk_is_an_error_that_leaves_no_shard(tmp_path, monkeypatch, shards_of_two_series):

@@ -112,12 +112,26 @@ def test_an_object_of_the_catalogue_is_laid_as_the_seed_draws(tmp_path, capsys):
     assert "object, pressed moderate" in capsys.readouterr().out
 
 
+@pytest.mark.filterwarnings("error")
+def test_beside_a_peg_there_is_nothing_to_stumble_over(tmp_path):
+    flags = ["--object", "peg_round_4", "--depth-mm", "0.5", "--seed", "2", "--grid", "160x120"]
+    assert main(["simulate", "press", *flags]) == 0
+
+
+def test_a_press_that_few_pixels_feel_is_called_rough(capsys):
+    for size, rough in (("0.4", True), ("9.5", False)):
+        flags = ["--object", f"ball:{size}", "--depth-mm", "0.1", "--grid", "160x120"]
+        assert main(["simulate", "press", *flags]) == 0
+        assert ("force and area are rough" in capsys.readouterr().out) == rough
+
+
 @pytest.mark.parametrize(
     ("flags", "message"),
     [
         (["--depth-mm", "3.7"], "3.6 mm gel"),
         (["--depth-mm", "0"], "above 0"),
         (["--depth-mm", "nan"], "above 0"),
+        (["--turn-deg", "inf"], "finite"),
         (["--x-mm", "40"], "no part of it is over the field"),
         (["--x-mm", "13", "--depth-mm", "0.5"], "behind the tip"),
         (["--object", "spaceship"], "mug"),
