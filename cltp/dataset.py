@@ -13,6 +13,7 @@ renamed, the heights first, so that an interrupted writer leaves only whole shar
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import re
@@ -139,9 +140,9 @@ class DatasetWriter:
         digest = hashlib.sha256(blob).hexdigest()
         schema = _schema_of(self._contacts)
         table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
-        beside = stem.with_suffix(f".parquet.{os.getpid()}.part")
-        pq.write_table(table, beside, compression="zstd")
-        beside.replace(stem.with_suffix(".parquet"))
+        index = io.BytesIO()
+        pq.write_table(table, index, compression="zstd")
+        _write_beside(stem.with_suffix(".parquet"), index.getvalue())
         self.num_written += len(rows)
         self._contacts.clear()
 
@@ -168,6 +169,7 @@ def _schema_of(contacts: list[Contact]) -> pa.Schema:
 
 
 def _write_beside(path: Path, data: bytes) -> None:
+    """Write a file that is whole whenever it is there, after a loss of power too."""
     beside = path.with_name(f"{path.name}.{os.getpid()}.part")
     with beside.open("wb") as file:
         file.write(data)
@@ -227,6 +229,11 @@ def _read_header(folder: Path) -> dict[str, Any]:
             f"{path} has version {header.get('version')}, this program reads {VERSION}; "
             "generate the data again"
         )
+    about = header.setdefault("about", {})
+    if not isinstance(about, dict) or not str(about.get("contacts", 0)).isdigit():
+        raise TouchError(
+            f'{path} is damaged: "about" must name a number of contacts, if any, got {about!r}'
+        )
     return header
 
 
@@ -247,7 +254,7 @@ class ContactDataset:
 
     def __init__(self, folder: Path, *, split: Split | None = None, partial: bool = False) -> None:
         self.folder = Path(folder)
-        self.about: dict[str, str] = _read_header(self.folder).get("about", {})
+        self.about: dict[str, str] = _read_header(self.folder)["about"]
         self._index_files = sorted(self.folder.glob("shard-*.parquet"))
         tables = [_read_index(path) for path in self._index_files]
         if not tables:

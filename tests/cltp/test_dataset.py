@@ -158,6 +158,14 @@ def test_other_folders_and_versions_are_refused(folder: Path, tmp_path: Path) ->
         DatasetWriter(folder)
 
 
+@pytest.mark.parametrize("about", [3, {"contacts": "many"}, {"contacts": None}])
+def test_a_header_that_makes_no_sense_is_damage(about: object, folder: Path) -> None:
+    header = json.loads((folder / "dataset.json").read_text())
+    (folder / "dataset.json").write_text(json.dumps({**header, "about": about}))
+    with pytest.raises(TouchError, match=r"dataset\.json is damaged"):
+        ContactDataset(folder)
+
+
 @pytest.mark.parametrize(
     ("heights", "message"),
     [
