@@ -125,4 +125,4 @@ def _measure(order: Order, bar: Report) -> None:
     probe(_place(order, bar))
     for number in range(1, order.seeds):
         probe(_place(order, bar, number), ("cltp",))
-    report(order.results, order.results)
+    report(order.results, order.results, weights=order.out)

@@ -15,6 +15,7 @@ from typing import Any
 
 from cltp.errors import TouchError
 from cltp.samples import CLASSES
+from cltp.train.baselines import DEFAULT_PRESETS
 from tacgrasp.errors import UsageError
 
 FORMAT, VERSION = "tacgrasp-result", 1
@@ -32,6 +33,9 @@ METHODS = {
     "ceiling": "ceiling",
 }
 """Names of the methods, in the paper's order, and as tables write them."""
+
+USUAL = {**DEFAULT_PRESETS, "ceiling": "measured"}
+"""Variants that come first and that ``nested`` takes, where not ``small``."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,7 +157,7 @@ def percent(right: Mapping[str, float]) -> dict[str, float | None]:
 
 
 def nested(results: Iterable[Result]) -> dict[str, Any]:
-    """Figures by table, method (with its variant where it has several) and trial; the seeds' mean.
+    """Figures by table, method (of its usual variant) and trial; the seeds' mean.
 
     ``numbers`` has no methods: ``numbers.<trial>.<quantity>`` is of CLTP.
     """
@@ -174,16 +178,27 @@ Key = tuple[str, str, str, str]
 
 
 def grouped(results: Iterable[Result]) -> dict[Key, list[Result]]:
-    """Results that differ in nothing but the seed, in the order of tables, methods and variants."""
+    """Results that differ in the seed alone, by table, method and variant, the usual first."""
     rows: dict[Key, list[Result]] = {}
     order = list(METHODS)
-    ranked = sorted(
-        results, key=lambda r: (TABLES.index(r.table), order.index(r.method), r.variant, r.trial)
-    )
+
+    def rank(result: Result) -> tuple[object, ...]:
+        other = result.variant != USUAL.get(result.method, "small")
+        place = TABLES.index(result.table), order.index(result.method)
+        return *place, other, result.variant, result.trial, result.seed
+
+    ranked = sorted(results, key=rank)
     for result in ranked:
         key = (result.table, result.method, result.variant, result.trial)
         rows.setdefault(key, []).append(result)
     return rows
+
+
+def usual_variant(method: str, results: Iterable[Result]) -> str | None:
+    """The variant of a method that comes first among results; None without any."""
+    there = sorted({result.variant for result in results if result.method == method})
+    usual = USUAL.get(method, "small")
+    return usual if usual in there else next(iter(there), None)
 
 
 def mean(values: Sequence[float | None]) -> float | None:

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import torch
+from torch import Tensor
 
 from cltp.captions import caption
 from cltp.contacts import Split
@@ -22,8 +22,10 @@ from cltp.probes import ClassProbes, Judged, NumberProbe, judge, number_scores
 from cltp.samples import CLASSES, CLEAN, NOISY, Augmentation
 from cltp.train.stage import Report, silent
 from cltp.trials import LEARNING, Trial, trials_of
-from cltp.zero_shot import PROMPTINGS, Prompts, measured, nearest_contacts, nearest_texts, retrieve
+from cltp.zero_shot import PROMPTINGS, Prompts, measured, retrieve
 from tacgrasp.errors import UsageError
+from tacgrasp.failures import TRIALS as FAILURE_TRIALS
+from tacgrasp.failures import collect, save_failures
 from tacgrasp.pretraining import METHODS
 from tacgrasp.results import Result, percent, save
 from tacgrasp.trained import Trained, trained
@@ -128,8 +130,11 @@ def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
             for prompting, table in zip(
                 PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True
             ):
-                judged = judge(Prompts(towers, prompting).said(seen.feature), seen.classes)
+                prompts = Prompts(towers, prompting)
+                judged = judge(prompts.said(seen.feature), seen.classes)
                 found.append(_result(place, table, method, how, trial, judged))
+                if table == "zero_shot":
+                    _keep_failures(place, found[-1], seen, prompts.cosines(seen.feature), "cosine")
     return found + ceiling(place, ("zero_shot",))
 
 
@@ -154,6 +159,7 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
             seen = place.seen(encoder, trial.split, trial.noise)
             judged = judge(probes.said(seen), seen.classes)
             found.append(_result(place, "probe", method, how, trial, judged))
+            _keep_failures(place, found[-1], seen, probes.sure(seen), "probability")
         if method == "cltp":
             found += _numbers(place, encoder, learned, method, how)
     return found + ceiling(place, ("probe",))
@@ -207,7 +213,7 @@ def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
         encoder, towers = how.encoder(), how.towers(place.weights)
         for trial in place.trying():
             seen = place.seen(encoder, trial.split, trial.noise)
-            captions = _captions(place, trial.split, seen)
+            captions = captions_of(ContactDataset(place.data, split=trial.split), seen)
             scores = retrieve(towers, seen, captions)
             values: dict[str, float | None] = {
                 **{f"contact_to_text_{k}": 100 * v for k, v in scores.contact_to_text.items()},
@@ -221,52 +227,20 @@ def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Likeness:
-    """Something found, and how near it is.
-
-    Attributes:
-        what: A caption, with the contact's number where it is one.
-        cosine: Nearness.
-    """
-
-    what: str
-    cosine: float
-
-
-def find(
-    place: Place, *, text: str | None, contact: int | None, count: int = 5, method: str = "cltp"
-) -> list[Likeness]:
-    """The contacts most similar to a text, or the texts most similar to a contact.
-
-    Raises:
-        UsageError: Neither or both were given, there is no such contact, or it was not trained.
-        TouchError: Weights or data can't be used.
-    """
-    if (text is None) == (contact is None):
-        raise UsageError("name a text or a contact (--contact N), one of them")
-    how = trained(method, place.weights, place.checksum)
-    encoder, towers = how.encoder(), how.towers(place.weights)
-    trial = place.trying()[0]
-    seen = place.seen(encoder, trial.split, trial.noise)
-    captions = _captions(place, trial.split, seen)
-    if text is not None:
-        near = nearest_contacts(towers, seen, text, count)
-        return [Likeness(f"contact {int(seen.index[n])}: {captions[n]}", v) for n, v in near]
-    rows = torch.eq(seen.index, contact if contact is not None else -1).nonzero()
-    if not len(rows):
-        raise UsageError(
-            f"no contact {contact} in {trial.name}; it has 0 to {int(seen.index.max())}"
-        )
-    row = int(rows[0, 0])
-    own = Likeness(f"(contact {contact} is: {captions[row]})", math.nan)
-    near_texts = nearest_texts(towers, seen.feature[row], sorted(set(captions)), count)
-    return [own, *(Likeness(said, value) for said, value in near_texts)]
-
-
-def _captions(place: Place, split: Split, seen: Observed) -> list[str]:
-    data = ContactDataset(place.data, split=split)
+def captions_of(data: ContactDataset, seen: Observed) -> list[str]:
+    """Captions of the contacts seen."""
     return [caption(data.state(int(index))) for index in seen.index]
+
+
+def _keep_failures(
+    place: Place, result: Result, seen: Observed, sure: Sequence[Tensor], measure: str
+) -> None:
+    """Keep what CLTP named wrongly, with pictures, in the trials of the paper's tables."""
+    if result.method != "cltp" or result.trial not in FAILURE_TRIALS:
+        return
+    split = next(trial.split for trial in place.trying() if trial.name == result.trial)
+    data = ContactDataset(place.data, split=split)
+    save_failures(place.results, result, collect(result, data, seen, sure, measure))
 
 
 def _there(place: Place, methods: Sequence[str]) -> list[str]:

@@ -101,11 +101,13 @@ class Retrieval(Common):
         text: Show the contacts most similar to it.
         contact: Show the texts most similar to the contact of this number.
         count: How many to show.
+        page: HTML file for what was found, with pictures.
     """
 
     text: str | None = None
     contact: int | None = None
     count: int = 5
+    page: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -114,11 +116,13 @@ class Report:
 
     Attributes:
         results: Folder of results.
+        weights: Folder of all methods, whose curves are shown too.
         out: Folder for the pages; that of the results when not given.
         json: File for the figures.
     """
 
     results: Path = Path("runs/results")
+    weights: Path | None = None
     out: Path | None = None
     json: Path | None = None
 
@@ -182,13 +186,20 @@ def retrieval(argv: Sequence[str]) -> None:
     if flags.text is None and flags.contact is None:
         show(trying.retrieval(place, _names(flags.methods)), json_path)
         return
-    method = flags.methods or "cltp"
-    to = Console(soft_wrap=True)
-    for found in trying.find(
-        place, text=flags.text, contact=flags.contact, count=flags.count, method=method
-    ):
-        near = "     " if found.cosine != found.cosine else f"{found.cosine:.3f}"
-        to.print(f"{near}  {found.what}", markup=False, highlight=False)
+    from tacgrasp import retrieving
+
+    answer = retrieving.find(
+        place,
+        text=flags.text,
+        contact=flags.contact,
+        count=flags.count,
+        method=(_names(flags.methods) or ["cltp"])[0],
+    )
+    to = Console()
+    retrieving.show_answer(answer, to if to.is_terminal else Console(width=160))
+    if flags.page is not None:
+        retrieving.write_page(flags.data, [answer], flags.page)
+        to.print(str(flags.page), markup=False, highlight=False, soft_wrap=True)
 
 
 def report(argv: Sequence[str]) -> None:
@@ -199,7 +210,9 @@ def report(argv: Sequence[str]) -> None:
     from tacgrasp.results import load
     from tacgrasp.show_results import write_figures
 
-    pages = pretraining_report.report(flags.results, flags.out or flags.results)
+    pages = pretraining_report.report(
+        flags.results, flags.out or flags.results, weights=flags.weights
+    )
     from rich.console import Console
 
     for page in pages:
