@@ -24,6 +24,7 @@ def touches(tmp_path):
     bump = 0.5 * np.exp(-((X - 2) ** 2 + (Y + 4) ** 2) / 6)
     np.save(folder / "map.npy", bump)
     np.savez(folder / "cloud.npz", points_mm=cloud_from_heights(bump, MINI).points_mm)
+    np.save(folder / "turned.npy", -bump)
     np.save(folder / "none.npy", np.full(X.shape, 0.01))
     return folder
 
@@ -92,6 +93,8 @@ def test_a_depth_may_be_a_number_of_mm(touches):
         (",sphere,,,,,,,,", "names no file"),
         ("none.npy,sphere,,,,,,,,", "labelled (shape), but nothing touches"),
         ("cloud.npz,,,,,,,,,", "the same file as line 2"),
+        ("./cloud.npz,,,,,,,,,", "the same file as line 2"),
+        ("turned.npy,,,,,,,,,", "is the sign turned"),
         ("labels.csv,,,,,,,,,", "expected a file ending in"),
         ("bad.npy,,,,,,,,,", "not a whole .npy array"),
     ],
