@@ -7,6 +7,8 @@ checkpoints, encoded contacts are kept, and a result is written as soon as it is
 from __future__ import annotations
 
 import os
+from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,6 +16,7 @@ import torch
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.dataset import ContactDataset
+from cltp.train.board import Board
 from cltp.train.progress import Bar
 from cltp.train.stage import Report
 from cltp.train.workers import joined
@@ -41,6 +44,7 @@ class Order:
     seed: int = 0
     seeds: int = 1
     threads: int | None = None
+    tensorboard: bool = False
     command: str = "tacgrasp train"
 
     def wish(self, steps: int | None, batch_size: int | None) -> Wish:
@@ -71,18 +75,32 @@ def carry_out(stage: str, order: Order) -> None:
     ContactDataset(order.data)  # complains before anything else is done
     torch.set_num_threads(order.threads or os.cpu_count() or 1)
     method = stage.replace("-", "_")
-    with Bar() as bar:
+    with ExitStack() as open_ones:
+        if order.tensorboard and stage != "probe":
+            board = open_ones.enter_context(Board(order.out / "tensorboard"))
+        else:
+            board = None
+        bar = open_ones.enter_context(Bar())
+        shown = bar if board is None else _both(bar, board)
         if stage in ("clip", "all-methods"):
-            _clip(order, bar)
+            _clip(order, shown)
         if stage == "all-methods":
             for each in METHODS:
-                _train(each, order, bar)
+                _train(each, order, shown)
             _measure(order, bar)
         elif stage == "probe":
             for number in range(order.seeds):
                 probe(_place(order, bar, number))
         elif stage != "clip":
-            _train("cltp_no_image" if not order.with_images else method, order, bar)
+            _train("cltp_no_image" if not order.with_images else method, order, shown)
+
+
+def _both(one: Report, other: Report) -> Report:
+    def told(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+        one(stage, step, steps, scores)
+        other(stage, step, steps, scores)
+
+    return told
 
 
 def _clip(order: Order, bar: Report) -> None:

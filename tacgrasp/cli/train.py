@@ -74,6 +74,7 @@ class Pretrain:
         seeds: Of probes (probe, all-methods): so many, counted from seed, for CLTP alone.
         results: Folder of results (probe, all-methods).
         threads: Of torch; by default one for each core.
+        tensorboard: Also write curves for TensorBoard into OUT/tensorboard; needs that package.
     """
 
     out: Path = Path("runs/methods")
@@ -91,6 +92,7 @@ class Pretrain:
     seeds: int = 1
     results: Path = Path("runs/results")
     threads: int | None = None
+    tensorboard: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -108,7 +110,7 @@ def main(argv: Sequence[str]) -> int:
 def _for_methods(rest: Sequence[str]) -> bool:
     """Whether flags speak of methods and budgets: CLIP and CLTP can be trained either way."""
     own = {"preset", "steps", "batch-size", "clip-steps", "no-image", "texts", "prompt-weight"}
-    own |= {"head-weight", "precision", "seeds", "results"}
+    own |= {"head-weight", "precision", "seeds", "results", "tensorboard"}
     given = {token.split("=")[0].removeprefix("--").replace("_", "-") for token in rest}
     return bool(own & given)
 
@@ -164,6 +166,7 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
             seed=flags.seed,
             seeds=flags.seeds,
             threads=flags.threads,
+            tensorboard=flags.tensorboard,
             command=command,
         ),
     )
