@@ -15,7 +15,7 @@ from pydantic import Field, model_validator
 from policies.goal import Band, Goal
 from primitives.limits import Limits
 from tacgrasp.drivers.ur_settings import UrSettings
-from tacgrasp.hardware_config import HardwareConfig
+from tacgrasp.hardware_config import HardwareConfig, with_box
 from tacgrasp.section import Interval, Number, Section, Vector
 
 AtTheEnd = Literal["hold", "release"]
@@ -168,6 +168,12 @@ class GripperConfig(Section):
             raise ValueError(
                 f"min_force_n {self.min_force_n} is above max_force_n {self.max_force_n} [N]"
             )
+        first_n = self.first_force_n
+        if first_n is not None and not self.min_force_n <= first_n <= self.max_force_n:
+            raise ValueError(
+                f"first_force_n {first_n:g} must lie in min_force_n {self.min_force_n:g} to "
+                f"max_force_n {self.max_force_n:g} [N]"
+            )
         return self
 
 
@@ -209,7 +215,7 @@ class RunConfig(Section):
         object_mesh: A mesh [mm] to grasp instead (simulation only).
         object_mass_g: Mass of that mesh [g]; none: from its volume.
         seed: Of everything drawn at random.
-        sensor: Which tactile sensor it is.
+        sensor: Which tactile sensor it is; of a rig with drivers the same as theirs.
         on_success: What the gripper does after a verified grasp.
         on_failure: What it does after any other end.
         dry_run: Feel and decide once, send nothing.
@@ -256,16 +262,7 @@ class RunConfig(Section):
     @classmethod
     def _driver_keeps_to_the_box(cls, data: Any) -> Any:
         """The arm's driver, which knows no task, is held to the rig's box too."""
-        if not isinstance(data, dict):
-            return data
-        limits, hardware = data.get("arm"), data.get("hardware")
-        if not (isinstance(limits, dict) and isinstance(hardware, dict)):
-            return data
-        driver = hardware.get("arm")
-        if not isinstance(driver, dict):
-            return data
-        box = {k: limits[k] for k in ("workspace_low_m", "workspace_high_m") if k in limits}
-        return {**data, "hardware": {**hardware, "arm": {**box, **driver}}}
+        return with_box(data) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
     def _parts_fit(self) -> RunConfig:
@@ -283,6 +280,10 @@ class RunConfig(Section):
             )
         if self.hardware is not None:
             self._check_driver(self.hardware.arm)
+            if self.sensor != self.hardware.felt_by:
+                raise ValueError(
+                    f"sensor {self.sensor} is not what hardware.sensor is: {self.hardware.felt_by}"
+                )
         return self
 
     def _check_driver(self, arm: UrSettings) -> None:

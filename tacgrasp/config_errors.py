@@ -5,6 +5,7 @@ Not here: where values come from (``tacgrasp.config_layers``), the fields (``tac
 
 from __future__ import annotations
 
+import re
 from difflib import get_close_matches
 from typing import Any, get_args
 
@@ -51,9 +52,12 @@ def explain(first: ErrorDetails) -> str:
         return f"{path} must be a section with fields of its own, got {got!r}"
     if kind == "value_error":
         return f"{path}: {first['msg'].removeprefix('Value error, ')}"
-    message = first["msg"].removeprefix("Input should be ").removeprefix("Value should be ")
+    if kind == "path_type":
+        return f"{path} must be the path of a file, got {got!r}"
+    message = re.sub(r"^\w+ should | after validation.*", "", first["msg"])
+    message = message.replace("a valid tuple", "a list")
     unit = unit_of(path.rsplit(".", 1)[-1])
-    return f"{path} must be {message}{f' [{unit}]' if unit else ''}, got {got!r}"
+    return f"{path} must {message}{f' [{unit}]' if unit else ''}, got {got!r}"
 
 
 def _known_beside(loc: tuple[int | str, ...]) -> str:

@@ -160,7 +160,8 @@ def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: S
     except ValidationError as error:
         # a list whose items are wrong is also called too short: say what is wrong with the item
         for wrong in sorted(error.errors(), key=lambda one: one["type"] == "too_short"):
-            if wrong["type"] != "missing" or isinstance(wrong["loc"][-1], int):
+            within_a_list = any(isinstance(place, int) for place in wrong["loc"])
+            if wrong["type"] != "missing" or within_a_list:
                 raise UsageError(f"{where}: {explain(wrong)}") from None
     sources |= dict.fromkeys(_paths(layer), where)
 

@@ -39,10 +39,10 @@ class _Line:
         self._name, self._where = name, f"{host}:{port}"
         try:
             self._socket = socket.create_connection((host, port), timeout=timeout_s)
-        except OSError as error:
+        except (OSError, UnicodeError) as error:  # the latter: it can't even be a host's name
             raise RobotError(
-                f"no {name} at {self._where}: {error}. Is the controller on, the cable in, the "
-                "address right?"
+                f"no {name} at {self._where}: {error}; look whether the controller is on, the "
+                "cable in, and the address right"
             ) from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self._socket.settimeout(timeout_s)
@@ -63,7 +63,10 @@ class _Line:
                 f"the {self._name} at {self._where} {what}; restart the controller"
             ) from None
         if not data:
-            raise RobotError(f"the {self._name} at {self._where} hung up")
+            raise RobotError(
+                f"the {self._name} at {self._where} hung up; check the address, or restart the "
+                "controller"
+            )
         return data
 
     def close(self) -> None:
