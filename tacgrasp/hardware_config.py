@@ -7,7 +7,7 @@ Not here: the settings of a driver (``tacgrasp.drivers``), the limits of a run
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
@@ -65,6 +65,39 @@ class HardwareConfig(Section):
     gripper: DynamixelSettings
     sensor: SensorSettings
     start: StartConfig = StartConfig()
+
+    @property
+    def felt_by(self) -> str:
+        """Name of the sensor whose field and units the driver's clouds are in."""
+        sensor = self.sensor
+        return "gelsight_mini" if isinstance(sensor, GelSightSettings) else sensor.sensor
+
+    @property
+    def feels(self) -> bool:
+        """Whether the sensor feels what the fingers do; a recording never does."""
+        sensor = self.sensor
+        if isinstance(sensor, GelSightSettings):
+            return sensor.is_camera
+        return not isinstance(sensor, RecordedSettings)
+
+    def where_it_stands(self) -> HardwareConfig:
+        """The same devices, but the arm stays where it is when it is connected.
+
+        For whoever moves it by hand: jogging is how it is brought near its start pose.
+        """
+        return self.model_copy(update={"start": StartConfig()})
+
+
+def with_box(fields: dict[str, Any]) -> dict[str, Any]:
+    """A rig file's fields with its workspace given to the arm's driver, when that has none."""
+    limits, hardware = fields.get("arm"), fields.get("hardware")
+    if not (isinstance(limits, dict) and isinstance(hardware, dict)):
+        return fields
+    driver = hardware.get("arm")
+    if not isinstance(driver, dict):
+        return fields
+    box = {k: limits[k] for k in ("workspace_low_m", "workspace_high_m") if k in limits}
+    return {**fields, "hardware": {**hardware, "arm": {**box, **driver}}}
 
 
 def beside(section: Section, folder: Path) -> Section:

@@ -6,6 +6,7 @@ towards +x of the pad takes the contact to -x on it. Not here: limits of the mov
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -51,13 +52,17 @@ def find_pad_axes(
 ) -> FoundAxes:
     """Step to both sides along each axis of the TCP, closing on the object every time.
 
-    Ends where it began, open. The object must stay where it is while the gripper is open.
+    Ends where it began, open; after an error too it is open, unless the gripper has failed. The
+    object must stay where it is while the gripper is open.
 
     Raises:
+        UsageError: ``clear_mm`` is not a positive number; nothing has moved.
         TouchError: There is no contact, it is cut off by the pad's edge, or does not fit.
         LimitError: A step would leave the workspace; nothing has moved.
         RobotError: A device failed.
     """
+    if not (math.isfinite(clear_mm) and clear_mm > 0):
+        raise UsageError(f"--clear-mm must be a number above 0, got {clear_mm}")
     start, steps = rig.arm.pose(), STEP_MM * np.vstack([np.eye(3), -np.eye(3)])
     targets = [
         Pose(
@@ -85,8 +90,10 @@ def find_pad_axes(
 def _felt_at(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.float64]:
     """Where the contact is on the pad when the fingers are closed [mm]; they are open after it."""
     rig.gripper.grip(force_n)
-    state = contact_state(rig.sensor.read())
-    rig.gripper.open_by(clear_mm / 1000)
+    try:
+        state = contact_state(rig.sensor.read())
+    finally:
+        rig.gripper.open_by(clear_mm / 1000)
     if not state.in_contact or state.cut:
         what = "runs over the pad's edge" if state.in_contact else "is not there"
         raise TouchError(

@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 class PadAxes:
     """Find the axes of the pad in the frame of the tool centre point (TCP), for a rig's file.
 
-    With a rig: the hand goes 2 mm to both sides along every axis of the TCP and closes on an object
-    that stays where it is, at the middle of the pad. Without one: answer, or give, which axes of
-    the TCP point to the pad's right and to the palm.
+    With a rig: from where it stands, the hand goes 2 mm to both sides along every axis of the TCP
+    and closes on an object that stays where it is, at the middle of the pad. Without one: answer,
+    or give, which axes of the TCP point to the pad's right and to the palm.
 
     Attributes:
         rig: Name of a rig, or the path of its YAML file; its devices move.
@@ -78,7 +78,10 @@ def _measured(flags: PadAxes, rig_name: str) -> execution.PadAxes:
     from tacgrasp.view import console
 
     config, _ = load(None, rig_name, os.environ)
-    config = config.model_copy(update={"object": flags.object, "seed": flags.seed})
+    hardware = None if config.hardware is None else config.hardware.where_it_stands()
+    config = config.model_copy(
+        update={"object": flags.object, "seed": flags.seed, "hardware": hardware}
+    )
     out, rig = console(), make_rig(config)
     try:
         found = find_pad_axes(

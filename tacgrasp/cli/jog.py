@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rich.console import Console
+from rich.control import Control
+from rich.segment import ControlType
 
 from tacgrasp.cli.flags import parse
 
@@ -26,6 +28,8 @@ LOOK_S = 0.4
 @dataclass(frozen=True)
 class Jog:
     """Move a rig by hand; one key is one small step. ? lists the keys.
+
+    Nothing moves before the first key: the arm does not go to its start pose.
 
     Without a terminal, every character of standard input is a key.
 
@@ -53,7 +57,8 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.view import console
 
     config, _ = load(flags.task, flags.rig, os.environ)
-    config = config.model_copy(update={"seed": flags.seed})
+    hardware = None if config.hardware is None else config.hardware.where_it_stands()
+    config = config.model_copy(update={"seed": flags.seed, "hardware": hardware})
     limits, out = config.limits(), console()
     rig = make_rig(config)
     try:
@@ -71,6 +76,8 @@ def main(argv: Sequence[str]) -> int:
     finally:
         rig.arm.stop()
         rig.disconnect()
+        if out.is_terminal:
+            out.print()  # what is said next has a line of its own
     return 0
 
 
@@ -101,9 +108,13 @@ def _show(out: Console, line: str, said: str) -> None:
     if not out.is_terminal:
         out.print(f"{said} | {line}" if said else line)
         return
+    anew = Control(ControlType.CARRIAGE_RETURN, (ControlType.ERASE_IN_LINE, 2))
     if said:
-        out.print(f"\r\x1b[K{said}")
-    out.print(f"\r\x1b[K{line}", end="")
+        out.control(anew)
+        out.print(said, soft_wrap=True)
+    out.control(anew)
+    # cut to the width: of a line that is broken into two, only the second would be overwritten
+    out.print(line[: out.width - 1], end="", soft_wrap=True)
 
 
 def _characters(read: Callable[[int], str]) -> Iterator[str]:

@@ -10,12 +10,15 @@ import termios
 import time
 
 import pytest
+from patient_rig import patient_rig
+from rich.console import Console
 
 from primitives import LimitError
 from primitives.execution import PadAxes
 from primitives.limits import Limits
 from sim.rig import build
 from tacgrasp.__main__ import main
+from tacgrasp.cli.jog import _show
 from tacgrasp.jog import (
     STEPS_MM,
     Grip,
@@ -139,11 +142,25 @@ def test_a_refused_step_is_said_and_jogging_goes_on(monkeypatch, capsys):
     assert printed.splitlines()[-1].startswith("open at")
 
 
+def test_on_a_narrow_terminal_the_contact_is_one_line_that_is_written_over():
+    printed = io.StringIO()
+    out = Console(file=printed, force_terminal=True, width=40, highlight=False)
+    for _ in range(2):
+        _show(out, "step 1 mm, force 1.00 N | " + 20 * "felt ", "")
+    _show(out, "step 2 mm", "at (451.0, -100.0, 200.0) mm, and more than the width")
+    start, *lines = printed.getvalue().split("\r\x1b[2K")
+    assert start == ""
+    assert lines[0] == lines[1] == "step 1 mm, force 1.00 N | felt felt fel"
+    assert lines[2:] == ["at (451.0, -100.0, 200.0) mm, and more than the width\n", "step 2 mm"]
+
+
 @pytest.mark.slow
-def test_on_a_terminal_single_keys_move_and_the_terminal_is_set_back():
+@pytest.mark.parametrize("devices", ["simulated", "emulated"])
+def test_on_a_terminal_single_keys_move_and_the_terminal_is_set_back(devices, tmp_path):
+    rig = "sim" if devices == "simulated" else str(patient_rig(tmp_path))
     ours, theirs = pty.openpty()
     before = termios.tcgetattr(theirs)
-    command = [sys.executable, "-m", "tacgrasp", "jog", "--seed", "3"]
+    command = [sys.executable, "-m", "tacgrasp", "jog", "--seed", "3", "--rig", rig]
     child = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs)
     printed = b""
 

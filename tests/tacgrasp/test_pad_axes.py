@@ -89,6 +89,26 @@ def test_a_step_out_of_the_workspace_is_refused_before_anything_moves():
     assert not rig.gripper.state().closed
 
 
+@pytest.mark.parametrize("clear_mm", [0.0, -1.0, float("nan"), float("inf")])
+def test_no_finger_closes_that_could_not_be_opened_again(clear_mm):
+    rig = build("cherry_tomato", 3, start_offset_mm=(0, 0))
+    with pytest.raises(UsageError, match="--clear-mm must be a number above 0"):
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=clear_mm, report=lambda _: None)
+    assert not rig.gripper.state().closed
+
+
+def test_a_sensor_that_fails_leaves_the_gripper_open(monkeypatch):
+    rig = build("cherry_tomato", 3, start_offset_mm=(0, 0))
+
+    def fail():
+        raise TouchError("unplugged")
+
+    monkeypatch.setattr(rig.sensor, "read", fail)
+    with pytest.raises(TouchError, match="unplugged"):
+        find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
+    assert not rig.gripper.state().closed
+
+
 def test_named_axes_become_the_lines_of_a_rigs_file():
     assert as_yaml(axes_named("+x", "-z")) == (
         "pad:",
