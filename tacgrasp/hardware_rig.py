@@ -76,6 +76,22 @@ class HardwareRig:
     first_force_n: float
     survived: Callable[[], str]
 
+    def expect_untouched(self) -> None:
+        """Compare a camera's gel with its background; the gripper has to be open.
+
+        Raises:
+            RobotError: The gel is touched or dirty, or its background is stale.
+        """
+        look: Callable[[], None] | None = getattr(self.sensor, "expect_untouched", None)
+        if look is None:
+            return
+        try:
+            look()
+        except TouchError as error:
+            raise RobotError(
+                f"{error}; if the fingers hold something, open them: tacgrasp jog (key o)"
+            ) from None
+
     def disconnect(self) -> None:
         """Free every device, the arm first. Idempotent, never raises."""
         for device in (self.arm, self.gripper, self.sensor):

@@ -7,6 +7,7 @@ line in ``tacgrasp.hardware_config`` and in ``tacgrasp.hardware_rig``.
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Protocol
 
@@ -145,6 +146,19 @@ def truth_of(rig: Rig) -> Truth | None:
         return None
     x_mm, y_mm = facts.pop("offset_mm")
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
+
+
+def expect_untouched(rig: Rig) -> None:
+    """Hold the sensor to its picture of the untouched gel, before the first grasp of an episode.
+
+    Of a rig that knows no such picture nothing is asked. In a dry run somebody holds the object.
+
+    Raises:
+        RobotError: The gel is touched or dirty, or its background is stale; nothing has moved.
+    """
+    look: Callable[[], None] | None = getattr(rig, "expect_untouched", None)
+    if look is not None:
+        look()
 
 
 def commands_of(rig: Rig) -> tuple[Command, ...]:

@@ -25,7 +25,7 @@ from tacgrasp.episodes import (
 )
 from tacgrasp.loop import run_episode
 from tacgrasp.outcome import EndReason, Observer, Outcome
-from tacgrasp.rig import Rig, make_executor
+from tacgrasp.rig import Rig, expect_untouched, make_executor
 from tacgrasp.verify import not_lifted, verify_by_lifting
 
 
@@ -37,7 +37,10 @@ def run_recorded(
     Raises:
         EpisodeError: The record can't be begun; nothing has moved.
         LimitError: The rig starts outside its workspace; nothing has moved.
+        RobotError: The gel is not as the sensor knows it untouched; nothing has moved.
     """
+    if not config.dry_run:
+        expect_untouched(rig)
     header = _header(rig, policy, config)
     executor = make_executor(rig, config)
     directory = record_directory(config.record)

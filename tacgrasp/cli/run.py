@@ -11,6 +11,7 @@ import tyro
 from tacgrasp.cli.flags import flag_value, parse
 from tacgrasp.config import RunConfig
 from tacgrasp.config_layers import Sources, leaves, load_with_limits
+from tacgrasp.errors import UsageError
 from tacgrasp.hardware_config import HardwareConfig
 from tacgrasp.outcome import EndReason, Outcome
 
@@ -69,6 +70,11 @@ def _run(config: RunConfig) -> Outcome:
     from tacgrasp.run import run_recorded
     from tacgrasp.view import LineView, console, end_lines
 
+    if config.hardware is not None and not config.hardware.feels and not config.dry_run:
+        raise UsageError(
+            f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
+            "nothing may be grasped; give --dry-run to see what would be decided"
+        )
     policy = make_policy(config.policy, config)
     rig = make_rig(config)
     out = console()

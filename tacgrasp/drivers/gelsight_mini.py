@@ -201,8 +201,7 @@ def _live(sensor: GelSightMini, settings: GelSightSettings) -> list[Finding]:
             start = time.perf_counter()
             sensor.read()
             times.append(1e3 * (time.perf_counter() - start))
-        if settings.is_camera:
-            sensor.expect_untouched()
+        sensor.expect_untouched()
     except TouchError as error:
         return [_finding("reads", False, str(error), "put right what it says, then look again")]
     counts = sensor.counts()

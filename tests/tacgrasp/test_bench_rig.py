@@ -4,8 +4,10 @@ The devices are emulated, but the rig's file says ``hardware`` and names their a
 """
 
 import copy
+import io
 import re
 
+import numpy as np
 import pytest
 import yaml
 from patient_rig import fields
@@ -15,6 +17,7 @@ from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
 from tacgrasp.drivers.gripper_calibration import save_calibration
 from tacgrasp.emulated_rig import emulated_calibration
+from tacgrasp.episodes import read_episode
 
 pytest.importorskip("rtde_control")
 pytest.importorskip("dynamixel_sdk")
@@ -89,6 +92,24 @@ BAD_FIELDS = {
     "no hardware": ("hardware", None, "devices: hardware needs a section hardware"),
     "simulated with hardware": ("devices", "sim", "devices: sim takes no section hardware"),
     "no first force": ("gripper.first_force_n", None, "needs gripper.first_force_n"),
+    "first force above the largest": (
+        "gripper.first_force_n",
+        40.0,
+        "first_force_n 40 must lie in min_force_n 0.1 to max_force_n 12",
+    ),
+    "another sensor's field": (
+        "hardware.sensor.sensor",
+        "digit",
+        "sensor gelsight_mini is not what hardware.sensor is: digit",
+    ),
+    "half a servo": (
+        "hardware.gripper.servos",
+        [{"id": 1, "open_ticks": 2496}],
+        "servos.closed_ticks is missing",
+    ),
+    "no servo": ("hardware.gripper.servos", [], r"servos must have at least 1 item, got \[\]"),
+    "empty address": ("hardware.arm.host", "", "host must have at least 1 character"),
+    "no path": ("hardware.gripper.calibration", 5, "must be the path of a file, got 5"),
     "not finite": ("hardware.start.position_m", [float("nan"), 0, 0], "finite"),
     "half a pose": ("hardware.start.rotvec_rad", None, "needs position_m and rotvec_rad"),
     "slow driver": ("hardware.arm.max_speed_m_s", 0.3, "arm.max_speed_m_s 0.4 is above hardware"),
@@ -111,6 +132,7 @@ def test_a_wrong_field_is_named_before_any_device_is_touched(name, rig, tmp_path
 
 BAD_DEVICES = {
     "nobody at the address": ("hardware.arm.host", "127.77.254.254", "127.77.254.254"),
+    "no name of a host": ("hardware.arm.host", 80 * "x" + ".y", "no UR dashboard at xxxx"),
     "port missing": ("hardware.gripper.port", "/dev/serial/by-id/none", "no serial port"),
     "calibration of another unit": ("hardware.gripper.unit", "mine", "of another gripper"),
     "no calibration": (
@@ -162,6 +184,53 @@ def test_a_device_that_answers_wrongly_is_refused_in_one_line_and_nothing_moves(
     assert code == 3
     assert expected in said
     assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+@pytest.fixture
+def played(tmp_path):
+    """Settings of a recording of one touch."""
+    heights = np.zeros((60, 80))
+    heights[20:40, 30:50] = 0.5
+    (tmp_path / "touches").mkdir()
+    np.save(tmp_path / "touches" / "touch_1.npy", heights)
+    return {"kind": "recorded", "path": "touches"}
+
+
+def test_nothing_is_grasped_by_what_was_felt_in_the_past(rig, emulators, played, tmp_path, capsys):
+    before = where(emulators)
+    rig["hardware"]["sensor"] = played
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 2
+    assert "nothing is felt" in said
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_a_recording_is_decided_on_in_a_dry_run(rig, emulators, played, tmp_path, capsys):
+    before = where(emulators)
+    rig["hardware"]["sensor"] = played
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    argv = ["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path), "--dry-run"]
+    assert main(argv) == 0, capsys.readouterr().err
+    (episode,) = tmp_path.glob("*.mcap")
+    assert float(read_episode(episode).ticks[0].cloud.points_mm[:, 2].max()) > 0.4
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
+    rig, emulators, tmp_path, capsys, monkeypatch
+):
+    rig["hardware"]["start"] |= {"position_m": [0.45, -0.10, 0.30], "max_way_mm": 10}
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    before = where(emulators)
+    monkeypatch.setattr("sys.stdin", io.StringIO("r"))
+    assert main(["jog", "--rig", str(path)]) == 0, capsys.readouterr().err
+    assert "at (450.0, -100.0, 201.0) mm" in capsys.readouterr().out
+    after = where(emulators)
+    assert after[2] - before[2] == pytest.approx(0.001, abs=2e-5)
+    monkeypatch.setattr("sys.stdin", io.StringIO("f"))
+    assert main(["jog", "--rig", str(path)]) == 0
 
 
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):

@@ -296,6 +296,16 @@ def folder(files):
     return images
 
 
+def test_no_image_of_a_recording_is_used_up_to_look_at_the_untouched_gel(files, folder):
+    gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
+    length = len(list(folder.iterdir()))
+    gelsight.expect_untouched()
+    for _ in range(length):
+        gelsight.read()
+    with pytest.raises(TouchError):
+        gelsight.read()
+
+
 def test_a_folder_of_images_is_played_one_a_read_and_ends(files, folder):
     gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
     states = [contact_state(gelsight.read()) for _ in range(3)]
