@@ -20,6 +20,12 @@ T = TypeVar("T")
 INTERRUPTS_SURVIVED = 3
 """How often a step of making safe is taken up again when it is interrupted."""
 
+FREE_BY_HAND = (
+    "what it grips may still be held: support it, then switch the gripper's power off, or remove "
+    "the cause and open with tacgrasp jog (key o)"
+)
+"""What to do when a gripper that was to release has failed: it takes no command any more."""
+
 
 def close(
     rig: Rig,
@@ -42,7 +48,7 @@ def close(
         try:
             truth = truth_of(rig)  # before the gripper opens
         finally:
-            safe_state, released = _make_safe(rig, config, end.reason)
+            safe_state, released = _make_safe(rig, config, end)
         problems = [] if released else [safe_state]
         unfinished = _refusals(lambda: turns.record(None, note=f"cut short: {end.message}"))
         if end.reason is not EndReason.FAULT:  # which may be the recorder's own, and said already
@@ -65,11 +71,11 @@ def close(
     return outcome
 
 
-def _make_safe(rig: Rig, config: RunConfig, reason: EndReason) -> tuple[str, bool]:
+def _make_safe(rig: Rig, config: RunConfig, end: EndOfEpisode) -> tuple[str, bool]:
     """Stop, then hold or release; returns how the gripper was left, and whether that was wanted."""
     if config.dry_run:
         return "nothing was sent", True
-    wanted = config.on_success if reason is EndReason.SUCCESS else config.on_failure
+    wanted = config.on_success if end.reason is EndReason.SUCCESS else config.on_failure
     _despite_interrupts(rig.arm.stop)
     _despite_interrupts(rig.gripper.stop)
     if wanted == "hold":
@@ -79,9 +85,13 @@ def _make_safe(rig: Rig, config: RunConfig, reason: EndReason) -> tuple[str, boo
             return "the gripper is open", True
         _despite_interrupts(lambda: rig.gripper.open_by(config.primitives.clear_mm / 1000))
     except RobotError as error:
-        return f"the gripper could not be opened: {error}", False
+        why = "" if str(error) in end.message else f": {error}"
+        return f"the gripper could not be opened{why}; {FREE_BY_HAND}", False
     except KeyboardInterrupt:
-        return "the gripper could not be opened: interrupted again and again", False
+        return (
+            f"the gripper could not be opened: interrupted again and again; {FREE_BY_HAND}",
+            False,
+        )
     return "the gripper has released", True
 
 

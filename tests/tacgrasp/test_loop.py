@@ -276,6 +276,18 @@ def test_a_gripper_that_will_not_release_is_a_fault_even_after_ctrl_c() -> None:
     assert outcome.reason is EndReason.FAULT
     assert "could not be opened: bus dead" in outcome.message
     assert "stopped by the operator" in outcome.message
+    assert "support it, then switch the gripper's power off" in outcome.message
+
+
+def test_a_gripper_whose_own_fault_keeps_it_from_releasing_says_why_once() -> None:
+    def before(name: str, number: int) -> None:
+        if name in ("gripper.grip", "gripper.open_by", "gripper.state"):
+            raise RobotError("servo 1 is gone")
+
+    outcome, _, _ = play(Says(DOWN), rig=FakeRig(before))
+    assert outcome.reason is EndReason.FAULT
+    assert outcome.message.count("servo 1 is gone") == 1
+    assert "the gripper could not be opened; what it grips may still be held" in outcome.message
 
 
 def test_the_verification_records_a_touch_before_and_after_the_lift() -> None:
