@@ -112,7 +112,8 @@ def subcommand(
         UsageError: None was given, or it is not known.
     """
     if argv[:1] in (["-h"], ["--help"]):
-        lines = [f"  {name:12}{what.splitlines()[0]}" for name, what in known.items()]
+        width = max(map(len, known)) + 2
+        lines = [f"  {name:{width}}{what.splitlines()[0]}" for name, what in known.items()]
         usage = f"usage: tacgrasp {command} {{{','.join(known)}}} [OPTIONS]\n\n"
         sys.stdout.write(usage + "\n".join(lines) + "\n")
         return None, []

@@ -104,6 +104,16 @@ def test_an_emulator_runs_until_ctrl_c_at_the_addresses_that_it_prints():
     assert not os.path.lexists(found["serial_port"].strip())
 
 
+# -- calibrate ---------------------------------------------------------------------------------
+
+
+def test_the_longest_name_of_what_can_be_calibrated_is_apart_from_what_it_is(capsys):
+    assert main(["calibrate", "--help"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "  gelsight-mini  Photometric: colours to heights, from presses of a ball." in lines
+    assert any(line.startswith("  gripper        Force over current") for line in lines)
+
+
 # -- calibrate pad-axes ------------------------------------------------------------------------
 
 
@@ -134,6 +144,15 @@ def test_axes_are_measured_on_a_rig(capsys):
     argv = ["calibrate", "pad-axes", "--rig", "sim", "--object", "cherry_tomato", "--seed", "193"]
     assert main([*argv, "--force-n", "1"]) == 0
     assert "x_axis: [1, 0, 0]" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_axes_are_measured_with_real_drivers(tmp_path, capsys):
+    argv = ["calibrate", "pad-axes", "--rig", str(patient_rig(tmp_path)), "--seed", "193"]
+    assert main([*argv, "--force-n", "1"]) == 0
+    printed = capsys.readouterr().out
+    assert "x_axis: [1, 0, 0]" in printed
+    assert "y_axis: [0, 0, -1]" in printed
 
 
 # -- benches -----------------------------------------------------------------------------------
