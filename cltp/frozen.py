@@ -13,6 +13,7 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 import torch
@@ -30,6 +31,28 @@ from cltp.sensors import SensorSpec
 from cltp.weights import WeightsError, load_encoder
 
 FORMAT = "tacgrasp-frozen-encoder"
+
+
+class FrozenEncoder(Protocol):
+    """Whatever makes features of contacts and learns no more: ``Frozen``, or others' encoders."""
+
+    @property
+    def sha256(self) -> str:
+        """Of its weights."""
+        ...
+
+    @property
+    def sees_images(self) -> bool:
+        """Whether it takes rendered frames instead of points."""
+        ...
+
+    def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Pooled tokens (B, P) and features (B, F) of a batch, with frames where it sees images."""
+        ...
+
+    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+        """The same of scaled points (B, 1024, 3), or of frames (B, 3, 64, 64)."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,7 +21,7 @@ from torch import Tensor
 
 from cltp.dataset import ContactDataset
 from cltp.errors import TouchError
-from cltp.frozen import Frozen, noisy_frames
+from cltp.frozen import FrozenEncoder, noisy_frames
 from cltp.heads import NUMBERS
 from cltp.samples import Augmentation, Batch, Sampler
 from cltp.sensors import sensor_named
@@ -55,7 +55,7 @@ class Observed:
 
 
 def observe(
-    encoder: Frozen,
+    encoder: FrozenEncoder,
     data: ContactDataset,
     noise: Augmentation,
     *,
@@ -144,7 +144,7 @@ def _read(path: Path, size: int) -> dict[str, Tensor]:
 
 
 def _block(
-    encoder: Frozen, sampler: Sampler, rows: NDArray[np.int64], number: int
+    encoder: FrozenEncoder, sampler: Sampler, rows: NDArray[np.int64], number: int
 ) -> dict[str, Tensor]:
     parts: dict[str, list[Tensor]] = {}
     for batch, step in read_block(sampler, rows, number):

@@ -21,7 +21,7 @@ from cltp.cloud import TactileCloud
 from cltp.errors import TouchError
 from cltp.files import read_heights, read_touch
 from cltp.frames import FRAME_SUFFIXES
-from cltp.frozen import Frozen
+from cltp.frozen import FrozenEncoder
 from cltp.heads import NUMBERS
 from cltp.inputs import encoder_input
 from cltp.observed import Observed
@@ -117,7 +117,7 @@ def read_inputs(
 
 
 def observed(
-    encoder: Frozen, rows: list[Labelled], clouds: Sequence[TactileCloud], frames: Tensor
+    encoder: FrozenEncoder, rows: list[Labelled], clouds: Sequence[TactileCloud], frames: Tensor
 ) -> Observed:
     """Features of touches with their labels; of numbers nothing is known.
 

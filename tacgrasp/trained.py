@@ -11,11 +11,15 @@ from pathlib import Path
 
 from cltp.clip import Towers
 from cltp.errors import TouchError
-from cltp.frozen import Frozen, load_frozen
+from cltp.frozen import FrozenEncoder, load_frozen
+from cltp.vision_checkpoint import load_vision_checkpoint
 from cltp.weights import load_clip
 from tacgrasp.errors import UsageError
 from tacgrasp.pretraining import ABOUT, Wish
 from tacgrasp.results import Budget
+
+VISION = ("tvl", "unitouch")
+"""Methods whose encoders take frames, so that others' image encoders can stand for them."""
 
 UNKNOWN = "shipped"
 """Variant of weights that don't say how they came about, as those of the language model."""
@@ -32,6 +36,7 @@ class Trained:
         data: Checksum of the data that it learned from; None when nobody knows.
         device: What it was trained on; None when nobody knows.
         seed: Of its pre-training; None when nobody knows.
+        by_others: Whether the folder is a checkpoint in transformers' format instead.
     """
 
     folder: Path
@@ -40,13 +45,16 @@ class Trained:
     data: str | None = None
     device: str | None = None
     seed: int | None = None
+    by_others: bool = False
 
-    def encoder(self) -> Frozen:
+    def encoder(self) -> FrozenEncoder:
         """The encoder, frozen.
 
         Raises:
             WeightsError: It is missing, damaged, or its configuration does not match.
         """
+        if self.by_others:
+            return load_vision_checkpoint(self.folder)
         return load_frozen(self.folder / "encoder")
 
     def towers(self, weights: Path) -> Towers:
@@ -94,6 +102,20 @@ def stored(method: str, out: Path) -> Trained:
         ) from None
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise TouchError(f"{path} can't be read; train again: {error}") from error
+
+
+def checkpoint_of_others(method: str, folder: Path) -> Trained:
+    """An image encoder that others trained, tried as a vision-based method.
+
+    Raises:
+        UsageError: The method is another one, or the folder is not there.
+    """
+    if method not in VISION:
+        raise UsageError(f"--checkpoint is for {' or '.join(VISION)}, got {method!r}")
+    if not folder.is_dir():
+        raise UsageError(f"--checkpoint {folder} is no directory")
+    variant = f"checkpoint {folder.resolve().name}"
+    return Trained(folder=folder, variant=variant, budget=None, by_others=True)
 
 
 def trained(method: str, out: Path, data: str) -> Trained:

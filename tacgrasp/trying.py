@@ -16,7 +16,7 @@ from torch import Tensor
 from cltp.captions import caption
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.frozen import Frozen
+from cltp.frozen import FrozenEncoder
 from cltp.observed import Observed, observe
 from cltp.probes import ClassProbes, Judged, NumberProbe, judge, number_scores
 from cltp.samples import CLASSES, CLEAN, NOISY, Augmentation
@@ -28,7 +28,7 @@ from tacgrasp.failures import TRIALS as FAILURE_TRIALS
 from tacgrasp.failures import collect, save_failures
 from tacgrasp.pretraining import METHODS
 from tacgrasp.results import Result, percent, save
-from tacgrasp.trained import Trained, trained
+from tacgrasp.trained import Trained, checkpoint_of_others, trained
 
 ALIGNED = ("cltp_no_image", "cltp")
 """Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
@@ -46,6 +46,7 @@ class Place:
         results: Folder of results.
         trials: Names of trials; all of the data's when empty.
         limit: Contacts of each trial; None for all.
+        checkpoint: An image encoder in transformers' format, tried as the one method named.
         seed: Of noise and probes.
         command: For the results.
         report: Told about progress.
@@ -56,6 +57,7 @@ class Place:
     results: Path
     trials: tuple[str, ...] = ()
     limit: int | None = None
+    checkpoint: Path | None = None
     seed: int = 0
     command: str = ""
     report: Report = silent
@@ -71,7 +73,7 @@ class Place:
 
     def seen(
         self,
-        encoder: Frozen,
+        encoder: FrozenEncoder,
         split: Split,
         noise: Augmentation,
         *,
@@ -99,6 +101,10 @@ def trainable(place: Place, methods: Sequence[str]) -> dict[str, Trained]:
         TouchError: One was trained on other data.
     """
     checksum = place.checksum
+    if place.checkpoint is not None:
+        if len(methods) != 1:
+            raise UsageError("--checkpoint needs one method: --methods tvl or unitouch")
+        return {methods[0]: checkpoint_of_others(methods[0], place.checkpoint)}
     if methods:
         return {method: trained(method, place.weights, checksum) for method in methods}
     found = {}
@@ -166,7 +172,7 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
 
 
 def _numbers(
-    place: Place, encoder: Frozen, learned: Observed, method: str, how: Trained
+    place: Place, encoder: FrozenEncoder, learned: Observed, method: str, how: Trained
 ) -> list[Result]:
     """Regression and its intervals, calibrated on the validation split with the trial's noise."""
     reader = NumberProbe(learned, seed=place.seed, report=place.report)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import torch
@@ -95,7 +95,9 @@ def probe_real(
         sure = probes.sure(observed(encoder, real.rows, clouds, frames))
         said = told(real.rows, sure, "probability")
         write_predictions(_file(real, list(hows), method), said)
-        found.append(_stored(place, "probe", method, how, said.judged))
+        found.append(
+            _stored(place, "probe", method, replace(how, data=place.checksum), said.judged)
+        )
     return [*found, _ceiling(place, "probe", place.checksum, real, clouds)]
 
 

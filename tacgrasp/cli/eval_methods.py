@@ -87,10 +87,13 @@ class Probe(Real):
     Attributes:
         seeds: So many, counted from --seed.
         views: How often each training contact is seen.
+        checkpoint: Directory of a CLIP or CLIP vision model in transformers' format, tried as
+            --methods tvl or unitouch.
     """
 
     seeds: int = 1
     views: int = 2
+    checkpoint: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -260,6 +263,7 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
         results=flags.results,
         trials=tuple(_names(flags.trials)),
         limit=flags.limit,
+        checkpoint=flags.checkpoint if isinstance(flags, Probe) else None,
         seed=flags.seed,
         command=" ".join(["tacgrasp eval", command, *argv]),
         report=Bar(line_s=10.0),

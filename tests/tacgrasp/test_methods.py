@@ -199,6 +199,18 @@ def test_probes_name_real_touches_by_points_and_by_frames(
     assert 0 < float(row["depth_probability"]) <= 1
 
 
+def test_an_image_encoder_of_others_stands_for_a_method(
+    out: Path, places: list[str], tmp_path: Path, quick_probes: None
+) -> None:
+    figures = tmp_path / "figures.json"
+    argv = ["--methods", "tvl", "--checkpoint", str(out / "clip"), "--json", str(figures)]
+    assert main(["eval", "probe", *places, *argv]) == 0
+    assert json.loads(figures.read_text())["probe"]["tvl"]["contact"]["shape"] is not None
+    (stored,) = (tmp_path / "results").glob("probe-tvl-*-contact-s0.json")
+    told = json.loads(stored.read_text())
+    assert (told["variant"], told["budget"]) == ("checkpoint clip", None)
+
+
 def test_weights_that_come_along_name_real_touches_and_store_nothing(
     out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -294,6 +306,9 @@ def test_encoders_of_other_data_are_not_tried(
         (["eval", "probe", "--methods", "tvl"], "do `tacgrasp train tvl"),
         (["eval", "probe", "--trials", "moon"], "it has contact, contact_noisy"),
         (["eval", "probe", "--limit", "0"], "--limit must be at least 1"),
+        (["eval", "probe", "--checkpoint", "."], "--methods tvl or unitouch"),
+        (["eval", "probe", "--methods", "cltp", "--checkpoint", "."], "is for tvl or unitouch"),
+        (["eval", "probe", "--methods", "tvl", "--checkpoint", "/no"], "is no directory"),
         (["eval", "dance"], "expects one of zero-shot, probe, retrieval, report"),
     ],
 )
