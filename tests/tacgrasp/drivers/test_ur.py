@@ -560,6 +560,29 @@ def test_a_false_of_the_library_is_an_error():
             call()
 
 
+def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_believed():
+    asked = []
+
+    class Library:
+        """Everything is well, as it says for ever after its link has gone."""
+
+        def __getattr__(self, name):
+            return lambda *given: asked.append((name, *given[1:])) or name != "isConnected"
+
+    link = ur_link.UrLink.__new__(ur_link.UrLink)
+    link._control = link._receive = Library()
+    link._settings = UrSettings(
+        host="h", payload_kg=1.0, workspace_low_m=(0, -1, 0), workspace_high_m=(1, 1, 1)
+    )
+    link.move((*START_M, *DOWN_RAD), 0.1, 1.0)
+    link.stop()
+    assert ("moveL", 0.1, 1.0, True) in asked
+    assert ("stopL", True) in asked
+    link.kick()  # says that all is well
+    assert not link.connected
+    assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in asked}
+
+
 def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set():
     sample = ur_link.Sample(
         stamp_s=1.0, pose=(0,) * 6, speed=(0,) * 6, force=(0,) * 6,
