@@ -136,7 +136,7 @@ def _cell(values: Sequence[float | None]) -> str:
     middle, range_ = mean(values), spread(values)
     if middle is None:
         return "–"
-    digits = 1 if abs(middle) >= 10 else 2
+    digits = 1 if abs(middle) >= 10 else 2 if abs(middle) >= 1 else 3  # 0.03 mm is asked
     half = f" ± {range_ / 2:.{digits}f}" if range_ is not None else ""
     return f"{middle:.{digits}f}{half}"
 
