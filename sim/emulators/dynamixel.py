@@ -34,6 +34,7 @@ from sim.emulators.dynamixel_servo import Servo
 from sim.emulators.dynamixel_table import BAUDS, MODELS
 from sim.emulators.dynamixel_wire import Wire
 from sim.emulators.lifetime import announce_and_wait
+from sim.emulators.real_time import ask_for_real_time
 
 _BUSY_S, _IDLE_S = 0.002, 0.010
 
@@ -143,6 +144,7 @@ class DynamixelEmulator:
         self._wire.close()
 
     def _run(self) -> None:
+        ask_for_real_time(with_threads=False)
         while not self._ended.is_set():
             data = self._wire.read(self._wait_s())
             if not self._wire.plugged:

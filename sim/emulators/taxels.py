@@ -33,6 +33,7 @@ from cltp.taxel_packets import (
 )
 from sim.emulators.control import ControlServer, Facts
 from sim.emulators.lifetime import announce_and_wait
+from sim.emulators.real_time import ask_for_real_time
 from sim.emulators.taxels_ball import PressedBall
 
 FAULTS = {
@@ -164,6 +165,7 @@ class TaxelEmulator:
             self._told.wait_for(lambda: not self._changed, timeout=_APPLIED_S)
 
     def _run(self) -> None:
+        ask_for_real_time(with_threads=False)
         due = self._clock()
         try:
             while self._go_on(max(0.0, due - self._clock())):

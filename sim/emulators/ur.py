@@ -20,10 +20,11 @@ from numpy.typing import NDArray
 
 from sim.emulators.control import ControlServer, Facts
 from sim.emulators.lifetime import announce_and_wait
+from sim.emulators.real_time import ask_for_real_time
 from sim.emulators.ur_child import RemoteWorld
 from sim.emulators.ur_controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur_robot import Stretch
-from sim.emulators.ur_server import PORTS, Server, ask_for_real_time
+from sim.emulators.ur_server import PORTS, Server
 from sim.emulators.ur_sessions import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT
 
 START_TCP = (0.45, -0.10, 0.20, math.pi, 0.0, 0.0)

@@ -8,7 +8,6 @@ so every emulator has a loopback address of its own.
 from __future__ import annotations
 
 import contextlib
-import os
 import selectors
 import socket
 import threading
@@ -16,6 +15,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+from sim.emulators.real_time import ask_for_real_time
 from sim.emulators.ur_controller import Controller
 from sim.emulators.ur_sessions import (
     DASHBOARD_PORT,
@@ -32,7 +32,6 @@ TICK_S = 0.004
 """Cycle while the arm moves; what happens in between is computed, not rounded to it."""
 
 IDLE_S = 0.02
-PRIORITY = 11
 GARBAGE = bytes(range(256)) * 2
 
 
@@ -277,16 +276,6 @@ class Server:
             self._hang_up(connection)
         for port in PORTS:
             self._unlisten(port)
-
-
-def ask_for_real_time() -> None:
-    """Let this thread (and those it starts) run before ordinary work, where the system allows it.
-
-    A controller runs in real time; an emulated one on a busy machine would show that machine's
-    pauses as its own.
-    """
-    with contextlib.suppress(OSError, AttributeError):
-        os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
 
 
 def _streaming(connection: _Connection) -> bool:
