@@ -17,9 +17,10 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder import Block, FpsTokenizer, TactileEncoder
+from cltp.encoder import Block, TactileEncoder
 from cltp.errors import TouchError
 from cltp.inputs import LATTICE
+from cltp.point_tokens import FpsTokenizer
 
 MAE_MASKED = 0.6
 """Share of hidden patches. Source: Point-MAE, section 3.1 and its ablation."""
@@ -81,9 +82,10 @@ def visible_tokens(
         side = LATTICE // _CELL
         whole = hidden.view(-1, side, 1, side, 1).expand(-1, side, _CELL, side, _CELL)
         flat = torch.tensor([1.0, 1.0, 0.0], device=points.device)
-        tokens = tokenizer(torch.where(whole.reshape(len(points), -1, 1), points * flat, points))
+        points = torch.where(whole.reshape(len(points), -1, 1), points * flat, points)
+        tokens = tokenizer(points)
     tokens = tokens * ~hidden[..., None]
-    return tokens, encoder.class_token(tokens)
+    return tokens, encoder.class_token(tokens, points)
 
 
 def hide(count: int, num_groups: int, batch: int, rng: torch.Generator) -> Tensor:

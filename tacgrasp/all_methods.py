@@ -38,8 +38,8 @@ class Order:
     clip_steps: int | None = None
     with_images: bool = True
     texts: str = "mixed"
-    prompt_weight: float = 0.2
-    head_weight: float = 0.0
+    prompt_weight: float = 1.0
+    head_weight: float = 1.0
     precision: str = "no"
     seed: int = 0
     seeds: int = 1

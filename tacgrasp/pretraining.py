@@ -53,8 +53,8 @@ class Wish:
     steps: int | None = None
     batch_size: int | None = None
     texts: str = "mixed"
-    prompt_weight: float = 0.2
-    head_weight: float = 0.0
+    prompt_weight: float = 1.0
+    head_weight: float = 1.0
     with_images: bool = True
 
     def config(self, method: str) -> EncoderConfig:

@@ -16,7 +16,7 @@ from torch import Tensor, nn
 
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.encoder import EncoderConfig, TactileEncoder
+from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.heads import StateHeads, Targets, targets
 from cltp.losses import CltpLoss
 from cltp.samples import CLASSES, Augmentation, Sampler
@@ -29,7 +29,7 @@ from cltp.train.stage import Report, Schedule, Stage, silent
 from cltp.train.workers import Workers
 from cltp.weights import load_clip, save_encoder
 
-SCHEDULE = Schedule(steps=5000, batch_size=32, learning_rate=1e-3)
+SCHEDULE = Schedule(steps=5000, batch_size=64, learning_rate=2e-3)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ class Recipe:
     head_weight: float = 1.0
 
 
-RECIPE = Recipe(texts="mixed", several=True, prompt_weight=0.2)
+RECIPE = Recipe(texts="mixed", several=True, prompt_weight=1.0)
 """What weights are trained by when nothing else is asked for.
 
 Measured on 1,417 unseen noisy contacts, shape / texture / depth / position / area, % right by the
@@ -112,7 +112,7 @@ def train_cltp(
     data = ContactDataset(data_dir, split=Split.TRAIN)
     clip_dir = clip_dir or out_dir / "clip"
     towers = load_clip(clip_dir).to(workers.device)
-    config = _as_wide_as(config or EncoderConfig(), towers.feature_dim)
+    config = _as_wide_as(config or PRESETS["small"], towers.feature_dim)
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
     identity = {

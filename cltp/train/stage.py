@@ -173,7 +173,7 @@ class Stage:
     def _descend(self, total: Tensor) -> None:
         if not torch.isfinite(total):
             raise TouchError(
-                f"{self.name}: the loss became {float(total)} in step {self.step}; "
+                f"{self.name}: the loss became {float(total.detach())} in step {self.step}; "
                 "lower the learning rate or look at the data"
             )
         for group in self._optimiser.param_groups:

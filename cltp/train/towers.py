@@ -1,4 +1,11 @@
-"""Stage 'clip': align a small CLIP on rendered contacts and their captions, to be frozen then."""
+"""Stage 'clip': align a small CLIP on rendered contacts and their captions, to be frozen then.
+
+A stock CLIP has seen enough language to tell "left" from "right" before it sees a contact; a small
+one that begins at random has not, and a contrast alone leaves it there: while both words mean the
+same to the tower of language, the tower of images gains nothing by telling them apart, and the
+other way round. So the tower of language also has to let its texts be read back: which class each
+one names, by the nearest of learned directions that are dropped afterwards.
+"""
 
 from __future__ import annotations
 
@@ -7,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+import torch.nn.functional as F
 from torch import Tensor, nn
 from transformers import CLIPModel
 
@@ -19,21 +27,51 @@ from cltp.tokenizer import Words
 from cltp.train.ahead import ahead
 from cltp.train.curves import plot_curves
 from cltp.train.features import rendered
-from cltp.train.sayings import drawn_prompts, fits, say, true_of
+from cltp.train.sayings import Sayings, drawn_prompts, fits, say, true_of
 from cltp.train.stage import Report, Schedule, Stage, silent
 from cltp.train.workers import Workers
 from cltp.weights import save_clip
 
 SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
 
+READ_SCALE = 16.0
+"""Of cosines when texts are read back; about what the learned temperature comes to."""
+
 RENDERED = Augmentation(noise_level=0.0, uncalibrated=0.0)
 """Images are of the clean gel, as the paper's are rendered from simulation."""
+
+
+class Meanings(nn.Module):
+    """A direction for every class, by which texts are read back from their features.
+
+    Args:
+        feature_dim: Width F of the features.
+    """
+
+    def __init__(self, feature_dim: int) -> None:
+        super().__init__()
+        self.directions = nn.ParameterList(
+            torch.randn(len(names), feature_dim) for names in CLASSES.values()
+        )
+
+    def loss(self, spoken: Tensor, said: Sayings) -> Tensor:
+        """Cross-entropy of the classes that texts name, given their features (B, F)."""
+        unit = F.normalize(spoken, dim=1)
+        terms = []
+        for column, directions in enumerate(self.directions):
+            named = said.named[:, column] & (said.classes[:, column] >= 0)
+            if named.any():
+                near = unit[named.to(unit.device)] @ F.normalize(directions, dim=1).T
+                goal = said.classes[named, column].to(unit.device)
+                terms.append(F.cross_entropy(READ_SCALE * near, goal))
+        return torch.stack(terms).mean() if terms else 0.0 * spoken.sum()
 
 
 class _Learner(nn.Module):
     def __init__(self, clip: CLIPModel) -> None:
         super().__init__()
         self.clip, self.loss = clip, CltpLoss()
+        self.meanings = Meanings(clip.text_projection.out_features)
 
 
 def train_clip(
@@ -45,7 +83,8 @@ def train_clip(
     dim: int = 128,
     texts: str = "mixed",
     several: bool = True,
-    prompt_weight: float = 0.2,
+    prompt_weight: float = 1.0,
+    read_weight: float = 1.0,
     seed: int = 0,
     report: Report = silent,
     workers: Workers | None = None,
@@ -61,6 +100,7 @@ def train_clip(
         texts: What is said of contacts, out of ``cltp.train.sayings.KINDS``.
         several: Whether all texts that are true of a contact belong to its image.
         prompt_weight: Of a contrast with one prompt for every class, dimension by dimension.
+        read_weight: Of reading texts back.
         seed: Of weights, order and mirroring.
         report: Told about progress.
         workers: The processes that train together.
@@ -77,7 +117,7 @@ def train_clip(
         "seed": seed,
         "dim": dim,
         "words": words.fingerprint(),
-        "variant": f"{texts} {several} {prompt_weight} {workers.count}, read where a text ends",
+        "variant": f"{texts} {several} {prompt_weight} {read_weight} {workers.count}",
     }
     stage = Stage("clip", out_dir / ".training", learner, schedule, identity, workers=workers)
     folder = out_dir / "clip"
@@ -97,6 +137,8 @@ def train_clip(
         if prompt_weight > 0:
             found = _prompt_terms(learner, words, images, said.classes.to(workers.device), rng)
             terms |= {name: prompt_weight * term for name, term in found.items()}
+        if read_weight > 0:
+            terms["read"] = read_weight * learner.meanings.loss(spoken, said)
         near = (spoken @ images.T).argmax(dim=1).cpu()
         right = fits(said.classes, said.classes, said.named)[near, torch.arange(len(near))]
         temperature = 1 / learner.loss.contrast.scale.detach()

@@ -59,11 +59,10 @@ class Pretrain:
     Attributes:
         out: Folder of all methods: OUT/clip and OUT/METHOD/encoder.
         data: Folder of contacts; it must be there.
-        preset: Encoder; by default small for CLTP, and for the others the same size as they are
-            published.
+        preset: Encoder; by default small, and small_image for tvl and unitouch, which see frames.
         steps: Optimiser steps, the same for every method; by default 5000.
-        batch_size: Contacts in a step; by default 32.
-        clip_steps: Steps of CLIP; by default 500.
+        batch_size: Contacts in a step; by default 64.
+        clip_steps: Steps of CLIP; by default 400.
         no_image: Leave L_T2I out (cltp; it becomes OUT/cltp_no_image).
         texts: What CLTP and CLIP are told: the paper's captions, or half of the time a prompt for
             one dimension.
@@ -85,8 +84,8 @@ class Pretrain:
     clip_steps: int | None = None
     no_image: bool = False
     texts: Literal["caption", "mixed"] = "mixed"
-    prompt_weight: float = 0.2
-    head_weight: float = 0.0
+    prompt_weight: float = 1.0
+    head_weight: float = 1.0
     precision: Literal["no", "bf16"] = "no"
     seed: int = 0
     seeds: int = 1

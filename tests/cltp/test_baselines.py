@@ -26,7 +26,15 @@ from cltp.weights import WeightsError, save_clip, save_encoder
 MINI = SENSORS["gelsight_mini"]
 SIZES = {
     name: EncoderConfig(
-        tokenizer=name, dim=24, depth=1, heads=4, stem_dim=8, group_size=16, feature_dim=32
+        tokenizer=name,
+        dim=24,
+        depth=1,
+        heads=4,
+        stem_dim=8,
+        group_size=16,
+        feature_dim=32,
+        bearing=16 if name == "lattice" else 0,
+        projection=40,
     )
     for name in ("lattice", "fps", "image")
 }

@@ -12,13 +12,14 @@ from cltp.captions import caption
 from cltp.cloud import cloud_from_heights
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset, DatasetWriter
-from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder, farthest_points
+from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.evaluate import batches, ceiling_scores, heads_scores, zero_shot_scores
 from cltp.heads import StateHeads, restored, targets, transformed
 from cltp.inputs import cell_centres, encoder_input, lattice_points, scaled
 from cltp.losses import CltpLoss, ContrastiveLoss
 from cltp.packing import Exchange
+from cltp.point_tokens import BearingCurve, farthest_points
 from cltp.render import render
 from cltp.samples import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.sensors import SENSORS
@@ -181,6 +182,23 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         EncoderConfig(dim=30, heads=4)
     with pytest.raises(TouchError, match="known: lattice, fps, image"):
         EncoderConfig(tokenizer="voxels")
+    with pytest.raises(TouchError, match="0 or more"):
+        EncoderConfig(projection=-1)
+    with pytest.raises(TouchError, match="for lattice, not for fps"):
+        EncoderConfig(tokenizer="fps", bearing=16)
+
+
+def test_the_bearing_curve_knows_heights_and_not_places() -> None:
+    torch.manual_seed(0)
+    curve = BearingCurve(8, 16)
+    points = torch.rand(2, 1024, 3)
+    moved = points.clone()
+    moved[0, :, :2] += 0.3
+    moved[1] = points[1, torch.randperm(1024)]
+    torch.testing.assert_close(curve(moved), curve(points))
+    deeper = points.clone()
+    deeper[:, points[0, :, 2].argmax(), 2] += 0.2  # the deepest point of one of them alone
+    assert not torch.equal(curve(deeper)[0], curve(points)[0])
 
 
 def test_numbers_survive_their_transformation() -> None:

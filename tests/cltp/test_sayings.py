@@ -15,7 +15,8 @@ from cltp.errors import TouchError
 from cltp.samples import CLASSES
 from cltp.states import ContactState
 from cltp.tokenizer import Words
-from cltp.train.sayings import NOTHING, class_numbers, fits, say
+from cltp.train.sayings import NOTHING, Sayings, class_numbers, fits, say
+from cltp.train.towers import Meanings
 from cltp.wordings import prompts
 
 STATES = [fake_contact(seed).state for seed in range(12)]
@@ -97,3 +98,17 @@ def test_a_stock_checkpoint_brings_its_own_tokenizer(tmp_path: Path) -> None:
     other.save(str(tmp_path / "tokenizer.json"))
     with pytest.raises(TouchError, match="lacks"):
         load_towers(tmp_path)
+
+
+def test_texts_that_lie_at_their_meanings_are_read_back() -> None:
+    torch.manual_seed(0)
+    meanings = Meanings(64)
+    classes = torch.tensor([[3, NOTHING, 1, NOTHING, 2], [5, NOTHING, 0, NOTHING, 4]])
+    named = torch.tensor([[False, False, True, False, False], [False, True, True, False, False]])
+    said = Sayings(texts=["", ""], classes=classes, named=named)
+    depth = meanings.directions[2].detach()
+    right, wrong = depth[[1, 0]] * 7.0, depth[[0, 1]]
+    assert meanings.loss(right, said) < 0.01  # shape, not named, and texture, unknown, don't count
+    assert meanings.loss(wrong, said) > 5.0
+    nothing = Sayings(texts=["", ""], classes=classes, named=torch.zeros_like(named))
+    assert meanings.loss(wrong, nothing) == 0.0

@@ -91,7 +91,7 @@ def test_a_trained_method_says_how_it_came_about_and_is_not_trained_again(
 ) -> None:
     about = json.loads((out / "cltp" / "about.json").read_text())
     assert (about["method"], about["preset"], about["steps"]) == ("cltp", "tiny", 3)
-    assert about["recipe"]["head_weight"] == 0.0
+    assert about["recipe"]["head_weight"] == 1.0
     assert "tacgrasp train cltp" in about["command"]
     weights = out / "cltp" / "encoder" / "model.safetensors"
     before = weights.stat().st_mtime_ns
