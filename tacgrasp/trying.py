@@ -199,12 +199,16 @@ def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
     for trial in place.trying():
         data = ContactDataset(place.data, split=trial.split)
         said, truth = measured(data, trial.noise, limit=place.limit, seed=place.seed)
-        judged = judge(said, truth)
-        right = {s: v if s in MEASURED else math.nan for s, v in judged.right.items()}
-        judged = Judged(right, {s: judged.confusion[s] for s in MEASURED}, judged.count)
+        judged = only_measured(judge(said, truth))
         how = Trained(folder=place.weights, variant="measured", budget=None)
         found += [_result(place, table, "ceiling", how, trial, judged) for table in tables]
     return found
+
+
+def only_measured(judged: Judged) -> Judged:
+    """What direct computation says of the dimensions that it computes."""
+    right = {slot: v if slot in MEASURED else math.nan for slot, v in judged.right.items()}
+    return Judged(right, {slot: judged.confusion[slot] for slot in MEASURED}, judged.count)
 
 
 def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
@@ -265,21 +269,28 @@ def _result(
     place: Place, table: str, method: str, how: Trained, trial: Trial, judged: Judged
 ) -> Result:
     """A result, written at once: what is interrupted loses nothing that was measured."""
-    result = Result(
+    result = as_result(place, table, method, how, trial.name, judged, place.checksum)
+    if table not in ("numbers", "retrieval"):
+        save(place.results, result)
+    return result
+
+
+def as_result(
+    place: Place, table: str, method: str, how: Trained, trial: str, judged: Judged, data: str
+) -> Result:
+    """What was judged, as a row of a table, with all that it depends on; not yet written."""
+    return Result(
         table=table,
         method=method,
         variant=how.variant,
-        trial=trial.name,
+        trial=trial,
         seed=place.seed,
-        data=place.checksum,
+        data=data,
         budget=how.budget,
         command=place.command,
         contacts=judged.count,
-        values=percent({s: judged.right.get(s, math.nan) for s in CLASSES}),
+        values=percent({slot: judged.right.get(slot, math.nan) for slot in CLASSES}),
         confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
         device=how.device,
         learned_seed=how.seed,
     )
-    if table not in ("numbers", "retrieval"):
-        save(place.results, result)
-    return result

@@ -7,7 +7,6 @@ set.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -18,16 +17,15 @@ from cltp.cloud import TactileCloud
 from cltp.contacts import Split
 from cltp.measure import contact_state
 from cltp.probes import ClassProbes, Judged, judge
-from cltp.samples import CLASSES
 from cltp.sensors import SensorSpec
 from cltp.train.sayings import class_numbers
 from cltp.trials import LEARNING
 from cltp.zero_shot import Prompts
 from tacgrasp.errors import UsageError
 from tacgrasp.real_touches import Labelled, observed, read_inputs, told, write_predictions
-from tacgrasp.results import Result, percent, save
+from tacgrasp.results import Result, save
 from tacgrasp.trained import Trained, stored
-from tacgrasp.trying import ALIGNED, MEASURED, Place, trainable
+from tacgrasp.trying import ALIGNED, Place, as_result, only_measured, trainable
 
 TRIAL = "real"
 
@@ -111,29 +109,13 @@ def _ceiling(
 ) -> Result:
     """What direct computation from the same points gives; shape and texture are not computed."""
     said = class_numbers([contact_state(cloud) for cloud in clouds])
-    judged = judge(said, torch.tensor([row.classes for row in real.rows]))
-    right = {slot: v if slot in MEASURED else math.nan for slot, v in judged.right.items()}
-    judged = Judged(right, {slot: judged.confusion[slot] for slot in MEASURED}, judged.count)
+    judged = only_measured(judge(said, torch.tensor([row.classes for row in real.rows])))
     how = Trained(folder=place.weights, variant="measured", budget=None, data=data)
     return _stored(place, table, "ceiling", how, judged)
 
 
 def _stored(place: Place, table: str, method: str, how: Trained, judged: Judged) -> Result:
-    result = Result(
-        table=table,
-        method=method,
-        variant=how.variant,
-        trial=TRIAL,
-        seed=place.seed,
-        data=how.data or "",
-        budget=how.budget,
-        command=place.command,
-        contacts=judged.count,
-        values=percent({slot: judged.right[slot] for slot in CLASSES}),
-        confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
-        device=how.device,
-        learned_seed=how.seed,
-    )
+    result = as_result(place, table, method, how, TRIAL, judged, how.data or "")
     if how.data is not None:
         save(place.results, result)
     return result

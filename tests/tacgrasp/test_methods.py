@@ -14,6 +14,7 @@ import torch
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "cltp"))
 from fake_contacts import fake_contact
+from fake_results import fake_result
 
 from cltp.contacts import Split
 from cltp.dataset import DatasetWriter
@@ -25,7 +26,7 @@ from tacgrasp import all_methods, trying
 from tacgrasp.__main__ import main
 from tacgrasp.paper import PAPER
 from tacgrasp.pretraining_report import report
-from tacgrasp.results import METHODS, Budget, Result, grouped, load, mean, nested, save, spread
+from tacgrasp.results import METHODS, grouped, load, mean, nested, save, spread
 
 QUICK = ["--steps", "3", "--batch-size", "4", "--threads", "1"]
 
@@ -226,26 +227,10 @@ def test_weights_that_come_along_name_real_touches_and_store_nothing(
     assert not list(tmp_path.glob("results/*.json"))
 
 
-def result(**changed: object) -> Result:
-    usual: dict[str, object] = {
-        "table": "probe",
-        "method": "cltp",
-        "variant": "small",
-        "trial": "contact",
-        "seed": 0,
-        "data": "abc",
-        "budget": Budget(steps=10, batch_size=4),
-        "command": "tacgrasp eval probe",
-        "contacts": 7,
-        "values": dict.fromkeys(CLASSES, 50.0),
-    }
-    return Result(**{**usual, **changed})  # type: ignore[arg-type]
-
-
 def test_results_come_back_as_they_were(tmp_path: Path) -> None:
-    save(tmp_path, result())
-    save(tmp_path, result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
-    save(tmp_path, result(seed=1))
+    save(tmp_path, fake_result())
+    save(tmp_path, fake_result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
+    save(tmp_path, fake_result(seed=1))
     found = load(tmp_path)
     assert len(found) == 2
     assert found[0].values["shape"] == 60.0
@@ -256,8 +241,8 @@ def test_results_come_back_as_they_were(tmp_path: Path) -> None:
 
 
 def test_a_report_never_mixes_data(tmp_path: Path) -> None:
-    save(tmp_path, result())
-    save(tmp_path, result(method="random", data="def"))
+    save(tmp_path, fake_result())
+    save(tmp_path, fake_result(method="random", data="def"))
     with pytest.raises(TouchError, match="different data sets"):
         report(tmp_path, tmp_path)
     assert not list(tmp_path.glob("*.html"))
@@ -266,7 +251,7 @@ def test_a_report_never_mixes_data(tmp_path: Path) -> None:
 def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     argv = ["eval", "report", "--results", str(tmp_path)]
     assert "no results" in complaint(argv, capsys)
-    path = save(tmp_path, result())
+    path = save(tmp_path, fake_result())
     path.write_text(path.read_text().replace('"version": 1', '"version": 9'))
     assert "no result of this version" in complaint(argv, capsys)
     path.write_text("{")
@@ -275,7 +260,7 @@ def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixtu
 
 def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
     for method in reversed(METHODS):
-        save(tmp_path, result(method=method))
+        save(tmp_path, fake_result(method=method))
     (page, _) = report(tmp_path, tmp_path)
     lines = [line.split(" | ")[0][2:] for line in page.read_text().splitlines()]
     first = lines.index("CLTP, probe") if "CLTP, probe" in lines else 0
@@ -379,7 +364,7 @@ def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
     counts = [[0] * len(names) for _ in names]
     triangle, peak = names.index("triangle"), names.index("peak")
     counts[triangle][triangle], counts[triangle][peak], counts[peak][peak] = 3, 1, 5
-    save(tmp_path, result(confusion={"shape": counts}))
+    save(tmp_path, fake_result(confusion={"shape": counts}))
     page = report(tmp_path, tmp_path)[0].read_text()
     assert (
         "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small | triangle as peak (1) |" in page

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import torch
+from fake_results import fake_result
 
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
@@ -17,26 +18,8 @@ from tacgrasp.failures import FOLDER, collect, load_failures, save_failures
 from tacgrasp.goals import goals, orders
 from tacgrasp.paper import PAPER
 from tacgrasp.pretraining_report import report, which_it_is
-from tacgrasp.results import Budget, Result, nested, save
+from tacgrasp.results import Result, nested, save
 from tacgrasp.tries import COLUMNS, FILE, load_tries
-
-
-def result(**changed: object) -> Result:
-    usual: dict[str, object] = {
-        "table": "probe",
-        "method": "cltp",
-        "variant": "small",
-        "trial": "contact",
-        "seed": 0,
-        "data": "abc",
-        "budget": Budget(steps=10, batch_size=4),
-        "command": "tacgrasp eval probe",
-        "contacts": 7,
-        "values": dict.fromkeys(CLASSES, 50.0),
-        "device": "cpu",
-        "learned_seed": 0,
-    }
-    return Result(**{**usual, **changed})  # type: ignore[arg-type]
 
 
 def values(*five: float | None) -> dict[str, float | None]:
@@ -52,7 +35,7 @@ def missed(found: list[Result]) -> dict[tuple[str, str, str, str], float]:
 
 
 def test_a_figure_is_missed_by_what_lacks_to_the_papers() -> None:
-    found = missed([result(values=values(80.0, 96.1, 99.3, None, 90.0))])
+    found = missed([fake_result(values=values(80.0, 96.1, 99.3, None, 90.0))])
     assert found["probe", "cltp", "contact", "shape"] == pytest.approx(4.8)
     assert found["probe", "cltp", "contact", "texture"] == 0
     assert found["probe", "cltp", "contact", "depth"] == 0
@@ -61,14 +44,14 @@ def test_a_figure_is_missed_by_what_lacks_to_the_papers() -> None:
 
 
 def test_unseen_objects_may_be_three_points_lower() -> None:
-    found = missed([result(trial="object", values=values(81.8, 93.0, 96.2, 92.9, 94.1))])
+    found = missed([fake_result(trial="object", values=values(81.8, 93.0, 96.2, 92.9, 94.1))])
     assert found["probe", "cltp", "object", "shape"] == pytest.approx(0)
     assert found["probe", "cltp", "object", "texture"] == pytest.approx(0.1)
 
 
 def test_noise_lowers_what_is_asked_to_the_ceiling_and_no_further() -> None:
-    ours = result(trial="physics", values=values(70.0, 92.7, 79.0, 81.0, 77.2))
-    ceiling = result(
+    ours = fake_result(trial="physics", values=values(70.0, 92.7, 79.0, 81.0, 77.2))
+    ceiling = fake_result(
         method="ceiling",
         variant="measured",
         trial="physics",
@@ -84,18 +67,20 @@ def test_noise_lowers_what_is_asked_to_the_ceiling_and_no_further() -> None:
 def test_intervals_can_hold_too_little_and_too_much() -> None:
     names = ("depth", "position", "area", "force")
     shares = dict(zip((f"coverage_{n}" for n in names), (86.0, 88.0, 93.5, 92.0), strict=True))
-    found = missed([result(table="numbers", values=shares)])
+    found = missed([fake_result(table="numbers", values=shares)])
     told = [found["numbers", "cltp", "contact", f"coverage_{n}"] for n in names]
     assert told == pytest.approx([2.0, 0.0, 1.5, 0.0])
     errors = {"depth_mm": 0.04, "position_mm": 0.1, "area_percent": 8.5, "force_percent": 9.0}
-    found = missed([result(table="numbers", trial="object", values=errors)])
+    found = missed([fake_result(table="numbers", trial="object", values=errors)])
     assert found["numbers", "cltp", "object", "depth_mm"] == pytest.approx(0.01)
     assert found["numbers", "cltp", "object", "area_percent"] == pytest.approx(0.5)
 
 
 def test_the_order_of_methods_is_compared_where_all_were_measured() -> None:
-    rows = [result(table="zero_shot", values=dict(zip(CLASSES, PAPER["zero_shot", m, "contact"],
-            strict=True)), method=m) for m in ("cltp", "cltp_no_image")]  # fmt: skip
+    papers = {m: PAPER["zero_shot", m, "contact"] for m in ("cltp", "cltp_no_image")}
+    rows = [
+        fake_result(table="zero_shot", method=m, values=values(*five)) for m, five in papers.items()
+    ]
     assert [order.paper == order.ours for order in orders(rows)] == [True] * 5
     lower = dataclasses.replace(rows[0], values=values(1, 1, 99, 99, 99))
     assert [o.paper == o.ours for o in orders([lower, rows[1]])] == [False, False, True, True, True]
@@ -103,8 +88,8 @@ def test_the_order_of_methods_is_compared_where_all_were_measured() -> None:
 
 
 def test_figures_are_those_of_the_usual_encoder() -> None:
-    deep = result(variant="pointbert", values=dict.fromkeys(CLASSES, 90.0))
-    assert nested([deep, result()])["probe"]["cltp"]["contact"]["shape"] == 50.0
+    deep = fake_result(variant="pointbert", values=dict.fromkeys(CLASSES, 90.0))
+    assert nested([deep, fake_result()])["probe"]["cltp"]["contact"]["shape"] == 50.0
     assert nested([deep])["probe"]["cltp"]["contact"]["shape"] == 90.0
     assert "object" not in nested([deep])["probe"]["cltp"]
 
@@ -118,13 +103,13 @@ def test_figures_are_those_of_the_usual_encoder() -> None:
     ],
 )
 def test_the_report_says_which_run_it_is(changed: dict[str, object], expected: str) -> None:
-    said = which_it_is([result(**changed), result(seed=1, **changed)])
+    said = which_it_is([fake_result(**changed), fake_result(seed=1, **changed)])
     assert expected in said
     assert "one seed of pre-training; spread over 2 seeds of probes for CLTP" in said
 
 
 def test_tries_are_shown_with_their_figures(tmp_path: Path) -> None:
-    save(tmp_path, result())
+    save(tmp_path, fake_result())
     assert "What was tried" not in report(tmp_path, tmp_path)[0].read_text()
     head = ",".join(COLUMNS)
     row = 'groups,128 groups,probe,contact,61.5,,,,,"slower, no better",tacgrasp train cltp'
@@ -185,7 +170,7 @@ def test_failures_are_counted_by_class_and_by_the_papers_cases(
     data: ContactDataset, tmp_path: Path
 ) -> None:
     seen, sure = four(["plane", "triangle", "triangle", "peak"], ["plane", "peak", "peak", "peak"])
-    found = collect(result(), data, seen, sure, "probability")
+    found = collect(fake_result(), data, seen, sure, "probability")
     counts = {(f.slot, f.name): (f.wrong, f.contacts) for f in (*found.classes, *found.cases)}
     assert counts["shape", "triangle"] == (2, 2)
     assert counts["shape", "peak"] == (0, 1)
@@ -198,9 +183,9 @@ def test_failures_are_counted_by_class_and_by_the_papers_cases(
     triangle = next(f for f in found.classes if f.name == "triangle")
     assert [one.index for one in triangle.examples] == [2, 1]  # the surest first
     assert (triangle.examples[0].said, triangle.examples[0].said_sure) == ("peak", 0.7)
-    save_failures(tmp_path, result(), found)
+    save_failures(tmp_path, fake_result(), found)
     assert load_failures(tmp_path, "abc") == [found]
-    save(tmp_path, result())
+    save(tmp_path, fake_result())
     page = report(tmp_path, tmp_path)[1].read_text()
     assert page.count("said peak (0.70)") == 2  # as a triangle, and as the paper's case
 
@@ -209,7 +194,9 @@ def test_failures_of_other_data_or_damaged_are_refused(
     data: ContactDataset, tmp_path: Path
 ) -> None:
     seen, sure = four(["plane"] * 4, ["peak"] * 4)
-    path = save_failures(tmp_path, result(), collect(result(), data, seen, sure, "cosine"))
+    path = save_failures(
+        tmp_path, fake_result(), collect(fake_result(), data, seen, sure, "cosine")
+    )
     with pytest.raises(TouchError, match="other data"):
         load_failures(tmp_path, "def")
     path.write_text(path.read_text()[:100])
