@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from scipy.fft import next_fast_len
 from torch import Tensor
 
 _MARGIN_CELLS = 2  # of the coarser grid, around its contact
@@ -31,7 +32,8 @@ class Box:
 def boxes_around(contact: Tensor) -> list[Box]:
     """Boxes on the next finer grid around contacts (B, h, w); the whole of it where there is none.
 
-    Sizes go by steps, so that few spectra are needed, and that many share one.
+    Sizes go by steps, so that few spectra are needed, and that many share one; steps are as many as
+    a Fourier transform likes.
     """
     step = _STEP_CPU if contact.device.type == "cpu" else _STEP_DEVICE
     downs = _spans(contact.any(2).cpu(), step)
@@ -50,7 +52,8 @@ def _spans(on: Tensor, step: int) -> list[tuple[int, int]]:
         at = row.nonzero()[0]
         low, high = (at[0], at[-1] + 1) if len(at) else (0, size)
         low, high = max(0, int(low) - _MARGIN_CELLS), min(size, int(high) + _MARGIN_CELLS)
-        length = min(2 * size, -(-2 * (high - low) // step) * step)
+        steps = next_fast_len(-(-2 * (high - low) // step), real=True)
+        length = min(2 * size, steps * step)
         first = max(0, low + high - length // 2)
         spans.append((min(first, 2 * size - length), length))
     return spans

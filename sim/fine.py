@@ -8,138 +8,24 @@ whole field, so that the shortcut never decides anything.
 
 How far this is from the solve on the whole grid is measured by ``tacgrasp bench tcl3d``.
 
-Not here: the solver (``sim.contact``), materials and the plain press (``sim.gel``).
+Not here: how one grid is solved (``sim.levels``), materials and the plain press (``sim.gel``).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from functools import lru_cache
+from collections.abc import Callable
 
 import torch
 from torch import Tensor
 from torch.nn.functional import avg_pool2d, interpolate
 
-from sim.boxes import Box, boxes_around, by_size, escaped_from
-from sim.compliance import GelMaterial, Spectrum, layer_kernel, love_kernel, spectrum_from
-from sim.contact import NO_BODY_MM, Solution, solve
+from sim.boxes import Box, boxes_around, escaped_from
+from sim.compliance import GelMaterial
+from sim.contact import NO_BODY_MM, Solution
 from sim.gel import ElasticLayer, Press
-
-TOLERANCE = 1e-3
-"""Of every level: residual gap over the mean displacement in contact, root mean square."""
+from sim.levels import TOLERANCE, Level
 
 _FEWEST_CELLS = 24  # along the shorter side of the coarsest grid
-_MARGIN_CELLS = 2  # of the coarser grid, around its contact
-_BOX_STEP_CPU, _BOX_STEP_DEVICE = (
-    16,
-    80,
-)  # an accelerator wants few sizes, and many contacts of each
-_OVERLAP_MM = 2e-4  # outside of a box; a fifth of what is stored
-
-
-@lru_cache(maxsize=24)
-def _kernel(material: GelMaterial | None, rows: int, columns: int, pitch_mm: float) -> Tensor:
-    if material is None:
-        return love_kernel(rows, columns, pitch_mm)
-    return layer_kernel(rows, columns, pitch_mm, material)
-
-
-@lru_cache(maxsize=512)
-def _spectrum(
-    material: GelMaterial | None,
-    grid: tuple[int, int, float],
-    size: tuple[int, int],
-    dtype: torch.dtype,
-    device: torch.device,
-) -> Spectrum:
-    """Of a box within a grid (rows, columns, pitch): a corner of the grid's kernel."""
-    return spectrum_from(_kernel(material, *grid)[: size[0], : size[1]], dtype, device)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Level:
-    """One grid of the cascade, and E* of each body that presses (None: rigid)."""
-
-    layer: ElasticLayer
-    moduli_mpa: Tensor | None
-
-    def _spectrum_of(self, size: tuple[int, int], chosen: Tensor, *, both: bool) -> Spectrum:
-        layer = self.layer
-        grid = (layer.rows, layer.columns, layer.pitch_mm)
-        gel = _spectrum(layer.material, grid, size, layer.dtype, layer.device)
-        if self.moduli_mpa is None or not both:
-            return gel
-        body = _spectrum(None, grid, size, layer.dtype, layer.device)
-        inverse = (1.0 / self.moduli_mpa[chosen])[:, None, None]
-        return replace(gel, values=gel.values + inverse * body.values)
-
-    def surface(self, solved: Solution, gap: Tensor) -> tuple[Tensor, Tensor]:
-        """Surface of the gel, and the deformed gap between it and the body, both (B, H, W)."""
-        height = self._displacement(solved.pressure_mpa, both=False)
-        total = height
-        if self.moduli_mpa is not None:
-            total = self._displacement(solved.pressure_mpa, both=True)
-        return height, total + gap - solved.approach_mm[:, None, None]
-
-    def short_wave_share(self) -> Tensor | float:
-        """Share of the gel in the residual, which is short against the gel: as of half-spaces."""
-        if self.moduli_mpa is None:
-            return 1.0
-        gel = 1.0 / self.layer.material.plane_strain_mpa
-        return (gel / (gel + 1.0 / self.moduli_mpa))[:, None, None]
-
-    def _displacement(self, pressure_mpa: Tensor, *, both: bool) -> Tensor:
-        size = (self.layer.rows, self.layer.columns)
-        # A few at a time, for their padded spectra; one where a cache is what counts.
-        few = 1 if self.layer.device.type == "cpu" else 256
-        parts = torch.arange(len(pressure_mpa), device=self.layer.device).split(few)
-        return torch.cat(
-            [self._spectrum_of(size, part, both=both).apply(pressure_mpa[part]) for part in parts]
-        )
-
-    def solve(
-        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
-    ) -> Solution:
-        """Solve every contact in its box; those whose boxes are equally large together.
-
-        Args:
-            boxes: One for each contact.
-            gap: (B, H, W), ``NO_BODY_MM`` where no pressure can act [mm].
-            load: (B,) [N] if ``by_force``, else [mm].
-            start: (B, H, W) [MPa].
-            by_force: Which of the two is given.
-        """
-        pressure = torch.zeros_like(gap)
-        approach = torch.zeros_like(load)
-        iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)
-        converged = torch.ones(len(load), dtype=torch.bool, device=gap.device)
-        for size, members in by_size(boxes, one_by_one=gap.device.type == "cpu"):
-            chosen = torch.tensor(members, device=gap.device)
-            target = load[chosen]
-            first = torch.stack([boxes[i].of(start[i]) for i in members])
-            inside = torch.stack([boxes[i].of(gap[i]) for i in members])
-            first = first.clamp(min=0) * (inside < NO_BODY_MM)
-            if by_force:
-                target = target / self.layer.pitch_mm**2
-                total = first.flatten(1).sum(1).clamp(min=1e-30)
-                first = first * (target / total)[:, None, None]
-            solved = solve(
-                self._spectrum_of(size, chosen, both=True),
-                inside,
-                target,
-                by_force=by_force,
-                start_mpa=first,
-                stiffness=self.layer.stiffness,
-                tol=TOLERANCE,
-                max_iterations=300,
-            )
-            for place, i in enumerate(members):
-                boxes[i].of(pressure[i]).copy_(solved.pressure_mpa[place])
-            approach[chosen] = solved.approach_mm
-            iterations[chosen], converged[chosen] = solved.iterations, solved.converged
-        return Solution(
-            pressure_mpa=pressure, approach_mm=approach, iterations=iterations, converged=converged
-        )
 
 
 class FineLayer:
@@ -216,32 +102,57 @@ class FineLayer:
         by_force: bool,
     ) -> Press:
         gap, loads = self.finest.checked(gap_mm, load, by_force=by_force)
-        gaps = [gap]
+        gaps = [self._reachable(gap)]
         for _ in self._layers[1:]:
-            gaps.insert(0, _coarser(gaps[0]))
+            gaps.insert(0, _of_each_body(_coarser, gaps[0]))
         coarsest = self._layers[0]
-        press = coarsest.press_to_force if by_force else coarsest.press_to_depth
         before = None if start is None else _pooled(start, gap.shape[1] // coarsest.rows)
-        coarse = press(gaps[0], loads, start=before, tol=TOLERANCE)
         if len(self._layers) == 1:
-            return coarse
-        pressure, moduli = coarse.pressure_kpa * 1e-3, self._moduli(len(loads))
+            press = coarsest.press_to_force if by_force else coarsest.press_to_depth
+            return press(gap, loads, start=before, tol=TOLERANCE)
+        pressure, moduli = (
+            self._coarsest(gaps[0], loads, before, by_force=by_force),
+            self._moduli(len(loads)),
+        )
+        gaps[-1] = gap
         for layer, finer in zip(self._layers[1:], gaps[1:], strict=True):
-            level = _Level(layer=layer, moduli_mpa=moduli)
+            level = Level(layer=layer, moduli_mpa=moduli)
             boxes = boxes_around(pressure > 0)
             solved = level.solve(boxes, finer, loads, _finer(pressure), by_force=by_force)
             pressure = solved.pressure_mpa
         return _whole(level, gap, loads, boxes, solved, by_force=by_force)
 
+    def _coarsest(
+        self, gap: Tensor, loads: Tensor, before: Tensor | None, *, by_force: bool
+    ) -> Tensor:
+        """Pressure on the coarsest grid [MPa]."""
+        layer = self._layers[0]
+        if by_force:
+            press = layer.press_to_force(gap, loads, start=before, tol=TOLERANCE)
+            return press.pressure_kpa * 1e-3
+        field = Box(top=0, left=0, rows=layer.rows, columns=layer.columns)
+        level = Level(layer=layer, moduli_mpa=self._moduli(len(loads)))
+        first = layer.first_pressure(before, gap, loads)
+        return level.solve([field] * len(loads), gap, loads, first, by_force=False).pressure_mpa
+
+    def _reachable(self, gap: Tensor) -> Tensor:
+        """Without what lies further away than the gel is thick: no mean may count it in."""
+        return torch.where(gap < self.finest.material.thickness_mm, gap, NO_BODY_MM)
+
     def _moduli(self, batch: int) -> Tensor | None:
         if self._modulus is None:
             return None
         modulus = torch.as_tensor(self._modulus, dtype=self.finest.dtype, device=self.finest.device)
+        if modulus.numel() not in (1, batch):
+            raise ValueError(
+                f"body_modulus_mpa was given for {modulus.numel()} bodies, "
+                f"but {batch} are pressed; give as many of both"
+            )
         return modulus.reshape(-1).expand(batch)
 
 
 def _whole(
-    level: _Level,
+    level: Level,
     gap: Tensor,
     loads: Tensor,
     boxes: list[Box],
@@ -283,6 +194,13 @@ def _factors(rows: int, columns: int) -> list[int]:
             and min(rows, columns) // factor >= _FEWEST_CELLS
         )
     ]
+
+
+def _of_each_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
+    """Change gaps (B, H, W), once where they are one body's, expanded."""
+    if gap.stride(0) != 0:
+        return change(gap)
+    return change(gap[:1]).expand(len(gap), -1, -1)
 
 
 def _coarser(gap: Tensor) -> Tensor:

@@ -173,7 +173,7 @@ class ElasticLayer:
         """
         gap, force = self.checked(gap_mm, force_n, by_force=True, mask=mask)
         target = force / self.pitch_mm**2
-        guess = self._start(start, gap, self._springs_depth(gap, target))
+        guess = self.first_pressure(start, gap, self._springs_depth(gap, target))
         total = guess.flatten(1).sum(1).clamp(min=1e-30)
         solution = solve(
             self._compliance(gap.shape[0]),
@@ -216,7 +216,7 @@ class ElasticLayer:
             gap,
             depth,
             by_force=False,
-            start_mpa=self._start(start, gap, depth),
+            start_mpa=self.first_pressure(start, gap, depth),
             stiffness=self.stiffness,
             tol=tol,
             max_iterations=max_iterations,
@@ -285,6 +285,9 @@ class ElasticLayer:
     def _body(self, gap_mm: Tensor, mask: Tensor | None) -> Tensor:
         """Checked gap, ``NO_BODY_MM`` where no pressure can act."""
         gap = self._field(gap_mm, "gap_mm")
+        batch = len(gap)
+        if gap.stride(0) == 0:  # one body, expanded
+            gap = gap[:1]
         if not bool((gap >= -1e-5).all()):
             raise ValueError(
                 "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
@@ -299,7 +302,7 @@ class ElasticLayer:
                     f"{self.columns}; got {field.dtype} {tuple(field.shape)}"
                 )
             gap = torch.where(field, gap, NO_BODY_MM)
-        return gap
+        return gap if len(gap) == batch else gap.expand(batch, -1, -1)
 
     def _springs_depth(self, gap: Tensor, target: Tensor) -> Tensor:
         """Depth at which springs of the guessed stiffness carry ``target``.
@@ -316,8 +319,17 @@ class ElasticLayer:
             depth = depth - (sunk.sum(1) - carried).clamp(min=0) / pressed
         return depth
 
-    def _start(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
-        """First pressures [MPa]: what was given where it presses at all, else springs."""
+    def first_pressure(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
+        """First pressures (B, H, W) [MPa]: what was given where it presses at all, else springs.
+
+        Args:
+            start: As for ``press_to_force``.
+            gap: As ``checked`` gives it, (B, H, W) [mm].
+            depth: Of the springs, (B,) [mm].
+
+        Raises:
+            ValueError: ``start`` has another shape than ``gap``.
+        """
         limit = depth.clamp(max=NO_BODY_MM)[:, None, None]
         springs = ((limit - gap) * self.stiffness).clamp_(min=0)
         if start is None:

@@ -21,6 +21,7 @@ from sim import tcl3d
 from sim.compliance import Spectrum
 from sim.fine import FineLayer
 from sim.gel import Press
+from sim.single import Convolution
 from sim.tcl3d import Order, Scene, draw_scene, order_of
 
 ROWS, COLUMNS = 240, 320
@@ -37,14 +38,15 @@ class Made:
         contacts: How many.
         begin_s, end_s: On the machine's clock, which all processes share.
         stage_s: Seconds of processor time in each of ``STAGES``, which no neighbour can stretch.
-        transforms: Padded sizes (rows, columns) of the convolutions, and how many of each.
+        transforms: Sizes of the convolutions, and how many of each: rows that hold anything, and
+            padded rows and columns.
     """
 
     contacts: int
     begin_s: float
     end_s: float
     stage_s: dict[str, float]
-    transforms: dict[tuple[int, int], int]
+    transforms: dict[tuple[int, int, int], int]
 
 
 @contextmanager
@@ -55,16 +57,25 @@ def resolution(rows: int, columns: int) -> Iterator[None]:
 
 
 @contextmanager
-def _counted(transforms: dict[tuple[int, int], int]) -> Iterator[None]:
-    """Count convolutions by their padded sizes."""
-    apply = Spectrum.apply
+def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
+    """Count convolutions by their sizes, those of batches and those of single contacts."""
+    of_batches, of_one = Spectrum.apply, Convolution.apply
+
+    def count(size: tuple[int, int, int], num: int) -> None:
+        transforms[size] = transforms.get(size, 0) + num
 
     def counting(self: Spectrum, pressure_mpa: Tensor) -> Tensor:
-        size = (self.padded_rows, self.padded_columns)
-        transforms[size] = transforms.get(size, 0) + len(pressure_mpa)
-        return apply(self, pressure_mpa)
+        count((self.rows, self.padded_rows, self.padded_columns), len(pressure_mpa))
+        return of_batches(self, pressure_mpa)
 
-    with patch.object(Spectrum, "apply", counting):
+    def counting_one(self: Convolution, field: Tensor) -> Tensor:
+        count((field.shape[0], *self.padded), 1)
+        return of_one(self, field)
+
+    with (
+        patch.object(Spectrum, "apply", counting),
+        patch.object(Convolution, "apply", counting_one),
+    ):
         yield
 
 
@@ -98,7 +109,7 @@ def solved(order: Order, scene: Scene, approach: list[float], device: str) -> Pr
 def make(numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS, COLUMNS)) -> Made:
     """Make series of contacts from object to caption, one after the other, and time each stage."""
     stage_s = dict.fromkeys(STAGES, 0.0)
-    transforms: dict[tuple[int, int], int] = {}
+    transforms: dict[tuple[int, int, int], int] = {}
     contacts, begin = 0, time.monotonic()
     with resolution(*grid), _counted(transforms):
         for number in numbers:

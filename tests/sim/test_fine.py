@@ -6,7 +6,7 @@ import pytest
 import torch
 
 from sim import fine
-from sim.boxes import Box
+from sim.boxes import Box, boxes_around
 from sim.fine import FineLayer
 from sim.gel import ElasticLayer, GelMaterial, gel_of
 
@@ -166,3 +166,25 @@ def test_a_thick_gel_is_pressed_too():
     whole = ElasticLayer(thick, rows=ROWS, columns=COLUMNS, pitch_mm=PITCH)
     seen, truth = (one.press_to_depth(ball(5.0), 0.4) for one in (gel, whole))
     assert seen.force_n.item() == pytest.approx(truth.force_n.item(), rel=2e-3)
+
+
+def test_one_body_at_several_depths_is_pressed_as_so_many_bodies():
+    gap, depth = ball(4.0), torch.tensor([0.2, 0.6])
+    expanded = layers()[0].press_to_depth(gap.expand(2, -1, -1), depth)
+    repeated = layers()[0].press_to_depth(gap.repeat(2, 1, 1), depth)
+    assert torch.equal(expanded.height_mm, repeated.height_mm)
+    assert torch.equal(expanded.pressure_kpa, repeated.pressure_kpa)
+
+
+def test_what_lies_behind_a_thin_body_does_not_keep_it_off_on_the_coarser_grids(monkeypatch):
+    y, _ = axes()
+    bar = torch.where(y.abs() < 1.5 * PITCH, 0.0, 50.0).expand(1, ROWS, COLUMNS)
+    boxes = []
+
+    def noted(contact):
+        boxes.append(contact)
+        return boxes_around(contact)
+
+    monkeypatch.setattr(fine, "boxes_around", noted)
+    layers()[0].press_to_depth(bar, 0.3)
+    assert all(contact.any() for contact in boxes)
