@@ -87,6 +87,7 @@ class EncoderConfig:
 PRESETS: dict[str, EncoderConfig] = {
     "tiny": EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8),
     "small": EncoderConfig(bearing=64, projection=256),
+    "small_plain": EncoderConfig(),
     "small_pointbert": EncoderConfig(tokenizer="fps"),
     "small_image": EncoderConfig(tokenizer="image"),
     "pointbert": EncoderConfig(tokenizer="fps", dim=384, depth=12, heads=6, stem_dim=128),
@@ -94,9 +95,9 @@ PRESETS: dict[str, EncoderConfig] = {
         tokenizer="fps", dim=384, depth=18, heads=6, stem_dim=128, feature_dim=1280
     ),
 }
-"""``small_pointbert``, ``small_image``: the reference and a vision transformer at the size of
-``small``. ``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP
-ViT-bigG-14."""
+"""``small_plain``: ``small`` without bearing curve and projection. ``small_pointbert``,
+``small_image``: the reference and a vision transformer of that size. ``pointbert``: Point-BERT at
+1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14."""
 
 
 class Encoded(NamedTuple):

@@ -40,6 +40,7 @@ class Order:
     texts: str = "mixed"
     prompt_weight: float = 1.0
     head_weight: float = 1.0
+    read_weight: float = 1.0
     precision: str = "no"
     seed: int = 0
     seeds: int = 1
@@ -56,6 +57,7 @@ class Order:
             texts=self.texts,
             prompt_weight=self.prompt_weight,
             head_weight=self.head_weight,
+            read_weight=self.read_weight,
             with_images=self.with_images,
         )
 

@@ -46,6 +46,7 @@ class Wish:
         texts: What is said of contacts.
         prompt_weight: Of the contrast with one prompt a class.
         head_weight: Of the state heads.
+        read_weight: Of letting CLIP's texts be read back.
         with_images: Whether L_T2I is minimised.
     """
 
@@ -55,6 +56,7 @@ class Wish:
     texts: str = "mixed"
     prompt_weight: float = 1.0
     head_weight: float = 1.0
+    read_weight: float = 1.0
     with_images: bool = True
 
     def config(self, method: str) -> EncoderConfig:
@@ -118,6 +120,7 @@ def pretrain_clip(
         texts=wish.texts,
         several=wish.texts != "caption",
         prompt_weight=wish.prompt_weight,
+        read_weight=wish.read_weight,
         seed=seed,
         report=report,
         workers=workers,
