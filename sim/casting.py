@@ -33,7 +33,9 @@ BACK_MM = 25.0
 BEYOND_MM = 4.0
 """What lies further behind the foremost point is out of the gel's reach."""
 
-_STEPS, _NEAR_MM, _ALONGSIDE_MM = 64, 2e-4, 0.01
+STEPS, NEAR_MM, ALONGSIDE_MM = 64, 2e-4, 0.01
+"""Of sphere tracing: most steps, what is as good as there, and what is still on its way along a
+steep wall and counts as there."""
 
 
 class Castable(Protocol):
@@ -48,6 +50,13 @@ class Castable(Protocol):
         """How far rays from ``origins`` (N, 3) go along a unit vector (3,); inf if they miss [mm].
 
         NaN where a ray starts inside.
+        """
+        ...
+
+    def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """The same for a grid of rays, origins (H, W, 3), as (H, W).
+
+        What lies more than ``BEYOND_MM`` behind the foremost may count as missed.
         """
         ...
 
@@ -75,12 +84,12 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
     hit = torch.full_like(travelled, torch.inf)
     index = torch.arange(origins.shape[0], device=origins.device)
     away, going = travelled, travelled < far_mm
-    for step in range(_STEPS):
+    for step in range(STEPS):
         away = solid.distance(origins + travelled[:, None] * along)
-        arrived = away < _NEAR_MM
+        arrived = away < NEAR_MM
         found = travelled + away
         if step == 0:
-            found = torch.where(away < -_NEAR_MM, torch.nan, found)
+            found = torch.where(away < -NEAR_MM, torch.nan, found)
         hit[index[arrived]] = found[arrived]
         travelled = travelled + away / solid.steep
         if step % 8 == 7:  # what lies behind the gel's reach needs no more steps
@@ -91,7 +100,7 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
             return hit
         origins, travelled, index = origins[going], travelled[going], index[going]
     # Still on their way: along a steep wall. They have arrived there, or end far behind the rim.
-    hit[index] = torch.where(away[going] < _ALONGSIDE_MM, travelled, torch.inf)
+    hit[index] = torch.where(away[going] < ALONGSIDE_MM, travelled, torch.inf)
     return hit
 
 
@@ -237,14 +246,16 @@ def feel(
     towards = object_from_pad[:, 2]
     flat = np.stack([x_mm.ravel(), y_mm.ravel()], axis=1) @ object_from_pad[:, :2].T
     origins = point + BACK_MM * towards + flat
-    rays = torch.from_numpy(origins.astype(np.float32)).to(device)
+    rays = torch.from_numpy(origins.astype(np.float32)).view(*x_mm.shape, 3).to(device)
     along = torch.from_numpy((-towards).astype(np.float32)).to(device)
-    far = thing.surface(rays, along, BACK_MM + 2 * BEYOND_MM).cpu().numpy().astype(np.float64)
+    over = thing.surface_over(rays, along, BACK_MM + 2 * BEYOND_MM).flatten()
+    far = over.cpu().numpy().astype(np.float64)
     if np.isnan(far).any() or not np.isfinite(far).any():
         return None
     gap = far - far.min()
     there = gap < BEYOND_MM
-    points = np.where(there[:, None], origins - np.where(there, far, 0)[:, None] * towards, 0.0)
+    points = np.zeros_like(origins)
+    points[there] = origins[there] - far[there, None] * towards
     return Felt(
         gap_mm=np.where(there, gap, FAR_MM).reshape(x_mm.shape),
         points=points.reshape(*x_mm.shape, 3),

@@ -6,6 +6,7 @@ Not here: solids (``sim.solids``).
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Protocol
@@ -68,6 +69,14 @@ class Flat:
         """See ``Face``."""
         x, y, z = self.normal
         return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - self.offset
+
+
+def behind_flats(flats: Sequence[Flat], points: Tensor) -> Tensor:
+    """``behind`` of several planes at once, the planes first, to the last bit."""
+    each = (-1, *[1] * (points.ndim - 1))
+    x, y, z = (way.view(each) for way in points.new_tensor([flat.normal for flat in flats]).T)
+    offset = points.new_tensor([flat.offset for flat in flats]).view(each)
+    return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - offset
 
 
 @dataclass(frozen=True, slots=True)

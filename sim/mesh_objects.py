@@ -131,6 +131,10 @@ class MeshThing(Thing):
             raise TypeError(f"{self.name} is not made of a mesh")
         return solid.rays(origins, along, far_mm)
 
+    def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """See ``sim.casting.Castable``."""
+        return self.surface(origins.view(-1, 3), along, far_mm).view(origins.shape[:2])
+
 
 def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cell, ...]]:
     """Region of every face, and what each region is."""

@@ -8,11 +8,10 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field, replace
 
-import torch
 from torch import Tensor
 
 from sim.faces import Cell, Vector
-from sim.solids import Solid
+from sim.solids import Solid, stacked_as
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +43,7 @@ class Placed:
             return own
         x, y, z = own.unbind(-1)
         # Not a matrix product: its rounding may depend on the number of points.
-        return torch.stack([x * a + y * b + z * c for a, b, c in self.turn], dim=-1)
+        return stacked_as(points, *(x * a + y * b + z * c for a, b, c in self.turn))
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""

@@ -18,12 +18,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Protocol
 
 import torch
 from torch import Tensor
 
-from sim.faces import Cell, Face, Form, Ripple, Vector
+from sim.faces import Cell, Face, Flat, Form, Ripple, Vector, behind_flats
 
 
 class Solid(Protocol):
@@ -51,6 +52,16 @@ class Solid(Protocol):
     def cell(self, points: Tensor) -> Tensor:
         """Number of the nearest cell for ``points`` (..., 3) near the surface, int64 (...)."""
         ...
+
+
+def stacked_as(points: Tensor, *coordinates: Tensor) -> Tensor:
+    """Coordinates (...) as points (..., 3), laid out in memory as ``points`` are.
+
+    Functions of a coordinate may differ in the last bit between layouts.
+    """
+    if points.stride(-1) == 1:
+        return torch.stack(coordinates, dim=-1)
+    return torch.stack(coordinates).movedim(0, -1)
 
 
 _MOST_CRESTS = 64
@@ -85,7 +96,16 @@ class Cut:
         return (*(face.cell for face in self.faces), *crest * _MOST_CRESTS)
 
     def _behind(self, points: Tensor) -> Tensor:
-        return torch.stack([face.behind(points) for face in self.faces])
+        """Distance to each face, the faces first."""
+        behind = []
+        for _, alike in groupby(self.faces, key=lambda face: isinstance(face, Flat)):
+            faces = list(alike)
+            flats = [face for face in faces if isinstance(face, Flat)]
+            if flats:
+                behind.append(behind_flats(flats, points))
+            else:
+                behind += [face.behind(points)[None] for face in faces]
+        return behind[0] if len(behind) == 1 else torch.cat(behind)
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
@@ -199,21 +219,28 @@ class Rods:
         """Of the furthest end."""
         return max(math.hypot(*end) for rod in self.ends for end in rod) + self.radius
 
-    def _all(self, points: Tensor) -> Tensor:
+    def _squared(self, points: Tensor) -> Tensor:
+        """Squared distance to the middle of each rod, the rods first."""
+        x, y, z = points.unbind(-1)
         start = points.new_tensor([rod[0] for rod in self.ends])
         along = points.new_tensor([rod[1] for rod in self.ends]) - start
-        beside = points[..., None, :] - start
-        length = along.square().sum(-1).clamp(min=1e-9)  # a rod without length is a ball
-        share = ((beside * along).sum(-1) / length).clamp(0, 1)
-        return (beside - share[..., None] * along).square().sum(-1).sqrt()
+        length = along.square().sum(-1).clamp(min=1e-9)
+        each = (-1, *[1] * x.ndim)
+        a, b, c = (way.view(each) for way in along.unbind(-1))
+        # Coordinate by coordinate: sums over an axis of three take several times as long.
+        u, v, w = (at - of.view(each) for at, of in zip((x, y, z), start.unbind(-1), strict=True))
+        if bool(along.any()):  # else they are balls
+            share = ((u * a + v * b + w * c) / length.view(each)).clamp_(0, 1)
+            u, v, w = u - share * a, v - share * b, w - share * c
+        return u * u + v * v + w * w
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        return self._all(points).amin(-1) - self.radius
+        return self._squared(points).amin(0).sqrt() - self.radius
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        return self._all(points).argmin(-1)
+        return self._squared(points).sqrt().argmin(0)
 
 
 def dots(at: Sequence[tuple[float, float]], z: float, radius: float) -> Rods:
@@ -328,7 +355,7 @@ class Around:
         cos, sin = torch.cos(copy * step), torch.sin(copy * step)
         x = points[..., 0] * cos + points[..., 1] * sin
         y = points[..., 1] * cos - points[..., 0] * sin
-        return torch.stack([x, y, points[..., 2]], dim=-1), copy.long() % self.count
+        return stacked_as(points, x, y, points[..., 2]), copy.long() % self.count
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
