@@ -111,8 +111,10 @@ class Thing:
 
     def cell(self, points: Tensor) -> Tensor:
         """Number of the nearest cell for points (..., 3) near its surface, int64 (...)."""
-        best = self.parts[0].solid.distance(points)
         number = self.parts[0].solid.cell(points)
+        if len(self.parts) == 1:
+            return number
+        best = self.parts[0].solid.distance(points)
         first = len(self.parts[0].solid.cells)
         for part in self.parts[1:]:
             away = part.solid.distance(points)

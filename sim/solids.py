@@ -117,7 +117,11 @@ class Cut:
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        nearest = self._behind(points).argmax(0)
+        behind = self._behind(points)
+        foremost, nearest = behind[0], torch.zeros_like(behind[0], dtype=torch.int64)
+        for number, own in enumerate(behind[1:], start=1):  # argmax over few is slow
+            nearest = torch.where(own > foremost, number, nearest)
+            foremost = torch.maximum(foremost, own)
         for number, face in enumerate(self.faces):
             if isinstance(face, Ripple):
                 crest = torch.round(points[..., 0] / face.period).long() + _MOST_CRESTS // 2
