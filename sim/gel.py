@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import torch
 from torch import Tensor
@@ -105,10 +106,9 @@ class ElasticLayer:
             raise ValueError(f"a gel computes in float32 or float64, got {dtype}")
         self.material, self.rows, self.columns, self.pitch_mm = material, rows, columns, pitch_mm
         self.dtype, self.device = dtype, torch.device(device)
-        self._gel = spectrum_of(material, rows, columns, pitch_mm, dtype, self.device)
-        self._both = self._gel
-        if body_modulus_mpa is not None:
-            self._both = self._with_body(body_modulus_mpa)
+        self._modulus = (
+            None if body_modulus_mpa is None else self._checked_modulus(body_modulus_mpa)
+        )
         # Stiffness of the layer to a wave as long as itself (a half-space: as the grid), for
         # first guesses only.
         size = min(material.thickness_mm, 0.5 * pitch_mm * max(rows, columns))
@@ -118,21 +118,34 @@ class ElasticLayer:
         else:
             self.stiffness = 1.0 / float(layer_compliance(wave, material))
 
-    def _with_body(self, modulus_mpa: float | Tensor) -> Spectrum:
-        """Gel and body in series."""
+    def _checked_modulus(self, modulus_mpa: float | Tensor) -> Tensor:
         modulus = torch.as_tensor(modulus_mpa, dtype=self.dtype, device=self.device)
         if modulus.ndim > 1 or not bool((modulus > 0).all()):
             raise ValueError(
                 f"body_modulus_mpa must be > 0, one number or (B,), got {modulus_mpa}; "
                 "None is a rigid body"
             )
-        unit = spectrum_of(
-            None, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
-        ).values
-        inverse = 1.0 / modulus
-        if modulus.ndim == 1:
+        return modulus
+
+    def _spectrum(self, material: GelMaterial | None) -> Spectrum:
+        return spectrum_of(
+            material, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
+        )
+
+    @cached_property
+    def _gel(self) -> Spectrum:
+        """Made when first used: ``sim.fine`` needs it of few of its grids."""
+        return self._spectrum(self.material)
+
+    @cached_property
+    def _both(self) -> Spectrum:
+        """Gel and body in series."""
+        if self._modulus is None:
+            return self._gel
+        inverse = 1.0 / self._modulus
+        if inverse.ndim == 1:
             inverse = inverse[:, None, None]
-        return replace(self._gel, values=self._gel.values + inverse * unit)
+        return replace(self._gel, values=self._gel.values + inverse * self._spectrum(None).values)
 
     def surface(self, pressure_kpa: Tensor) -> Tensor:
         """Displacement of the gel's surface, positive into the gel.
