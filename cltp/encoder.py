@@ -23,6 +23,7 @@ from torch import Tensor, nn
 
 from cltp.errors import TouchError
 from cltp.point_tokens import (
+    Bearing,
     BearingCurve,
     FpsTokenizer,
     LatticeTokenizer,
@@ -47,7 +48,7 @@ class EncoderConfig:
         stem_dim: Channels of ``lattice`` before its groups; width of the PointNet in ``fps``.
         stem_blocks: Pairs of convolutions in ``lattice``.
         feature_dim: Width of the aligned feature, that of CLIP.
-        bearing: Samples of the bearing curve that the class token of ``lattice`` sees; 0: none.
+        bearing: Heights along the bearing curve beside ``lattice``; 0 for none.
         projection: Hidden width of the way from pooled tokens to the aligned feature; 0 for one
             matrix, as in the paper.
 
@@ -105,7 +106,8 @@ class Encoded(NamedTuple):
 
     Attributes:
         tokens: Shape (B, G + 1, C); the class token first.
-        pooled: Shape (B, 2 C): the class token and the maximum over the groups.
+        pooled: Shape (B, 2 C): the class token and the maximum over the groups, plus what the
+            bearing curve adds where there is one.
         feature: Shape (B, F): aligned with CLIP, not yet normalised.
     """
 
@@ -144,23 +146,24 @@ class TactileEncoder(nn.Module):
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3); ``lattice`` needs the order of ``cltp.inputs``."""
         tokens = self.tokenizer(points)
-        x = self.mixed(tokens, self.class_token(tokens, points))
+        bearing = None if self.bearing is None else self.bearing(points)
+        x = self.mixed(tokens, self.class_token(tokens, bearing))
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
+        if bearing is not None:
+            pooled = pooled + bearing.pooled
         return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
 
-    def class_token(self, tokens: Tensor, points: Tensor) -> Tensor:
-        """The class token, shape (B, 1, C), of what can be read without attention.
+    def class_token(self, tokens: Tensor, bearing: Bearing | None) -> Tensor:
+        """The class token, shape (B, 1, C), with what can be read without attention.
 
         Args:
             tokens: Of the groups, shape (B, G, C).
-            points: What may be known of the points, shape (B, N, 3).
+            bearing: Of the points' bearing curve, where the encoder has one.
         """
         cls = self.cls.expand(len(tokens), -1, -1)
         if self.survey is not None:
             cls = cls + self.survey(tokens)
-        if self.bearing is not None:
-            cls = cls + self.bearing(points)
-        return cls
+        return cls if bearing is None else cls + bearing.token
 
     def mixed(self, tokens: Tensor, cls: Tensor) -> Tensor:
         """All layers over the class token and any tokens (B, T, C): shape (B, T + 1, C)."""

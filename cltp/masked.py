@@ -85,7 +85,8 @@ def visible_tokens(
         points = torch.where(whole.reshape(len(points), -1, 1), points * flat, points)
         tokens = tokenizer(points)
     tokens = tokens * ~hidden[..., None]
-    return tokens, encoder.class_token(tokens, points)
+    bearing = None if encoder.bearing is None else encoder.bearing(points)
+    return tokens, encoder.class_token(tokens, bearing)
 
 
 def hide(count: int, num_groups: int, batch: int, rng: torch.Generator) -> Tensor:

@@ -5,6 +5,8 @@ The three tokenizers of ``cltp.encoder``, in pure torch.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
@@ -31,27 +33,54 @@ class Survey(nn.Module):
         return self.out(F.relu(self.wide(flat)))[:, None]
 
 
+class Bearing(NamedTuple):
+    """What a bearing curve adds to an encoding.
+
+    Attributes:
+        token: Shape (B, 1, C), to the class token before all layers.
+        pooled: Shape (B, 2 C), to the pooled tokens after them.
+    """
+
+    token: Tensor
+    pooled: Tensor
+
+
 class BearingCurve(nn.Module):
     """How much of the field lies how deep: the bearing-area curve of surface metrology.
 
-    The heights of all points in falling order, at ranks that lie dense near the deepest. Depth is
-    its begin, the area of contact a place along it: read off directly, to the precision of the
-    points, where convolutions have to carry it through rounds of mixing.
+    The heights of all points in falling order: the deepest one by one, the others thinned out.
+    Depth is where it begins, the area of contact a place along it. A small network on nothing else
+    reads depth more precisely than an encoder without it (docs/pretraining.md), so that it goes to
+    the class token, and past all layers and their norms to the pooled tokens too.
 
     Source: the material ratio curve of ISO 21920-2 (Abbott and Firestone), over points.
+
+    Args:
+        dim: Width C of the tokens.
+        samples: Heights along the curve; half of them are the deepest.
+        hidden: Width of both layers.
     """
 
     def __init__(self, dim: int, samples: int, hidden: int = 256) -> None:
         super().__init__()
         self.samples = samples
-        self.mlp = nn.Sequential(nn.Linear(samples, hidden), nn.GELU(), nn.Linear(hidden, dim))
+        self.trunk = nn.Sequential(
+            nn.Linear(samples, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
+        )
+        self.token, self.pooled = nn.Linear(hidden, dim), nn.Linear(hidden, 2 * dim)
 
-    def forward(self, points: Tensor) -> Tensor:
-        """Scaled points (B, N, 3) to a token (B, 1, C)."""
+    def forward(self, points: Tensor) -> Bearing:
+        """What the heights of scaled points (B, N, 3) add."""
         heights = points[..., 2].sort(dim=1, descending=True).values
-        ranks = torch.linspace(0, 1, self.samples, device=points.device).square()
-        rows = (ranks * (points.shape[1] - 1)).round().long()
-        return self.mlp(5 * heights[:, rows])[:, None]
+        found = self.trunk(5 * heights[:, self.ranks(points.shape[1])])
+        return Bearing(self.token(found)[:, None], self.pooled(found))
+
+    def ranks(self, count: int) -> Tensor:
+        """Which of so many heights are taken, shape (samples,)."""
+        deepest = self.samples // 2
+        rest = torch.linspace(0, 1, self.samples - deepest + 1)[1:].square()
+        spread = deepest - 1 + (rest * (count - deepest)).round().long()
+        return torch.cat([torch.arange(deepest), spread])
 
 
 class LatticeTokenizer(nn.Module):

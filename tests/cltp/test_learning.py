@@ -197,8 +197,14 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     moved[1] = points[1, torch.randperm(1024)]
     torch.testing.assert_close(curve(moved), curve(points))
     deeper = points.clone()
-    deeper[:, points[0, :, 2].argmax(), 2] += 0.2  # the deepest point of one of them alone
-    assert not torch.equal(curve(deeper)[0], curve(points)[0])
+    deeper[0, points[0, :, 2].argmax(), 2] += 0.2
+    for before, after in zip(curve(points), curve(deeper), strict=True):
+        assert not torch.equal(before[0], after[0])
+        torch.testing.assert_close(before[1], after[1])
+    ranks = curve.ranks(1024)
+    assert ranks[:8].tolist() == list(range(8))
+    assert (ranks.diff() > 0).all()
+    assert ranks[-1] == 1023
 
 
 def test_numbers_survive_their_transformation() -> None:
