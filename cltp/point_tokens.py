@@ -72,15 +72,16 @@ class BearingCurve(nn.Module):
     def forward(self, points: Tensor) -> Bearing:
         """What the heights of scaled points (B, N, 3) add."""
         heights = points[..., 2].sort(dim=1, descending=True).values
-        found = self.trunk(5 * heights[:, self.ranks(points.shape[1])])
+        found = self.trunk(5 * heights[:, bearing_ranks(self.samples, points.shape[1])])
         return Bearing(self.token(found)[:, None], self.pooled(found))
 
-    def ranks(self, count: int) -> Tensor:
-        """Which of so many heights are taken, shape (samples,)."""
-        deepest = self.samples // 2
-        rest = torch.linspace(0, 1, self.samples - deepest + 1)[1:].square()
-        spread = deepest - 1 + (rest * (count - deepest)).round().long()
-        return torch.cat([torch.arange(deepest), spread])
+
+def bearing_ranks(samples: int, count: int) -> Tensor:
+    """Which of ``count`` heights in falling order make a bearing curve, shape (samples,)."""
+    deepest = samples // 2
+    rest = torch.linspace(0, 1, samples - deepest + 1)[1:].square()
+    spread = deepest - 1 + (rest * (count - deepest)).round().long()
+    return torch.cat([torch.arange(deepest), spread])
 
 
 class LatticeTokenizer(nn.Module):

@@ -20,9 +20,10 @@ from cltp.train.board import Board
 from cltp.train.progress import Bar
 from cltp.train.stage import Report
 from cltp.train.workers import joined
+from tacgrasp.place import Place
 from tacgrasp.pretraining import METHODS, Wish, pretrain, pretrain_clip
 from tacgrasp.pretraining_report import report
-from tacgrasp.trying import Place, probe, retrieval, zero_shot
+from tacgrasp.trying import probe, retrieval, zero_shot
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

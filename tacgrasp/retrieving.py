@@ -20,8 +20,9 @@ from cltp.dataset import ContactDataset
 from cltp.zero_shot import nearest_contacts, nearest_texts
 from tacgrasp.errors import UsageError
 from tacgrasp.failures import small_picture
+from tacgrasp.place import Place
 from tacgrasp.trained import stored
-from tacgrasp.trying import Place, captions_of
+from tacgrasp.trying import captions_of
 
 _BAR = 24
 _PICTURE_PX = 224

@@ -9,7 +9,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from tacgrasp.results import METHODS, Result, as_one, grouped, mean, nested
+from tacgrasp.results import METHODS, USUAL, Result, as_one, grouped, mean, nested
 
 
 def show_real(found: Sequence[Result], predictions: Path) -> None:
@@ -30,7 +30,8 @@ def show(found: Sequence[Result], json_path: Path | None) -> None:
     to = to if to.is_terminal else Console(width=160)
     by_table: dict[tuple[str, str], list[tuple[str, list[Result]]]] = {}
     for (table, method, variant, trial), rows in grouped(found).items():
-        name = METHODS[method] + (f" ({variant})" if method != "ceiling" else "")
+        plain = (method, variant) == ("ceiling", USUAL["ceiling"])
+        name = METHODS[method] + ("" if plain else f" ({variant})")
         by_table.setdefault((table, trial), []).append((name, rows))
     for (table, trial), lines in by_table.items():
         count = lines[0][1][0].contacts

@@ -1,15 +1,14 @@
 """Try pre-trained encoders: zero-shot, probes, numbers, retrieval; each figure into a result.
 
 Every method is tried in the same way: the same contacts, the same noise, the same probes. What can
-be computed directly from the same 1024 points stands beside all of them as the ceiling.
+be had from the same 1024 points without an encoder stands beside all of them
+(``tacgrasp.ceilings``).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
 
 from torch import Tensor
 
@@ -17,80 +16,23 @@ from cltp.captions import caption
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
 from cltp.frozen import FrozenEncoder
-from cltp.observed import Observed, observe
+from cltp.observed import Observed
 from cltp.probes import ClassProbes, Judged, NumberProbe, judge, number_scores
-from cltp.samples import CLASSES, CLEAN, NOISY, Augmentation
-from cltp.train.stage import Report, silent
-from cltp.trials import LEARNING, Trial, trials_of
-from cltp.zero_shot import PROMPTINGS, Prompts, measured, retrieve
+from cltp.samples import CLEAN, NOISY
+from cltp.train.stage import Report
+from cltp.trials import LEARNING
+from cltp.zero_shot import PROMPTINGS, Prompts, retrieve
+from tacgrasp.ceilings import ceiling, heights_alone
 from tacgrasp.errors import UsageError
 from tacgrasp.failures import TRIALS as FAILURE_TRIALS
 from tacgrasp.failures import collect, save_failures
+from tacgrasp.place import Place, keep
 from tacgrasp.pretraining import METHODS
-from tacgrasp.results import Result, percent, save
+from tacgrasp.results import Result, save
 from tacgrasp.trained import Trained, checkpoint_of_others, trained
 
 ALIGNED = ("cltp_no_image", "cltp")
 """Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
-
-MEASURED = ("depth", "position", "area")
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
-    """Where things lie, and what is tried.
-
-    Attributes:
-        weights: Folder of all methods.
-        data: A data set of contacts.
-        results: Folder of results.
-        trials: Names of trials; all of the data's when empty.
-        limit: Contacts of each trial; None for all.
-        checkpoint: An image encoder in transformers' format, tried as the one method named.
-        seed: Of noise and probes.
-        command: For the results.
-        report: Told about progress.
-    """
-
-    weights: Path
-    data: Path
-    results: Path
-    trials: tuple[str, ...] = ()
-    limit: int | None = None
-    checkpoint: Path | None = None
-    seed: int = 0
-    command: str = ""
-    report: Report = silent
-
-    @property
-    def checksum(self) -> str:
-        """Of the data."""
-        return ContactDataset(self.data).checksum()
-
-    def trying(self) -> list[Trial]:
-        """The trials."""
-        return trials_of(self.data, self.trials)
-
-    def seen(
-        self,
-        encoder: FrozenEncoder,
-        split: Split,
-        noise: Augmentation,
-        *,
-        views: int = 1,
-        whole: bool = False,
-    ) -> Observed:
-        """Features of a split, from the cache where they are there already."""
-        return observe(
-            encoder,
-            ContactDataset(self.data, split=split),
-            noise,
-            views=views,
-            limit=None if whole else self.limit,
-            seed=self.seed,
-            cache=self.results / ".features",
-            report=self.report,
-        )
 
 
 def trainable(place: Place, methods: Sequence[str]) -> dict[str, Trained]:
@@ -138,7 +80,7 @@ def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
             ):
                 prompts = Prompts(towers, prompting)
                 judged = judge(prompts.said(seen.feature), seen.classes)
-                found.append(_result(place, table, method, how, trial, judged))
+                found.append(keep(place, table, method, how, trial, judged))
                 if table == "zero_shot":
                     _keep_failures(place, found[-1], seen, prompts.cosines(seen.feature), "cosine")
     return found + ceiling(place, ("zero_shot",))
@@ -164,11 +106,11 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
         for trial in trials:
             seen = place.seen(encoder, trial.split, trial.noise)
             judged = judge(probes.said(seen), seen.classes)
-            found.append(_result(place, "probe", method, how, trial, judged))
+            found.append(keep(place, "probe", method, how, trial, judged))
             _keep_failures(place, found[-1], seen, probes.sure(seen), "probability")
         if method == "cltp":
             found += _numbers(place, encoder, learned, method, how)
-    return found + ceiling(place, ("probe",))
+    return [*found, *ceiling(place, ("probe",)), *heights_alone(place, views)]
 
 
 def _numbers(
@@ -187,28 +129,10 @@ def _numbers(
         seen = place.seen(encoder, trial.split, trial.noise)
         scores = number_scores(reader.said(seen, stretches[str(trial.noise)]), seen)
         judged = Judged(scores, {}, len(seen))
-        result = _result(place, "numbers", method, how, trial, judged)
+        result = keep(place, "numbers", method, how, trial, judged)
         found.append(replace(result, values=dict(scores)))
         save(place.results, found[-1])
     return found
-
-
-def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
-    """What direct computation gives, as a row of tables. Shape and texture are not computed."""
-    found = []
-    for trial in place.trying():
-        data = ContactDataset(place.data, split=trial.split)
-        said, truth = measured(data, trial.noise, limit=place.limit, seed=place.seed)
-        judged = only_measured(judge(said, truth))
-        how = Trained(folder=place.weights, variant="measured", budget=None)
-        found += [_result(place, table, "ceiling", how, trial, judged) for table in tables]
-    return found
-
-
-def only_measured(judged: Judged) -> Judged:
-    """What direct computation says of the dimensions that it computes."""
-    right = {slot: v if slot in MEASURED else math.nan for slot, v in judged.right.items()}
-    return Judged(right, {slot: judged.confusion[slot] for slot in MEASURED}, judged.count)
 
 
 def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
@@ -231,7 +155,7 @@ def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
                 "chance": 100 * scores.chance,
                 "captions": float(scores.captions),
             }
-            result = _result(place, "retrieval", method, how, trial, Judged({}, {}, len(seen)))
+            result = keep(place, "retrieval", method, how, trial, Judged({}, {}, len(seen)))
             found.append(replace(result, values=values))
             save(place.results, found[-1])
     return found
@@ -263,34 +187,3 @@ def _named(report: Report, method: str) -> Report:
         report(f"{method} {stage}", step, steps, {})
 
     return told
-
-
-def _result(
-    place: Place, table: str, method: str, how: Trained, trial: Trial, judged: Judged
-) -> Result:
-    """A result, written at once: what is interrupted loses nothing that was measured."""
-    result = as_result(place, table, method, how, trial.name, judged, place.checksum)
-    if table not in ("numbers", "retrieval"):
-        save(place.results, result)
-    return result
-
-
-def as_result(
-    place: Place, table: str, method: str, how: Trained, trial: str, judged: Judged, data: str
-) -> Result:
-    """What was judged, as a row of a table, with all that it depends on; not yet written."""
-    return Result(
-        table=table,
-        method=method,
-        variant=how.variant,
-        trial=trial,
-        seed=place.seed,
-        data=data,
-        budget=how.budget,
-        command=place.command,
-        contacts=judged.count,
-        values=percent({slot: judged.right.get(slot, math.nan) for slot in CLASSES}),
-        confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
-        device=how.device,
-        learned_seed=how.seed,
-    )

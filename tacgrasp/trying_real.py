@@ -21,11 +21,13 @@ from cltp.sensors import SensorSpec
 from cltp.train.sayings import class_numbers
 from cltp.trials import LEARNING
 from cltp.zero_shot import Prompts
+from tacgrasp.ceilings import MEASURED, of_slots
 from tacgrasp.errors import UsageError
+from tacgrasp.place import Place, as_result
 from tacgrasp.real_touches import Labelled, observed, read_inputs, told, write_predictions
 from tacgrasp.results import Result, save
 from tacgrasp.trained import Trained, stored
-from tacgrasp.trying import ALIGNED, Place, as_result, only_measured, trainable
+from tacgrasp.trying import ALIGNED, trainable
 
 TRIAL = "real"
 
@@ -109,7 +111,7 @@ def _ceiling(
 ) -> Result:
     """What direct computation from the same points gives; shape and texture are not computed."""
     said = class_numbers([contact_state(cloud) for cloud in clouds])
-    judged = only_measured(judge(said, torch.tensor([row.classes for row in real.rows])))
+    judged = of_slots(judge(said, torch.tensor([row.classes for row in real.rows])), MEASURED)
     how = Trained(folder=place.weights, variant="measured", budget=None, data=data)
     return _stored(place, table, "ceiling", how, judged)
 

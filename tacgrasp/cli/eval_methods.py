@@ -11,8 +11,8 @@ from tacgrasp.cli.flags import parse, writable
 from tacgrasp.errors import UsageError
 
 if TYPE_CHECKING:
+    from tacgrasp.place import Place
     from tacgrasp.results import Result
-    from tacgrasp.trying import Place
     from tacgrasp.trying_real import RealSet
 
 METHODS_DIR = Path("runs/methods")
@@ -250,8 +250,8 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
     from transformers.utils.logging import disable_progress_bar
 
     from cltp.train.progress import Bar
+    from tacgrasp.place import Place
     from tacgrasp.policy_factory import default_weights
-    from tacgrasp.trying import Place
 
     come_along = isinstance(flags, ZeroShot) and flags.real is not None
     usual = default_weights() if come_along else METHODS_DIR

@@ -19,7 +19,7 @@ from cltp.heads import StateHeads, restored, targets, transformed
 from cltp.inputs import cell_centres, encoder_input, lattice_points, scaled
 from cltp.losses import CltpLoss, ContrastiveLoss
 from cltp.packing import Exchange
-from cltp.point_tokens import BearingCurve, farthest_points
+from cltp.point_tokens import BearingCurve, bearing_ranks, farthest_points
 from cltp.render import render
 from cltp.samples import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.sensors import SENSORS
@@ -201,7 +201,7 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     for before, after in zip(curve(points), curve(deeper), strict=True):
         assert not torch.equal(before[0], after[0])
         torch.testing.assert_close(before[1], after[1])
-    ranks = curve.ranks(1024)
+    ranks = bearing_ranks(16, 1024)
     assert ranks[:8].tolist() == list(range(8))
     assert (ranks.diff() > 0).all()
     assert ranks[-1] == 1023

@@ -16,6 +16,7 @@ from cltp.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.frozen import frozen
 from cltp.heads import NUMBERS
+from cltp.heights_alone import HeightsAlone
 from cltp.observed import Observed, observe
 from cltp.probes import ClassProbes, NumberProbe, judge, number_scores
 from cltp.samples import CLASSES, CLEAN, NOISY
@@ -177,3 +178,12 @@ def test_contacts_and_captions_find_each_other(towers: Towers) -> None:
     assert nearest_contacts(towers, seen, captions[3], 1)[0][0] == captions.index(captions[3])
     assert nearest_texts(towers, feature[5], sorted(set(captions)), 2)[0][0] == captions[5]
     assert np.isclose(nearest_texts(towers, feature[5], captions, 1)[0][1], 1.0, atol=1e-4)
+
+
+def test_heights_alone_know_how_deep_and_not_where() -> None:
+    points = torch.rand(2, 1024, 3)
+    moved = points[:, torch.randperm(1024)] * torch.tensor([0.5, -1.0, 1.0])
+    heights, _ = HeightsAlone().read(points)
+    assert torch.equal(HeightsAlone().read(moved)[0], heights)
+    assert torch.equal(heights[:, 0], points[..., 2].amax(1))
+    assert torch.equal(heights[:, -1], points[..., 2].amin(1))

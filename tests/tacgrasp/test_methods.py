@@ -115,8 +115,10 @@ def test_tables_are_measured_stored_and_reported(
     found = json.loads(figures.read_text())
     assert set(found["probe"]) == {"cltp", "random", "ceiling"}
     assert {"depth_mm", "coverage_depth"} <= set(found["numbers"]["contact_noisy"])
-    assert main(["eval", "retrieval", *places]) == 0
     results = tmp_path / "results"
+    alone = [r for r in load(results) if r.variant == "heights alone" and r.trial == "contact"]
+    assert {slot for slot, v in alone[0].values.items() if v is not None} == {"depth", "area"}
+    assert main(["eval", "retrieval", *places]) == 0
     argv = ["eval", "report", "--results", str(results), "--json", str(figures)]
     assert main(argv) == 0
     assert {"zero_shot", "probe", "numbers", "retrieval"} <= set(json.loads(figures.read_text()))

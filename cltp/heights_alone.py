@@ -1,0 +1,32 @@
+"""An encoder that learns nothing: the heights of a cloud's points in falling order.
+
+What a probe reads of these is what the 1024 points say of depth and area without their places: a
+ceiling that is learned, beside the one that is computed (``cltp.measure``).
+"""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor
+
+from cltp.point_tokens import bearing_ranks
+from cltp.samples import Batch
+
+_SAMPLES = 128
+
+
+class HeightsAlone:
+    """A ``cltp.frozen.FrozenEncoder`` without weights."""
+
+    sha256 = f"heights alone, {_SAMPLES}"
+    sees_images = False
+
+    def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
+        """Heights (B, 128), scaled, and no feature (B, 1)."""
+        del frames
+        return self.read(torch.from_numpy(batch.points))
+
+    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+        """The same of scaled points (B, 1024, 3)."""
+        heights = taken[..., 2].sort(dim=1, descending=True).values
+        return heights[:, bearing_ranks(_SAMPLES, taken.shape[1])], torch.zeros(len(taken), 1)
