@@ -16,10 +16,8 @@ Not here: shape and texture, which only the maker of a contact knows.
 from __future__ import annotations
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 from torch import Tensor
-from torch.nn.functional import pad
 
 from cltp.cloud import grid_axes_mm
 from cltp.sensors import SensorSpec
@@ -32,6 +30,7 @@ from cltp.states import (
     depth_word,
     position_word,
 )
+from sim.masks import share_of
 
 CLOSING_MM = 1.4
 """Gaps in contact narrower than this are closed. Our choice: just below the longest period (1.5 mm)
@@ -51,21 +50,26 @@ def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
     reach = max(1, round(CLOSING_MM / pitch_mm / 2))
     size = 2 * reach + 1
     # What lies beyond the border is like the border: a contact that is cut does not end there.
-    mask = pad((pressure > 0).float()[:, None], (2 * reach,) * 4, mode="replicate")
-    closed = -_largest(-_largest(mask, size), size)
-    return np.asarray(closed[:, 0].numpy() > 0.5)
+    beyond = ((2 * reach,) * 2,) * 2
+    masks = (np.pad(one, beyond, mode="edge") for one in (pressure > 0).numpy())
+    return np.stack([_all_in(_any_in(mask, size), size) for mask in masks])
 
 
-def _largest(field: Tensor, size: int) -> Tensor:
-    """Largest value in each square of ``size``: one axis after the other, by doubling."""
-    for axis in (-1, -2):
+def _any_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
+    """Whether a point of each square of ``size`` is set: one axis after the other, by doubling."""
+    for _ in range(2):
         reached = 1
         while reached < size:
             step = min(reached, size - reached)
-            rest = field.shape[axis] - step
-            field = torch.maximum(field.narrow(axis, 0, rest), field.narrow(axis, step, rest))
+            mask = mask[:-step] | mask[step:]
             reached += step
-    return field
+        mask = mask.T
+    return mask
+
+
+def _all_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
+    """Whether all points of each square of ``size`` are set."""
+    return ~_any_in(~mask, size)
 
 
 def label(
@@ -92,9 +96,10 @@ def label(
     rows, columns = height_mm.shape
     x, y = grid_axes_mm(sensor, rows, columns)
     load = pressure_kpa.astype(np.float64)
-    x_mm = float(load.sum(axis=0) @ x / load.sum())
-    y_mm = float(load.sum(axis=1) @ y / load.sum())
-    depth_mm, share = float(height_mm.max()), float(touching.mean())
+    total = load.sum()
+    x_mm = float(load.sum(axis=0) @ x / total)
+    y_mm = float(load.sum(axis=1) @ y / total)
+    depth_mm, share = float(height_mm.max()), share_of(touching)
     return ContactState(
         depth_mm=depth_mm,
         x_mm=x_mm,

@@ -14,7 +14,7 @@ from cltp.sensors import SensorSpec
 from cltp.states import AREA_LIMITS_SHARE, DEPTH_LIMITS_MM, ContactState, Texture
 from sim.casting import FloatArray
 from sim.objects import Thing
-from sim.touched import Touch
+from sim.touch import Touch
 
 SHAPE, TEXTURE, DEPTH, POSITION, AREA = "shape", "texture", "depth", "position", "area"
 
@@ -44,9 +44,7 @@ def name_texture(thing: Thing, touch: Touch, relief_mm: FloatArray) -> Surface:
         touch: Where it touches.
         relief_mm: Shape (H, W), its skin's relief [mm].
     """
-    part_of_cell = np.array([*thing.part_of_cell, -1])
-    parts = part_of_cell[touch.cells[touch.touching]]
-    counts = np.bincount(parts[parts >= 0], minlength=len(thing.parts))
+    counts = np.bincount(thing.part_of_cell, weights=touch.counts, minlength=len(thing.parts))
     skin = thing.parts[int(counts.argmax())].skin
     textures = {thing.parts[i].skin.texture for i in np.flatnonzero(counts > 0.2 * counts.sum())}
     if skin.texture is Texture.SMOOTH:

@@ -30,7 +30,8 @@ from sim.objects import Thing
 from sim.poses import Pose, draw_pose
 from sim.skins import SMOOTH, faded, relief_of
 from sim.surety import TEXTURE, doubts, name_texture
-from sim.touched import Touch, name_shape
+from sim.touch import Touch
+from sim.touched import name_shape
 
 ROWS, COLUMNS = 75, 100
 """Grid over the field of a GelSight Mini: 0.2 mm. Other sensors get elements of that size."""

@@ -31,7 +31,8 @@ from sim.gel import Press, gel_of
 from sim.labels import in_contact, label
 from sim.poses import draw_pose
 from sim.probes import Probe
-from sim.touched import Touch, name_shape
+from sim.touch import Touch
+from sim.touched import name_shape
 from tacgrasp.errors import UsageError
 from tacgrasp.torch_device import usable_device
 

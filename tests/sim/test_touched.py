@@ -31,7 +31,8 @@ from sim.stock import (
     tube,
     waves,
 )
-from sim.touched import Touch, name_shape
+from sim.touch import Touch
+from sim.touched import name_shape
 
 GEL = SENSORS["gelsight_mini"]
 X, Y = np.meshgrid(*grid_axes_mm(GEL, 75, 100))
