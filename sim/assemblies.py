@@ -8,11 +8,12 @@ from __future__ import annotations
 import math
 
 from cltp.states import Shape
+from sim.combined import Around, Blend, Hollow
 from sim.faces import Form
 from sim.objects import Part
 from sim.placing import Placed, along, moved
 from sim.skins import SMOOTH, ridged, rough
-from sim.solids import Around, Blend, Hollow, Hoop, Rods, Solid
+from sim.solids import Hoop, Rods, Solid
 from sim.stock import (
     ball,
     box,

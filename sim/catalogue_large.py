@@ -29,11 +29,12 @@ from sim.assemblies import (
     spatula,
     strawberry,
 )
+from sim.combined import Blend
 from sim.faces import Form
 from sim.objects import Family, Hold, Part, Thing
 from sim.placing import along, moved
 from sim.skins import SMOOTH, Skin, bumpy, ridged, rough, woven
-from sim.solids import Blend, Hoop, Solid
+from sim.solids import Hoop, Solid
 from sim.stock import (
     ball,
     block,

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 from typing import Protocol
 
 import torch
@@ -71,12 +72,42 @@ class Flat:
         return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - self.offset
 
 
-def behind_flats(flats: Sequence[Flat], points: Tensor) -> Tensor:
-    """``behind`` of several planes at once, the planes first, to the last bit."""
-    each = (-1, *[1] * (points.ndim - 1))
-    x, y, z = (way.view(each) for way in points.new_tensor([flat.normal for flat in flats]).T)
-    offset = points.new_tensor([flat.offset for flat in flats]).view(each)
-    return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - offset
+@lru_cache(maxsize=4096)
+def constant(
+    values: tuple[float | tuple[float, ...] | tuple[Vector, ...], ...],
+    dtype: torch.dtype,
+    device: torch.device,
+) -> Tensor:
+    """Numbers of a shape as a tensor, made once: rays ask for them often. Not to be written."""
+    with torch.inference_mode(mode=False):  # usable everywhere, wherever it is first made
+        return torch.tensor(values, dtype=dtype, device=device)
+
+
+@dataclass(frozen=True, slots=True)
+class Flats:
+    """Several planes at once, to the last bit as one by one.
+
+    Attributes:
+        normals: x of each normal, y of each, z of each.
+        offsets: Of each plane [mm].
+    """
+
+    normals: tuple[tuple[float, ...], ...]
+    offsets: tuple[float, ...]
+
+    @staticmethod
+    def of(flats: Sequence[Flat]) -> Flats:
+        """Of planes, at least one."""
+        normals = tuple(zip(*(flat.normal for flat in flats), strict=True))
+        return Flats(normals, tuple(flat.offset for flat in flats))
+
+    def behind(self, points: Tensor) -> Tensor:
+        """Signed distance [mm] of ``points`` (..., 3), the planes first."""
+        each = (-1, *[1] * (points.ndim - 1))
+        ways = constant((*self.normals, self.offsets), points.dtype, points.device)
+        a, b, c, offset = (way.view(each) for way in ways.unbind(0))
+        x, y, z = points.unbind(-1)
+        return (x * a).add_(y * b).add_(z * c).sub_(offset)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 
 from torch import Tensor
 
-from sim.faces import Cell, Vector
+from sim.faces import Cell, Vector, constant
 from sim.solids import Solid, stacked_as
 
 
@@ -38,7 +38,7 @@ class Placed:
         return self.solid.steep
 
     def _back(self, points: Tensor) -> Tensor:
-        own = points - points.new_tensor(self.move)
+        own = points - constant(self.move, points.dtype, points.device)
         if self.turn is None:
             return own
         x, y, z = own.unbind(-1)

@@ -9,8 +9,9 @@ large, ``steep`` says by how much.
 Points are tensors (..., 3) [mm]. Works on any device; on the same kind of device the result for a
 point does not depend on its company.
 
-Not here: the faces that solids are cut from (``sim.faces``), turning and moving (``sim.placing``),
-objects (``sim.catalogue``), rays (``sim.casting``), textures (``sim.skins``).
+Not here: the faces that solids are cut from (``sim.faces``), solids of solids (``sim.combined``),
+turning and moving (``sim.placing``), objects (``sim.catalogue``), rays (``sim.casting``), textures
+(``sim.skins``).
 """
 
 from __future__ import annotations
@@ -18,13 +19,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property, lru_cache
 from itertools import groupby
 from typing import Protocol
 
 import torch
 from torch import Tensor
 
-from sim.faces import Cell, Face, Flat, Form, Ripple, Vector, behind_flats
+from sim.faces import Cell, Face, Flat, Flats, Form, Ripple, Vector, constant
 
 
 class Solid(Protocol):
@@ -67,7 +69,7 @@ def stacked_as(points: Tensor, *coordinates: Tensor) -> Tensor:
 _MOST_CRESTS = 64
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Cut:
     """What lies behind all of its faces, its edges rounded by ``fillet`` [mm].
 
@@ -95,16 +97,22 @@ class Cut:
         crest = [face.cell for face in self.faces if isinstance(face, Ripple)]
         return (*(face.cell for face in self.faces), *crest * _MOST_CRESTS)
 
-    def _behind(self, points: Tensor) -> Tensor:
-        """Distance to each face, the faces first."""
-        behind = []
+    @cached_property
+    def _groups(self) -> tuple[Face | Flats, ...]:
+        """Its faces in order, planes that follow each other together."""
+        groups: list[Face | Flats] = []
         for _, alike in groupby(self.faces, key=lambda face: isinstance(face, Flat)):
             faces = list(alike)
             flats = [face for face in faces if isinstance(face, Flat)]
-            if flats:
-                behind.append(behind_flats(flats, points))
-            else:
-                behind += [face.behind(points)[None] for face in faces]
+            groups += [Flats.of(flats)] if flats else faces
+        return tuple(groups)
+
+    def _behind(self, points: Tensor) -> Tensor:
+        """Distance to each face, the faces first."""
+        behind = [
+            group.behind(points) if isinstance(group, Flats) else group.behind(points)[None]
+            for group in self._groups
+        ]
         return behind[0] if len(behind) == 1 else torch.cat(behind)
 
     def distance(self, points: Tensor) -> Tensor:
@@ -158,7 +166,7 @@ class Oval:
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        radii = points.new_tensor([self.x, self.y, self.z])
+        radii = constant((self.x, self.y, self.z), points.dtype, points.device)
         once = (points / radii).square().sum(-1).sqrt()
         twice = (points / radii**2).square().sum(-1).sqrt()
         return once * (once - 1) / twice.clamp(min=1e-9)
@@ -204,6 +212,22 @@ class Hoop:
         return torch.zeros(points.shape[:-1], dtype=torch.int64, device=points.device)
 
 
+@lru_cache(maxsize=1024)
+def _rods(
+    ends: tuple[tuple[Vector, Vector], ...], dtype: torch.dtype, device: torch.device, ndim: int
+) -> tuple[tuple[Tensor, ...], tuple[Tensor, ...], Tensor, bool]:
+    """First ends of rods and ways to the others, x, y, z; squared lengths; whether all are balls.
+
+    Each with ``ndim`` axes of 1 behind that of the rods.
+    """
+    each = (-1, *[1] * ndim)
+    first, last = (constant(tuple(rod[i] for rod in ends), dtype, device) for i in (0, 1))
+    along = last - first
+    length = along.square().sum(-1).clamp(min=1e-9).view(each)
+    start, way = (tuple(v.view(each) for v in vectors.unbind(-1)) for vectors in (first, along))
+    return start, way, length, not bool(along.any())
+
+
 @dataclass(frozen=True, slots=True)
 class Rods:
     """Round rods between pairs of points, each a cell: bars, wires, or one thick rod."""
@@ -226,15 +250,12 @@ class Rods:
     def _squared(self, points: Tensor) -> Tensor:
         """Squared distance to the middle of each rod, the rods first."""
         x, y, z = points.unbind(-1)
-        start = points.new_tensor([rod[0] for rod in self.ends])
-        along = points.new_tensor([rod[1] for rod in self.ends]) - start
-        length = along.square().sum(-1).clamp(min=1e-9)
-        each = (-1, *[1] * x.ndim)
-        a, b, c = (way.view(each) for way in along.unbind(-1))
+        start, along, length, balls = _rods(self.ends, points.dtype, points.device, x.ndim)
         # Coordinate by coordinate: sums over an axis of three take several times as long.
-        u, v, w = (at - of.view(each) for at, of in zip((x, y, z), start.unbind(-1), strict=True))
-        if bool(along.any()):  # else they are balls
-            share = ((u * a + v * b + w * c) / length.view(each)).clamp_(0, 1)
+        u, v, w = (at - of for at, of in zip((x, y, z), start, strict=True))
+        if not balls:
+            a, b, c = along
+            share = ((u * a + v * b + w * c) / length).clamp_(0, 1)
             u, v, w = u - share * a, v - share * b, w - share * c
         return u * u + v * v + w * w
 
@@ -250,122 +271,3 @@ class Rods:
 def dots(at: Sequence[tuple[float, float]], z: float, radius: float) -> Rods:
     """Balls of one radius whose centres lie at ``z`` [mm], each a cell."""
     return Rods(tuple(((x, y, z), (x, y, z)) for x, y in at), radius, Form.DOT)
-
-
-@dataclass(frozen=True, slots=True)
-class Blend:
-    """Several solids grown into one, their joints rounded by about ``radius`` [mm]; 0: a union.
-
-    Source: polynomial smooth minimum (Quilez); it is 1-Lipschitz where the parts are.
-    """
-
-    parts: tuple[Solid, ...]
-    radius: float = 0.0
-
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """Those of its parts, in order."""
-        return tuple(cell for part in self.parts for cell in part.cells)
-
-    @property
-    def reach_mm(self) -> float:
-        """Of the furthest part."""
-        return max(part.reach_mm for part in self.parts)
-
-    @property
-    def steep(self) -> float:
-        """Of the steepest part."""
-        return max(part.steep for part in self.parts)
-
-    def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        total = self.parts[0].distance(points)
-        for part in self.parts[1:]:
-            other = part.distance(points)
-            lower = torch.minimum(total, other)
-            if self.radius > 0:
-                near = (1 - (total - other).abs() / (4 * self.radius)).clamp_(min=0)
-                lower = lower - self.radius * near.square_()
-            total = lower
-        return total
-
-    def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        away = torch.stack([part.distance(points) for part in self.parts])
-        own = torch.stack([part.cell(points) for part in self.parts])
-        counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])
-        first = counts.cumsum(0).to(points.device).view(-1, *[1] * (points.ndim - 1))
-        return (own + first).gather(0, away.argmin(0)[None])[0]
-
-
-@dataclass(frozen=True, slots=True)
-class Hollow:
-    """A solid without what another takes away."""
-
-    solid: Solid
-    without: Solid
-
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """Those of the solid, then those of the cavity, as curved ones."""
-        return (*self.solid.cells, *(Cell(form=Form.CURVED) for _ in self.without.cells))
-
-    @property
-    def reach_mm(self) -> float:
-        """Of the solid."""
-        return self.solid.reach_mm
-
-    @property
-    def steep(self) -> float:
-        """Of the steeper one."""
-        return max(self.solid.steep, self.without.steep)
-
-    def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        return torch.maximum(self.solid.distance(points), -self.without.distance(points))
-
-    def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        cavity = -self.without.distance(points) > self.solid.distance(points)
-        inner = self.without.cell(points) + len(self.solid.cells)
-        return torch.where(cavity, inner, self.solid.cell(points))
-
-
-@dataclass(frozen=True, slots=True)
-class Around:
-    """Copies of a solid that lies about +x, ``count`` of them evenly about z."""
-
-    solid: Solid
-    count: int
-
-    @property
-    def cells(self) -> tuple[Cell, ...]:
-        """Those of each copy."""
-        return self.solid.cells * self.count
-
-    @property
-    def reach_mm(self) -> float:
-        """Of the solid."""
-        return self.solid.reach_mm
-
-    @property
-    def steep(self) -> float:
-        """Of the solid."""
-        return self.solid.steep
-
-    def _folded(self, points: Tensor) -> tuple[Tensor, Tensor]:
-        step = 2 * math.pi / self.count
-        copy = torch.round(torch.atan2(points[..., 1], points[..., 0]) / step)
-        cos, sin = torch.cos(copy * step), torch.sin(copy * step)
-        x = points[..., 0] * cos + points[..., 1] * sin
-        y = points[..., 1] * cos - points[..., 0] * sin
-        return stacked_as(points, x, y, points[..., 2]), copy.long() % self.count
-
-    def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        return self.solid.distance(self._folded(points)[0])
-
-    def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
-        folded, copy = self._folded(points)
-        return self.solid.cell(folded) + copy * len(self.solid.cells)

@@ -11,9 +11,10 @@ import math
 from collections.abc import Sequence
 
 from cltp.states import Shape
+from sim.combined import Blend, Hollow
 from sim.faces import Barrel, Bore, Cell, Dome, Face, Flat, Form, Ripple
 from sim.placing import Placed, moved
-from sim.solids import Blend, Cut, Hollow, Oval, Rods, Solid, dots
+from sim.solids import Cut, Oval, Rods, Solid, dots
 
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 _SIDE = Cell(form=Form.TAPER, outline=Shape.TRIANGLE)

@@ -75,3 +75,21 @@ def test_there_are_55_small_objects_and_62_large_ones():
     assert not any(thing.small for thing in LARGE)
     with pytest.raises(ValueError, match="unknown object 'teapot'"):
         thing_named("teapot")
+
+
+@pytest.mark.parametrize(
+    "solid",
+    [moved(box(7.3, 4.1, 2.7, 0.3), 0.1, 0.2, 0.3), bars([(-3.1, 0.7, 3.3, 0)], 0.9)],
+    ids=["planes", "rods"],
+)
+def test_numbers_kept_for_rays_are_kept_for_each_precision(solid):
+    points = torch.randn(40, 3, generator=torch.Generator().manual_seed(1), dtype=torch.float64)
+    with torch.inference_mode():
+        coarse = solid.distance(points.float())
+    fine = solid.distance(points)
+    assert coarse.dtype == torch.float32
+    assert fine.dtype == torch.float64
+    assert (fine - coarse).abs().max() < 1e-5
+    as_grid = solid.distance(points.view(5, 8, 3))
+    assert torch.equal(as_grid.flatten(), fine)
+    assert torch.equal(solid.distance(points.float()), coarse)  # not changed by use

@@ -9,7 +9,7 @@ import torch
 from sim import objects
 from sim.casting import ALONGSIDE_MM, BACK_MM, BEYOND_MM, feel, frame_at, march
 from sim.catalogue import thing_named
-from sim.faces import Dome, Flat, behind_flats
+from sim.faces import Dome, Flat, Flats
 from sim.solids import Cut, Oval, Rods
 from sim.tubes import march_over
 
@@ -112,5 +112,5 @@ def test_a_finger_feels_the_same_through_tubes(monkeypatch):
 def test_planes_at_once_are_planes_one_by_one_to_the_last_bit():
     flats = [Flat((0.6, 0.8, 0.0), 1.3), Flat((0.0, 0.1, 0.995), -2.0), Flat((-1.0, 0.0, 0.0), 0.7)]
     for points in (torch.randn(50, 3), torch.randn(3, 50).T, torch.randn(4, 5, 3).double()):
-        for own, together in zip(flats, behind_flats(flats, points), strict=True):
+        for own, together in zip(flats, Flats.of(flats).behind(points), strict=True):
             assert torch.equal(own.behind(points), together)
