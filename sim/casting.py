@@ -244,8 +244,9 @@ def feel(
         it.
     """
     towards = object_from_pad[:, 2]
-    flat = np.stack([x_mm.ravel(), y_mm.ravel()], axis=1) @ object_from_pad[:, :2].T
-    origins = point + BACK_MM * towards + flat
+    origins = np.stack([x_mm.ravel(), y_mm.ravel()], axis=1) @ object_from_pad[:, :2].T
+    for way, start in zip(origins.T, point + BACK_MM * towards, strict=True):
+        way += start  # one coordinate after the other: numpy is slow over an axis of three
     rays = torch.from_numpy(origins.astype(np.float32)).view(*x_mm.shape, 3).to(device)
     along = torch.from_numpy((-towards).astype(np.float32)).to(device)
     over = thing.surface_over(rays, along, BACK_MM + 2 * BEYOND_MM).flatten()
@@ -254,8 +255,9 @@ def feel(
         return None
     gap = far - far.min()
     there = gap < BEYOND_MM
-    points = np.zeros_like(origins)
-    points[there] = origins[there] - far[there, None] * towards
+    reached, points = np.where(there, far, 0.0), np.empty_like(origins)
+    for axis, way in enumerate(towards):
+        points[:, axis] = np.where(there, origins[:, axis] - reached * way, 0.0)
     return Felt(
         gap_mm=np.where(there, gap, FAR_MM).reshape(x_mm.shape),
         points=points.reshape(*x_mm.shape, 3),

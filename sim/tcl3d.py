@@ -228,6 +228,7 @@ def make_series(
     return _labelled(seed, order, scene, approach, press)
 
 
+@torch.inference_mode()
 def draw_scene(
     order: Order, rng: np.random.Generator, device: torch.device | str = "cpu"
 ) -> tuple[Scene, list[float]]:
@@ -295,14 +296,16 @@ def _scene(
     axis = pose.object_from_pad[2, :2]
     if np.hypot(*axis) < 0.3:
         axis = pose.object_from_pad[0, :2]
-    down, right = np.gradient(felt.gap_mm, sensor.width_mm / felt.gap_mm.shape[1])
-    slope = np.hypot(down, right)
     relief = np.zeros(there.shape)
     part_of_cell = np.array([*thing.part_of_cell, -1])
     for number, part in enumerate(thing.parts):
         own = relief_of(part.skin, rng, x, y, math.atan2(axis[1], axis[0]), sensor)
-        relief = np.where(part_of_cell[cells] == number, own, relief)
-    return Scene(thing=thing, felt=felt, cells=cells, relief_mm=faded(relief, slope))
+        if part.skin is not SMOOTH:
+            relief = np.where(part_of_cell[cells] == number, own, relief)
+    if relief.any():
+        down, right = np.gradient(felt.gap_mm, sensor.width_mm / felt.gap_mm.shape[1])
+        relief = faded(relief, np.hypot(down, right))
+    return Scene(thing=thing, felt=felt, cells=cells, relief_mm=relief)
 
 
 def _labelled(

@@ -20,6 +20,7 @@ from sim.casting import ALONGSIDE_MM, BEYOND_MM, NEAR_MM, STEPS, Marchable
 _FINER = 4  # times as many rays along a side as tubes, and as tubes of the next size
 _WIDE = _FINER * _FINER  # rays along the sides of the widest tubes
 _TUBE_STEPS, _FEW_STEPS = 12, 6  # most
+_FEW_RAYS, _TOGETHER = 300, 4  # so few go as many steps before those that arrived are left out
 _WORTHWHILE = 0.5  # of the radius: a tube that gets less far in a step ends
 
 
@@ -106,20 +107,23 @@ def _march(
     """Sphere tracing of rays (3, N), each from where it has come to already, (N,) [mm]."""
     hit = torch.full_like(first, torch.inf)
     index = torch.nonzero(first < far_mm)[:, 0]
-    origins, travelled = origins[:, index], first[index]
+    origins, travelled = origins.index_select(1, index), first[index]
     for step in range(steps):
         away = solid.distance(_points(origins, travelled, along))
-        found = travelled + away
         if step == 0:
-            found = torch.where((away < -NEAR_MM) & (travelled == 0), torch.nan, found)
-        arrived = torch.nonzero(away < NEAR_MM)[:, 0]
-        hit[index[arrived]] = found[arrived]
-        travelled = travelled + away / solid.steep
-        going = torch.nonzero((away >= NEAR_MM) & (travelled < far_mm))[:, 0]
+            travelled = travelled.masked_fill((away < -NEAR_MM) & (travelled == 0), torch.nan)
+        arrived = away < NEAR_MM
+        onward = travelled + away.masked_fill(arrived, 0) / solid.steep
+        if len(index) < _FEW_RAYS and step % _TOGETHER and step < steps - 1:
+            travelled = onward  # what has arrived stays there
+            continue
+        ended = torch.nonzero(arrived & ~(travelled >= far_mm))[:, 0]
+        hit[index[ended]] = travelled[ended] + away[ended]
+        going = torch.nonzero(~arrived & (onward < far_mm))[:, 0]
         if not len(going):
             return hit
         origins = origins.index_select(1, going)
-        travelled, index, away = travelled[going], index[going], away[going]
+        travelled, index, away = onward[going], index[going], away[going]
     # Still on their way: along a steep wall, as in ``sim.casting.march``.
     hit[index] = torch.where(away < ALONGSIDE_MM, travelled, torch.inf)
     return hit

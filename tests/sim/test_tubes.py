@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import torch
 
-from sim import objects
+from sim import objects, tubes
 from sim.casting import ALONGSIDE_MM, BACK_MM, BEYOND_MM, feel, frame_at, march
 from sim.catalogue import thing_named
 from sim.faces import Dome, Flat, Flats
@@ -107,6 +107,38 @@ def test_a_finger_feels_the_same_through_tubes(monkeypatch):
     off = np.abs(plain.gap_mm - quick.gap_mm)
     assert off.max() > 0  # another way
     assert (off < 1e-3).mean() > 0.995
+
+
+@pytest.mark.parametrize("height", [20.0, 4.0])  # the second begins inside
+def test_rays_that_take_steps_together_end_where_they_would_one_step_at_a_time(monkeypatch, height):
+    thing = thing_named("peg_hexagon_12")
+    origins, along = grid(turn=0.02, height=height)
+    origins = origins - torch.tensor([0.0, 0.0, thing.reach_mm]) if height < 5 else origins
+    met, asked = [], []
+    for few in (0, 100_000):
+        monkeypatch.setattr(tubes, "_FEW_RAYS", few)
+        counted = Counted(thing)
+        met.append(march_over(counted, origins, along, FAR_MM))
+        asked.append(counted.points)
+    assert asked[0] < asked[1]
+    assert torch.isnan(met[0]).any() == (height < 5)
+    assert torch.equal(met[0].nan_to_num(nan=-1.0), met[1].nan_to_num(nan=-1.0))
+
+
+def test_what_a_finger_feels_lies_on_the_object_and_is_0_where_nothing_is():
+    thing = thing_named("ball_9")
+    x, y = np.meshgrid(np.linspace(-8, 8, COLUMNS), np.linspace(6, -6, ROWS))
+    frame = frame_at(np.array([0.6, 0.0, 0.8]))
+    felt = feel(thing, frame, np.zeros(3), x, y)
+    assert felt is not None
+    there = felt.gap_mm < BEYOND_MM
+    assert there.any()
+    assert not there.all()
+    away = thing.distance(torch.from_numpy(felt.points[there]))
+    assert away.abs().max() < ALONGSIDE_MM
+    across = (felt.points @ frame)[there][:, :2]
+    assert np.abs(across - np.stack([x, y], axis=-1)[there]).max() < 1e-9
+    assert (felt.points[~there] == 0).all()
 
 
 def test_planes_at_once_are_planes_one_by_one_to_the_last_bit():
