@@ -205,10 +205,17 @@ def _of_each_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
 
 def _coarser(gap: Tensor) -> Tensor:
     """Mean gap of four elements, of those where a body is: a thin body must not be lost."""
-    there = (gap < NO_BODY_MM).to(gap.dtype)
-    share = avg_pool2d(there[:, None], 2)[:, 0]
-    mean = avg_pool2d((gap * there)[:, None], 2)[:, 0] / share.clamp(min=0.25)
-    return torch.where(share > 0, mean, NO_BODY_MM)
+    there = gap < NO_BODY_MM
+    count = _sum_of_four(there.to(gap.dtype))
+    mean = _sum_of_four(gap.masked_fill(~there, 0)) / count.clamp(min=1)
+    return torch.where(count > 0, mean, NO_BODY_MM)
+
+
+def _sum_of_four(field: Tensor) -> Tensor:
+    """Sums over squares of two by two, (B, H, W) -> (B, H/2, W/2); pooling takes longer."""
+    upper, lower = field[:, ::2], field[:, 1::2]
+    total = upper[..., ::2] + upper[..., 1::2]
+    return total.add_(lower[..., ::2]).add_(lower[..., 1::2])
 
 
 def _finer(pressure: Tensor) -> Tensor:

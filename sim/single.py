@@ -155,33 +155,34 @@ def solve_single(
     stiffening = Convolution(compliance.periodic.reciprocal(), size, size)
     above = gap_mm - depth_mm
     pressure = torch.where(above < 0, start_mpa.clamp(min=0), 0.0)
-    direction, before, power = torch.zeros_like(above), above, torch.inf
+    direction, before, power = torch.zeros_like(above), torch.zeros_like(above), torch.inf
     if not bool((above < 0).any()):
         return SingleSolution(pressure_mpa=pressure, iterations=0, converged=True)
     displacement = yielding.apply(pressure)
     for step in range(max_iterations + 1):
         opening = displacement + above
-        pressed = (pressure > 0).to(above.dtype)
+        inside = pressure > 0
+        pressed = inside.to(above.dtype)
         count = max(float(pressed.sum()), 1.0)
         mean = _dot(displacement, pressed) / count
-        residual = torch.where(pressure > 0, opening, opening.clamp(max=0))
+        residual = torch.where(inside, opening, opening.clamp(max=0))
         done = _dot(residual, residual) <= count * (tol * mean) ** 2
         if done or step == max_iterations:
             break
-        free = residual != 0
-        wanted = stiffening.apply(residual) * free
+        free = (residual != 0).to(above.dtype)
+        wanted = stiffening.apply(residual).mul_(free)
         if step == 0:
             pressure = pressure.sub_(wanted, alpha=_FIRST_STEP).clamp_(min=0)
             displacement = yielding.apply(pressure)
             continue
         # Polak and Ribière's rule forgets by itself what a change of the contact made useless.
-        kept = max(0.0, _dot(wanted, residual - before) / power)
-        direction = torch.add(wanted, direction * free, alpha=kept)
+        kept = max(0.0, _dot(wanted, torch.sub(residual, before, out=before)) / power)
+        torch.add(wanted, direction.mul_(free), alpha=kept, out=direction)
         before, power = residual, _dot(wanted, residual)
         response = yielding.apply(direction)
         length = _dot(residual, direction) / max(_dot(response, direction), 1e-30)
         pressure = pressure.sub_(direction, alpha=length)
-        if bool((pressure < 0).any()):
+        if float(pressure.amin()) < 0:
             pressure = pressure.clamp_(min=0)
             displacement = yielding.apply(pressure)
         else:

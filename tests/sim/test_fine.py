@@ -7,6 +7,7 @@ import torch
 
 from sim import fine
 from sim.boxes import Box, boxes_around
+from sim.contact import NO_BODY_MM
 from sim.fine import FineLayer
 from sim.gel import ElasticLayer, GelMaterial, gel_of
 
@@ -111,6 +112,13 @@ def test_a_body_thinner_than_a_coarse_element_is_not_lost():
     press = layers()[0].press_to_depth(pin, 0.2)
     assert press.force_n.item() > 0
     assert press.height_mm.max().item() == pytest.approx(0.2, abs=1e-6)
+
+
+def test_a_coarser_gap_is_the_mean_of_where_a_body_is():
+    none = NO_BODY_MM
+    gap = torch.tensor([[1.0, 2.0, 1.0, none], [3.0, 6.0, none, none], [none, none, 0.0, 0.5]])
+    gap = torch.cat([gap, torch.tensor([[none, none, 1.0, 1.5]])])[None]
+    assert fine._coarser(gap).tolist() == [[[3.0, 1.0], [none, 0.75]]]
 
 
 def test_a_body_that_barely_touches_or_does_not_is_pressed_as_it_is():
