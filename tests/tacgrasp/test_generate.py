@@ -83,7 +83,7 @@ def test_killed_twice_it_goes_on_and_leaves_no_worker_behind(tmp_path, monkeypat
     monkeypatch.undo()
     out, whole = tmp_path / "killed", tmp_path / "whole"
     command = [sys.executable, "-m", "tacgrasp", "data", "generate", "--contacts", "850"]
-    command += ["--seed", "7", "--workers", "2", "--out"]
+    command += ["--set", "starter", "--seed", "7", "--workers", "2", "--out"]
     for shards in (1, 3):
         with subprocess.Popen([*command, out], cwd=ROOT, stderr=subprocess.DEVNULL) as run:
             until = time.monotonic() + 120
