@@ -51,7 +51,8 @@ def paper_tables(found: Sequence[Result]) -> Iterator[Section]:
             text=[f"{_DIMENSIONS}, % right; – where nothing was measured. {budgets(of_table)}"],
             table=Table(head=["", *COLUMNS, "encoder"], rows=rows),
             note="The paper's real-world row stands in the column physics. Ceiling: computed "
-            "directly from the same 1024 points, which gives no shape and texture.",
+            "directly from the same 1024 points, which gives no shape and texture; 'heights "
+            "alone': what probes read off their heights in falling order, without places.",
         )
 
 
