@@ -9,7 +9,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from cltp.point_tokens import bearing_ranks
+from cltp.point_tokens import bearing_curve
 from cltp.samples import Batch
 
 _SAMPLES = 128
@@ -28,5 +28,4 @@ class HeightsAlone:
 
     def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
         """The same of scaled points (B, 1024, 3)."""
-        heights = taken[..., 2].sort(dim=1, descending=True).values
-        return heights[:, bearing_ranks(_SAMPLES, taken.shape[1])], torch.zeros(len(taken), 1)
+        return bearing_curve(taken, _SAMPLES), torch.zeros(len(taken), 1)

@@ -49,9 +49,8 @@ class BearingCurve(nn.Module):
     """How much of the field lies how deep: the bearing-area curve of surface metrology.
 
     The heights of all points in falling order: the deepest one by one, the others thinned out.
-    Depth is where it begins, the area of contact a place along it. A small network on nothing else
-    reads depth more precisely than an encoder without it (docs/pretraining.md), so that it goes to
-    the class token, and past all layers and their norms to the pooled tokens too.
+    Depth is where it begins, the area of contact a place along it. It goes to the class token, and
+    past all layers and their norms to the pooled tokens too.
 
     Source: the material ratio curve of ISO 21920-2 (Abbott and Firestone), over points.
 
@@ -71,9 +70,14 @@ class BearingCurve(nn.Module):
 
     def forward(self, points: Tensor) -> Bearing:
         """What the heights of scaled points (B, N, 3) add."""
-        heights = points[..., 2].sort(dim=1, descending=True).values
-        found = self.trunk(5 * heights[:, bearing_ranks(self.samples, points.shape[1])])
+        found = self.trunk(5 * bearing_curve(points, self.samples))
         return Bearing(self.token(found)[:, None], self.pooled(found))
+
+
+def bearing_curve(points: Tensor, samples: int) -> Tensor:
+    """Heights (B, samples) of points (B, N, 3) in falling order, at ``bearing_ranks``."""
+    heights = points[..., 2].sort(dim=1, descending=True).values
+    return heights[:, bearing_ranks(samples, points.shape[1])]
 
 
 def bearing_ranks(samples: int, count: int) -> Tensor:

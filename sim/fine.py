@@ -110,10 +110,8 @@ class FineLayer:
         if len(self._layers) == 1:
             press = coarsest.press_to_force if by_force else coarsest.press_to_depth
             return press(gap, loads, start=before, tol=TOLERANCE)
-        pressure, moduli = (
-            self._coarsest(gaps[0], loads, before, by_force=by_force),
-            self._moduli(len(loads)),
-        )
+        pressure = self._coarsest(gaps[0], loads, before, by_force=by_force)
+        moduli = self._moduli(len(loads))
         gaps[-1] = gap
         for layer, finer in zip(self._layers[1:], gaps[1:], strict=True):
             level = Level(layer=layer, moduli_mpa=moduli)
