@@ -8,7 +8,6 @@ Not here: figures for people to page through (``tacgrasp.data_stats``).
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +15,7 @@ import numpy as np
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
 from cltp.samples import CLASSES
+from tacgrasp.whole_file import write_whole
 
 CARD = "README.md"
 
@@ -41,9 +41,7 @@ def write_card(folder: Path, command: str) -> None:
         TouchError: It is no data set, or not all of it.
         OSError: The card can't be written.
     """
-    beside = folder / f"{CARD}.{os.getpid()}.part"
-    beside.write_text(card(ContactDataset(folder), command))
-    beside.replace(folder / CARD)
+    write_whole(folder / CARD, card(ContactDataset(folder), command))
 
 
 def card(data: ContactDataset, command: str) -> str:

@@ -26,6 +26,7 @@ from cltp.samples import CLASSES
 from cltp.sensors import sensor_named
 from tacgrasp.errors import UsageError
 from tacgrasp.results import Result
+from tacgrasp.whole_file import write_whole
 
 FORMAT, VERSION = "tacgrasp-failures", 1
 FOLDER = "failures"
@@ -224,9 +225,7 @@ def save_failures(folder: Path, result: Result, found: Failures) -> Path:
     content = {"format": FORMAT, "version": VERSION, **asdict(found)}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        beside = path.with_name(f"{path.name}.part")
-        beside.write_text(json.dumps(content) + "\n", encoding="utf-8")
-        beside.replace(path)
+        write_whole(path, json.dumps(content) + "\n")
     except OSError as error:
         raise UsageError(f"failures can't be written to {path}: {error.strerror}") from None
     return path

@@ -29,6 +29,7 @@ from cltp.train.workers import Workers
 from cltp.trials import LEARNING
 from tacgrasp.errors import UsageError
 from tacgrasp.training_data import TouchLessons
+from tacgrasp.whole_file import write_whole
 
 ABOUT = "about.json"
 METHODS = ("cltp", "cltp_no_image", "random", "point_mae", "point_bert", "tvl", "unitouch")
@@ -232,6 +233,4 @@ def _write_about(
         before = {}
     if {**before, "device": device, "command": command} == content and "device" in before:
         content["device"] = before["device"]
-    beside = folder / f"{ABOUT}.part"
-    beside.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")
-    beside.replace(folder / ABOUT)
+    write_whole(folder / ABOUT, json.dumps(content, indent=2) + "\n")

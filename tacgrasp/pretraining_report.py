@@ -23,6 +23,7 @@ from tacgrasp.report_tables import (
 )
 from tacgrasp.results import METHODS, Result, grouped, load
 from tacgrasp.tries import load_tries
+from tacgrasp.whole_file import write_whole
 
 TITLE = "Pre-training: our results beside the paper's"
 
@@ -54,9 +55,7 @@ def report(
             for plot in section.plots:
                 (plots / f"{plot.name}.png").write_bytes(plot.png)
         for file, text in pages.items():
-            beside = out / f"{file}.part"
-            beside.write_text(text, encoding="utf-8")
-            beside.replace(out / file)
+            write_whole(out / file, text)
     except OSError as error:
         raise UsageError(f"the report can't be written to {out}: {error.strerror}") from None
     return [out / file for file in pages]

@@ -17,6 +17,7 @@ from cltp.errors import TouchError
 from cltp.samples import CLASSES
 from cltp.train.baselines import DEFAULT_PRESETS
 from tacgrasp.errors import UsageError
+from tacgrasp.whole_file import write_whole
 
 FORMAT, VERSION = "tacgrasp-result", 1
 
@@ -112,9 +113,7 @@ def save(folder: Path, result: Result) -> Path:
     content = {"format": FORMAT, "version": VERSION, **asdict(result)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        beside = path.with_name(f"{path.name}.part")
-        beside.write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
-        beside.replace(path)
+        write_whole(path, json.dumps(content, indent=1) + "\n")
     except OSError as error:
         raise UsageError(f"the result {path} can't be written: {error.strerror}") from None
     return path

@@ -23,6 +23,7 @@ from tacgrasp.failures import small_picture
 from tacgrasp.place import Place
 from tacgrasp.trained import stored
 from tacgrasp.trying import captions_of
+from tacgrasp.whole_file import write_whole
 
 _BAR = 24
 _PICTURE_PX = 224
@@ -201,9 +202,7 @@ def write_page(folder: Path, answers: Sequence[Answer], path: Path) -> None:
             )
         parts.append("</div>")
     try:
-        beside = path.with_name(f"{path.name}.part")
-        beside.write_text("\n".join(parts) + "\n", encoding="utf-8")
-        beside.replace(path)
+        write_whole(path, "\n".join(parts) + "\n")
     except OSError as error:
         raise UsageError(f"the page can't be written to {path}: {error.strerror}") from None
 
