@@ -8,6 +8,9 @@ feature = one matrix on the class token beside the maximum over groups). Two tok
 ``lattice``: ours. Our clouds have one point in each of 32 × 32 cells, so that neighbours are known
     without a search: convolutions over the lattice of points mix a point with its neighbours, and
     each of 8 × 8 groups becomes a token. It learns the same contacts many times faster (README).
+``pressed``: as ``lattice``, of 1024 points that crowd where the gel is pressed
+    (``cltp.sampling``); ``fine``: of 4096 points, evenly. Both are tried beside the paper's
+    uniform sampling: clouds of sensors have 1024 points, evenly.
 ``image``: patches of a rendered frame, as a vision transformer has them, for the vision-based
     baselines of the paper's appendix A. Such an encoder takes pixels (B, 3, 64, 64) for points.
 """
@@ -30,8 +33,19 @@ from cltp.point_tokens import (
     PatchTokenizer,
     Survey,
 )
+from cltp.sampling import EVEN, FINE, PRESSED, Sampling
 
-TOKENIZERS = ("lattice", "fps", "image")
+SAMPLINGS: dict[str, Sampling] = {
+    "lattice": EVEN,
+    "pressed": PRESSED,
+    "fine": FINE,
+    "fps": EVEN,
+    "image": EVEN,
+}
+"""By tokenizer: how the points lie that it takes."""
+
+LATTICES = ("lattice", "pressed", "fine")
+"""Tokenizers that convolve over neighbours."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -39,16 +53,16 @@ class EncoderConfig:
     """Sizes of an encoder.
 
     Attributes:
-        tokenizer: Out of ``TOKENIZERS``.
+        tokenizer: Out of ``SAMPLINGS``.
         dim: Width C of the tokens.
         depth: Transformer layers.
         heads: Attention heads; divides ``dim``.
-        num_groups: Tokens beside the class token; 64 for ``lattice`` and ``image``.
+        num_groups: Tokens beside the class token; 16, 64 or 256 of a lattice, 64 of an image.
         group_size: Points in a group of ``fps``.
-        stem_dim: Channels of ``lattice`` before its groups; width of the PointNet in ``fps``.
-        stem_blocks: Pairs of convolutions in ``lattice``.
+        stem_dim: Channels of a lattice before its groups; width of the PointNet in ``fps``.
+        stem_blocks: Pairs of convolutions over a lattice.
         feature_dim: Width of the aligned feature, that of CLIP.
-        bearing: Heights along the bearing curve beside ``lattice``; 0 for none.
+        bearing: Heights along the bearing curve beside a lattice; 0 for none.
         projection: Hidden width of the way from pooled tokens to the aligned feature; 0 for one
             matrix, as in the paper.
 
@@ -69,26 +83,35 @@ class EncoderConfig:
     projection: int = 0
 
     def __post_init__(self) -> None:
-        if self.tokenizer not in TOKENIZERS:
-            raise TouchError(
-                f"unknown tokenizer {self.tokenizer!r}; known: {', '.join(TOKENIZERS)}"
-            )
+        if self.tokenizer not in SAMPLINGS:
+            raise TouchError(f"unknown tokenizer {self.tokenizer!r}; known: {', '.join(SAMPLINGS)}")
         if self.dim % self.heads:
             raise TouchError(f"dim {self.dim} must be a multiple of heads {self.heads}")
-        if self.tokenizer != "fps" and self.num_groups != 64:
-            raise TouchError(f"{self.tokenizer} has 64 groups, got {self.num_groups}")
+        known = {"image": (64,), "fps": (self.num_groups,)}.get(self.tokenizer, (16, 64, 256))
+        if self.num_groups not in known:
+            several = ", ".join(map(str, known))
+            raise TouchError(f"{self.tokenizer} has {several} groups, got {self.num_groups}")
         if min(self.bearing, self.projection) < 0:
             raise TouchError(
                 f"bearing and projection are 0 or more, got {self.bearing} and {self.projection}"
             )
-        if self.bearing and self.tokenizer != "lattice":
-            raise TouchError(f"a bearing curve is for lattice, not for {self.tokenizer}")
+        if self.bearing and self.tokenizer not in LATTICES:
+            raise TouchError(f"a bearing curve is for a lattice, not for {self.tokenizer}")
+
+    @property
+    def sampling(self) -> Sampling:
+        """How the points lie that the encoder takes."""
+        return SAMPLINGS[self.tokenizer]
 
 
 PRESETS: dict[str, EncoderConfig] = {
     "tiny": EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8),
     "small": EncoderConfig(bearing=64, projection=256),
     "small_plain": EncoderConfig(),
+    "small_pressed": EncoderConfig(tokenizer="pressed", bearing=64, projection=256),
+    "small_fine": EncoderConfig(tokenizer="fine", bearing=64, projection=256),
+    "small_16": EncoderConfig(num_groups=16, bearing=64, projection=256),
+    "small_256": EncoderConfig(num_groups=256, bearing=64, projection=256),
     "small_pointbert": EncoderConfig(tokenizer="fps"),
     "small_image": EncoderConfig(tokenizer="image"),
     "pointbert": EncoderConfig(tokenizer="fps", dim=384, depth=12, heads=6, stem_dim=128),
@@ -96,9 +119,11 @@ PRESETS: dict[str, EncoderConfig] = {
         tokenizer="fps", dim=384, depth=18, heads=6, stem_dim=128, feature_dim=1280
     ),
 }
-"""``small_plain``: ``small`` without bearing curve and projection. ``small_pointbert``,
-``small_image``: the reference and a vision transformer of that size. ``pointbert``: Point-BERT at
-1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14."""
+"""``small_plain``: ``small`` without bearing curve and projection. ``small_pressed``: of points
+that crowd in the contact, ``small_fine``: of more points; ``small_16``, ``small_256``: of fewer and
+more groups. ``small_pointbert``, ``small_image``: the reference and a vision transformer of that
+size. ``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14.
+"""
 
 
 class Encoded(NamedTuple):
@@ -128,8 +153,11 @@ class TactileEncoder(nn.Module):
         self.config = config
         dim = config.dim
         self.tokenizer: nn.Module
-        if config.tokenizer == "lattice":
-            self.tokenizer = LatticeTokenizer(dim, config.stem_dim, config.stem_blocks)
+        is_lattice = config.tokenizer in LATTICES
+        if is_lattice:
+            self.tokenizer = LatticeTokenizer(
+                dim, config.stem_dim, config.stem_blocks, config.num_groups, config.sampling
+            )
         elif config.tokenizer == "image":
             self.tokenizer = PatchTokenizer(dim)
         else:
@@ -137,14 +165,17 @@ class TactileEncoder(nn.Module):
                 dim, config.stem_dim, config.num_groups, config.group_size
             )
         self.cls = nn.Parameter(torch.randn(1, 1, dim) * 0.02)
-        self.survey = Survey(dim, config.num_groups) if config.tokenizer == "lattice" else None
-        self.bearing = BearingCurve(dim, config.bearing) if config.bearing else None
+        self.survey = Survey(dim, config.num_groups) if is_lattice else None
+        crowded = config.sampling.pressed > 0
+        self.bearing = (
+            BearingCurve(dim, config.bearing, crowded=crowded) if config.bearing else None
+        )
         self.blocks = nn.ModuleList(Block(dim, config.heads) for _ in range(config.depth))
         self.norm = nn.LayerNorm(dim)
         self.feature = _projection(2 * dim, config)
 
     def forward(self, points: Tensor) -> Encoded:
-        """Encode scaled points, shape (B, N, 3); ``lattice`` needs the order of ``cltp.inputs``."""
+        """Encode scaled points, shape (B, N, 3); a lattice needs the order of ``cltp.inputs``."""
         tokens = self.tokenizer(points)
         bearing = None if self.bearing is None else self.bearing(points)
         x = self.mixed(tokens, self.class_token(tokens, bearing))

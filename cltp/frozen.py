@@ -27,6 +27,7 @@ from cltp.errors import TouchError
 from cltp.noise import NoiseUnit, spread_of
 from cltp.render import render
 from cltp.samples import Augmentation, Batch
+from cltp.sampling import Sampling
 from cltp.sensors import SensorSpec
 from cltp.weights import WeightsError, load_encoder
 
@@ -44,6 +45,11 @@ class FrozenEncoder(Protocol):
     @property
     def sees_images(self) -> bool:
         """Whether it takes rendered frames instead of points."""
+        ...
+
+    @property
+    def sampling(self) -> Sampling:
+        """How the points lie that it takes."""
         ...
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
@@ -71,6 +77,11 @@ class Frozen:
     def sees_images(self) -> bool:
         """Whether it takes rendered frames instead of points."""
         return self.encoder.config.tokenizer == "image"
+
+    @property
+    def sampling(self) -> Sampling:
+        """How the points lie that it takes."""
+        return self.encoder.config.sampling
 
     @torch.inference_mode()
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:

@@ -11,6 +11,7 @@ from torch import Tensor
 
 from cltp.point_tokens import bearing_curve
 from cltp.samples import Batch
+from cltp.sampling import EVEN
 
 _SAMPLES = 128
 
@@ -20,6 +21,7 @@ class HeightsAlone:
 
     sha256 = f"heights alone, {_SAMPLES}"
     sees_images = False
+    sampling = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
         """Heights (B, 128), scaled, and no feature (B, 1)."""

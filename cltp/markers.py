@@ -88,19 +88,25 @@ def marker_cloud(
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
 
 
-def densified(cloud: TactileCloud, *, rng: np.random.Generator | None = None) -> TactileCloud:
-    """1024 points on the smooth surface through a sparse cloud, one in each cell of a lattice.
+def densified(
+    cloud: TactileCloud,
+    *,
+    rng: np.random.Generator | None = None,
+    num_points: int = NUM_POINTS,
+) -> TactileCloud:
+    """Points on the smooth surface through a sparse cloud, one in each cell of a lattice.
 
     Args:
         cloud: At least ``MIN_POINTS`` points, not all on a line.
         rng: Jitters each point inside its cell, as ``cloud_from_heights`` does; None puts it at the
             cell's centre.
+        num_points: How many, as in ``cloud_from_heights``.
 
     Raises:
         TouchError: The points are all on a line.
     """
     known = cloud.points_mm.astype(np.float64)
-    u, v = stratified(NUM_POINTS, rng)
+    u, v = stratified(num_points, rng)
     x, y = (u - 0.5) * cloud.sensor.width_mm, (0.5 - v) * cloud.sensor.height_mm
     try:
         z = CloughTocher2DInterpolator(known[:, :2], known[:, 2])(x, y)

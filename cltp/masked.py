@@ -47,13 +47,17 @@ def patches(encoder: TactileEncoder, points: Tensor) -> Patches:
     """The patches behind an encoder's tokens: its groups, or 4 × 4 cells of the lattice.
 
     Raises:
-        TouchError: The encoder takes images.
+        TouchError: The encoder takes images, or its tokens are none of these.
     """
     tokenizer = encoder.tokenizer
     if isinstance(tokenizer, FpsTokenizer):
         return Patches(*tokenizer.groups(points))
-    if encoder.config.tokenizer != "lattice":
-        raise TouchError("masked pre-training is for encoders of points, not of images")
+    config = encoder.config
+    if config.tokenizer != "lattice" or config.num_groups != (LATTICE // _CELL) ** 2:
+        raise TouchError(
+            "masked pre-training is for a lattice of 64 groups or for fps, not for "
+            f"{config.num_groups} groups of {config.tokenizer}"
+        )
     side = LATTICE // _CELL
     grid = points.view(-1, side, _CELL, side, _CELL, 3).transpose(2, 3)
     cells = grid.reshape(len(points), side * side, _CELL * _CELL, 3)

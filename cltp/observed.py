@@ -90,7 +90,7 @@ def observe(
         "order": hashlib.sha256(order.tobytes()).hexdigest(),
     }
     name = hashlib.sha256(json.dumps(of, sort_keys=True).encode()).hexdigest()[:20]
-    sampler = Sampler(data, noise, seed=seed)
+    sampler = Sampler(data, noise, seed=seed, sampling=encoder.sampling)
     blocks = []
     for number, first in enumerate(range(0, len(order), BLOCK)):
         path = cache / name / f"block-{number:05d}.safetensors" if cache is not None else None

@@ -5,13 +5,14 @@ The three tokenizers of ``cltp.encoder``, in pure torch.
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.inputs import LATTICE
+from cltp.sampling import EVEN, Sampling
 
 
 class Survey(nn.Module):
@@ -58,11 +59,12 @@ class BearingCurve(nn.Module):
         dim: Width C of the tokens.
         samples: Heights along the curve; half of them are the deepest.
         hidden: Width of both layers.
+        crowded: Whether points stand for unequal parts of the field.
     """
 
-    def __init__(self, dim: int, samples: int, hidden: int = 256) -> None:
+    def __init__(self, dim: int, samples: int, hidden: int = 256, *, crowded: bool = False) -> None:
         super().__init__()
-        self.samples = samples
+        self.samples, self.crowded = samples, crowded
         self.trunk = nn.Sequential(
             nn.Linear(samples, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
         )
@@ -70,14 +72,49 @@ class BearingCurve(nn.Module):
 
     def forward(self, points: Tensor) -> Bearing:
         """What the heights of scaled points (B, N, 3) add."""
-        found = self.trunk(5 * bearing_curve(points, self.samples))
+        parts = cell_sizes(points) if self.crowded else None
+        found = self.trunk(5 * bearing_curve(points, self.samples, parts))
         return Bearing(self.token(found)[:, None], self.pooled(found))
 
 
-def bearing_curve(points: Tensor, samples: int) -> Tensor:
-    """Heights (B, samples) of points (B, N, 3) in falling order, at ``bearing_ranks``."""
-    heights = points[..., 2].sort(dim=1, descending=True).values
-    return heights[:, bearing_ranks(samples, points.shape[1])]
+def bearing_curve(points: Tensor, samples: int, parts: Tensor | None = None) -> Tensor:
+    """Heights (B, samples) in falling order, at ``bearing_ranks``.
+
+    Args:
+        points: Shape (B, N, 3).
+        samples: How many.
+        parts: Shape (B, N), what part of the field each point stands for, in any unit; they all
+            stand for the same when not given.
+    """
+    heights, order = points[..., 2].sort(dim=1, descending=True)
+    count = points.shape[1]
+    ranks = bearing_ranks(samples, count).to(points.device)
+    if parts is None:
+        return heights[:, ranks]
+    deepest = samples // 2
+    passed = parts.gather(1, order).cumsum(dim=1)
+    asked = ((ranks[deepest:] + 0.5) / count) * passed[:, -1:]
+    rest = torch.searchsorted(passed, asked.contiguous()).clamp(max=count - 1)
+    return torch.cat([heights[:, :deepest], heights.gather(1, rest)], dim=1)
+
+
+def cell_sizes(points: Tensor) -> Tensor:
+    """What part of the field each point of a square lattice (B, N, 3) stands for, shape (B, N)."""
+    along_x, along_y = _steps(points)
+    return (along_y[:, :, None] * along_x[:, None, :]).flatten(1)
+
+
+def _steps(points: Tensor) -> tuple[Tensor, Tensor]:
+    """Distances between neighbouring columns, and rows, of a square lattice: (B, side) each."""
+    side = math.isqrt(points.shape[1])
+    lattice = points.view(-1, side, side, 3)
+    steps = []
+    for places in (lattice[..., 0].mean(dim=1), -lattice[..., 1].mean(dim=2)):
+        ends = F.pad((places[:, 2:] - places[:, :-2]) / 2, (1, 1))
+        ends[:, 0] = places[:, 1] - places[:, 0]
+        ends[:, -1] = places[:, -1] - places[:, -2]
+        steps.append(ends.clamp_min(1e-4))
+    return steps[0], steps[1]
 
 
 def bearing_ranks(samples: int, count: int) -> Tensor:
@@ -89,51 +126,88 @@ def bearing_ranks(samples: int, count: int) -> Tensor:
 
 
 class LatticeTokenizer(nn.Module):
-    """Convolutions over the 32 × 32 lattice of points down to 8 × 8 tokens.
+    """Convolutions over a lattice of points down to 16 × 16 cells, and those to tokens.
 
-    Four neighbouring points become one cell of 16 × 16, which keeps all that they say at a quarter
-    of the cost; pairs of convolutions mix cells; each 2 × 2 cells with those around become a token.
+    The points of a cell (2 × 2 of 32 × 32) become channels, which keeps all that they say at a
+    quarter of the cost; pairs of convolutions mix cells; each 2 × 2 cells with those around become
+    one of 64 tokens.
 
     Args:
         dim: Width of the tokens.
         stem_dim: Channels at 16 × 16.
         blocks: Pairs of convolutions there.
+        num_groups: Tokens: 16, 64 or 256.
+        sampling: How the points lie. Where they crowd, their places and distances are channels.
     """
 
-    CHANNELS = 4
+    CELLS = 16
 
-    def __init__(self, dim: int, stem_dim: int, blocks: int) -> None:
+    def __init__(
+        self,
+        dim: int,
+        stem_dim: int,
+        blocks: int,
+        num_groups: int = 64,
+        sampling: Sampling = EVEN,
+    ) -> None:
         super().__init__()
-        self.stem = nn.Conv2d(4 * self.CHANNELS, stem_dim, 3, padding=1)
+        self.side, self.crowded = sampling.side, sampling.pressed > 0
+        self.in_cell = sampling.side // self.CELLS
+        channels = self.in_cell**2 * (8 if self.crowded else 4)
+        stride = self.CELLS // math.isqrt(num_groups)
+        self.stem = nn.Conv2d(channels, stem_dim, 3, padding=1)
         self.mix = nn.Sequential(*(ConvBlock(stem_dim) for _ in range(blocks)))
-        self.group = nn.Conv2d(stem_dim, dim, 3, stride=2, padding=1)
-        self.position = nn.Parameter(torch.randn(1, 64, dim) * 0.02)
+        self.group = nn.Conv2d(stem_dim, dim, 3, stride=stride, padding=1)
+        self.position = nn.Parameter(torch.randn(1, num_groups, dim) * 0.02)
 
     def forward(self, points: Tensor) -> Tensor:
-        """Points (B, 1024, 3) to tokens (B, 64, C)."""
-        cells = F.pixel_unshuffle(self.channels(points), 2)
+        """Points (B, side², 3) to tokens (B, num_groups, C)."""
+        channels = crowded_channels(points) if self.crowded else even_channels(points)
+        cells = F.pixel_unshuffle(channels, self.in_cell)
         x = self.mix(self.stem(cells.contiguous(memory_format=torch.channels_last)))
         x = self.group(F.relu(x))
         return x.flatten(2).transpose(1, 2) + self.position
 
-    @staticmethod
-    def channels(points: Tensor) -> Tensor:
-        """Indentation, its fine relief, and the points' places inside their cells.
 
-        Brought to a common size, since weights start out alike: 0.3 mm becomes 1, a relief of
-        0.03 mm becomes 1, half a cell becomes 1.
-        """
-        lattice = points.view(-1, LATTICE, LATTICE, 3).permute(0, 3, 1, 2)
-        x, y, z = lattice.split(1, dim=1)
-        relief = z - F.avg_pool2d(z, 3, stride=1, padding=1, count_include_pad=False)
-        steps = (torch.arange(LATTICE, device=points.device) + 0.5) / LATTICE - 0.5
-        # The scaled field reaches ±1 in x and ± its aspect in y; the aspect is the slope of y over
-        # the rows. What is left, in cells, says where in its cell a point lies.
-        down = steps[:, None]
-        aspect = -(y * down).sum(dim=(1, 2, 3), keepdim=True) / (2 * LATTICE * (steps**2).sum())
-        dx = (x - 2 * steps) * LATTICE
-        dy = (y + 2 * aspect * down) * LATTICE
-        return torch.cat([5 * z, 50 * relief, dx, dy], dim=1)
+def even_channels(points: Tensor) -> Tensor:
+    """Indentation, its fine relief, and the points' places inside their cells: (B, 4, n, n).
+
+    Brought to a common size, since weights start out alike: 0.3 mm becomes 1, a relief of 0.03 mm
+    becomes 1, half a cell becomes 1.
+    """
+    x, y, z, relief = _fields(points)
+    side = x.shape[-1]
+    steps = (torch.arange(side, device=points.device) + 0.5) / side - 0.5
+    # The scaled field reaches ±1 in x and ± its aspect in y; the aspect is the slope of y over the
+    # rows. What is left, in cells, says where in its cell a point lies.
+    down = steps[:, None]
+    aspect = -(y * down).sum(dim=(1, 2, 3), keepdim=True) / (2 * side * (steps**2).sum())
+    dx = (x - 2 * steps) * side
+    dy = (y + 2 * aspect * down) * side
+    return torch.cat([5 * z, 50 * relief, dx, dy], dim=1)
+
+
+def crowded_channels(points: Tensor) -> Tensor:
+    """As ``even_channels``, with the place on the field and the distances of lattice lines.
+
+    Shape (B, 8, n, n). Places inside cells are told by how far a point is from where its line lies
+    on the whole; distances as the logarithm of how much smaller than even ones they are.
+    """
+    x, y, z, relief = _fields(points)
+    side = x.shape[-1]
+    along_x, along_y = (step.to(points.dtype) for step in _steps(points))
+    dx = (x - x.mean(dim=2, keepdim=True)) / along_x[:, None, None, :]
+    dy = (y - y.mean(dim=3, keepdim=True)) / along_y[:, None, :, None]
+    near_x = (along_x * side / 2).log()[:, None, None, :].expand_as(x)
+    near_y = (along_y * side / 2).log()[:, None, :, None].expand_as(x)
+    return torch.cat([5 * z, 50 * relief, 2 * dx, 2 * dy, x, y, near_x, near_y], dim=1)
+
+
+def _fields(points: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
+    """x, y, z and how z differs from its neighbours', of a square lattice: (B, 1, n, n) each."""
+    side = math.isqrt(points.shape[1])
+    x, y, z = points.view(-1, side, side, 3).permute(0, 3, 1, 2).split(1, dim=1)
+    return x, y, z, z - F.avg_pool2d(z, 3, stride=1, padding=1, count_include_pad=False)
 
 
 class ConvBlock(nn.Module):

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cltp.dataset import ContactDataset
-from cltp.inputs import LATTICE, scaled
+from cltp.inputs import scaled
 from cltp.markers import densified, marker_cloud
 from cltp.noise import NoiseUnit, spread_of
+from cltp.sampling import EVEN, Sampling
 from cltp.sensors import SensorSpec, sensor_named
 from cltp.states import (
     Area,
@@ -51,7 +52,8 @@ class Batch:
 
     Attributes:
         index: Shape (B,), the contacts in their data set.
-        points: Shape (B, 1024, 3), float32, scaled, in the order of ``cltp.inputs``.
+        points: Shape (B, 1024, 3), float32, scaled, in the order of ``cltp.inputs``; as many as the
+            sampler's ``sampling`` has.
         height_mm: The clean heights behind each cloud, mirrored alike; for rendering.
         states: Their labels, mirrored alike.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
@@ -93,6 +95,7 @@ class Sampler:
         dataset: Where contacts come from.
         augmentation: How they are varied.
         seed: Of everything that is drawn.
+        sampling: Where the points lie.
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
     """
 
@@ -102,9 +105,10 @@ class Sampler:
         augmentation: Augmentation | None = None,
         *,
         seed: int = 0,
+        sampling: Sampling = EVEN,
         shuffle_labels: bool = False,
     ) -> None:
-        self.dataset = dataset
+        self.dataset, self.sampling = dataset, sampling
         self._label = np.arange(len(dataset))
         if shuffle_labels:
             self._label = np.random.default_rng([seed, 99]).permutation(len(dataset))
@@ -168,7 +172,7 @@ class Sampler:
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
     ) -> NDArray[np.float32]:
-        """One cloud of clean heights: shape (1024, 3), scaled, in lattice order.
+        """One cloud of clean heights: shape (side², 3), scaled, in lattice order.
 
         Noise takes the zero of heights away, as photometric sensors lose it; a cloud without noise
         is a perfect sensor's, whose heights count from the untouched gel.
@@ -181,10 +185,11 @@ class Sampler:
             unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain, spread=spread)
         if sensor.markers is not None:
             sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
-            return scaled(densified(sparse, rng=rng).points_mm, sensor)
+            dense = densified(sparse, rng=rng, num_points=self.sampling.side**2)
+            return scaled(dense.points_mm, sensor)
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
-        return scaled(_sampled(height_mm, sensor, rng), sensor)
+        return scaled(sampled(height_mm, sensor, self.sampling, rng), sensor)
 
 
 def mirrored(
@@ -208,17 +213,18 @@ def mirrored(
     )
 
 
-_ROW, _COLUMN = (a.ravel().astype(np.float32) for a in np.mgrid[0:LATTICE, 0:LATTICE])
-
-
-def _sampled(
-    height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
+def sampled(
+    height_mm: NDArray[np.float32],
+    sensor: SensorSpec,
+    sampling: Sampling,
+    rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """``cltp.cloud.cloud_from_heights`` without its checks, in float32: it runs at every pass."""
+    """Points of a height map over the whole field, shape (side², 3) [mm], in lattice order.
+
+    ``cltp.cloud.cloud_from_heights`` without its checks, in float32: it runs at every pass.
+    """
     rows, columns = height_mm.shape
-    jitter = rng.random((2, LATTICE * LATTICE), np.float32)
-    u = (_COLUMN + jitter[0]) / LATTICE
-    v = (_ROW + jitter[1]) / LATTICE
+    u, v = sampling.places(height_mm, rng)
     row = np.clip(v * rows - 0.5, 0, rows - 1)
     column = np.clip(u * columns - 0.5, 0, columns - 1)
     r0 = np.minimum(row.astype(np.int32), rows - 2)

@@ -21,6 +21,7 @@ from torch import Tensor
 
 from cltp.errors import TouchError
 from cltp.samples import Batch
+from cltp.sampling import EVEN, Sampling
 from cltp.weights import WeightsError
 
 _CLIP_MEAN = (0.48145466, 0.4578275, 0.40821073)
@@ -50,6 +51,11 @@ class VisionCheckpoint:
     def sees_images(self) -> bool:
         """Always: it takes rendered frames."""
         return True
+
+    @property
+    def sampling(self) -> Sampling:
+        """Of points that it does not take."""
+        return EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
         """As ``cltp.frozen.Frozen.encode``; it can't do without frames.

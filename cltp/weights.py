@@ -31,6 +31,7 @@ from cltp.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.heads import StateHeads
 from cltp.language import Language, load_language
+from cltp.sampling import EVEN
 from cltp.stored_lm import load_stored_lm
 from cltp.tac3d_llm import Projector, Tac3dLlm
 from cltp.tokenizer import Words
@@ -75,6 +76,21 @@ def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
     return encoder, heads
 
 
+def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
+    """As ``load_encoder``, of an encoder that can take the clouds of sensors.
+
+    Raises:
+        WeightsError: As there, or it takes points that lie otherwise.
+    """
+    encoder, heads = load_encoder(folder)
+    if encoder.config.sampling != EVEN:
+        raise WeightsError(
+            f"the encoder in {folder} takes points as {encoder.config.tokenizer!r} lays them out; "
+            "clouds of sensors have 1024, evenly: train one with another preset"
+        )
+    return encoder, heads
+
+
 def save_clip(folder: Path, clip: CLIPModel, words: Words) -> None:
     """Write a CLIP in transformers' layout, beside its tokenizer."""
     _save_pretrained(folder, clip, words)
@@ -113,10 +129,11 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
         lm_folder: Another language model in transformers' layout; its projector is ``folder``'s.
 
     Raises:
-        WeightsError: A part is missing, damaged, or belongs to other weights.
+        WeightsError: A part is missing, damaged, or belongs to other weights, or the encoder takes
+            points that sensors don't give.
         TouchError: The language model can't be read.
     """
-    encoder, heads = load_encoder(folder / "encoder")
+    encoder, heads = load_touching_encoder(folder / "encoder")
     config = _config(folder / "projector", PROJECTOR_VERSION)
     if lm_folder is None:
         _present(folder / "lm")

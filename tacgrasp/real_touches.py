@@ -15,6 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.cloud import TactileCloud
@@ -23,11 +24,12 @@ from cltp.files import read_heights, read_touch
 from cltp.frames import FRAME_SUFFIXES
 from cltp.frozen import FrozenEncoder
 from cltp.heads import NUMBERS
-from cltp.inputs import encoder_input
+from cltp.inputs import encoder_input, scaled
 from cltp.observed import Observed
 from cltp.probes import Judged, judge
 from cltp.render import render
-from cltp.samples import CLASSES
+from cltp.samples import CLASSES, sampled
+from cltp.sampling import EVEN, Sampling
 from cltp.sensors import SensorSpec
 from cltp.train.sayings import NOTHING
 from tacgrasp.errors import UsageError
@@ -98,34 +100,56 @@ def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> La
     return Labelled(file=path, classes=tuple(classes))
 
 
-def read_inputs(
-    rows: list[Labelled], sensor: SensorSpec, background: Path | None
-) -> tuple[list[TactileCloud], Tensor]:
-    """What encoders take of touches: their clouds, and rendered frames (N, 3, 64, 64).
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """What encoders take of real touches.
+
+    Attributes:
+        clouds: Of 1024 points, evenly.
+        heights_mm: Height maps, shape (H, W) each, with median 0.
+        frames: Rendered, shape (N, 3, 64, 64).
+    """
+
+    clouds: Sequence[TactileCloud]
+    heights_mm: Sequence[NDArray[np.float32]]
+    frames: Tensor
+
+    def points(self, sampling: Sampling) -> Tensor:
+        """Scaled points, shape (N, side², 3), as an encoder wants them to lie."""
+        if sampling == EVEN:
+            return torch.from_numpy(np.stack([encoder_input(cloud) for cloud in self.clouds]))
+        rng = np.random.default_rng(0)
+        found = []
+        for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True):
+            points_mm = sampled(heights_mm, cloud.sensor, sampling, rng)
+            found.append(scaled(points_mm, cloud.sensor))
+        return torch.from_numpy(np.stack(found))
+
+
+def read_inputs(rows: list[Labelled], sensor: SensorSpec, background: Path | None) -> Touches:
+    """What encoders take of touches.
 
     Raises:
         TouchError: A file is no touch of this sensor.
     """
-    clouds, frames = [], []
+    clouds, maps, frames = [], [], []
     for row in rows:
         is_frame = row.file.suffix.lower() in FRAME_SUFFIXES
         untouched = background if is_frame else None
         clouds.append(read_touch(row.file, sensor, background=untouched))
         heights = read_heights(row.file, sensor, background=untouched)
-        frames.append(render(heights - np.float32(np.median(heights)), sensor))
-    return clouds, torch.stack(frames)
+        maps.append(heights - np.float32(np.median(heights)))
+        frames.append(render(maps[-1], sensor))
+    return Touches(clouds, maps, torch.stack(frames))
 
 
-def observed(
-    encoder: FrozenEncoder, rows: list[Labelled], clouds: Sequence[TactileCloud], frames: Tensor
-) -> Observed:
+def observed(encoder: FrozenEncoder, rows: list[Labelled], touches: Touches) -> Observed:
     """Features of touches with their labels; of numbers nothing is known.
 
     Raises:
         TouchError: A feature is not finite; it names the file.
     """
-    points = torch.from_numpy(np.stack([encoder_input(cloud) for cloud in clouds]))
-    taken = frames if encoder.sees_images else points
+    taken = touches.frames if encoder.sees_images else touches.points(encoder.sampling)
     parts = [encoder.read(batch) for batch in taken.split(64)]
     pooled, feature = (torch.cat(found).float() for found in zip(*parts, strict=True))
     if not feature.isfinite().all():

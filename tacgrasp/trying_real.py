@@ -63,17 +63,17 @@ def zero_shot_real(
         if method not in ALIGNED:
             raise UsageError(f"{method} has no prompts for contact states; {', '.join(ALIGNED)} do")
     table = "zero_shot" if prompting == "single" else "zero_shot_ensemble"
-    clouds, frames = read_inputs(real.rows, real.sensor, real.background)
+    touches = read_inputs(real.rows, real.sensor, real.background)
     found = []
     for method in methods:
         how = stored(method, place.weights)
-        seen = observed(how.encoder(), real.rows, clouds, frames)
+        seen = observed(how.encoder(), real.rows, touches)
         prompts = Prompts(how.towers(place.weights), prompting)
         said = told(real.rows, prompts.cosines(seen.feature), "cosine")
         write_predictions(_file(real, methods, method), said)
         found.append(_stored(place, table, method, how, said.judged))
     how = stored(methods[0], place.weights)
-    return [*found, _ceiling(place, table, how.data, real, clouds)]
+    return [*found, _ceiling(place, table, how.data, real, touches.clouds)]
 
 
 def probe_real(
@@ -85,20 +85,20 @@ def probe_real(
         UsageError: A method was not trained, or the rows can't be written.
         TouchError: A file is no touch of this sensor, or weights or data can't be used.
     """
-    clouds, frames = read_inputs(real.rows, real.sensor, real.background)
+    touches = read_inputs(real.rows, real.sensor, real.background)
     found = []
     hows = trainable(place, methods)
     for method, how in hows.items():
         encoder = how.encoder()
         learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
         probes = ClassProbes(learned, seed=place.seed, report=place.report)
-        sure = probes.sure(observed(encoder, real.rows, clouds, frames))
+        sure = probes.sure(observed(encoder, real.rows, touches))
         said = told(real.rows, sure, "probability")
         write_predictions(_file(real, list(hows), method), said)
         found.append(
             _stored(place, "probe", method, replace(how, data=place.checksum), said.judged)
         )
-    return [*found, _ceiling(place, "probe", place.checksum, real, clouds)]
+    return [*found, _ceiling(place, "probe", place.checksum, real, touches.clouds)]
 
 
 def _file(real: RealSet, methods: Sequence[str], method: str) -> Path:

@@ -125,7 +125,13 @@ def train_cltp(
     stage = Stage("cltp", out_dir / ".training", learner, schedule, identity, workers=workers)
     if stage.done and folder.exists():
         return folder
-    sampler = Sampler(data, augmentation, seed=seed, shuffle_labels=shuffle_labels)
+    sampler = Sampler(
+        data,
+        augmentation,
+        seed=seed,
+        sampling=config.sampling,
+        shuffle_labels=shuffle_labels,
+    )
     cache = clip_dir.parent / ".training" if workers.is_first else None
     frozen = FrozenFeatures(towers, data, cache)
     run = _Run(learner, frozen, recipe, sampler, workers, seed)

@@ -163,7 +163,9 @@ class _Work:
             plot_curves(stage.curves, stage.curves.with_suffix(".png"))
 
     def _batches(self, first: int, schedule: Schedule) -> Iterator[Batch]:
-        sampler = Sampler(self.data, self.augmentation, seed=self.seed)
+        sampler = Sampler(
+            self.data, self.augmentation, seed=self.seed, sampling=self._config.sampling
+        )
         size = self.workers.share(schedule.batch_size)
         for step in range(first, schedule.steps):
             yield sampler.numbered(size, self.workers.part(step))

@@ -35,7 +35,7 @@ from cltp.tac3d_llm import Projector, Tac3dLlm
 from cltp.tokenizer import Words
 from cltp.train.ahead import ahead
 from cltp.train.stage import Report, Schedule, Stage, device, silent
-from cltp.weights import load_encoder, save_tac3d_llm
+from cltp.weights import load_touching_encoder, save_tac3d_llm
 
 TEXT = Schedule(steps=300, batch_size=24, learning_rate=2e-3)
 PROJECTOR = Schedule(steps=200, batch_size=32, learning_rate=2e-3)
@@ -110,7 +110,7 @@ def train_llm(
         TouchError: Data, encoder or a checkpoint can't be used.
     """
     data = ContactDataset(data_dir, split=Split.TRAIN)
-    encoder, heads = load_encoder(out_dir / "encoder")
+    encoder, heads = load_touching_encoder(out_dir / "encoder")
     torch.manual_seed(seed)
     lm = small_lm(words, dim=dim, layers=layers)
     language = Language(lm, words=words)

@@ -19,7 +19,7 @@ from cltp.heads import StateHeads, restored, targets, transformed
 from cltp.inputs import cell_centres, encoder_input, lattice_points, scaled
 from cltp.losses import CltpLoss, ContrastiveLoss
 from cltp.packing import Exchange
-from cltp.point_tokens import BearingCurve, bearing_ranks, farthest_points
+from cltp.point_tokens import BearingCurve, bearing_ranks, even_channels, farthest_points
 from cltp.render import render
 from cltp.samples import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.sensors import SENSORS
@@ -156,8 +156,7 @@ def test_the_order_of_a_cloud_does_not_matter() -> None:
 
 def test_the_lattice_channels_are_height_relief_and_place() -> None:
     centres = scaled(np.c_[cell_centres(MINI), np.full(1024, 0.15)], MINI)
-    encoder = TactileEncoder(TINY)
-    channels = encoder.tokenizer.channels(torch.from_numpy(centres)[None])  # type: ignore[operator]
+    channels = even_channels(torch.from_numpy(centres)[None])
     assert channels.shape == (1, 4, 32, 32)
     torch.testing.assert_close(channels[0, 0], torch.full((32, 32), 0.5))  # 5 × 0.15 / 1.5
     assert channels[0, 1:].abs().max() < 1e-3  # flat, and every point at its cell's centre
@@ -180,12 +179,16 @@ def test_both_tokenizers_give_a_token_for_each_group(tokenizer: str) -> None:
 def test_sizes_that_do_not_fit_are_refused() -> None:
     with pytest.raises(TouchError, match="multiple"):
         EncoderConfig(dim=30, heads=4)
-    with pytest.raises(TouchError, match="known: lattice, fps, image"):
+    with pytest.raises(TouchError, match="known: lattice, pressed, fine, fps, image"):
         EncoderConfig(tokenizer="voxels")
     with pytest.raises(TouchError, match="0 or more"):
         EncoderConfig(projection=-1)
-    with pytest.raises(TouchError, match="for lattice, not for fps"):
+    with pytest.raises(TouchError, match="for a lattice, not for fps"):
         EncoderConfig(tokenizer="fps", bearing=16)
+    with pytest.raises(TouchError, match="has 16, 64, 256 groups, got 32"):
+        EncoderConfig(num_groups=32)
+    with pytest.raises(TouchError, match="image has 64 groups, got 256"):
+        EncoderConfig(tokenizer="image", num_groups=256)
 
 
 def test_the_bearing_curve_knows_heights_and_not_places() -> None:
