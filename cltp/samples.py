@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cltp.augment import draw_placement, move
 from cltp.dataset import ContactDataset
 from cltp.inputs import scaled
 from cltp.markers import densified, marker_cloud
@@ -57,6 +58,7 @@ class Batch:
         height_mm: The clean heights behind each cloud, mirrored alike; for rendering.
         states: Their labels, mirrored alike.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
+        moved: Shape (B,), bool: shifted or turned after that.
     """
 
     index: NDArray[np.int64]
@@ -64,6 +66,7 @@ class Batch:
     height_mm: list[NDArray[np.float32]]
     states: list[ContactState]
     mirror: NDArray[np.bool_]
+    moved: NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,6 +99,7 @@ class Sampler:
         augmentation: How they are varied.
         seed: Of everything that is drawn.
         sampling: Where the points lie.
+        moved: Share of contacts that are shifted and turned on the pad (``cltp.augment``).
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
     """
 
@@ -106,9 +110,10 @@ class Sampler:
         *,
         seed: int = 0,
         sampling: Sampling = EVEN,
+        moved: float = 0.0,
         shuffle_labels: bool = False,
     ) -> None:
-        self.dataset, self.sampling = dataset, sampling
+        self.dataset, self.sampling, self.moved = dataset, sampling, moved
         self._label = np.arange(len(dataset))
         if shuffle_labels:
             self._label = np.random.default_rng([seed, 99]).permutation(len(dataset))
@@ -121,12 +126,18 @@ class Sampler:
         rng = np.random.default_rng([self.seed, step])
         points, heights, states = [], [], []
         mirror = rng.random((len(indices), 2)) < (0.5 if self.augmentation.mirror else 0.0)
-        for index, (along_x, along_y) in zip(indices, mirror, strict=True):
+        # No draw where none is moved: what is drawn after it must stay what it was.
+        moved = rng.random(len(indices)) < self.moved if self.moved > 0 else mirror[:, 0] & False
+        for index, (along_x, along_y), is_moved in zip(indices, mirror, moved, strict=True):
             sensor = sensor_named(self.dataset.column("sensor")[index])
             height_mm = self.dataset.height_mm(int(index))
             height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
             state = self.dataset.state(int(self._label[index]))
             state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
+            if is_moved:
+                to = draw_placement(height_mm, state, sensor, rng)
+                there = move(height_mm, state, sensor, to)
+                height_mm, state = there.height_mm, there.state
             points.append(self.cloud(height_mm, sensor, rng))
             heights.append(height_mm)
             states.append(state)
@@ -136,6 +147,7 @@ class Sampler:
             height_mm=heights,
             states=states,
             mirror=mirror,
+            moved=moved,
         )
 
     def training(self, batch_size: int, first_step: int = 0) -> Iterator[Batch]:

@@ -42,6 +42,7 @@ class Order:
     prompt_weight: float = 1.0
     head_weight: float = 1.0
     read_weight: float = 1.0
+    moved: float = 0.0
     precision: str = "no"
     seed: int = 0
     seeds: int = 1
@@ -59,6 +60,7 @@ class Order:
             prompt_weight=self.prompt_weight,
             head_weight=self.head_weight,
             read_weight=self.read_weight,
+            moved=self.moved,
             with_images=self.with_images,
         )
 

@@ -48,6 +48,7 @@ class Wish:
         prompt_weight: Of the contrast with one prompt a class.
         head_weight: Of the state heads.
         read_weight: Of letting CLIP's texts be read back.
+        moved: Share of contacts that are shifted and turned on the pad.
         with_images: Whether L_T2I is minimised.
     """
 
@@ -58,6 +59,7 @@ class Wish:
     prompt_weight: float = 1.0
     head_weight: float = 1.0
     read_weight: float = 1.0
+    moved: float = 0.0
     with_images: bool = True
 
     def config(self, method: str) -> EncoderConfig:
@@ -95,6 +97,7 @@ class Wish:
             several=self.texts != "caption",
             prompt_weight=self.prompt_weight,
             head_weight=self.head_weight,
+            moved=self.moved,
         )
 
 

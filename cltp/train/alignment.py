@@ -7,7 +7,7 @@ encoder: classes and numbers make it precise enough to act on.
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +43,7 @@ class Recipe:
         prompt_weight: Of a contrast with one prompt for every class, dimension by dimension; 0 is
             the paper.
         head_weight: Of the state heads' terms; 0 is the paper.
+        moved: Share of contacts that are shifted and turned on the pad (``cltp.augment``).
     """
 
     with_images: bool = True
@@ -50,6 +51,7 @@ class Recipe:
     several: bool = False
     prompt_weight: float = 0.0
     head_weight: float = 1.0
+    moved: float = field(default=0.0, repr=False)  # trainings from before it still go on
 
 
 RECIPE = Recipe(texts="mixed", several=True, prompt_weight=1.0)
@@ -130,6 +132,7 @@ def train_cltp(
         augmentation,
         seed=seed,
         sampling=config.sampling,
+        moved=recipe.moved,
         shuffle_labels=shuffle_labels,
     )
     cache = clip_dir.parent / ".training" if workers.is_first else None
@@ -153,6 +156,8 @@ def _variant(
     """What tells trainings apart; as it was before recipes for those that there were then."""
     plain = Recipe(with_images=recipe.with_images, head_weight=recipe.head_weight)
     known = f"{recipe.head_weight} {recipe.with_images} {shuffle_labels} {augmentation}"
+    if recipe.moved > 0:
+        known = f"{known} moved {recipe.moved}"
     return known if recipe == plain and workers.count == 1 else f"{known} {recipe} {workers.count}"
 
 

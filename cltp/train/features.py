@@ -77,12 +77,16 @@ class FrozenFeatures:
         return torch.stack([self._texts[text] for text in texts])
 
     def images(self, batch: Batch) -> Tensor:
-        """Features of the clean images of a batch, shape (B, F)."""
+        """Features of the clean images of a batch, shape (B, F); moved ones are not kept."""
         mirror = torch.from_numpy(batch.mirror).long()
         rows = 4 * torch.from_numpy(batch.index) + 2 * mirror[:, 0] + mirror[:, 1]
-        for index in batch.index[~self._known[rows].numpy()]:
+        for index in batch.index[~self._known[rows].numpy() & ~batch.moved]:
             self._see(int(index))
-        return self._images[rows].float()
+        found = self._images[rows].float()
+        if batch.moved.any():
+            moved = torch.from_numpy(batch.moved)
+            found[moved] = self._towers.images(rendered(self._data, batch)[moved]).cpu().float()
+        return found
 
     def _see(self, index: int) -> None:
         """Compute the four mirror images of one contact, always these together: see ``texts``."""

@@ -69,6 +69,7 @@ class Pretrain:
         prompt_weight: Of a contrast with one prompt for every class.
         head_weight: Of the state heads beside CLTP's losses; 0 is the paper.
         read_weight: Of letting CLIP's texts be read back (clip); 0 is a contrast alone.
+        moved: Share of contacts, 0 to 1, that CLTP sees shifted and turned on the pad.
         precision: Of matrix products.
         seed: Of weights, order, noise and probes.
         seeds: Of probes (probe, all-methods): so many, counted from seed, for CLTP alone.
@@ -88,6 +89,7 @@ class Pretrain:
     prompt_weight: float = 1.0
     head_weight: float = 1.0
     read_weight: float = 1.0
+    moved: float = 0.0
     precision: Literal["no", "bf16"] = "no"
     seed: int = 0
     seeds: int = 1
@@ -111,7 +113,7 @@ def main(argv: Sequence[str]) -> int:
 def _for_methods(rest: Sequence[str]) -> bool:
     """Whether flags speak of methods and budgets: CLIP and CLTP can be trained either way."""
     own = {"preset", "steps", "batch-size", "clip-steps", "no-image", "texts", "prompt-weight"}
-    own |= {"head-weight", "read-weight", "precision", "seeds", "results", "tensorboard"}
+    own |= {"head-weight", "read-weight", "moved", "precision", "seeds", "results", "tensorboard"}
     given = {token.split("=")[0].removeprefix("--").replace("_", "-") for token in rest}
     return bool(own & given)
 
@@ -145,6 +147,8 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
     if flags.seeds < 1 or min(flags.prompt_weight, flags.head_weight, flags.read_weight) < 0:
         raise UsageError("--seeds must be at least 1, weights of losses at least 0")
+    if not 0 <= flags.moved <= 1:
+        raise UsageError(f"--moved is a share from 0 to 1, got {flags.moved}")
     if flags.no_image and stage != "cltp":
         raise UsageError("--no-image is for `tacgrasp train cltp`; all-methods trains both")
     from tacgrasp.all_methods import Order, carry_out
@@ -164,6 +168,7 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
             prompt_weight=flags.prompt_weight,
             head_weight=flags.head_weight,
             read_weight=flags.read_weight,
+            moved=flags.moved,
             precision=flags.precision,
             seed=flags.seed,
             seeds=flags.seeds,

@@ -125,6 +125,38 @@ def test_features_are_computed_once_and_read_again(
     torch.testing.assert_close(towers.images(pixels), images, rtol=0, atol=1e-3)
 
 
+def test_images_of_moved_contacts_are_those_of_where_they_came_to(
+    data_dir: Path, towers_dir: Path
+) -> None:
+    data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
+    stayed, moved = (Sampler(data, seed=3, moved=share).numbered(8, 0) for share in (0.0, 1.0))
+    assert moved.moved.all() and not stayed.moved.any()
+    np.testing.assert_array_equal(moved.index, stayed.index)
+    apart = [
+        (one.x_mm, one.y_mm) != (other.x_mm, other.y_mm)
+        for one, other in zip(moved.states, stayed.states, strict=True)
+    ]
+    assert sum(apart) >= 4  # some can't be moved, and half of these stay
+    assert [s.shape for s in moved.states] == [s.shape for s in stayed.states]
+    features = FrozenFeatures(towers, data)
+    found = features.images(moved)
+    assert features.computed == 0  # nothing of them is kept
+    torch.testing.assert_close(found, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
+    half = dataclasses.replace(moved, moved=np.arange(8) < 4)
+    torch.testing.assert_close(features.images(half)[:4], found[:4], rtol=0, atol=1e-5)
+    torch.testing.assert_close(features.images(half)[4:], features.images(stayed)[4:])
+
+
+def test_moved_contacts_are_another_training(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
+    kwargs = {"config": TINY, "schedule": schedule, "clip_dir": towers_dir}
+    train_cltp(data_dir, tmp_path, recipe=Recipe(moved=0.5), **kwargs)  # type: ignore[arg-type]
+    with pytest.raises(TouchError, match="other data, seed or sizes"):
+        train_cltp(data_dir, tmp_path, recipe=Recipe(), **kwargs)  # type: ignore[arg-type]
+
+
 def test_damaged_features_are_refused(data_dir: Path, towers_dir: Path, tmp_path: Path) -> None:
     data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
     features = FrozenFeatures(towers, data, tmp_path)
