@@ -166,10 +166,9 @@ class TactileEncoder(nn.Module):
             )
         self.cls = nn.Parameter(torch.randn(1, 1, dim) * 0.02)
         self.survey = Survey(dim, config.num_groups) if is_lattice else None
-        crowded = config.sampling.pressed > 0
-        self.bearing = (
-            BearingCurve(dim, config.bearing, crowded=crowded) if config.bearing else None
-        )
+        self.bearing = None
+        if config.bearing:
+            self.bearing = BearingCurve(dim, config.bearing, sampling=config.sampling)
         self.blocks = nn.ModuleList(Block(dim, config.heads) for _ in range(config.depth))
         self.norm = nn.LayerNorm(dim)
         self.feature = _projection(2 * dim, config)

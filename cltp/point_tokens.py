@@ -59,21 +59,32 @@ class BearingCurve(nn.Module):
         dim: Width C of the tokens.
         samples: Heights along the curve; half of them are the deepest.
         hidden: Width of both layers.
-        crowded: Whether points stand for unequal parts of the field.
+        sampling: How the points lie. Where they crowd, each counts for the part of the field that
+            it stands for; and where the lattice's lines lie, and the largest height on each, go
+            with the curve: a line is at another place in every contact.
     """
 
-    def __init__(self, dim: int, samples: int, hidden: int = 256, *, crowded: bool = False) -> None:
+    def __init__(
+        self, dim: int, samples: int, hidden: int = 256, *, sampling: Sampling = EVEN
+    ) -> None:
         super().__init__()
-        self.samples, self.crowded = samples, crowded
+        self.samples, self.crowded = samples, sampling.pressed > 0
+        taken = samples + 4 * sampling.side if self.crowded else samples
         self.trunk = nn.Sequential(
-            nn.Linear(samples, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
+            nn.Linear(taken, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
         )
         self.token, self.pooled = nn.Linear(hidden, dim), nn.Linear(hidden, 2 * dim)
 
     def forward(self, points: Tensor) -> Bearing:
         """What the heights of scaled points (B, N, 3) add."""
         parts = cell_sizes(points) if self.crowded else None
-        found = self.trunk(5 * bearing_curve(points, self.samples, parts))
+        taken = 5 * bearing_curve(points, self.samples, parts)
+        if self.crowded:
+            columns, rows = _lines(points)
+            highest = _squared(points)[..., 2]
+            profiles = [5 * highest.amax(dim=1), 5 * highest.amax(dim=2)]
+            taken = torch.cat([taken, 2 * columns, 2 * rows, *profiles], dim=1)
+        found = self.trunk(taken)
         return Bearing(self.token(found)[:, None], self.pooled(found))
 
 
@@ -98,31 +109,42 @@ def bearing_curve(points: Tensor, samples: int, parts: Tensor | None = None) -> 
     return torch.cat([heights[:, :deepest], heights.gather(1, rest)], dim=1)
 
 
-def cell_sizes(points: Tensor) -> Tensor:
-    """What part of the field each point of a square lattice (B, N, 3) stands for, shape (B, N)."""
-    along_x, along_y = _steps(points)
-    return (along_y[:, :, None] * along_x[:, None, :]).flatten(1)
-
-
-def _steps(points: Tensor) -> tuple[Tensor, Tensor]:
-    """Distances between neighbouring columns, and rows, of a square lattice: (B, side) each."""
-    side = math.isqrt(points.shape[1])
-    lattice = points.view(-1, side, side, 3)
-    steps = []
-    for places in (lattice[..., 0].mean(dim=1), -lattice[..., 1].mean(dim=2)):
-        ends = F.pad((places[:, 2:] - places[:, :-2]) / 2, (1, 1))
-        ends[:, 0] = places[:, 1] - places[:, 0]
-        ends[:, -1] = places[:, -1] - places[:, -2]
-        steps.append(ends.clamp_min(1e-4))
-    return steps[0], steps[1]
-
-
 def bearing_ranks(samples: int, count: int) -> Tensor:
     """Which of ``count`` heights in falling order make a bearing curve, shape (samples,)."""
     deepest = samples // 2
     rest = torch.linspace(0, 1, samples - deepest + 1)[1:].square()
     spread = deepest - 1 + (rest * (count - deepest)).round().long()
     return torch.cat([torch.arange(deepest), spread])
+
+
+def cell_sizes(points: Tensor) -> Tensor:
+    """What part of the field each point of a square lattice (B, N, 3) stands for, shape (B, N)."""
+    along_x, along_y = _steps(points)
+    return (along_y[:, :, None] * along_x[:, None, :]).flatten(1)
+
+
+def _squared(points: Tensor) -> Tensor:
+    """Points of a square lattice (B, N, 3) as (B, n, n, 3)."""
+    side = math.isqrt(points.shape[1])
+    return points.view(-1, side, side, 3)
+
+
+def _lines(points: Tensor) -> tuple[Tensor, Tensor]:
+    """Where the columns of a square lattice lie along x, and its rows along y: (B, n) each."""
+    lattice = _squared(points)
+    return lattice[..., 0].mean(dim=1), lattice[..., 1].mean(dim=2)
+
+
+def _steps(points: Tensor) -> tuple[Tensor, Tensor]:
+    """Distances between neighbouring columns, and rows, of a square lattice: (B, n) each."""
+    columns, rows = _lines(points)
+    steps = []
+    for places in (columns, -rows):
+        ends = F.pad((places[:, 2:] - places[:, :-2]) / 2, (1, 1))
+        ends[:, 0] = places[:, 1] - places[:, 0]
+        ends[:, -1] = places[:, -1] - places[:, -2]
+        steps.append(ends.clamp_min(1e-4))
+    return steps[0], steps[1]
 
 
 class LatticeTokenizer(nn.Module):
@@ -205,8 +227,7 @@ def crowded_channels(points: Tensor) -> Tensor:
 
 def _fields(points: Tensor) -> tuple[Tensor, Tensor, Tensor, Tensor]:
     """x, y, z and how z differs from its neighbours', of a square lattice: (B, 1, n, n) each."""
-    side = math.isqrt(points.shape[1])
-    x, y, z = points.view(-1, side, side, 3).permute(0, 3, 1, 2).split(1, dim=1)
+    x, y, z = _squared(points).permute(0, 3, 1, 2).split(1, dim=1)
     return x, y, z, z - F.avg_pool2d(z, 3, stride=1, padding=1, count_include_pad=False)
 
 
