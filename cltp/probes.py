@@ -1,11 +1,14 @@
 """What small networks read from a frozen encoder: classes (the paper's table 2) and numbers.
 
-One MLP a dimension, as in the paper. For numbers, beyond the paper, one that says how sure it is: a
-mean and a spread for each quantity, whose intervals are then stretched on contacts that it did not
-learn from until they hold 90 % of them (split conformal prediction).
+One MLP a dimension, as in the paper. For numbers, beyond the paper, several that say how sure they
+are: a mean and a spread for each quantity. Each learns without a part of the objects, so that they
+disagree where a contact is like nothing that all of them know. Their intervals are then stretched
+on contacts that none learned from until they hold 90 % of them (split conformal prediction).
 
 Source: paper, section 5.2; conformal intervals scaled by a predicted spread after Lei et al.,
-'Distribution-Free Predictive Inference for Regression', 2018.
+'Distribution-Free Predictive Inference for Regression', 2018; several that disagree after
+Lakshminarayanan et al., 'Simple and Scalable Predictive Uncertainty Estimation using Deep
+Ensembles', 2017.
 """
 
 from __future__ import annotations
@@ -186,42 +189,54 @@ class Stretch:
     place: float
 
 
+MEMBERS = 5
+"""Readers of numbers; each leaves out as small a part of the objects."""
+
+DISAGREEMENT = 64.0
+"""What the variance between members counts for beside the one that they say. Our choice: members
+share an encoder and most objects, so that they disagree less than they are wrong."""
+
+
 class NumberProbe:
     """Mean and spread of ``NUMBERS`` for each contact that touches.
 
     Args:
         seen: What it learns from.
-        schedule: How long and how fast.
-        seed: Of weights and order.
+        things: Shape (N,), the number of the object that each contact is of.
+        schedule: How long and how fast each member learns.
+        seed: Of weights, order and which objects are left out.
         report: Told about progress.
     """
 
     def __init__(
         self,
         seen: Observed,
+        things: Tensor,
         *,
         schedule: Schedule = SCHEDULE,
         seed: int = 0,
         report: Report = silent,
     ) -> None:
-        torch.manual_seed(seed)
-        touching = (seen.classes[:, _DEPTH] >= 0).nonzero()[:, 0]
-        pooled, goal = seen.pooled[touching], transformed(seen.numbers[touching])
-        self._model = _Scaled(seen.pooled, 2 * len(NUMBERS))
-
-        def loss(rows: Tensor) -> Tensor:
-            mean, spread = self._spoken(pooled[rows])
-            off = goal[rows] - mean
-            # The mean is pulled by absolute errors too: a spread that is too wide would excuse it.
-            told = (off / spread).square() / 2 + spread.log()
-            return (told + F.smooth_l1_loss(mean, goal[rows], beta=0.02, reduction="none")).mean()
-
-        _fit(self._model, len(touching), loss, schedule, "probe numbers", seed, report)
-        self._model.eval()
+        touching = seen.classes[:, _DEPTH] >= 0
+        every = things.unique()
+        rng = torch.Generator().manual_seed(seed)
+        part = torch.randperm(len(every), generator=rng) % MEMBERS
+        part_of = part[torch.searchsorted(every, things)]
+        self._members = []
+        for member in range(MEMBERS):
+            known = touching & (part_of != member)
+            # One object alone can't be left out.
+            rows = (known if known.any() else touching).nonzero()[:, 0]
+            name = f"probe numbers {member + 1} of {MEMBERS}"
+            of_member = MEMBERS * seed + member
+            self._members.append(_number_member(seen, rows, schedule, of_member, name, report))
 
     def _spoken(self, pooled: Tensor) -> tuple[Tensor, Tensor]:
-        mean, spread = self._model(pooled).chunk(2, dim=-1)
-        return mean, F.softplus(spread - 2) + 1e-3
+        """Mean and spread, transformed, (N, 5) each."""
+        told = [_told(member, pooled) for member in self._members]
+        means, spreads = torch.stack([m for m, _ in told]), torch.stack([s for _, s in told])
+        apart = means.var(dim=0)
+        return means.mean(dim=0), (spreads.square().mean(dim=0) + DISAGREEMENT * apart).sqrt()
 
     @torch.no_grad()
     def calibrate(self, seen: Observed, coverage: float = COVERAGE) -> Stretch:
@@ -248,6 +263,30 @@ class NumberProbe:
         reach = spread * stretch.each
         away = spread[:, 1:3].norm(dim=1) * stretch.place
         return Interval(restored(mean), restored(mean - reach), restored(mean + reach), away)
+
+
+def _number_member(
+    seen: Observed, rows: Tensor, schedule: Schedule, seed: int, name: str, report: Report
+) -> _Scaled:
+    """One reader of numbers, which has learned from some rows."""
+    torch.manual_seed(seed)
+    pooled, goal = seen.pooled[rows], transformed(seen.numbers[rows])
+    model = _Scaled(seen.pooled, 2 * len(NUMBERS))
+
+    def loss(chosen: Tensor) -> Tensor:
+        mean, spread = _told(model, pooled[chosen])
+        off = goal[chosen] - mean
+        # The mean is pulled by absolute errors too: a spread that is too wide would excuse it.
+        told = (off / spread).square() / 2 + spread.log()
+        return (told + F.smooth_l1_loss(mean, goal[chosen], beta=0.02, reduction="none")).mean()
+
+    _fit(model, len(rows), loss, schedule, name, seed, report)
+    return model.eval()
+
+
+def _told(member: _Scaled, pooled: Tensor) -> tuple[Tensor, Tensor]:
+    mean, spread = member(pooled).chunk(2, dim=-1)
+    return mean, F.softplus(spread - 2) + 1e-3
 
 
 _DEPTH = list(CLASSES).index("depth")

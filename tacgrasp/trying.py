@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+import torch
 from torch import Tensor
 
 from cltp.captions import caption
@@ -117,7 +119,9 @@ def _numbers(
     place: Place, encoder: FrozenEncoder, learned: Observed, method: str, how: Trained
 ) -> list[Result]:
     """Regression and its intervals, calibrated on the validation split with the trial's noise."""
-    reader = NumberProbe(learned, seed=place.seed, report=place.report)
+    names = ContactDataset(place.data, split=Split.TRAIN).column("object")
+    things = torch.from_numpy(np.unique(names, return_inverse=True)[1])[learned.index]
+    reader = NumberProbe(learned, things, seed=place.seed, report=place.report)
     stretches = {
         str(noise): reader.calibrate(
             place.seen(encoder, Split.VALIDATION, noise, views=2, whole=True)

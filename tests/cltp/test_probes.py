@@ -8,6 +8,7 @@ import pytest
 import torch
 from fake_contacts import fake_contact
 
+from cltp import probes
 from cltp.captions import caption
 from cltp.clip import Towers, small_clip
 from cltp.contacts import Split
@@ -127,7 +128,8 @@ def test_features_that_are_not_finite_are_named() -> None:
 
 def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
     long = Schedule(steps=600, batch_size=128, learning_rate=3e-3)
-    probe = NumberProbe(told(5000, 1, numbers_alone=True), schedule=long)
+    things = torch.arange(5000) % 10
+    probe = NumberProbe(told(5000, 1, numbers_alone=True), things, schedule=long)
     stretch = probe.calibrate(told(1000, 2, numbers_alone=True))
     other = told(2000, 3, numbers_alone=True)
     said = probe.said(other, stretch)
@@ -137,6 +139,39 @@ def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
     assert scores["force_percent"] < 40  # always saying 1 N is about 50 % off
     width, noise = said.high[:, 0] - said.low[:, 0], other.pooled[:, -1]
     assert width[noise > 0.2].median() > 1.5 * width[noise < 0.2].median()
+    other.pooled[:, :-1] *= 6  # far from all that was learned, noise as before
+    strange = probe.said(other, stretch)
+    assert (strange.high - strange.low)[:, 3].median() > 2 * (said.high - said.low)[:, 3].median()
+
+
+def test_members_leave_out_objects_and_one_object_alone_is_learned() -> None:
+    seen = told(200, 1, numbers_alone=True)
+    alone = NumberProbe(seen, torch.zeros(200), schedule=QUICK)
+    several = NumberProbe(seen, torch.arange(200) // 20, schedule=QUICK)
+    for probe in (alone, several):
+        said = probe.said(seen, probe.calibrate(seen))
+        assert torch.isfinite(said.value).all()
+        assert (said.low < said.high).all()
+
+
+@pytest.mark.parametrize("count", [5, 7])
+def test_every_object_is_left_out_by_one_member(
+    count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    learned: list[set[int]] = []
+    things = torch.arange(40 * count) // 40
+    seen = told(40 * count, 1, numbers_alone=True)
+    whole = probes._number_member
+
+    def noted(seen: Observed, rows: torch.Tensor, *rest: object) -> object:
+        learned.append(set(things[rows].tolist()))
+        return whole(seen, rows, *rest)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(probes, "_number_member", noted)
+    NumberProbe(seen, 100 + 3 * things, schedule=QUICK)
+    assert len(learned) == probes.MEMBERS
+    for thing in range(count):
+        assert sum(thing in known for known in learned) == probes.MEMBERS - 1
 
 
 @pytest.fixture(scope="module")
