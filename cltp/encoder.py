@@ -176,7 +176,7 @@ class TactileEncoder(nn.Module):
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3); a lattice needs the order of ``cltp.inputs``."""
         tokens = self.tokenizer(points)
-        bearing = None if self.bearing is None else self.bearing(points)
+        bearing = None if self.bearing is None else self.bearing(points, tokens)
         x = self.mixed(tokens, self.class_token(tokens, bearing))
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
         if bearing is not None:

@@ -89,7 +89,7 @@ def visible_tokens(
         points = torch.where(whole.reshape(len(points), -1, 1), points * flat, points)
         tokens = tokenizer(points)
     tokens = tokens * ~hidden[..., None]
-    bearing = None if encoder.bearing is None else encoder.bearing(points)
+    bearing = None if encoder.bearing is None else encoder.bearing(points, tokens)
     return tokens, encoder.class_token(tokens, bearing)
 
 

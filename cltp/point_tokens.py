@@ -60,32 +60,68 @@ class BearingCurve(nn.Module):
         samples: Heights along the curve; half of them are the deepest.
         hidden: Width of both layers.
         sampling: How the points lie. Where they crowd, each counts for the part of the field that
-            it stands for; and where the lattice's lines lie, and the largest height on each, go
-            with the curve: a line is at another place in every contact.
+            it stands for, and ``Whereabouts`` go with the curve.
     """
 
     def __init__(
         self, dim: int, samples: int, hidden: int = 256, *, sampling: Sampling = EVEN
     ) -> None:
         super().__init__()
-        self.samples, self.crowded = samples, sampling.pressed > 0
-        taken = samples + 4 * sampling.side if self.crowded else samples
+        self.samples = samples
+        self.where = Whereabouts(dim, sampling.side) if sampling.pressed > 0 else None
+        taken = samples + (self.where.size if self.where is not None else 0)
         self.trunk = nn.Sequential(
             nn.Linear(taken, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
         )
         self.token, self.pooled = nn.Linear(hidden, dim), nn.Linear(hidden, 2 * dim)
 
-    def forward(self, points: Tensor) -> Bearing:
-        """What the heights of scaled points (B, N, 3) add."""
-        parts = cell_sizes(points) if self.crowded else None
-        taken = 5 * bearing_curve(points, self.samples, parts)
-        if self.crowded:
-            columns, rows = _lines(points)
-            highest = _squared(points)[..., 2]
-            profiles = [5 * highest.amax(dim=1), 5 * highest.amax(dim=2)]
-            taken = torch.cat([taken, 2 * columns, 2 * rows, *profiles], dim=1)
+    def forward(self, points: Tensor, tokens: Tensor) -> Bearing:
+        """What the heights of scaled points (B, N, 3) add, whose groups' tokens are (B, G, C)."""
+        if self.where is None:
+            taken = 5 * bearing_curve(points, self.samples)
+        else:
+            parts = cell_sizes(points)
+            curve = 5 * bearing_curve(points, self.samples, parts)
+            taken = torch.cat([curve, self.where(points, parts, tokens)], dim=1)
         found = self.trunk(taken)
         return Bearing(self.token(found)[:, None], self.pooled(found))
+
+
+class Whereabouts(nn.Module):
+    """What even points say by their order alone, said of crowded ones: where, and how much.
+
+    Where the lattice's lines lie and how high each reaches; what tokens say, summed over the parts
+    of the field that their groups stand for; and the places of the groups that some heads look at.
+
+    Args:
+        dim: Width C of the tokens.
+        side: Of the lattice.
+        sums: Values summed over the field.
+        looks: Heads that look for a place.
+    """
+
+    def __init__(self, dim: int, side: int, sums: int = 32, looks: int = 8) -> None:
+        super().__init__()
+        self.size = 4 * side + sums + 2 * looks
+        self.sums, self.looks = nn.Linear(dim, sums), nn.Linear(dim, looks)
+
+    def forward(self, points: Tensor, parts: Tensor, tokens: Tensor) -> Tensor:
+        """Shape (B, size), of points (B, N, 3), their parts of the field (B, N) and tokens."""
+        columns, rows = _lines(points)
+        lattice = _squared(points)
+        highest = [5 * lattice[..., 2].amax(dim=axis) for axis in (1, 2)]
+        shares = _grouped(_squared(parts[..., None]), tokens.shape[1])[..., 0]
+        shares = shares / shares.sum(dim=1, keepdim=True)
+        places = _grouped(lattice[..., :2], tokens.shape[1])
+        summed = (shares[..., None] * F.relu(self.sums(tokens))).sum(dim=1)
+        seen = self.looks(tokens).softmax(dim=1).transpose(1, 2) @ places
+        return torch.cat([2 * columns, 2 * rows, *highest, 4 * summed, 2 * seen.flatten(1)], dim=1)
+
+
+def _grouped(lattice: Tensor, num_groups: int) -> Tensor:
+    """Means over the groups of a lattice (B, n, n, K): shape (B, num_groups, K)."""
+    edge = lattice.shape[1] // math.isqrt(num_groups)
+    return F.avg_pool2d(lattice.permute(0, 3, 1, 2), edge).flatten(2).transpose(1, 2)
 
 
 def bearing_curve(points: Tensor, samples: int, parts: Tensor | None = None) -> Tensor:
@@ -124,9 +160,9 @@ def cell_sizes(points: Tensor) -> Tensor:
 
 
 def _squared(points: Tensor) -> Tensor:
-    """Points of a square lattice (B, N, 3) as (B, n, n, 3)."""
+    """Points of a square lattice (B, N, K) as (B, n, n, K)."""
     side = math.isqrt(points.shape[1])
-    return points.view(-1, side, side, 3)
+    return points.view(-1, side, side, points.shape[2])
 
 
 def _lines(points: Tensor) -> tuple[Tensor, Tensor]:

@@ -194,14 +194,14 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
 def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     torch.manual_seed(0)
     curve = BearingCurve(8, 16)
-    points = torch.rand(2, 1024, 3)
+    points, none = torch.rand(2, 1024, 3), torch.zeros(2, 0, 8)
     moved = points.clone()
     moved[0, :, :2] += 0.3
     moved[1] = points[1, torch.randperm(1024)]
-    torch.testing.assert_close(curve(moved), curve(points))
+    torch.testing.assert_close(curve(moved, none), curve(points, none))
     deeper = points.clone()
     deeper[0, points[0, :, 2].argmax(), 2] += 0.2
-    for before, after in zip(curve(points), curve(deeper), strict=True):
+    for before, after in zip(curve(points, none), curve(deeper, none), strict=True):
         assert not torch.equal(before[0], after[0])
         torch.testing.assert_close(before[1], after[1])
     ranks = bearing_ranks(16, 1024)
