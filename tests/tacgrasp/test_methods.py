@@ -1,6 +1,7 @@
 """Pre-training methods on the command line: trained, tried, reported, and everything refused."""
 
 import csv
+import dataclasses
 import json
 import re
 import shutil
@@ -18,10 +19,13 @@ from fake_results import fake_result
 
 from cltp.contacts import Split
 from cltp.dataset import DatasetWriter
+from cltp.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
+from cltp.heads import StateHeads
 from cltp.probes import SCHEDULE
 from cltp.samples import CLASSES
 from cltp.train.stage import Schedule
+from cltp.weights import load_clip, save_encoder
 from tacgrasp import all_methods, trying
 from tacgrasp.__main__ import main
 from tacgrasp.paper import PAPER
@@ -183,6 +187,32 @@ def test_real_touches_are_named_from_a_table(
     table.write_text("file,shape\n0.npy,sphere\n")
     assert "needs the columns" in complaint(["eval", "zero-shot", *places, *real], capsys)
     assert "belong together" in complaint(["eval", "zero-shot", *places, *real[:2]], capsys)
+
+
+@pytest.mark.parametrize("tokenizer", ["pressed", "fine"])
+def test_encoders_of_other_points_name_real_touches(
+    tokenizer: str, out: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(out / "clip", tmp_path / "weights" / "clip")
+    config = EncoderConfig(tokenizer=tokenizer, dim=24, depth=1, heads=2, stem_dim=8)
+    wide = load_clip(out / "clip").feature_dim
+    encoder = TactileEncoder(dataclasses.replace(config, feature_dim=wide))
+    save_encoder(tmp_path / "weights" / "encoder", encoder, StateHeads(48))
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    table = tmp_path / "labels.csv"
+    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
+    said = tmp_path / "said.csv"
+    argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(said)]
+    assert main(["eval", "zero-shot", *argv, "--weights", str(tmp_path / "weights")]) == 0
+    (row,) = csv.DictReader(said.open())
+    assert row["shape"] in CLASSES["shape"]
+
+
+def test_contacts_are_moved_by_a_share(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    argv = ["train", "cltp", "--data", str(data), "--out", str(tmp_path), "--moved"]
+    assert "share from 0 to 1, got 2" in complaint([*argv, "2"], capsys)
 
 
 def test_probes_name_real_touches_by_points_and_by_frames(
