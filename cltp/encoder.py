@@ -1,7 +1,7 @@
 """The tactile encoder E_T: points of a cloud to tokens and one feature, in pure torch.
 
 Source: PointBERT as ULIP-2 uses it (groups of points, a transformer over them and a class token,
-feature = one matrix on the class token beside the maximum over groups). Two tokenizers:
+feature = one matrix on the class token beside the maximum over groups). Tokenizers:
 
 ``fps``: the reference. Group centres by farthest point sampling, their nearest points relative to
     the centre, a small PointNet with a maximum over each group.

@@ -20,6 +20,7 @@ from torch import Tensor, nn
 
 from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
+from cltp.sampling import EVEN
 from cltp.sensors import SENSORS
 from tacgrasp.errors import UsageError
 from tacgrasp.plain_pointbert import PlainPointBert
@@ -49,12 +50,14 @@ def run(
         clock: Of what is timed [s].
 
     Raises:
-        UsageError: No such preset.
+        UsageError: No such preset, or it is for images.
     """
     if preset not in PRESETS:
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     config = PRESETS[preset]
-    groups = dataclasses.replace(config, tokenizer="fps")
+    if config.tokenizer == "image":
+        raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
+    groups = dataclasses.replace(config, tokenizer="fps", bearing=0)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)
@@ -97,7 +100,7 @@ def _latency(
     model: nn.Module, batch: int, repeats: int, clock: Callable[[], float]
 ) -> dict[str, float]:
     model.eval()
-    points = clouds(batch)
+    points = clouds(batch, _points_of(model))
     taken = []
     for number in range(WARM_UP + repeats):
         began = clock()
@@ -110,9 +113,14 @@ def _latency(
     }
 
 
+def _points_of(model: nn.Module) -> int:
+    sampling = model.config.sampling if isinstance(model, TactileEncoder) else EVEN
+    return int(sampling.side**2)
+
+
 def _training(model: nn.Module, steps: int, clock: Callable[[], float], batch: int = 32) -> float:
     model.train()
-    points = clouds(batch)
+    points = clouds(batch, _points_of(model))
     optimiser = torch.optim.AdamW(model.parameters(), lr=1e-4)
     began = clock()
     for number in range(1 + steps):

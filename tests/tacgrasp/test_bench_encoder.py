@@ -50,6 +50,17 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
     assert set(found["scaling"]) == {"256 points, 64 groups"}
 
 
+@pytest.mark.parametrize("preset", ["small", "small_pressed", "small_fine"])
+def test_presets_with_a_bearing_curve_are_timed(preset: str, tmp_path: Path) -> None:
+    ticks, path = itertools.count(), tmp_path / "encoder.json"
+    bench_encoder.run(
+        preset, repeats=1, scales=[], json_path=path, clock=lambda: float(next(ticks))
+    )
+    found = json.loads(path.read_text())["encoders"]
+    assert f"ours, {PRESETS[preset].tokenizer}" in found
+    assert found["ours, fps"]["batch_1_p50_ms"] == 1000.0
+
+
 def test_points_to_time_stand_in_a_square() -> None:
     assert bench_encoder.clouds(2).shape == (2, 1024, 3)
     with pytest.raises(TouchError, match="square number"):
@@ -59,5 +70,7 @@ def test_points_to_time_stand_in_a_square() -> None:
 def test_wrong_use_is_told(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["bench", "encoder", "--preset", "giant"]) == 2
     assert "unknown preset 'giant'" in capsys.readouterr().err
+    assert main(["bench", "encoder", "--preset", "small_image"]) == 2
+    assert "takes images" in capsys.readouterr().err
     assert main(["bench", "encoder", "--repeats", "0"]) == 2
     assert "at least 1" in capsys.readouterr().err
