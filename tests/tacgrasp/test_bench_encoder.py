@@ -50,14 +50,20 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
     assert set(found["scaling"]) == {"256 points, 64 groups"}
 
 
-@pytest.mark.parametrize("preset", ["small", "small_pressed", "small_fine"])
-def test_presets_with_a_bearing_curve_are_timed(preset: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("tokenizer", ["lattice", "pressed", "fine"])
+def test_lattices_with_a_bearing_curve_are_timed(
+    tokenizer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     ticks, path = itertools.count(), tmp_path / "encoder.json"
+    few = dataclasses.replace(
+        PRESETS["tiny"], tokenizer=tokenizer, bearing=8, num_groups=16, group_size=4, dim=8
+    )
+    monkeypatch.setitem(PRESETS, "tiny", few)
     bench_encoder.run(
-        preset, repeats=1, scales=[], json_path=path, clock=lambda: float(next(ticks))
+        "tiny", repeats=1, scales=[], json_path=path, clock=lambda: float(next(ticks))
     )
     found = json.loads(path.read_text())["encoders"]
-    assert f"ours, {PRESETS[preset].tokenizer}" in found
+    assert set(found) == {f"ours, {tokenizer}", "ours, fps", "plain PointBERT"}
     assert found["ours, fps"]["batch_1_p50_ms"] == 1000.0
 
 
