@@ -17,7 +17,7 @@ feature = one matrix on the class token beside the maximum over groups). Tokeniz
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import torch
@@ -65,6 +65,7 @@ class EncoderConfig:
         bearing: Heights along the bearing curve beside a lattice; 0 for none.
         projection: Hidden width of the way from pooled tokens to the aligned feature; 0 for one
             matrix, as in the paper.
+        grades: Steps of height that the bearing curve is also told in; 0 for none.
 
     Raises:
         TouchError: The sizes don't fit together.
@@ -81,6 +82,7 @@ class EncoderConfig:
     feature_dim: int = 128
     bearing: int = 0
     projection: int = 0
+    grades: int = field(default=0, repr=False)  # see ``identity``
 
     def __post_init__(self) -> None:
         if self.tokenizer not in SAMPLINGS:
@@ -91,10 +93,11 @@ class EncoderConfig:
         if self.num_groups not in known:
             several = ", ".join(map(str, known))
             raise TouchError(f"{self.tokenizer} has {several} groups, got {self.num_groups}")
-        if min(self.bearing, self.projection) < 0:
-            raise TouchError(
-                f"bearing and projection are 0 or more, got {self.bearing} and {self.projection}"
-            )
+        if min(self.bearing, self.projection, self.grades) < 0:
+            sizes = f"{self.bearing}, {self.projection} and {self.grades}"
+            raise TouchError(f"bearing, projection and grades are 0 or more, got {sizes}")
+        if self.grades and not self.bearing:
+            raise TouchError(f"{self.grades} grades are for a bearing curve, and there is none")
         if self.bearing and self.tokenizer not in LATTICES:
             raise TouchError(f"a bearing curve is for a lattice, not for {self.tokenizer}")
 
@@ -103,12 +106,21 @@ class EncoderConfig:
         """How the points lie that the encoder takes."""
         return SAMPLINGS[self.tokenizer]
 
+    @property
+    def identity(self) -> str:
+        """What tells it from others, in words that stay the same for those from before grades."""
+        return f"{self} grades {self.grades}" if self.grades else str(self)
+
 
 PRESETS: dict[str, EncoderConfig] = {
     "tiny": EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8),
     "small": EncoderConfig(bearing=64, projection=256),
     "small_plain": EncoderConfig(),
+    "small_graded": EncoderConfig(bearing=64, projection=256, grades=60),
     "small_pressed": EncoderConfig(tokenizer="pressed", bearing=64, projection=256),
+    "small_pressed_graded": EncoderConfig(
+        tokenizer="pressed", bearing=64, projection=256, grades=60
+    ),
     "small_fine": EncoderConfig(tokenizer="fine", bearing=64, projection=256),
     "small_16": EncoderConfig(num_groups=16, bearing=64, projection=256),
     "small_256": EncoderConfig(num_groups=256, bearing=64, projection=256),
@@ -119,10 +131,11 @@ PRESETS: dict[str, EncoderConfig] = {
         tokenizer="fps", dim=384, depth=18, heads=6, stem_dim=128, feature_dim=1280
     ),
 }
-"""``small_plain``: ``small`` without bearing curve and projection. ``small_pressed``: of points
-that crowd in the contact, ``small_fine``: of more points; ``small_16``, ``small_256``: of fewer and
-more groups. ``small_pointbert``, ``small_image``: the reference and a vision transformer of that
-size. ``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14.
+"""``small_plain``: ``small`` without bearing curve and projection. ``small_graded``: heights of that
+curve told in steps of 0.025 mm too. ``small_pressed``: of points that crowd in the contact,
+``small_fine``: of more points; ``small_16``, ``small_256``: of fewer and more groups.
+``small_pointbert``, ``small_image``: the reference and a vision transformer of that size.
+``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14.
 """
 
 
@@ -168,7 +181,9 @@ class TactileEncoder(nn.Module):
         self.survey = Survey(dim, config.num_groups) if is_lattice else None
         self.bearing = None
         if config.bearing:
-            self.bearing = BearingCurve(dim, config.bearing, sampling=config.sampling)
+            self.bearing = BearingCurve(
+                dim, config.bearing, grades=config.grades, sampling=config.sampling
+            )
         self.blocks = nn.ModuleList(Block(dim, config.heads) for _ in range(config.depth))
         self.norm = nn.LayerNorm(dim)
         self.feature = _projection(2 * dim, config)

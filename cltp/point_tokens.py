@@ -59,17 +59,26 @@ class BearingCurve(nn.Module):
         dim: Width C of the tokens.
         samples: Heights along the curve; half of them are the deepest.
         hidden: Width of both layers.
+        grades: Steps of height that some of the curve's heights are also told in (``graded``); 0
+            for none.
         sampling: How the points lie. Where they crowd, each counts for the part of the field that
             it stands for, and ``Whereabouts`` go with the curve.
     """
 
     def __init__(
-        self, dim: int, samples: int, hidden: int = 256, *, sampling: Sampling = EVEN
+        self,
+        dim: int,
+        samples: int,
+        hidden: int = 256,
+        *,
+        grades: int = 0,
+        sampling: Sampling = EVEN,
     ) -> None:
         super().__init__()
-        self.samples = samples
+        self.samples, self.grades = samples, grades
         self.where = Whereabouts(dim, sampling.side) if sampling.pressed > 0 else None
-        taken = samples + (self.where.size if self.where is not None else 0)
+        taken = samples + grades * len(graded_ranks(samples))
+        taken += self.where.size if self.where is not None else 0
         self.trunk = nn.Sequential(
             nn.Linear(taken, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
         )
@@ -77,14 +86,38 @@ class BearingCurve(nn.Module):
 
     def forward(self, points: Tensor, tokens: Tensor) -> Bearing:
         """What the heights of scaled points (B, N, 3) add, whose groups' tokens are (B, G, C)."""
-        if self.where is None:
-            taken = 5 * bearing_curve(points, self.samples)
-        else:
-            parts = cell_sizes(points)
-            curve = 5 * bearing_curve(points, self.samples, parts)
-            taken = torch.cat([curve, self.where(points, parts, tokens)], dim=1)
-        found = self.trunk(taken)
+        parts = None if self.where is None else cell_sizes(points)
+        curve = bearing_curve(points, self.samples, parts)
+        taken = [5 * curve]
+        if self.grades:
+            taken.append(graded(curve[:, graded_ranks(self.samples)], self.grades))
+        if self.where is not None and parts is not None:
+            taken.append(self.where(points, parts, tokens))
+        found = self.trunk(torch.cat(taken, dim=1))
         return Bearing(self.token(found)[:, None], self.pooled(found))
+
+
+def graded(heights: Tensor, grades: int) -> Tensor:
+    """Heights (B, K), scaled, as how far each has come through each of so many steps from 0 to 1.
+
+    Shape (B, K * grades), 0 to 1: a limit between two classes, which is one number of many, becomes
+    a weight of its own, where a network would have to bend at that very place.
+
+    Source: piecewise linear encoding, Gorishniy et al., 'On Embeddings for Numerical Features in
+    Tabular Deep Learning', 2022.
+    """
+    below = torch.arange(grades, device=heights.device)
+    return (heights[..., None] * grades - below).clamp(0, 1).flatten(1)
+
+
+def graded_ranks(samples: int) -> list[int]:
+    """Places on a curve of so many heights that are graded: eight at its deep end, then every 4th.
+
+    Of 64: 0, 1, 3, 6, 10, 16, 23, 31 and 35, 39, ... 63.
+    """
+    half = samples // 2
+    deep = sorted({round((half - 1) * (n / 7) ** 2) for n in range(8)})
+    return deep + list(range(half + 3, samples, 4))
 
 
 class Whereabouts(nn.Module):

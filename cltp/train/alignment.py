@@ -120,7 +120,7 @@ def train_cltp(
     identity = {
         "data": data.checksum(),
         "seed": seed,
-        "config": str(config),
+        "config": config.identity,
         "variant": _variant(recipe, shuffle_labels, augmentation, workers),
     }
     folder = out_dir / "encoder"

@@ -145,7 +145,7 @@ class _Work:
         identity = {
             "data": self.data.checksum(),
             "seed": self.seed,
-            "config": str(self._config),
+            "config": self._config.identity,
             "variant": f"{self.augmentation} {self.workers.count}",
         }
         stage = Stage(name, self._folder, model, schedule, identity, workers=self.workers)

@@ -19,7 +19,14 @@ from cltp.heads import StateHeads, restored, targets, transformed
 from cltp.inputs import cell_centres, encoder_input, lattice_points, scaled
 from cltp.losses import CltpLoss, ContrastiveLoss
 from cltp.packing import Exchange
-from cltp.point_tokens import BearingCurve, bearing_ranks, even_channels, farthest_points
+from cltp.point_tokens import (
+    BearingCurve,
+    bearing_ranks,
+    even_channels,
+    farthest_points,
+    graded,
+    graded_ranks,
+)
 from cltp.render import render
 from cltp.samples import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.sensors import SENSORS
@@ -208,6 +215,24 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     assert ranks[:8].tolist() == list(range(8))
     assert (ranks.diff() > 0).all()
     assert ranks[-1] == 1023
+
+
+def test_graded_heights_fill_steps_one_after_the_other() -> None:
+    found = graded(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
+    expected = [[1, 1, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0, 1, 1, 1, 0.5]]
+    torch.testing.assert_close(found, torch.tensor(expected, dtype=torch.float32))
+    ranks = graded_ranks(64)
+    assert ranks == sorted(set(ranks))
+    assert (ranks[0], ranks[-1]) == (0, 63)
+    assert BearingCurve(8, 64, grades=10).trunk[0].in_features == 64 + 10 * len(ranks)
+
+
+def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
+    with pytest.raises(TouchError, match="60 grades are for a bearing curve"):
+        EncoderConfig(grades=60)
+    plain, told = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
+    assert plain != told
+    assert plain.identity == str(plain) != told.identity
 
 
 def test_numbers_survive_their_transformation() -> None:
