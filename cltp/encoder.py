@@ -131,8 +131,8 @@ PRESETS: dict[str, EncoderConfig] = {
         tokenizer="fps", dim=384, depth=18, heads=6, stem_dim=128, feature_dim=1280
     ),
 }
-"""``small_plain``: ``small`` without bearing curve and projection. ``small_graded``: heights of that
-curve told in steps of 0.025 mm too. ``small_pressed``: of points that crowd in the contact,
+"""``small_plain``: ``small`` without bearing curve and projection. ``small_graded``: heights of
+that curve told in steps too. ``small_pressed``: of points that crowd in the contact,
 ``small_fine``: of more points; ``small_16``, ``small_256``: of fewer and more groups.
 ``small_pointbert``, ``small_image``: the reference and a vision transformer of that size.
 ``pointbert``: Point-BERT at 1024 points; ``ulip2``: as deep as ULIP-2, for CLIP ViT-bigG-14.
