@@ -139,6 +139,20 @@ that curve told in steps too. ``small_pressed``: of points that crowd in the con
 """
 
 
+DEFAULT_PRESETS = {
+    "cltp": "small_graded",
+    "cltp_no_image": "small_graded",
+    "point_mae": "small",
+    "point_bert": "small",
+    "tvl": "small_image",
+    "unitouch": "small_image",
+    "random": "small",
+}
+"""By method of pre-training. ``small`` for other encoders of points, and CLTP is tried with it too,
+so that objectives are compared and not tokens; a step of ``small_pointbert`` takes eight times as
+long on a CPU."""
+
+
 class Encoded(NamedTuple):
     """What an encoder makes of a batch of clouds.
 

@@ -17,10 +17,10 @@ from pathlib import Path
 import torch
 
 from cltp.dataset import ContactDataset
-from cltp.encoder import PRESETS, EncoderConfig
+from cltp.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig
 from cltp.train.alignment import SCHEDULE as CLTP_SCHEDULE
 from cltp.train.alignment import Recipe, train_cltp
-from cltp.train.baselines import DEFAULT_PRESETS, train_baseline
+from cltp.train.baselines import train_baseline
 from cltp.train.llm import train_words
 from cltp.train.stage import Report, Schedule, silent
 from cltp.train.towers import SCHEDULE as CLIP_SCHEDULE
@@ -75,7 +75,7 @@ class Wish:
 
     def preset_of(self, method: str) -> str:
         """Name of the encoder's preset."""
-        return self.preset or DEFAULT_PRESETS.get(method, "small")
+        return self.preset or DEFAULT_PRESETS[method]
 
     def schedule(self, usual: Schedule) -> Schedule:
         """The usual schedule of a stage with as many steps and contacts as wished.

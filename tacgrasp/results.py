@@ -13,9 +13,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from cltp.encoder import DEFAULT_PRESETS
 from cltp.errors import TouchError
 from cltp.samples import CLASSES
-from cltp.train.baselines import DEFAULT_PRESETS
 from tacgrasp.errors import UsageError
 from tacgrasp.whole_file import write_whole
 
@@ -36,7 +36,7 @@ METHODS = {
 """Names of the methods, in the paper's order, and as tables write them."""
 
 USUAL = {**DEFAULT_PRESETS, "ceiling": "measured"}
-"""Variants that come first and that ``nested`` takes, where not ``small``."""
+"""Variants that come first and that ``nested`` takes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -182,7 +182,7 @@ def grouped(results: Iterable[Result]) -> dict[Key, list[Result]]:
     order = list(METHODS)
 
     def rank(result: Result) -> tuple[object, ...]:
-        other = result.variant != USUAL.get(result.method, "small")
+        other = result.variant != USUAL[result.method]
         place = TABLES.index(result.table), order.index(result.method)
         return *place, other, result.variant, result.trial, result.seed
 
@@ -196,7 +196,7 @@ def grouped(results: Iterable[Result]) -> dict[Key, list[Result]]:
 def usual_variant(method: str, results: Iterable[Result]) -> str | None:
     """The variant of a method that comes first among results; None without any."""
     there = sorted({result.variant for result in results if result.method == method})
-    usual = USUAL.get(method, "small")
+    usual = USUAL[method]
     return usual if usual in there else next(iter(there), None)
 
 

@@ -16,7 +16,7 @@ from torch import Tensor, nn
 
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
 from cltp.heads import StateHeads, Targets, targets
 from cltp.losses import CltpLoss
 from cltp.samples import CLASSES, Augmentation, Sampler
@@ -114,7 +114,7 @@ def train_cltp(
     data = ContactDataset(data_dir, split=Split.TRAIN)
     clip_dir = clip_dir or out_dir / "clip"
     towers = load_clip(clip_dir).to(workers.device)
-    config = _as_wide_as(config or PRESETS["small"], towers.feature_dim)
+    config = _as_wide_as(config or PRESETS[DEFAULT_PRESETS["cltp"]], towers.feature_dim)
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
     identity = {

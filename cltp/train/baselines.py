@@ -24,7 +24,7 @@ from torch import Tensor, nn
 from cltp.clip import Towers
 from cltp.contacts import Split
 from cltp.dataset import ContactDataset
-from cltp.encoder import PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.frozen import noisy_frames, save_frozen
 from cltp.gathering import gathered
@@ -41,16 +41,6 @@ from cltp.train.workers import Workers
 from cltp.weights import load_clip
 
 METHODS = ("point_mae", "point_bert", "tvl", "unitouch", "random")
-
-DEFAULT_PRESETS = {
-    "point_mae": "small",
-    "point_bert": "small",
-    "tvl": "small_image",
-    "unitouch": "small_image",
-    "random": "small",
-}
-"""``small`` for every encoder of points, so that objectives are compared and not tokens; a step of
-``small_pointbert`` takes eight times as long on a CPU."""
 
 _VOCABULARY_SHARE = 0.25
 _COLDEST = 0.0625  # Gumbel temperature falls from 1 to this. Source: Point-BERT, section 4

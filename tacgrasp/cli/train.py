@@ -59,7 +59,8 @@ class Pretrain:
     Attributes:
         out: Folder of all methods: OUT/clip and OUT/METHOD/encoder.
         data: Folder of contacts; it must be there.
-        preset: Encoder; by default small, and small_image for tvl and unitouch, which see frames.
+        preset: Encoder; by default small_graded for cltp, small_image for tvl and unitouch, which
+            see frames, and small for others.
         steps: Optimiser steps, the same for every method; by default 5000.
         batch_size: Contacts in a step; by default 64.
         clip_steps: Steps of CLIP; by default 400.

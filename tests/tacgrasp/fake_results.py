@@ -1,7 +1,7 @@
 """Rows of tables with nothing measured behind them."""
 
 from cltp.samples import CLASSES
-from tacgrasp.results import Budget, Result
+from tacgrasp.results import USUAL, Budget, Result
 
 
 def fake_result(**changed: object) -> Result:
@@ -9,7 +9,7 @@ def fake_result(**changed: object) -> Result:
     usual: dict[str, object] = {
         "table": "probe",
         "method": "cltp",
-        "variant": "small",
+        "variant": USUAL[str(changed.get("method", "cltp"))],
         "trial": "contact",
         "seed": 0,
         "data": "abc",

@@ -399,5 +399,6 @@ def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
     save(tmp_path, fake_result(confusion={"shape": counts}))
     page = report(tmp_path, tmp_path)[0].read_text()
     assert (
-        "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small | triangle as peak (1) |" in page
+        "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small_graded | triangle as peak (1) |"
+        in page
     )
