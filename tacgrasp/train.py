@@ -7,6 +7,7 @@ skipped when it is done, so that the same command can be given again after anyth
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import platform
 import shutil
@@ -23,14 +24,26 @@ from cltp.train.alignment import train_cltp
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from cltp.train.towers import train_clip
-from cltp.weights import load_encoder, size_bytes, write_card
+from cltp.weights import (
+    load_clip,
+    load_encoder,
+    load_touching_encoder,
+    size_bytes,
+    write_card,
+)
 from tacgrasp.errors import UsageError
 from tacgrasp.generate import generate
+from tacgrasp.pretraining import ABOUT
+from tacgrasp.trained import stored
 from tacgrasp.training_data import TouchLessons
+from tacgrasp.whole_file import write_whole
 
 STAGES = ("clip", "cltp", "llm")
 CONTACTS = 24_000
 PARTS = ("clip", "encoder", "projector", "lm")
+PRETRAINED = "pretraining.json"
+"""Beside the encoder: how it came about, where ``take_pretrained`` took it."""
+
 BLIND_MARK = Path(".training") / "blind"
 """Lies in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
 
@@ -96,7 +109,42 @@ def train(
         "last run took": f"{(time.monotonic() - began) / 60:.0f} min",
         "size": f"{_bytes(out) / 1e6:.1f} MB",
     }
+    if (out / "encoder" / PRETRAINED).exists():
+        about = json.loads((out / "encoder" / PRETRAINED).read_text(encoding="utf-8"))
+        facts["encoder and clip"] = (
+            f"`{about['command']}`: {about['preset']}, {about['steps']} steps of "
+            f"{about['batch_size']}, data checksum {about['data']}"
+        )
     write_card(out, facts, {})
+
+
+def take_pretrained(methods: Path, out: Path) -> None:
+    """Begin a folder of weights with CLTP and its CLIP from a folder of methods.
+
+    Args:
+        methods: What ``tacgrasp train clip`` and ``tacgrasp train cltp`` wrote with a budget.
+        out: Folder of weights; nothing is taken where an encoder of the same training is there.
+
+    Raises:
+        UsageError: CLTP was not trained there, or ``out`` holds another encoder.
+        TouchError: The encoder can't be read, or takes points that sensors don't give.
+    """
+    found = stored("cltp", methods)
+    load_touching_encoder(found.folder / "encoder")
+    load_clip(methods / "clip")
+    about = (found.folder / ABOUT).read_text(encoding="utf-8")
+    kept = out / "encoder" / PRETRAINED
+    if kept.exists() and kept.read_text(encoding="utf-8") == about:
+        return
+    beside = out / "encoder.part"  # there while this is under way, or was interrupted
+    if (out / "encoder").exists() or ((out / "clip").exists() and not beside.exists()):
+        raise UsageError(f"{out} holds another encoder; choose another folder with --out")
+    for part in (beside, out / "clip"):
+        shutil.rmtree(part, ignore_errors=True)
+    shutil.copytree(found.folder / "encoder", beside)
+    shutil.copytree(methods / "clip", out / "clip")
+    write_whole(beside / PRETRAINED, about)
+    beside.rename(out / "encoder")
 
 
 def take_encoder(source: Path, out: Path) -> None:

@@ -40,6 +40,8 @@ class Train:
         threads: Of torch; by default one for each core.
         blind_of: Train an instruction-blind copy of the language model behind this folder's
             encoder, for tacgrasp eval --blind (llm alone).
+        methods: Take the encoder and CLIP from this folder, where they were pre-trained with a
+            budget of their own (llm alone).
     """
 
     out: Path = Path("weights")
@@ -48,6 +50,7 @@ class Train:
     seed: int = 0
     threads: int | None = None
     blind_of: Path | None = None
+    methods: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -125,8 +128,12 @@ def _weights(stage: str, rest: Sequence[str]) -> int:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
     if flags.blind_of is not None and stage != "llm":
         raise UsageError("--blind-of is for `tacgrasp train llm`; the encoder sees no instructions")
+    if flags.methods is not None and (stage != "llm" or flags.blind_of is not None):
+        raise UsageError("--methods is for `tacgrasp train llm`, and not with --blind-of")
     from tacgrasp import train
 
+    if flags.methods is not None:
+        train.take_pretrained(flags.methods, flags.out)
     if flags.blind_of is not None:
         train.take_encoder(flags.blind_of, flags.out)
     train.train(

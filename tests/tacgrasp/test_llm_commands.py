@@ -407,10 +407,67 @@ def test_a_blind_copy_stands_behind_the_same_encoder_in_a_folder_of_its_own(
     assert "weights that see" in complaint(onto, capsys)
 
 
+@pytest.fixture
+def methods(weights: Path, tmp_path: Path) -> Path:
+    """CLTP as if it had been pre-trained with a budget."""
+    folder = tmp_path / "methods"
+    shutil.copytree(weights / "clip", folder / "clip")
+    shutil.copytree(weights / "encoder", folder / "cltp" / "encoder")
+    about = {"command": "tacgrasp train cltp --steps 9", "preset": "tiny", "steps": 9}
+    about |= {"batch_size": 4, "data": "abcdef", "seed": 0, "recipe": None}
+    (folder / "cltp" / "about.json").write_text(json.dumps(about))
+    return folder
+
+
+def test_a_language_model_stands_behind_an_encoder_that_was_pretrained(
+    weights: Path,
+    methods: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    trainer, out = Trainer(monkeypatch, weights), tmp_path / "weights"
+    argv = ["train", "llm", "--out", str(out), "--methods", str(methods)]
+    assert main(argv) == 0
+    assert trainer.carried_out == [("llm", out)]
+    for part in ("clip", "encoder"):
+        same = (out / part / "model.safetensors").read_bytes()
+        assert same == (weights / part / "model.safetensors").read_bytes()
+    card = (out / "README.md").read_text()
+    assert "`tacgrasp train cltp --steps 9`: tiny, 9 steps of 4, data checksum abcdef" in card
+    assert main(argv) == 0  # and goes on
+    about = methods / "cltp" / "about.json"
+    about.write_text(about.read_text().replace("abcdef", "fedcba"))
+    assert "holds another encoder" in complaint(argv, capsys)
+    (methods / "cltp" / "about.json").unlink()
+    assert "was not trained" in complaint(argv, capsys)
+
+
+def test_taking_an_encoder_goes_on_where_it_was_stopped(
+    methods: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "weights"
+    whole = shutil.copytree
+
+    def stopped(source: Path, to: Path) -> Path:
+        if Path(to).name == "clip":
+            raise KeyboardInterrupt
+        return Path(whole(source, to))
+
+    monkeypatch.setattr(shutil, "copytree", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        train.take_pretrained(methods, out)
+    assert not (out / "encoder").exists()
+    monkeypatch.setattr(shutil, "copytree", whole)
+    train.take_pretrained(methods, out)
+    assert sorted(path.name for path in out.iterdir()) == ["clip", "encoder"]
+
+
 @pytest.mark.parametrize(
     ("argv", "expected"),
     [
         ([], "expects one of clip, cltp, llm, all, point-mae"),
+        (["all", "--methods", "m"], "--methods is for `tacgrasp train llm`"),
         (["everything"], "got 'everything'"),
         (["all", "--threads", "0"], "--threads must be at least 1"),
         (["all", "--contacts", "0"], "at least 1 contact"),
