@@ -14,7 +14,7 @@ from cltp.probes import Judged
 from cltp.samples import CLASSES, Augmentation
 from cltp.train.stage import Report, silent
 from cltp.trials import Trial, trials_of
-from tacgrasp.results import Result, percent, save
+from tacgrasp.results import Result, percent, read, save
 from tacgrasp.trained import Trained
 
 
@@ -73,6 +73,22 @@ class Place:
             cache=self.results / ".features",
             report=self.report,
         )
+
+
+def kept(place: Place, table: str, method: str, how: Trained, trial: Trial) -> Result | None:
+    """The same measurement where it was stored before: of what never learns and never changes.
+
+    Raises:
+        TouchError: What is stored is damaged.
+    """
+    data = ContactDataset(place.data, split=trial.split)
+    count = len(data) if place.limit is None else min(place.limit, len(data))
+    judged = Judged({}, {}, count)
+    wanted = as_result(place, table, method, how, trial.name, judged, place.checksum)
+    path = place.results / wanted.file
+    found = read(path) if path.exists() else None
+    same = found is not None and (found.data, found.contacts) == (wanted.data, wanted.contacts)
+    return found if same else None
 
 
 def keep(

@@ -126,7 +126,7 @@ def load(folder: Path) -> list[Result]:
         TouchError: One is damaged, of another version, or of other data than the others.
         UsageError: There are none.
     """
-    found = [_read(path) for path in sorted(folder.glob("*.json"))]
+    found = [read(path) for path in sorted(folder.glob("*.json"))]
     if not found:
         raise UsageError(f"no results in {folder}; measure with `tacgrasp eval zero-shot|probe`")
     checksums = {result.data: result.file for result in found}
@@ -139,7 +139,12 @@ def load(folder: Path) -> list[Result]:
     return found
 
 
-def _read(path: Path) -> Result:
+def read(path: Path) -> Result:
+    """One result.
+
+    Raises:
+        TouchError: It is damaged, or of another version.
+    """
     try:
         content = json.loads(path.read_text(encoding="utf-8"))
         if (content.pop("format"), content.pop("version")) != (FORMAT, VERSION):

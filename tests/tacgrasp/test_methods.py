@@ -26,7 +26,7 @@ from cltp.probes import SCHEDULE
 from cltp.samples import CLASSES
 from cltp.train.stage import Schedule
 from cltp.weights import load_clip, save_encoder
-from tacgrasp import all_methods, trying
+from tacgrasp import all_methods, ceilings, trying
 from tacgrasp.__main__ import main
 from tacgrasp.paper import PAPER
 from tacgrasp.pretraining_report import report
@@ -138,6 +138,30 @@ def test_tables_are_measured_stored_and_reported(
         assert (results / plot).stat().st_size > 1000
     assert "Without an accelerator." in text
     assert "spread over 2 seeds of probes for CLTP, random encoder" in text
+
+
+def test_ceilings_are_measured_once(
+    places: list[str], tmp_path: Path, quick_probes: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[int | None] = []
+    whole = ceilings.measured
+
+    def counted(*args: object, limit: int | None, **kwargs: object) -> object:
+        calls.append(limit)
+        return whole(*args, limit=limit, **kwargs)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(ceilings, "measured", counted)
+    few = ["eval", "zero-shot", *places, "--limit", "4"]
+    assert main(few) == main(["eval", "probe", *places]) == 0
+    trials = len(calls) // 2
+    assert calls == [4] * trials + [None] * trials
+    alone = next((tmp_path / "results").glob("probe-ceiling-heights alone-contact-s0.json"))
+    before = alone.stat().st_mtime_ns
+    assert main(few) == main(["eval", "probe", *places]) == 0
+    assert len(calls) == 2 * trials
+    assert alone.stat().st_mtime_ns == before
+    assert main(["eval", "zero-shot", *places]) == 0  # of other contacts
+    assert calls[2 * trials :] == [None] * trials
 
 
 def test_text_finds_contacts_and_a_contact_finds_texts(
