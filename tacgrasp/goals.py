@@ -60,6 +60,20 @@ def figures(found: Sequence[Result]) -> Figures:
     return told
 
 
+def best_of_others(found: Sequence[Result], goal: Goal) -> tuple[float, str] | None:
+    """What the best of a method's other encoders gives where more is better, and which that is."""
+    if goal.high < math.inf:
+        return None
+    usual = usual_variant(goal.method, found)
+    there: list[tuple[float, str]] = []
+    for (table, method, variant, trial), rows in grouped(found).items():
+        value = mean([row.values.get(goal.quantity) for row in rows])
+        same = (table, method, trial) == (goal.table, goal.method, goal.trial)
+        if same and variant != usual and value is not None:
+            there.append((value, variant))
+    return max(there, default=None)
+
+
 def goals(found: Sequence[Result]) -> list[Goal]:
     """Everything that is asked, in the order of tables and methods."""
     told = figures(found)

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from cltp.samples import CLASSES
 from cltp.trials import TRIALS
-from tacgrasp.goals import Goal, goals, orders
+from tacgrasp.goals import Goal, best_of_others, goals, orders
 from tacgrasp.paper import PAPER, PAPER_TABLES
 from tacgrasp.report_pages import Section, Table
 from tacgrasp.results import METHODS, Budget, Result, grouped, mean, spread
@@ -157,12 +157,13 @@ def shortfalls(found: Sequence[Result]) -> Iterator[Section]:
             f"Of {len(chosen)} figures {len(chosen) - len(missed) - len(unknown)} are reached, "
             f"{len(missed)} are not, {len(unknown)} were not measured."
         )
-        head = ["", "trial", "figure", "asked", "ours", "missed by", "ceiling", "asked because"]
-        rows = [_missed(goal) for goal in missed]
+        head = ["", "trial", "figure", "asked", "ours", "missed by", "ceiling"]
+        head += ["best of other encoders", "asked because"]
+        rows = [_missed(goal, best_of_others(found, goal)) for goal in missed]
         yield Section(title=title, text=[text], table=Table(head=head, rows=rows) if rows else None)
 
 
-def _missed(goal: Goal) -> list[str]:
+def _missed(goal: Goal, other: tuple[float, str] | None) -> list[str]:
     digits = 3 if goal.quantity.endswith("_mm") else 1
     asked = " to ".join(
         f"{value:.{digits}f}" for value in (goal.low, goal.high) if math.isfinite(value)
@@ -172,7 +173,8 @@ def _missed(goal: Goal) -> list[str]:
     ceiling = "–" if goal.ceiling is None else f"{goal.ceiling:.{digits}f}"
     quantity = UNITS.get(goal.quantity, goal.quantity)
     missed = f"{goal.missed_by:.{digits + 1}f}"
-    return [who, goal.trial, quantity, asked, ours, missed, ceiling, goal.why]
+    best = "–" if other is None else f"{other[0]:.{digits}f} ({other[1]})"
+    return [who, goal.trial, quantity, asked, ours, missed, ceiling, best, goal.why]
 
 
 def order_of_methods(found: Sequence[Result]) -> Section:

@@ -15,7 +15,7 @@ from cltp.observed import Observed
 from cltp.samples import CLASSES
 from tacgrasp.errors import UsageError
 from tacgrasp.failures import FOLDER, collect, load_failures, save_failures
-from tacgrasp.goals import goals, orders
+from tacgrasp.goals import best_of_others, goals, orders
 from tacgrasp.paper import PAPER
 from tacgrasp.pretraining_report import report, which_it_is
 from tacgrasp.results import Result, nested, save
@@ -41,6 +41,26 @@ def test_a_figure_is_missed_by_what_lacks_to_the_papers() -> None:
     assert found["probe", "cltp", "contact", "depth"] == 0
     assert found["probe", "cltp", "contact", "area"] == pytest.approx(7.1)
     assert len(found) == 4  # the position was not measured, nor anything else
+
+
+def test_what_other_encoders_give_stands_beside_what_is_missed(tmp_path: Path) -> None:
+    usual = fake_result(values=values(80.0, 90.0, 99.3, None, 90.0))
+    fine = fake_result(variant="small_fine", values=values(83.0, 95.0, 99.0, None, None))
+    dense = fake_result(variant="small_pressed", values=values(82.0, 97.5, 99.0, None, None))
+    rows = [usual, fine, dense]
+    beside = {
+        g.quantity: best_of_others(rows, g)
+        for g in goals(rows)
+        if (g.table, g.method, g.trial) == ("probe", "cltp", "contact")
+    }
+    assert beside["shape"] == (83.0, "small_fine")
+    assert beside["texture"] == (97.5, "small_pressed")
+    assert beside["area"] is None
+    assert all(best_of_others(rows, g) is None for g in goals(rows) if g.high < math.inf)
+    for row in rows:
+        save(tmp_path, row)
+    page = report(tmp_path, tmp_path)[0].read_text()
+    assert "| 96.1 | 90.0 | 6.10 | – | 97.5 (small_pressed) | the paper's |" in page
 
 
 def test_unseen_objects_may_be_three_points_lower() -> None:
