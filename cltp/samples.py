@@ -126,8 +126,9 @@ class Sampler:
         rng = np.random.default_rng([self.seed, step])
         points, heights, states = [], [], []
         mirror = rng.random((len(indices), 2)) < (0.5 if self.augmentation.mirror else 0.0)
-        # No draw where none is moved: what is drawn after it must stay what it was.
-        moved = rng.random(len(indices)) < self.moved if self.moved > 0 else mirror[:, 0] & False
+        moved = np.zeros(len(indices), dtype=np.bool_)
+        if self.moved > 0:  # no draw where none is: what is drawn after it must stay what it was
+            moved = rng.random(len(indices)) < self.moved
         for index, (along_x, along_y), is_moved in zip(indices, mirror, moved, strict=True):
             sensor = sensor_named(self.dataset.column("sensor")[index])
             height_mm = self.dataset.height_mm(int(index))
