@@ -9,25 +9,27 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from cltp.point_tokens import bearing_curve
+from cltp.point_tokens import bearing_curve, graded, graded_ranks
 from cltp.samples import Batch
 from cltp.sampling import EVEN
 
-_SAMPLES = 128
+_SAMPLES, _GRADES = 64, 60
 
 
 class HeightsAlone:
     """A ``cltp.frozen.FrozenEncoder`` without weights."""
 
-    sha256 = f"heights alone, {_SAMPLES}"
+    sha256 = f"heights alone, {_SAMPLES} and {_GRADES} grades"
     sees_images = False
     sampling = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Heights (B, 128), scaled, and no feature (B, 1)."""
+        """Heights, scaled and graded, shape (B, 1024) in all, and no feature (B, 1)."""
         del frames
         return self.read(torch.from_numpy(batch.points))
 
     def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
         """The same of scaled points (B, 1024, 3)."""
-        return bearing_curve(taken, _SAMPLES), torch.zeros(len(taken), 1)
+        curve = bearing_curve(taken, _SAMPLES)
+        told = graded(curve[:, graded_ranks(_SAMPLES)], _GRADES)
+        return torch.cat([curve, told], dim=1), torch.zeros(len(taken), 1)

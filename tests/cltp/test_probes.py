@@ -221,4 +221,7 @@ def test_heights_alone_know_how_deep_and_not_where() -> None:
     heights, _ = HeightsAlone().read(points)
     assert torch.equal(HeightsAlone().read(moved)[0], heights)
     assert torch.equal(heights[:, 0], points[..., 2].amax(1))
-    assert torch.equal(heights[:, -1], points[..., 2].amin(1))
+    assert torch.equal(heights[:, 63], points[..., 2].amin(1))
+    # 60 grades of each of 16 heights add up to it, as far as it lies between 0 and 1.
+    torch.testing.assert_close(heights[:, 64 : 64 + 60].sum(1) / 60, heights[:, 0])
+    assert heights.shape == (2, 64 + 16 * 60)
