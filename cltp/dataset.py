@@ -17,7 +17,7 @@ import io
 import json
 import os
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -246,27 +246,31 @@ class ContactDataset:
         folder: What ``DatasetWriter`` wrote.
         split: Only its contacts; None for all.
         partial: Whether a data set that is still being made may be read.
+        also: Folders whose contacts come after its own, for learning from several sets.
 
     Raises:
         TouchError: No data set, another version, damaged or missing shards, nothing in it, or less
             than its header announces.
     """
 
-    def __init__(self, folder: Path, *, split: Split | None = None, partial: bool = False) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        split: Split | None = None,
+        partial: bool = False,
+        also: Sequence[Path] = (),
+    ) -> None:
         self.folder = Path(folder)
         self.about: dict[str, str] = _read_header(self.folder)["about"]
-        self._index_files = sorted(self.folder.glob("shard-*.parquet"))
-        tables = [_read_index(path) for path in self._index_files]
-        if not tables:
-            raise TouchError(f"{folder} has no shards: generation was stopped before the first")
+        self._index_files: list[Path] = []
+        tables: list[pa.Table] = []
+        for each in (self.folder, *map(Path, also)):
+            files, read = _read_shards(each, partial=partial)
+            self._index_files += files
+            tables += read
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
         table = pa.concat_tables(tables)
-        announced = int(self.about.get("contacts", len(table)))
-        if len(table) != announced and not partial:
-            raise TouchError(
-                f"{folder} holds {len(table)} of {announced} contacts: it is still being made, or "
-                "that was interrupted; the command that made it goes on where it stopped"
-            )
         if split is not None:
             keep = np.flatnonzero(np.array(table["split"].to_pylist()) == split.value)
             table, shard = table.take(pa.array(keep)), shard[keep]
@@ -363,6 +367,23 @@ class ContactDataset:
 
 def _known(value: Any) -> float | None:
     return None if value is None or np.isnan(value) else float(value)
+
+
+def _read_shards(folder: Path, *, partial: bool) -> tuple[list[Path], list[pa.Table]]:
+    """The index files of a folder and what is in them, at least one."""
+    about = _read_header(folder)["about"]
+    files = sorted(folder.glob("shard-*.parquet"))
+    tables = [_read_index(path) for path in files]
+    if not tables:
+        raise TouchError(f"{folder} has no shards: generation was stopped before the first")
+    there = sum(map(len, tables))
+    announced = int(about.get("contacts", there))
+    if there != announced and not partial:
+        raise TouchError(
+            f"{folder} holds {there} of {announced} contacts: it is still being made, or "
+            "that was interrupted; the command that made it goes on where it stopped"
+        )
+    return files, tables
 
 
 def _read_index(path: Path) -> pa.Table:

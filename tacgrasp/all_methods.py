@@ -38,6 +38,7 @@ class Order:
     batch_size: int | None = None
     clip_steps: int | None = None
     with_images: bool = True
+    also: Path | None = None
     texts: str = "mixed"
     prompt_weight: float = 1.0
     head_weight: float = 1.0
@@ -62,6 +63,7 @@ class Order:
             read_weight=self.read_weight,
             moved=self.moved,
             with_images=self.with_images,
+            also=self.also,
         )
 
 
@@ -77,7 +79,9 @@ def carry_out(stage: str, order: Order) -> None:
         TouchError: Data, weights or a checkpoint can't be used.
     """
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
-    ContactDataset(order.data)  # complains before anything else is done
+    for data in (order.data, order.also):
+        if data is not None:
+            ContactDataset(data)  # complains before anything else is done
     torch.set_num_threads(order.threads or os.cpu_count() or 1)
     method = stage.replace("-", "_")
     with ExitStack() as open_ones:

@@ -50,6 +50,7 @@ class Wish:
         read_weight: Of letting CLIP's texts be read back.
         moved: Share of contacts that are shifted and turned on the pad.
         with_images: Whether L_T2I is minimised.
+        also: A further data set that CLTP learns from.
     """
 
     preset: str | None = None
@@ -61,6 +62,7 @@ class Wish:
     read_weight: float = 1.0
     moved: float = 0.0
     with_images: bool = True
+    also: Path | None = None
 
     def config(self, method: str) -> EncoderConfig:
         """The encoder.
@@ -174,6 +176,7 @@ def pretrain(
         train_cltp(
             data,
             folder,
+            also=() if wish.also is None else (wish.also,),
             config=config,
             schedule=schedule,
             augmentation=LEARNING,
@@ -230,6 +233,8 @@ def _write_about(
         "device": device,
         "command": command,
     }
+    if aligned and wish.also is not None:
+        content["also"] = ContactDataset(wish.also).checksum()
     try:
         before = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
     except (OSError, ValueError):

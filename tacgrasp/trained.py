@@ -87,7 +87,7 @@ def stored(method: str, out: Path) -> Trained:
         budget = Budget(steps=int(about["steps"]), batch_size=int(about["batch_size"]))
         return Trained(
             folder=folder,
-            variant=_variant(about["preset"], about["recipe"]),
+            variant=_variant(about["preset"], about["recipe"], also="also" in about),
             budget=budget if budget.steps else None,
             data=about["data"],
             device=about.get("device"),
@@ -144,11 +144,11 @@ def trained(method: str, out: Path, data: str) -> Trained:
     return found
 
 
-def _variant(preset: str, recipe: dict[str, object] | None) -> str:
+def _variant(preset: str, recipe: dict[str, object] | None, *, also: bool) -> str:
     usual = asdict(Wish().recipe())
     other = [
         f"{name}={value}"
         for name, value in (recipe or usual).items()
         if name not in ("with_images", "several") and value != usual[name]
     ]
-    return "+".join([preset, *other])
+    return "+".join([preset, *other, *(["also"] if also else [])])

@@ -7,6 +7,7 @@ encoder: classes and numbers make it precise enough to act on.
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -79,6 +80,7 @@ def train_cltp(
     data_dir: Path,
     out_dir: Path,
     *,
+    also: Sequence[Path] = (),
     config: EncoderConfig | None = None,
     schedule: Schedule = SCHEDULE,
     augmentation: Augmentation | None = None,
@@ -97,6 +99,7 @@ def train_cltp(
     Args:
         data_dir: A data set of contacts; its training split is used.
         out_dir: Folder of weights.
+        also: Further data sets to learn from, in one order with the first.
         config: Sizes of the encoder; its feature is made as wide as CLIP's.
         schedule: How long and how fast; the batch is that of all processes together.
         augmentation: How contacts are varied.
@@ -111,7 +114,7 @@ def train_cltp(
         TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
     """
     workers, recipe = workers or Workers(), recipe or RECIPE
-    data = ContactDataset(data_dir, split=Split.TRAIN)
+    data = ContactDataset(data_dir, split=Split.TRAIN, also=also)
     clip_dir = clip_dir or out_dir / "clip"
     towers = load_clip(clip_dir).to(workers.device)
     config = _as_wide_as(config or PRESETS[DEFAULT_PRESETS["cltp"]], towers.feature_dim)

@@ -74,6 +74,7 @@ class Pretrain:
         head_weight: Of the state heads beside CLTP's losses; 0 is the paper.
         read_weight: Of letting CLIP's texts be read back (clip); 0 is a contrast alone.
         moved: Share of contacts, 0 to 1, that CLTP sees shifted and turned on the pad.
+        also: A further data set that CLTP learns from (cltp); it is tried on none of it.
         precision: Of matrix products.
         seed: Of weights, order, noise and probes.
         seeds: Of probes (probe, all-methods): so many, counted from seed, for CLTP alone.
@@ -94,6 +95,7 @@ class Pretrain:
     head_weight: float = 1.0
     read_weight: float = 1.0
     moved: float = 0.0
+    also: Path | None = None
     precision: Literal["no", "bf16"] = "no"
     seed: int = 0
     seeds: int = 1
@@ -117,7 +119,8 @@ def main(argv: Sequence[str]) -> int:
 def _for_methods(rest: Sequence[str]) -> bool:
     """Whether flags speak of methods and budgets: CLIP and CLTP can be trained either way."""
     own = {"preset", "steps", "batch-size", "clip-steps", "no-image", "texts", "prompt-weight"}
-    own |= {"head-weight", "read-weight", "moved", "precision", "seeds", "results", "tensorboard"}
+    own |= {"head-weight", "read-weight", "moved", "also", "precision", "seeds", "results"}
+    own |= {"tensorboard"}
     given = {token.split("=")[0].removeprefix("--").replace("_", "-") for token in rest}
     return bool(own & given)
 
@@ -159,6 +162,8 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
         raise UsageError(f"--moved is a share from 0 to 1, got {flags.moved}")
     if flags.no_image and stage != "cltp":
         raise UsageError("--no-image is for `tacgrasp train cltp`; all-methods trains both")
+    if flags.also is not None and stage != "cltp":
+        raise UsageError("--also is for `tacgrasp train cltp`; methods share one data set")
     from tacgrasp.all_methods import Order, carry_out
 
     carry_out(
@@ -177,6 +182,7 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
             head_weight=flags.head_weight,
             read_weight=flags.read_weight,
             moved=flags.moved,
+            also=flags.also,
             precision=flags.precision,
             seed=flags.seed,
             seeds=flags.seeds,

@@ -46,6 +46,22 @@ def test_a_split_holds_only_its_contacts(folder: Path) -> None:
         ContactDataset(folder, split=Split.VALIDATION)
 
 
+def test_further_sets_come_after_the_first(folder: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other"
+    with DatasetWriter(other, shard_size=2) as writer:
+        for seed in range(20, 25):
+            writer.add(fake_contact(seed, split=Split.TEST if seed == 21 else Split.TRAIN))
+    both = ContactDataset(folder, split=Split.TRAIN, also=[other])
+    assert list(both.column("seed")) == [0, 1, 2, 3, 4, 5, 6, 20, 22, 23, 24]
+    np.testing.assert_allclose(both.height_mm(8), fake_contact(22).height_mm, atol=0.00051)
+    assert both.state(10).shape is fake_contact(24).state.shape
+    alone = ContactDataset(folder, split=Split.TRAIN)
+    assert both.checksum() not in (alone.checksum(), ContactDataset(other).checksum())
+    assert alone.checksum() == ContactDataset(folder).checksum()
+    with pytest.raises(TouchError, match=r"nowhere is no data set"):
+        ContactDataset(folder, also=[tmp_path / "nowhere"])
+
+
 def test_a_contact_without_touch_and_with_a_gel_survives(tmp_path: Path) -> None:
     nothing = ContactState(
         depth_mm=0.0,

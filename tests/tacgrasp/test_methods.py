@@ -18,7 +18,7 @@ from fake_contacts import fake_contact
 from fake_results import fake_result
 
 from cltp.contacts import Split
-from cltp.dataset import DatasetWriter
+from cltp.dataset import ContactDataset, DatasetWriter
 from cltp.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.heads import StateHeads
@@ -230,6 +230,26 @@ def test_encoders_of_other_points_name_real_touches(
     assert main(["eval", "zero-shot", *argv, "--weights", str(tmp_path / "weights")]) == 0
     (row,) = csv.DictReader(said.open())
     assert row["shape"] in CLASSES["shape"]
+
+
+def test_cltp_learns_from_a_further_set_and_says_so(
+    out: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other, folder = write_data(tmp_path / "other", first=40), tmp_path / "methods"
+    shutil.copytree(out / "clip", folder / "clip")
+    argv = ["train", "cltp", "--data", str(data), "--out", str(folder), "--preset", "tiny", *QUICK]
+    assert main([*argv, "--also", str(other)]) == 0
+    about = json.loads((folder / "cltp" / "about.json").read_text())
+    assert about["data"] == ContactDataset(data).checksum()
+    assert about["also"] == ContactDataset(other).checksum()
+    results = tmp_path / "results"
+    places = ["--weights", str(folder), "--data", str(data), "--results", str(results)]
+    assert main(["eval", "zero-shot", *places, "--threads", "1"]) == 0
+    assert list(results.glob("zero_shot-cltp-tiny+also-contact-s0.json"))
+    assert "other data, seed or sizes" in complaint(argv, capsys)
+    assert "share one data set" in complaint(
+        ["train", "tvl", *argv[2:], "--also", str(other)], capsys
+    )
 
 
 def test_contacts_are_moved_by_a_share(
