@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from cltp.samples import CLASSES
 from tacgrasp.paper import COVERED, LARGEST, OBJECT_MARGIN, PAPER, PAPER_TABLES
@@ -61,9 +61,7 @@ def figures(found: Sequence[Result]) -> Figures:
 
 
 def best_of_others(found: Sequence[Result], goal: Goal) -> tuple[float, str] | None:
-    """What the best of a method's other encoders gives where more is better, and which that is."""
-    if goal.high < math.inf:
-        return None
+    """What the best of a method's other encoders gives, and which that is."""
     usual = usual_variant(goal.method, found)
     there: list[tuple[float, str]] = []
     for (table, method, variant, trial), rows in grouped(found).items():
@@ -71,7 +69,12 @@ def best_of_others(found: Sequence[Result], goal: Goal) -> tuple[float, str] | N
         same = (table, method, trial) == (goal.table, goal.method, goal.trial)
         if same and variant != usual and value is not None:
             there.append((value, variant))
-    return max(there, default=None)
+
+    def worse(one: tuple[float, str]) -> tuple[float, float]:
+        more = -one[0] if goal.high == math.inf else one[0] if goal.low == -math.inf else 0.0
+        return replace(goal, ours=one[0]).missed_by, more
+
+    return min(there, key=worse, default=None)
 
 
 def goals(found: Sequence[Result]) -> list[Goal]:

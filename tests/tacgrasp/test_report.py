@@ -56,7 +56,14 @@ def test_what_other_encoders_give_stands_beside_what_is_missed(tmp_path: Path) -
     assert beside["shape"] == (83.0, "small_fine")
     assert beside["texture"] == (97.5, "small_pressed")
     assert beside["area"] is None
-    assert all(best_of_others(rows, g) is None for g in goals(rows) if g.high < math.inf)
+    shares = [{"coverage_force": 83.0}, {"coverage_force": 99.0}, {"coverage_force": 84.0}]
+    variants = ("small_graded", "small_fine", "small_pressed")
+    numbers = [
+        fake_result(table="numbers", trial="object", variant=variant, values=share)
+        for variant, share in zip(variants, shares, strict=True)
+    ]
+    (force,) = (g for g in goals(numbers) if (g.trial, g.quantity) == ("object", "coverage_force"))
+    assert best_of_others(numbers, force) == (84.0, "small_pressed")
     for row in rows:
         save(tmp_path, row)
     page = report(tmp_path, tmp_path)[0].read_text()
