@@ -111,9 +111,10 @@ def train(
     }
     if (out / "encoder" / PRETRAINED).exists():
         about = json.loads((out / "encoder" / PRETRAINED).read_text(encoding="utf-8"))
+        learned = " and ".join(about[key] for key in ("data", "also") if key in about)
         facts["encoder and clip"] = (
             f"`{about['command']}`: {about['preset']}, {about['steps']} steps of "
-            f"{about['batch_size']}, data checksum {about['data']}"
+            f"{about['batch_size']}, data checksum {learned}"
         )
     write_card(out, facts, {})
 
