@@ -54,7 +54,7 @@ def near_a_limit(value, limits, within):
     return any(abs(value - limit) < within for limit in limits)
 
 
-@settings(max_examples=80, deadline=None)
+@settings(max_examples=80)
 @given(inside_x, inside_y, turns, st.floats(-11, 11), st.floats(-8, 8), turns)
 def test_the_label_of_a_moved_contact_is_that_of_the_body_pressed_there(x, y, t, dx, dy, turn):
     heights, state = pressed(x, y, t)
@@ -82,7 +82,7 @@ def test_the_label_of_a_moved_contact_is_that_of_the_body_pressed_there(x, y, t,
         assert found.position is truth.position
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(inside_x, inside_y, turns, st.floats(-3, 3), st.floats(-3, 3))
 def test_what_stays_on_the_pad_keeps_depth_area_and_force_exactly(x, y, t, dx, dy):
     assume(max(abs(x), abs(x + dx)) < 6.8 and max(abs(y), abs(y + dy)) < 4.3)
@@ -93,7 +93,7 @@ def test_what_stays_on_the_pad_keeps_depth_area_and_force_exactly(x, y, t, dx, d
         assert getattr(found, name) == getattr(state, name)
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(st.floats(-11, 11), st.floats(-8, 8), turns)
 def test_half_a_turn_is_a_mirror_along_both_axes_for_every_contact(x, y, t):
     heights, state = pressed(x, y, t)
@@ -141,7 +141,7 @@ def test_an_untouched_gel_stays_untouched():
     assert not moved.height_mm.any()
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.floats(-9, 9), st.floats(-6, 6), turns, st.integers(0, 1000))
 def test_drawn_moves_are_always_possible_and_leave_enough(x, y, t, seed):
     heights, state = pressed(x, y, t)

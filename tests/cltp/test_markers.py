@@ -87,7 +87,7 @@ def test_a_unit_s_scale_reaches_every_marker():
     np.testing.assert_allclose(np.ptp(scaled[:, 2]), 1.2 * np.ptp(plain[:, 2]), rtol=1e-4)
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(seed=st.integers(0, 2**32 - 1), level=st.floats(0.1, 2.0))
 def test_any_unit_gives_a_whole_cloud(seed, level):
     rng = np.random.default_rng(seed)
