@@ -8,7 +8,7 @@ from fake_contacts import fake_contact
 
 from cltp.cloud import TactileCloud
 from cltp.dataset import ContactDataset, DatasetWriter
-from cltp.encoder import SAMPLINGS, EncoderConfig, TactileEncoder
+from cltp.encoder import LATTICES, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.heads import StateHeads
 from cltp.inputs import lattice_points, scaled
@@ -122,11 +122,9 @@ def test_crowded_channels_say_place_and_distance() -> None:
     assert near[0, 7, 16, 16] < -1
 
 
-@pytest.mark.parametrize("tokenizer", sorted(SAMPLINGS))
+@pytest.mark.parametrize("tokenizer", LATTICES)
 @pytest.mark.parametrize("num_groups", [16, 64, 256])
 def test_every_lattice_gives_a_token_for_each_group(tokenizer: str, num_groups: int) -> None:
-    if tokenizer in ("fps", "image"):
-        pytest.skip("no lattice")
     config = EncoderConfig(
         tokenizer=tokenizer, dim=24, depth=1, heads=2, stem_dim=8, num_groups=num_groups, bearing=16
     )
