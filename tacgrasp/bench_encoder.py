@@ -57,7 +57,7 @@ def run(
     config = PRESETS[preset]
     if config.tokenizer == "image":
         raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
-    groups = dataclasses.replace(config, tokenizer="fps", bearing=0)
+    groups = dataclasses.replace(config, tokenizer="fps", bearing=0, grades=0)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)

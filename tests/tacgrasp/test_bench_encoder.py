@@ -56,7 +56,13 @@ def test_lattices_with_a_bearing_curve_are_timed(
 ) -> None:
     ticks, path = itertools.count(), tmp_path / "encoder.json"
     few = dataclasses.replace(
-        PRESETS["tiny"], tokenizer=tokenizer, bearing=8, num_groups=16, group_size=4, dim=8
+        PRESETS["tiny"],
+        tokenizer=tokenizer,
+        bearing=8,
+        grades=4,
+        num_groups=16,
+        group_size=4,
+        dim=8,
     )
     monkeypatch.setitem(PRESETS, "tiny", few)
     bench_encoder.run(
