@@ -262,11 +262,13 @@ class ContactDataset:
         also: Sequence[Path] = (),
     ) -> None:
         self.folder = Path(folder)
-        self.about: dict[str, str] = _read_header(self.folder)["about"]
+        folders = [self.folder, *map(Path, also)]
+        abouts: list[dict[str, str]] = [_read_header(each)["about"] for each in folders]
+        self.about = abouts[0]
         self._index_files: list[Path] = []
         tables: list[pa.Table] = []
-        for each in (self.folder, *map(Path, also)):
-            files, read = _read_shards(each, partial=partial)
+        for each, about in zip(folders, abouts, strict=True):
+            files, read = _read_shards(each, about, partial=partial)
             self._index_files += files
             tables += read
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
@@ -369,9 +371,10 @@ def _known(value: Any) -> float | None:
     return None if value is None or np.isnan(value) else float(value)
 
 
-def _read_shards(folder: Path, *, partial: bool) -> tuple[list[Path], list[pa.Table]]:
+def _read_shards(
+    folder: Path, about: Mapping[str, str], *, partial: bool
+) -> tuple[list[Path], list[pa.Table]]:
     """The index files of a folder and what is in them, at least one."""
-    about = _read_header(folder)["about"]
     files = sorted(folder.glob("shard-*.parquet"))
     tables = [_read_index(path) for path in files]
     if not tables:

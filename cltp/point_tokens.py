@@ -242,7 +242,7 @@ class LatticeTokenizer(nn.Module):
         sampling: Sampling = EVEN,
     ) -> None:
         super().__init__()
-        self.side, self.crowded = sampling.side, sampling.pressed > 0
+        self.crowded = sampling.pressed > 0
         self.in_cell = sampling.side // self.CELLS
         channels = self.in_cell**2 * (8 if self.crowded else 4)
         stride = self.CELLS // math.isqrt(num_groups)

@@ -84,7 +84,7 @@ def kept(place: Place, table: str, method: str, how: Trained, trial: Trial) -> R
     data = ContactDataset(place.data, split=trial.split)
     count = len(data) if place.limit is None else min(place.limit, len(data))
     judged = Judged({}, {}, count)
-    wanted = as_result(place, table, method, how, trial.name, judged, place.checksum)
+    wanted = as_result(place, table, method, how, trial.name, judged, data.checksum())
     path = place.results / wanted.file
     found = read(path) if path.exists() else None
     same = found is not None and (found.data, found.contacts) == (wanted.data, wanted.contacts)

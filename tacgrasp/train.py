@@ -131,8 +131,6 @@ def take_pretrained(methods: Path, out: Path) -> None:
         TouchError: The encoder can't be read, or takes points that sensors don't give.
     """
     found = stored("cltp", methods)
-    load_touching_encoder(found.folder / "encoder")
-    load_clip(methods / "clip")
     about = (found.folder / ABOUT).read_text(encoding="utf-8")
     kept = out / "encoder" / PRETRAINED
     if kept.exists() and kept.read_text(encoding="utf-8") == about:
@@ -140,6 +138,8 @@ def take_pretrained(methods: Path, out: Path) -> None:
     beside = out / "encoder.part"  # there while this is under way, or was interrupted
     if (out / "encoder").exists() or ((out / "clip").exists() and not beside.exists()):
         raise UsageError(f"{out} holds another encoder; choose another folder with --out")
+    load_touching_encoder(found.folder / "encoder")
+    load_clip(methods / "clip")
     for part in (beside, out / "clip"):
         shutil.rmtree(part, ignore_errors=True)
     shutil.copytree(found.folder / "encoder", beside)

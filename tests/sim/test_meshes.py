@@ -30,7 +30,7 @@ def test_a_box_comes_back_from_every_format_with_each_corner_once(name, tmp_path
     np.testing.assert_allclose(np.ptp(vertices, axis=0), [20, 30, 40])
 
 
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 @given(
     st.tuples(*[st.floats(3, 200)] * 3), st.tuples(*[st.floats(-500, 500)] * 3), st.integers(0, 99)
 )
