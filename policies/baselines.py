@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cltp.cloud import TactileCloud
-from policies.extract import extract
+from cltp.tactile.cloud import TactileCloud
+from policies.extraction.extract import extract
 from policies.policy import Decision
 from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
 from primitives import Primitive

@@ -13,13 +13,13 @@ import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from cltp.cloud import TactileCloud
-from cltp.inputs import encoder_input
-from cltp.talk import Reply, Talker
-from cltp.tokenizer import Words
-from cltp.weights import load_tac3d_llm
+from cltp.checkpoints.tac3d_llm import load_tac3d_llm
+from cltp.llm.generation import Reply, Talker
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.encoder_input import encoder_input
+from cltp.texts.tokenizer import Words
 from policies.errors import PolicyError
-from policies.extract import Extraction, extract
+from policies.extraction.extract import Extraction, extract
 from policies.policy import Decision
 from primitives.primitive import PAD_DIRECTION, Primitive
 
@@ -50,7 +50,7 @@ class LlmPolicy:
     """Tac3D-LLM in the loop.
 
     Args:
-        folder: Weights, as ``cltp.weights`` lays them out.
+        folder: Weights, as ``cltp.checkpoints.tac3d_llm`` lays them out.
         lm_folder: A Qwen2 or Qwen2.5-VL directory instead of the folder's own language model.
         abstain_below: Confidence under which nothing is done.
         clock: For the durations of the stages [s].

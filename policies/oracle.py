@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from cltp.cloud import TactileCloud
+from cltp.tactile.cloud import TactileCloud
 from policies.policy import Decision
 from primitives import Primitive
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from cltp.cloud import TactileCloud
+from cltp.tactile.cloud import TactileCloud
 from primitives import Primitive
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from cltp.cloud import TactileCloud
+from cltp.tactile.cloud import TactileCloud
 from policies.errors import PolicyError
 from policies.policy import Decision
 

@@ -9,9 +9,9 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 
-from cltp.cloud import TactileCloud
-from cltp.states import ContactState
-from policies.extract import extract
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.states import ContactState
+from policies.extraction.extract import extract
 from policies.goal import Goal
 from policies.policy import Decision
 from policies.speech import speak
@@ -31,11 +31,11 @@ class RulesPolicy:
 
         Args:
             goal: What a good grasp is.
-            measure: From a cloud to a state; None takes ``cltp.measure.contact_state``.
+            measure: From a cloud to a state; None takes ``cltp.tactile.measure.contact_state``.
             clock: For the durations of the stages [s].
         """
         if measure is None:
-            from cltp.measure import contact_state
+            from cltp.tactile.measure import contact_state
 
             measure = contact_state
         self._goal, self._measure, self._clock = goal, measure, clock

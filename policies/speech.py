@@ -1,8 +1,8 @@
 """Words for a contact and for the advice on it: the teacher's D_t.
 
-What ``speak`` says, ``policies.extract`` reads back to the same action and verdict, whatever the
-wording (tested over all of them). With a random generator the wording varies: this is what the
-language model learns from. Not here: what to advise (``policies.teacher``).
+What ``speak`` says, ``policies.extraction.extract`` reads back to the same action and verdict,
+whatever the wording (tested over all of them). With a random generator the wording varies: this is
+what the language model learns from. Not here: what to advise (``policies.teacher``).
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cltp.states import ContactState
+from cltp.tactile.states import ContactState
 from policies.teacher import Advice, Why
 from primitives import Primitive
 

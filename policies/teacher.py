@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from cltp.states import ContactState, Side
+from cltp.tactile.states import ContactState, Side
 from policies.goal import Band, Goal
 from primitives import Primitive
 from primitives.execution import INCREASE_FACTOR

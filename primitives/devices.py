@@ -1,6 +1,7 @@
 """Contracts of the two devices that carry out primitives: an arm and a gripper.
 
-Implementations: ``sim.rig`` (simulated), the drivers. One contract suite, ``tests/contracts``, runs
+Implementations: ``sim.grasp.rig`` (simulated), the drivers. One contract suite,
+    ``tests/contracts``, runs
 over all of them. Devices know nothing of primitives or of touch.
 """
 

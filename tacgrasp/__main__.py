@@ -68,8 +68,8 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _dispatch(command: str, argv: Sequence[str]) -> int:
-    from tacgrasp.errors import UsageError
-    from tacgrasp.siblings import check_siblings
+    from tacgrasp.base.errors import UsageError
+    from tacgrasp.base.package_check import check_siblings
 
     try:
         if command not in COMMANDS:

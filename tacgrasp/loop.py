@@ -2,7 +2,7 @@
 
 As printed it has four holes; what is done here instead:
 
-1. 'Stable' stands in 'unstable': ``policies.extract`` reads whole words, and negation.
+1. 'Stable' stands in 'unstable': ``policies.extraction.extract`` reads whole words, and negation.
 2. It executes before it tests success. A text that declares success and names no action ends the
    loop and moves nothing; one with both acts, and has to declare again on the next touch.
 3. No action, or two: nothing moves, the gel is read and the policy asked again, ``max_asks`` times
@@ -10,7 +10,8 @@ As printed it has four holes; what is done here instead:
 4. It never ends: actions, time, travel and force are bounded; the second ``reset`` ends it with
    ``contact_lost``. Every end has a name and leaves the gripper as the task says.
 
-A declared success is then checked by lifting (``tacgrasp.verify``); only that makes a ``success``.
+A declared success is then checked by lifting (``tacgrasp.runtime.verify``); only that makes a
+``success``.
 """
 
 from __future__ import annotations
@@ -21,12 +22,12 @@ from cltp import TouchError
 from policies import Decision, Policy, PolicyError
 from primitives import LimitError, Primitive, RobotError
 from primitives.execution import Executed, Executor
-from tacgrasp.closing import close
-from tacgrasp.config import RunConfig
+from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeError
-from tacgrasp.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
-from tacgrasp.rig import Rig
-from tacgrasp.turns import Recorder, Turns
+from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
+from tacgrasp.runtime.shutdown import close
+from tacgrasp.runtime.tick import Recorder, Turns
 
 
 def run_episode(

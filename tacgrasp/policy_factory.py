@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 import policies
 from policies import Policy, PolicyError
-from tacgrasp.config import RunConfig
-from tacgrasp.errors import UsageError
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.schema import RunConfig
 
 if TYPE_CHECKING:
     from policies.llm import LlmPolicy

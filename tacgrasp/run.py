@@ -15,7 +15,7 @@ import yaml
 
 from policies import Policy
 from tacgrasp import __version__
-from tacgrasp.config import RunConfig
+from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import (
     EpisodeError,
     EpisodeHeader,
@@ -24,9 +24,10 @@ from tacgrasp.episodes import (
     record_directory,
 )
 from tacgrasp.loop import run_episode
-from tacgrasp.outcome import EndReason, Observer, Outcome
-from tacgrasp.rig import Rig, expect_untouched, make_executor
-from tacgrasp.verify import not_lifted, verify_by_lifting
+from tacgrasp.rig.factory import expect_untouched, make_executor
+from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
+from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
 
 
 def run_recorded(

@@ -87,8 +87,8 @@ def test_no_circle_of_imports():
     [
         "import tacgrasp",
         "import primitives, primitives.execution, primitives.limits",
-        "import cltp.cloud, cltp.states, cltp.captions, policies.rules",
-        "import policies.extract, policies.teacher, policies.baselines, policies.recorded",
+        "import cltp.tactile.cloud, cltp.tactile.states, cltp.texts.captions, policies.rules",
+        "import policies.extraction, policies.teacher, policies.baselines, policies.recorded",
     ],
 )
 def test_an_import_loads_neither_torch_nor_open3d_nor_a_device_sdk(statement):

@@ -1,6 +1,7 @@
 """Stage 'cltp': align the tactile encoder with the frozen towers (paper, section 4).
 
-Minimises L_T2L + L_T2I, and beside them, beyond the paper, what ``cltp.heads`` reads from the
+Minimises L_T2L + L_T2I, and beside them, beyond the paper, what ``cltp.encoder.heads`` reads from
+the
 encoder: classes and numbers make it precise enough to act on.
 """
 
@@ -15,20 +16,20 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.contacts import Split
-from cltp.dataset import ContactDataset
-from cltp.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
-from cltp.heads import StateHeads, Targets, targets
-from cltp.losses import CltpLoss
-from cltp.samples import CLASSES, Augmentation, Sampler
-from cltp.train.ahead import ahead
+from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import CLASSES, Augmentation, Sampler
+from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder.heads import StateHeads, Targets, targets
+from cltp.encoder.losses import CltpLoss
+from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.curves import plot_curves
-from cltp.train.features import FrozenFeatures
-from cltp.train.finite import check_batch
-from cltp.train.sayings import drawn_prompts, say, true_of
+from cltp.train.distributed import Workers
+from cltp.train.finite_check import check_batch
+from cltp.train.prefetch import ahead
 from cltp.train.stage import Report, Schedule, Stage, silent
-from cltp.train.workers import Workers
-from cltp.weights import load_clip, save_encoder
+from cltp.train.text_targets import drawn_prompts, say, true_of
 
 SCHEDULE = Schedule(steps=5000, batch_size=64, learning_rate=2e-3)
 
@@ -39,12 +40,13 @@ class Recipe:
 
     Attributes:
         with_images: False leaves L_T2I out (the paper's ablation).
-        texts: What is said of contacts, out of ``cltp.train.sayings.KINDS``; the paper's captions.
+        texts: What is said of contacts, out of ``cltp.train.text_targets.KINDS``; the paper's
+            captions.
         several: Whether all texts that are true of a contact belong to it, not its own alone.
         prompt_weight: Of a contrast with one prompt for every class, dimension by dimension; 0 is
             the paper.
         head_weight: Of the state heads' terms; 0 is the paper.
-        moved: Share of contacts that are shifted and turned on the pad (``cltp.augment``).
+        moved: Share of contacts that are shifted and turned on the pad (``cltp.data.placement``).
     """
 
     with_images: bool = True

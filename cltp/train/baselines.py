@@ -1,6 +1,7 @@
 """Pre-training of the encoders that CLTP is compared with, on the same contacts.
 
-``point_mae``, ``point_bert``: clouds alone (``cltp.masked``). Point-BERT's vocabulary takes a
+``point_mae``, ``point_bert``: clouds alone (``cltp.encoder.masked_modelling``). Point-BERT's
+vocabulary takes a
     quarter of the steps, so that every method has the same number in all.
 ``tvl``, ``unitouch``: vision-based, after the paper's appendix A: an encoder of tactile frames is
     aligned with a frozen tower of language. TVL (Fu et al. 2024) speaks of how a surface feels: our
@@ -21,24 +22,24 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.clip import Towers
-from cltp.contacts import Split
-from cltp.dataset import ContactDataset
-from cltp.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
+from cltp.checkpoints.frozen import noisy_frames, save_frozen
+from cltp.checkpoints.tac3d_llm import load_clip
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Augmentation, Batch, Sampler
+from cltp.encoder.all_gather import gathered
+from cltp.encoder.clip_towers import Towers
+from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder.heads import targets
+from cltp.encoder.losses import ContrastiveLoss
+from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patches
 from cltp.errors import TouchError
-from cltp.frozen import noisy_frames, save_frozen
-from cltp.gathering import gathered
-from cltp.heads import targets
-from cltp.losses import ContrastiveLoss
-from cltp.masked import PointBert, PointMae, ShapeWords, patches
-from cltp.samples import Augmentation, Batch, Sampler
-from cltp.sensors import sensor_named
-from cltp.train.ahead import ahead
+from cltp.tactile.sensors import sensor_named
 from cltp.train.curves import plot_curves
-from cltp.train.finite import check_batch
+from cltp.train.distributed import Workers
+from cltp.train.finite_check import check_batch
+from cltp.train.prefetch import ahead
 from cltp.train.stage import Report, Schedule, Stage, silent
-from cltp.train.workers import Workers
-from cltp.weights import load_clip
 
 METHODS = ("point_mae", "point_bert", "tvl", "unitouch", "random")
 

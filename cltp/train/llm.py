@@ -23,19 +23,19 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.contacts import Split
-from cltp.dataset import ContactDataset
-from cltp.encoder import Encoded, TactileEncoder
-from cltp.heads import felt
-from cltp.language import Language, small_lm
-from cltp.packing import Exchange, Packed, pack
-from cltp.samples import Augmentation, Sampler
-from cltp.states import ContactState
-from cltp.tac3d_llm import Projector, Tac3dLlm
-from cltp.tokenizer import Words
-from cltp.train.ahead import ahead
+from cltp.checkpoints.tac3d_llm import load_touching_encoder, save_tac3d_llm
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Augmentation, Sampler
+from cltp.encoder.encoder import Encoded, TactileEncoder
+from cltp.encoder.heads import felt
+from cltp.llm.causal_lm import Language, small_lm
+from cltp.llm.tac3d_llm import Projector, Tac3dLlm
+from cltp.tactile.states import ContactState
+from cltp.texts.exchange_packing import Exchange, Packed, pack
+from cltp.texts.tokenizer import Words
+from cltp.train.prefetch import ahead
 from cltp.train.stage import Report, Schedule, Stage, device, silent
-from cltp.weights import load_touching_encoder, save_tac3d_llm
 
 TEXT = Schedule(steps=300, batch_size=24, learning_rate=2e-3)
 PROJECTOR = Schedule(steps=200, batch_size=32, learning_rate=2e-3)

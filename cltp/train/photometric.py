@@ -6,7 +6,7 @@ all of the gel, twice: on the sphere alone, what surrounds the contact isn't lea
 drift (``tacgrasp bench balls``, with ``--bare-sphere`` and without). Deterministic for a seed on
 one machine.
 
-Not here: the file (``cltp.calibration``).
+Not here: the file (``cltp.sensing.calibration``).
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor, nn
 
-from cltp.ball_presses import (
+from cltp.errors import TouchError
+from cltp.sensing.ball_presses import (
     BallPress,
     PressShape,
     ProfileTable,
@@ -30,10 +31,9 @@ from cltp.ball_presses import (
     fit_press,
     slopes_of,
 )
-from cltp.errors import TouchError
-from cltp.frames import Frame, check_frame
-from cltp.photometric import GradientNet, Photometer, colour_change, place_inputs
-from cltp.sensors import SensorSpec
+from cltp.sensing.frames import Frame, check_frame
+from cltp.sensing.photometric import GradientNet, Photometer, colour_change, place_inputs
+from cltp.tactile.sensors import SensorSpec
 
 HIDDEN = 32
 MIN_PRESSES = 5

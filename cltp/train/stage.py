@@ -19,10 +19,10 @@ from typing import Any, Protocol
 import torch
 from torch import Tensor, nn
 
+from cltp.encoder.all_gather import averaged_gradients
 from cltp.errors import TouchError
-from cltp.gathering import averaged_gradients
 from cltp.train.curves import CurveFile
-from cltp.train.workers import Workers
+from cltp.train.distributed import Workers
 
 
 class Report(Protocol):

@@ -7,9 +7,9 @@ import sys
 from collections.abc import Sequence
 
 MODULES = {
-    "ur": "sim.emulators.ur",
-    "dynamixel": "sim.emulators.dynamixel",
-    "taxels": "sim.emulators.taxels",
+    "ur": "sim.emulators.ur.controller_process",
+    "dynamixel": "sim.emulators.dynamixel.bus_process",
+    "taxels": "sim.emulators.taxels.array",
     "rig": "sim.emulators.rig",
 }
 """The module of each kind; it has ``main(argv) -> exit code`` and prints one ready line."""

@@ -15,15 +15,15 @@ from contextlib import ExitStack, closing
 from pathlib import Path
 
 from primitives.errors import RobotError
-from sim.bodies import OBJECTS
-from sim.emulators.control import ControlServer, Emulated
-from sim.emulators.dynamixel import DynamixelEmulator, ServoOptions
-from sim.emulators.dynamixel_fingers import Linkage
-from sim.emulators.lifetime import announce_and_wait
-from sim.emulators.taxels import TaxelEmulator
-from sim.emulators.ur_child import UrChild
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel.fingers import Linkage
+from sim.emulators.process.control import ControlServer, Emulated
+from sim.emulators.process.lifetime import announce_and_wait
+from sim.emulators.taxels.array import TaxelEmulator
+from sim.emulators.ur.child import UrChild
 from sim.emulators.world import SharedWorld
-from sim.rig import build
+from sim.grasp.bodies import OBJECTS
+from sim.grasp.rig import build
 
 TAXEL_RATE_HZ = 50.0
 

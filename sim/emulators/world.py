@@ -1,4 +1,4 @@
-"""The world that the emulated arm, gripper and sensor share: one ``sim.world.Grasp``.
+"""The world that the emulated arm, gripper and sensor share: one ``sim.grasp.world.Grasp``.
 
 It is drawn as the simulated rig of the same object and seed (same body, place on the pad, worn
 gripper, sensor unit and noise of every contact), so that a strawberry slips and bruises alike. A
@@ -23,10 +23,10 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from primitives.errors import RobotError
-from sim.devices import settled_width_m
-from sim.emulators.control import Facts
-from sim.rig import SimRig
-from sim.world import trapezoid_s
+from sim.emulators.process.control import Facts
+from sim.grasp.devices import settled_width_m
+from sim.grasp.rig import SimRig
+from sim.grasp.world import trapezoid_s
 
 T = TypeVar("T")
 
@@ -139,7 +139,7 @@ class SharedWorld:
         """Nothing to take back."""
 
     def facts(self) -> Facts:
-        """The truth as ``sim.rig.Truth`` has it, and how often fingers and gel were changed.
+        """The truth as ``sim.grasp.rig.Truth`` has it, and how often fingers and gel were changed.
 
         Raises:
             RobotError: The solver failed or does not answer.

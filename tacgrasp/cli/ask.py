@@ -8,8 +8,8 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class Ask:
 def main(argv: Sequence[str]) -> int:
     """Answer one question."""
     flags = parse(Ask, argv, prog="tacgrasp ask")
-    from cltp.files import read_touch
-    from cltp.sensors import sensor_named
+    from cltp.sensing.touch_files import read_touch
+    from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
+    from tacgrasp.console import console
     from tacgrasp.policy_factory import load_llm
-    from tacgrasp.view import console
 
     touch = read_touch(flags.file, sensor_named(flags.sensor))
     policy = load_llm(flags.weights)

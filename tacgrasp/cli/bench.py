@@ -9,9 +9,9 @@ from typing import Annotated
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli import bench_encoders, bench_rigs
 from tacgrasp.cli.flags import parse, subcommand, writable
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -195,8 +195,8 @@ def _strawberry(argv: Sequence[str]) -> None:
     flags = parse(Strawberry, argv, prog="tacgrasp bench strawberry")
     if flags.episodes < 1 or flags.first_seed < 0:
         raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
-    from tacgrasp import bench_strawberry
-    from tacgrasp.config_layers import load
+    from tacgrasp.benchmarks.loop import strawberry as bench_strawberry
+    from tacgrasp.config.layers import load
 
     config, _ = load("strawberry")
     bench_strawberry.run(
@@ -211,7 +211,7 @@ def _strawberry(argv: Sequence[str]) -> None:
 def _latency(argv: Sequence[str]) -> None:
     """Time every stage of a tick, and the whole."""
     flags = parse(Latency, argv, prog="tacgrasp bench latency")
-    from tacgrasp import bench_latency
+    from tacgrasp.benchmarks.learning import latency as bench_latency
 
     bench_latency.run(
         ticks=flags.ticks,
@@ -225,7 +225,7 @@ def _latency(argv: Sequence[str]) -> None:
 def _gel(argv: Sequence[str]) -> None:
     """Compare the gel with closed forms and real presses."""
     flags = parse(Gel, argv, prog="tacgrasp bench gel")
-    from tacgrasp import bench_gel
+    from tacgrasp.benchmarks.sensing import gel as bench_gel
 
     bench_gel.run(writable(flags.json))
 
@@ -235,7 +235,7 @@ def _tcl3d(argv: Sequence[str]) -> bool:
     flags = parse(Tcl3d, argv, prog="tacgrasp bench tcl3d")
     if flags.workers < 1 or flags.series < 2 * flags.workers:
         raise UsageError("--workers must be at least 1 and --series at least twice as many")
-    from tacgrasp import bench_tcl3d
+    from tacgrasp.benchmarks.learning import tcl3d as bench_tcl3d
 
     return bench_tcl3d.run(
         series=flags.series,
@@ -251,7 +251,7 @@ def _touch(argv: Sequence[str]) -> None:
     flags = parse(Touch, argv, prog="tacgrasp bench touch")
     if flags.bodies < 1:
         raise UsageError("--bodies must be at least 1")
-    from tacgrasp import bench_touch
+    from tacgrasp.benchmarks.sensing import touch as bench_touch
 
     bench_touch.run(flags.bodies, writable(flags.json))
 
@@ -261,7 +261,7 @@ def _balls(argv: Sequence[str]) -> bool:
     flags = parse(Balls, argv, prog="tacgrasp bench balls")
     if not 1.0 <= flags.diameter_mm <= 100.0 or flags.folds < 2:
         raise UsageError("--diameter-mm must be 1 to 100 and --folds at least 2")
-    from tacgrasp import bench_balls
+    from tacgrasp.benchmarks.sensing import balls as bench_balls
 
     return bench_balls.run(
         flags.dir or bench_balls.FOLDER,
@@ -280,7 +280,8 @@ def _ball_captions(argv: Sequence[str]) -> None:
         raise UsageError("--diameter-mm must be 1 to 100 and --folds 0 or at least 2")
     if flags.folds and flags.calibration is not None:
         raise UsageError("--folds makes its own calibrations: give either it or --calibration")
-    from tacgrasp import bench_ball_captions, bench_balls
+    from tacgrasp.benchmarks.sensing import ball_captions as bench_ball_captions
+    from tacgrasp.benchmarks.sensing import balls as bench_balls
     from tacgrasp.policy_factory import default_weights
 
     bench_ball_captions.run(
@@ -297,7 +298,7 @@ def _ball_captions(argv: Sequence[str]) -> None:
 def _crash(argv: Sequence[str]) -> None:
     """Kill recordings at random moments and count what is lost."""
     flags = parse(Crash, argv, prog="tacgrasp bench crash")
-    from tacgrasp import bench_crash
+    from tacgrasp.benchmarks.loop import crash as bench_crash
 
     bench_crash.run(flags.kills, writable(flags.json))
 
@@ -305,6 +306,6 @@ def _crash(argv: Sequence[str]) -> None:
 def _generate(argv: Sequence[str]) -> bool:
     """Kill the generation of a data set at random moments and compare the bytes."""
     flags = parse(Generate, argv, prog="tacgrasp bench generate")
-    from tacgrasp import bench_generate
+    from tacgrasp.benchmarks.learning import generate as bench_generate
 
     return bench_generate.run(flags.kills, flags.contacts, writable(flags.json))

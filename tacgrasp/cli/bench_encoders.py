@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, writable
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ def encoder(argv: Sequence[str]) -> None:
     json_path = writable(flags.json)
     import torch
 
-    from tacgrasp import bench_encoder
+    from tacgrasp.benchmarks.learning import encoder as bench_encoder
 
     torch.set_num_threads(flags.threads)
     bench_encoder.run(flags.preset, repeats=flags.repeats, json_path=json_path)

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, writable
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Faults:
 def faults(argv: Sequence[str]) -> bool:
     """Inject every fault and see what comes of it."""
     flags = parse(Faults, argv, prog="tacgrasp bench faults")
-    from tacgrasp.fault_cases import CASES
+    from tacgrasp.benchmarks.faults.cases import CASES
 
     chosen = [case for case in CASES if flags.only.lower() in case.name.lower()]
     if flags.repeats < 1 or not chosen:
@@ -38,7 +38,7 @@ def faults(argv: Sequence[str]) -> bool:
             f"--repeats must be at least 1 and --only a part of a fault's name "
             f"({'; '.join(case.name for case in CASES)}), got {flags.repeats} and {flags.only!r}"
         )
-    from tacgrasp import run_faults
+    from tacgrasp.benchmarks.faults import run as run_faults
 
     return run_faults.run(
         chosen,
@@ -66,7 +66,7 @@ def drivers(argv: Sequence[str]) -> None:
     flags = parse(Drivers, argv, prog="tacgrasp bench drivers")
     if not 0.01 <= flags.minutes <= 600:
         raise UsageError(f"--minutes must be 0.01 to 600, got {flags.minutes:g}")
-    from tacgrasp import bench_drivers
+    from tacgrasp.benchmarks.loop import drivers as bench_drivers
 
     bench_drivers.run(minutes=flags.minutes, json_path=writable(flags.json))
 
@@ -101,7 +101,7 @@ def rigs(argv: Sequence[str]) -> bool:
     flags = parse(Rigs, argv, prog="tacgrasp bench rigs")
     if min(flags.seeds, flags.parallel) < 1 or flags.first_seed < 0:
         raise UsageError("--seeds and --parallel must be at least 1 and --first-seed at least 0")
-    from tacgrasp import bench_rigs
+    from tacgrasp.benchmarks.loop import rigs as bench_rigs
 
     pairs = bench_rigs.run(
         seeds=flags.seeds,

@@ -8,9 +8,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli import calibrate_background, calibrate_gripper, calibrate_pad_axes
 from tacgrasp.cli.flags import parse, subcommand
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -70,13 +70,13 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
     except ValueError:
         raise UsageError(f"--date must be like 2026-01-31, got {date}") from None
 
-    from cltp.calibration import Calibration, save_calibration
-    from cltp.sensors import sensor_named
+    from cltp.sensing.calibration import Calibration, save_calibration
+    from cltp.tactile.sensors import sensor_named
     from cltp.train.photometric import train_gradients
     from cltp.train.progress import Bar
-    from tacgrasp.ball_frames import read_ball_frames
-    from tacgrasp.ball_profiles import ball_profiles
-    from tacgrasp.view import console
+    from tacgrasp.bringup.ball_profiles import ball_profiles
+    from tacgrasp.console import console
+    from tacgrasp.drivers.gelsight.frame_folder import read_ball_frames
 
     sensor, to = sensor_named("gelsight_mini"), console()
     balls = read_ball_frames(flags.balls, sensor, flags.background)

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -44,10 +44,10 @@ def main(argv: Sequence[str]) -> None:
 
     from pydantic import ValidationError
 
-    from tacgrasp.drivers.gelsight_background import save_background
-    from tacgrasp.drivers.gelsight_mini import take_background
-    from tacgrasp.drivers.gelsight_settings import GelSightSettings
-    from tacgrasp.view import console
+    from tacgrasp.console import console
+    from tacgrasp.drivers.gelsight.background import save_background
+    from tacgrasp.drivers.gelsight.connect import take_background
+    from tacgrasp.drivers.gelsight.settings import GelSightSettings
 
     device = flags.device
     try:

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from tacgrasp.drivers.dynamixel_settings import DynamixelSettings
-    from tacgrasp.drivers.gripper_calibration import GripperCalibration
+    from tacgrasp.drivers.dynamixel.calibration import GripperCalibration
+    from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
 
 @dataclass(frozen=True)
@@ -49,9 +49,9 @@ class Gripper:
 def main(argv: Sequence[str]) -> None:
     """Force over current of a gripper: from a scale, or from a file of readings."""
     flags = parse(Gripper, argv, prog="tacgrasp calibrate gripper")
-    from tacgrasp.config_layers import load
-    from tacgrasp.drivers.gripper_calibration import save_calibration
-    from tacgrasp.view import console
+    from tacgrasp.config.layers import load
+    from tacgrasp.console import console
+    from tacgrasp.drivers.dynamixel.calibration import save_calibration
 
     if not 3 <= flags.steps <= 50:
         raise UsageError(f"--steps must be 3 to 50, got {flags.steps}")
@@ -89,7 +89,7 @@ def _fitted(
     flags: Gripper, settings: DynamixelSettings, readings: Path, date: datetime.date
 ) -> GripperCalibration:
     from primitives.errors import RobotError
-    from tacgrasp.drivers.gripper_calibration import fit_calibration, read_readings
+    from tacgrasp.drivers.dynamixel.calibration import fit_calibration, read_readings
 
     try:
         return fit_calibration(
@@ -102,8 +102,8 @@ def _fitted(
 def _measured(
     flags: Gripper, settings: DynamixelSettings, date: datetime.date, to: Console
 ) -> GripperCalibration:
-    from tacgrasp.drivers.dynamixel_hand import connect_hand
-    from tacgrasp.drivers.measure_gripper import calibrate_gripper, steps_ma
+    from tacgrasp.drivers.dynamixel.fingers import connect_hand
+    from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
 
     hand = connect_hand(settings)
     try:

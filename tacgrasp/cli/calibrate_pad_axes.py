@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 if TYPE_CHECKING:
     from primitives import execution
@@ -47,8 +47,8 @@ def main(argv: Sequence[str]) -> None:
     flags = parse(PadAxes, argv, prog="tacgrasp calibrate pad-axes")
     if flags.rig is not None and (flags.right or flags.palm):
         raise UsageError("give --rig to measure, or --right and --palm, not both")
-    from tacgrasp.pad_axes import as_yaml
-    from tacgrasp.view import console
+    from tacgrasp.bringup.pad_axes import as_yaml
+    from tacgrasp.console import console
 
     out = console()
     axes = _named(flags) if flags.rig is None else _measured(flags, flags.rig)
@@ -58,7 +58,7 @@ def main(argv: Sequence[str]) -> None:
 
 
 def _named(flags: PadAxes) -> execution.PadAxes:
-    from tacgrasp.pad_axes import axes_named
+    from tacgrasp.bringup.pad_axes import axes_named
 
     right = flags.right or _asked("Which axis of the TCP points to the pad's right (+x ... -z)? ")
     palm = flags.palm or _asked("Which points from the fingertip to the palm? ")
@@ -72,10 +72,10 @@ def _asked(question: str) -> str:
 
 
 def _measured(flags: PadAxes, rig_name: str) -> execution.PadAxes:
-    from tacgrasp.config_layers import load
-    from tacgrasp.pad_axes import find_pad_axes
-    from tacgrasp.rig import make_rig
-    from tacgrasp.view import console
+    from tacgrasp.bringup.pad_axes import find_pad_axes
+    from tacgrasp.config.layers import load
+    from tacgrasp.console import console
+    from tacgrasp.rig.factory import make_rig
 
     config, _ = load(None, rig_name, os.environ)
     hardware = None if config.hardware is None else config.hardware.where_it_stands()

@@ -49,7 +49,7 @@ def main(argv: Sequence[str]) -> int:
 def _generate(argv: Sequence[str]) -> None:
     """Make a data set of simulated contacts, or what is missing of it."""
     flags = parse(Generate, argv, prog="tacgrasp data generate")
-    from tacgrasp.generate import generate
+    from tacgrasp.datasets.generate import generate
 
     generate(
         flags.out,

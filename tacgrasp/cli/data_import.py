@@ -8,8 +8,8 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -40,10 +40,10 @@ class Import:
 def import_touches(argv: Sequence[str]) -> int:
     """Bring your own heights, clouds or frames with a table of labels into a data set."""
     flags = parse(Import, argv, prog="tacgrasp data import")
-    from cltp.sensors import sensor_named
-    from tacgrasp.data_import import Source
-    from tacgrasp.data_import import import_touches as bring_in
-    from tacgrasp.view import console
+    from cltp.tactile.sensors import sensor_named
+    from tacgrasp.console import console
+    from tacgrasp.datasets.import_touches import Source
+    from tacgrasp.datasets.import_touches import import_touches as bring_in
 
     if not flags.folder.is_dir():
         raise UsageError(f"{flags.folder} is no folder; expected the one with the touches' files")

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.data_import import import_touches
 from tacgrasp.cli.flags import parse, writable
-from tacgrasp.errors import UsageError
 
 SHOWN_PROBLEMS = 50
 
@@ -34,10 +34,10 @@ class Inspect:
 def inspect(argv: Sequence[str]) -> int:
     """Show one contact: image, heights, numbers, captions and prompts."""
     flags = parse(Inspect, argv, prog="tacgrasp data inspect")
-    from cltp.dataset import ContactDataset
-    from tacgrasp.contact_sheet import contact_card
-    from tacgrasp.data_inspect import lines_of
-    from tacgrasp.view import console
+    from cltp.data.dataset import ContactDataset
+    from tacgrasp.console import console
+    from tacgrasp.datasets.contact_sheet import contact_card
+    from tacgrasp.datasets.inspect import lines_of
 
     if flags.out is not None and flags.out.suffix.lower() != ".png":
         raise UsageError(f"--out expects a file ending in .png, got {flags.out}")
@@ -71,9 +71,9 @@ class Stats:
 def stats(argv: Sequence[str]) -> int:
     """Count classes, splits, objects; quantiles of numbers, doubtful share, checksum."""
     flags = parse(Stats, argv, prog="tacgrasp data stats")
-    from tacgrasp.data_stats import as_json, show
-    from tacgrasp.data_stats import stats as count
-    from tacgrasp.view import console
+    from tacgrasp.console import console
+    from tacgrasp.datasets.stats import as_json, show
+    from tacgrasp.datasets.stats import stats as count
 
     found = count(flags.folder)
     path = writable(flags.json)
@@ -97,10 +97,10 @@ class Verify:
 def verify(argv: Sequence[str]) -> int:
     """Check every byte, label, cloud, text and split; exits with 1 if anything is wrong."""
     flags = parse(Verify, argv, prog="tacgrasp data verify")
-    from cltp.dataset import ContactDataset
+    from cltp.data.dataset import ContactDataset
     from cltp.errors import TouchError
-    from tacgrasp.data_verify import bar, problems
-    from tacgrasp.view import console
+    from tacgrasp.console import console
+    from tacgrasp.datasets.verify import bar, problems
 
     to, wrong = console(), 0
     if not (flags.folder / "dataset.json").is_file():
@@ -147,10 +147,10 @@ class Gallery:
 def gallery(argv: Sequence[str]) -> int:
     """Write drawn contacts with pictures, captions and class counts as one HTML page."""
     flags = parse(Gallery, argv, prog="tacgrasp data gallery")
-    from cltp.dataset import ContactDataset
-    from tacgrasp.contact_sheet import drawn
-    from tacgrasp.gallery import write_gallery
-    from tacgrasp.view import console
+    from cltp.data.dataset import ContactDataset
+    from tacgrasp.console import console
+    from tacgrasp.datasets.contact_sheet import drawn
+    from tacgrasp.datasets.gallery import write_gallery
 
     _check_draw(flags.contacts, flags.seed)
     data = ContactDataset(flags.folder, partial=True)
@@ -181,9 +181,9 @@ class Sheet:
 def sheet(argv: Sequence[str]) -> int:
     """Write drawn contacts with their captions as pages in PNG."""
     flags = parse(Sheet, argv, prog="tacgrasp data sheet")
-    from cltp.dataset import ContactDataset
-    from tacgrasp.contact_sheet import drawn, write_pages
-    from tacgrasp.view import console
+    from cltp.data.dataset import ContactDataset
+    from tacgrasp.console import console
+    from tacgrasp.datasets.contact_sheet import drawn, write_pages
 
     _check_draw(flags.contacts, flags.seed)
     data = ContactDataset(flags.folder, partial=True)

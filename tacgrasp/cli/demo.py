@@ -27,8 +27,8 @@ class DemoFlags:
 def main(argv: Sequence[str]) -> int:
     """Play one demo; 1 when it does not come out as told."""
     flags = parse(DemoFlags, argv, prog="tacgrasp demo")
-    from tacgrasp.demo import DEMOS, play
-    from tacgrasp.view import LineView, console, end_lines
+    from tacgrasp.console import LineView, console, end_lines
+    from tacgrasp.playback.demo import DEMOS, play
 
     to = console()
     if not flags.name:

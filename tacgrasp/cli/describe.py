@@ -8,8 +8,8 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -38,13 +38,13 @@ class Describe:
 def main(argv: Sequence[str]) -> int:
     """Describe one file."""
     flags = parse(Describe, argv, prog="tacgrasp describe")
-    from cltp.files import read_touch
-    from cltp.sensors import sensor_named
+    from cltp.sensing.touch_files import read_touch
+    from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
-    from tacgrasp.config_layers import load
-    from tacgrasp.describe import describe, said
+    from tacgrasp.config.layers import load
+    from tacgrasp.console import console
+    from tacgrasp.playback.describe import describe, said
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
-    from tacgrasp.view import console
 
     to = console()
     touch = read_touch(

@@ -12,7 +12,7 @@ from tacgrasp.cli.flags import parse
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from tacgrasp.drivers.finding import Finding
+    from tacgrasp.drivers.check import Finding
 
 
 @dataclass(frozen=True)
@@ -31,9 +31,9 @@ class Doctor:
 def main(argv: Sequence[str]) -> int:
     """Print what was found, and what to do about it."""
     flags = parse(Doctor, argv, prog="tacgrasp doctor")
-    from tacgrasp.config_layers import load
-    from tacgrasp.doctor import examine
-    from tacgrasp.view import console
+    from tacgrasp.bringup.doctor import examine
+    from tacgrasp.config.layers import load
+    from tacgrasp.console import console
 
     config, _ = load(flags.task, flags.rig, os.environ)
     found = examine(config)

@@ -9,8 +9,8 @@ from typing import Annotated
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
-from tacgrasp.errors import UsageError
 
 HELP = {
     "ur": "A UR controller: dashboard, script and RTDE ports on a loopback address.",
@@ -116,8 +116,8 @@ def emulate(kind: str, options: Sequence[str], sleep: Callable[[float], None]) -
         UsageError: It could not start; says why.
     """
     from primitives import RobotError
-    from sim.emulators.spawn import EmulatorProcess
-    from tacgrasp.view import console
+    from sim.emulators.process.spawn import EmulatorProcess
+    from tacgrasp.console import console
 
     out = console()
     try:

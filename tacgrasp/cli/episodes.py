@@ -94,8 +94,8 @@ def _info(argv: Sequence[str], prog: str) -> None:
 
 def _recover(argv: Sequence[str], prog: str) -> None:
     """Make a finished file of one that a crash left unfinished."""
+    from tacgrasp.console import console
     from tacgrasp.episodes.recover import recover
-    from tacgrasp.view import console
 
     flags = parse(Recover, argv, prog=prog)
     console().print(recover(flags.episode, flags.out).message)
@@ -103,8 +103,8 @@ def _recover(argv: Sequence[str], prog: str) -> None:
 
 def _plot(argv: Sequence[str], prog: str) -> None:
     """Draw an episode."""
+    from tacgrasp.console import console
     from tacgrasp.episodes.plot import plot_episode
-    from tacgrasp.view import console
 
     flags = parse(Plot, argv, prog=prog)
     png = flags.out or flags.episode.with_suffix(".png")

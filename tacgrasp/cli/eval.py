@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand, writable
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -63,9 +63,9 @@ def main(argv: Sequence[str]) -> int:
     from rich.console import Console
 
     from cltp.train.progress import Bar
-    from tacgrasp.evaluation import Sizes, evaluate
     from tacgrasp.policy_factory import default_weights
-    from tacgrasp.scores import show, write_scores
+    from tacgrasp.training.evaluate import Sizes, evaluate
+    from tacgrasp.training.model_card import show, write_scores
 
     weights = flags.weights or default_weights()
     sizes = Sizes(

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, writable
-from tacgrasp.errors import UsageError
 
 if TYPE_CHECKING:
-    from tacgrasp.place import Place
-    from tacgrasp.results import Result
-    from tacgrasp.trying_real import RealSet
+    from tacgrasp.pretraining.evaluate_real import RealSet
+    from tacgrasp.pretraining.evaluation_run import Place
+    from tacgrasp.pretraining.report.store import Result
 
 METHODS_DIR = Path("runs/methods")
 
@@ -134,15 +134,15 @@ def zero_shot(argv: Sequence[str]) -> None:
     """Name contacts by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
     flags = parse(ZeroShot, argv, prog="tacgrasp eval zero-shot")
     json_path = _checked(flags)
-    from tacgrasp import trying
-    from tacgrasp.show_results import show
+    from tacgrasp.pretraining import evaluate as trying
+    from tacgrasp.pretraining.report.print_results import show
 
     place = _place(flags, "zero-shot", argv)
     if flags.real is None and flags.labels is None:
         show(trying.zero_shot(place, _names(flags.methods)), json_path)
         return
-    from tacgrasp.show_results import show_real
-    from tacgrasp.trying_real import zero_shot_real
+    from tacgrasp.pretraining.evaluate_real import zero_shot_real
+    from tacgrasp.pretraining.report.print_results import show_real
 
     prompting = "ensemble" if flags.ensemble else "single"
     found = zero_shot_real(place, _names(flags.methods), _real_set(flags), prompting=prompting)
@@ -158,9 +158,9 @@ def probe(argv: Sequence[str]) -> None:
         raise UsageError("--seeds and --views must be at least 1")
     import dataclasses
 
-    from tacgrasp import trying
-    from tacgrasp.show_results import show, show_real
-    from tacgrasp.trying_real import probe_real
+    from tacgrasp.pretraining import evaluate as trying
+    from tacgrasp.pretraining.evaluate_real import probe_real
+    from tacgrasp.pretraining.report.print_results import show, show_real
 
     real = _real_set(flags) if flags.real is not None or flags.labels is not None else None
     found: list[Result] = []
@@ -182,14 +182,14 @@ def retrieval(argv: Sequence[str]) -> None:
     json_path = _checked(flags)
     from rich.console import Console
 
-    from tacgrasp import trying
-    from tacgrasp.show_results import show
+    from tacgrasp.pretraining import evaluate as trying
+    from tacgrasp.pretraining.report.print_results import show
 
     place = _place(flags, "retrieval", argv)
     if flags.text is None and flags.contact is None:
         show(trying.retrieval(place, _names(flags.methods)), json_path)
         return
-    from tacgrasp import retrieving
+    from tacgrasp.pretraining import retrieval_demo as retrieving
 
     answer = retrieving.find(
         place,
@@ -209,9 +209,9 @@ def report(argv: Sequence[str]) -> None:
     """One HTML and one Markdown page of all tables beside the paper's, from stored results."""
     flags = parse(Report, argv, prog="tacgrasp eval report")
     json_path = writable(flags.json)
-    from tacgrasp import pretraining_report
-    from tacgrasp.results import load
-    from tacgrasp.show_results import write_figures
+    from tacgrasp.pretraining.report import report as pretraining_report
+    from tacgrasp.pretraining.report.print_results import write_figures
+    from tacgrasp.pretraining.report.store import load
 
     pages = pretraining_report.report(
         flags.results, flags.out or flags.results, weights=flags.weights
@@ -250,8 +250,8 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
     from transformers.utils.logging import disable_progress_bar
 
     from cltp.train.progress import Bar
-    from tacgrasp.place import Place
     from tacgrasp.policy_factory import default_weights
+    from tacgrasp.pretraining.evaluation_run import Place
 
     come_along = isinstance(flags, ZeroShot) and flags.real is not None
     usual = default_weights() if come_along else METHODS_DIR
@@ -271,9 +271,9 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
 
 
 def _real_set(flags: Real) -> RealSet:
-    from cltp.sensors import sensor_named
-    from tacgrasp.real_touches import BACKGROUND, read_labels
-    from tacgrasp.trying_real import RealSet
+    from cltp.tactile.sensors import sensor_named
+    from tacgrasp.pretraining.evaluate_real import RealSet
+    from tacgrasp.pretraining.real_touches import BACKGROUND, read_labels
 
     if flags.real is None or flags.labels is None:
         raise UsageError("--real and --labels belong together: a folder, and what is in it")

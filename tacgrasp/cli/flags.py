@@ -16,8 +16,8 @@ from typing import TypeVar
 
 import tyro
 
-from tacgrasp.config_errors import unit_of
-from tacgrasp.errors import UsageError
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.errors import unit_of
 
 T = TypeVar("T")
 

@@ -19,7 +19,7 @@ from rich.segment import ControlType
 from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
-    from tacgrasp.jog import Jogger, Settings
+    from tacgrasp.bringup.jog import Jogger, Settings
 
 LOOK_S = 0.4
 """How often the contact is shown while no key is pressed [s]."""
@@ -51,10 +51,10 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(Jog, argv, prog="tacgrasp jog")
     from primitives.execution import PadAxes
     from primitives.limits import clamp_force
-    from tacgrasp.config_layers import load
-    from tacgrasp.jog import HELP, Jogger, Settings
-    from tacgrasp.rig import make_rig
-    from tacgrasp.view import console
+    from tacgrasp.bringup.jog import HELP, Jogger, Settings
+    from tacgrasp.config.layers import load
+    from tacgrasp.console import console
+    from tacgrasp.rig.factory import make_rig
 
     config, _ = load(flags.task, flags.rig, os.environ)
     hardware = None if config.hardware is None else config.hardware.where_it_stands()
@@ -84,7 +84,7 @@ def main(argv: Sequence[str]) -> int:
 def _jog(keys: Iterator[str], jogger: Jogger, settings: Settings, out: Console) -> None:
     from cltp import TouchError
     from primitives import LimitError
-    from tacgrasp.jog import Quit, command_of
+    from tacgrasp.bringup.jog import Quit, command_of
 
     for key in keys:
         said = ""

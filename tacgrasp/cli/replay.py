@@ -10,9 +10,9 @@ from pathlib import Path
 import tyro
 from rich.console import Console
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
 from tacgrasp.episodes import Episode
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -42,8 +42,8 @@ def main(argv: Sequence[str]) -> int:
     for flag, given in (("--policy", flags.policy), ("--weights", flags.weights)):
         if given is not None and not flags.decide:
             raise UsageError(f"{flag} needs --decide")
+    from tacgrasp.console import console
     from tacgrasp.episodes import read_episode
-    from tacgrasp.view import console
 
     episode = read_episode(flags.episode)
     to = console()
@@ -57,7 +57,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _show(episode: Episode, to: Console) -> int:
-    from tacgrasp.view import LineView, truth_words
+    from tacgrasp.console import LineView, truth_words
 
     header, end = episode.header, episode.end
     to.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
@@ -75,8 +75,8 @@ def _show(episode: Episode, to: Console) -> int:
 
 
 def _decide(episode: Episode, flags: Replay, to: Console) -> int:
+    from tacgrasp.playback.replay import config_of, differences
     from tacgrasp.policy_factory import make_policy
-    from tacgrasp.replay import config_of, differences
 
     name = flags.policy or episode.header.policy
     config = config_of(episode, flags.episode)
@@ -93,8 +93,8 @@ def _decide(episode: Episode, flags: Replay, to: Console) -> int:
 
 
 def _execute(episode: Episode, path: Path, to: Console) -> int:
-    from tacgrasp.replay import config_of, repeat
-    from tacgrasp.rig import make_rig
+    from tacgrasp.playback.replay import config_of, repeat
+    from tacgrasp.rig.factory import make_rig
 
     config = config_of(episode, path)
     if config.devices == "hardware":

@@ -8,12 +8,12 @@ from typing import Annotated, Any
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import flag_value, parse
-from tacgrasp.config import RunConfig
-from tacgrasp.config_layers import Sources, leaves, load_with_limits
-from tacgrasp.errors import UsageError
-from tacgrasp.hardware_config import HardwareConfig
-from tacgrasp.outcome import EndReason, Outcome
+from tacgrasp.config.hardware import HardwareConfig
+from tacgrasp.config.layers import Sources, leaves, load_with_limits
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.runtime.outcome import EndReason, Outcome
 
 EXIT_CODES = {
     EndReason.SUCCESS: 0,
@@ -65,10 +65,10 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
 
 
 def _run(config: RunConfig) -> Outcome:
+    from tacgrasp.console import LineView, console, end_lines
     from tacgrasp.policy_factory import make_policy
-    from tacgrasp.rig import make_rig
+    from tacgrasp.rig.factory import make_rig
     from tacgrasp.run import run_recorded
-    from tacgrasp.view import LineView, console, end_lines
 
     if config.hardware is not None and not config.hardware.feels and not config.dry_run:
         raise UsageError(
@@ -98,7 +98,7 @@ def _exit_code(outcome: Outcome, *, dry_run: bool) -> int:
 def _print_config(config: RunConfig, sources: Sources) -> None:
     out: dict[str, Any] = leaves(config)
     width = max(map(len, out))
-    from tacgrasp.view import console
+    from tacgrasp.console import console
 
     to = console()
     for path, value in out.items():

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
-from tacgrasp.errors import UsageError
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def _press(argv: Sequence[str]) -> None:
         raise UsageError(f"--seed must not be negative, got {flags.seed}")
     if flags.out is not None and not flags.out.parent.is_dir():
         raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
-    from tacgrasp.simulate import Request, run
+    from tacgrasp.datasets.press import Request, run
 
     run(
         Request(

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
-from tacgrasp.errors import UsageError
 
 STAGES = {
     "clip": "Align the small CLIP on images and captions.",
@@ -133,7 +133,7 @@ def _weights(stage: str, rest: Sequence[str]) -> int:
         raise UsageError("--blind-of is for `tacgrasp train llm`; the encoder sees no instructions")
     if flags.methods is not None and (stage != "llm" or flags.blind_of is not None):
         raise UsageError("--methods is for `tacgrasp train llm`, and not with --blind-of")
-    from tacgrasp import train
+    from tacgrasp.training import train
 
     if flags.methods is not None:
         train.take_pretrained(flags.methods, flags.out)
@@ -164,7 +164,7 @@ def _methods(stage: str, rest: Sequence[str], command: str) -> int:
         raise UsageError("--no-image is for `tacgrasp train cltp`; all-methods trains both")
     if flags.also is not None and stage != "cltp":
         raise UsageError("--also is for `tacgrasp train cltp`; methods share one data set")
-    from tacgrasp.all_methods import Order, carry_out
+    from tacgrasp.pretraining.run_all import Order, carry_out
 
     carry_out(
         stage,

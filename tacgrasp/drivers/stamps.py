@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 
-from cltp.cloud import Stamp
+from cltp.tactile.cloud import Stamp
 
 
 def real_stamp() -> Stamp:

@@ -1,7 +1,7 @@
 """Episodes: what was felt, said, asked, sent and reached, one crash-proof MCAP file each."""
 
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.places import episode_path, record_directory
+from tacgrasp.episodes.paths import episode_path, record_directory
 from tacgrasp.episodes.reader import read_episode
 from tacgrasp.episodes.record import (
     Episode,

@@ -21,10 +21,10 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.patches import Rectangle
 
-from cltp.cloud import TactileCloud
-from cltp.sensors import SensorSpec
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.places import refused
+from tacgrasp.episodes.paths import refused
 from tacgrasp.episodes.reader import read_episode
 from tacgrasp.episodes.record import Episode, Phase, TickRecord
 
@@ -32,7 +32,7 @@ MAX_PICTURES = 24
 """More touches than this are thinned out evenly, the first and the last kept. Our choice."""
 
 SCALE_TOP_MM = 0.9
-"""Top of the fixed colour scale [mm], where 'very deep' begins (``cltp.states``)."""
+"""Top of the fixed colour scale [mm], where 'very deep' begins (``cltp.tactile.states``)."""
 
 _COLUMNS = 6
 _HEAT = "magma_r"  # the untouched gel is light

@@ -24,12 +24,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 
-from cltp.cloud import Stamp, TactileCloud
-from cltp.sensors import SensorSpec
+from cltp.tactile.cloud import Stamp, TactileCloud
+from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
-from tacgrasp.commands import Command
+from tacgrasp.episodes.command_log import Command
 
 FORMAT = "tacgrasp-episode/1"
 METADATA_NAME = "tacgrasp_episode"

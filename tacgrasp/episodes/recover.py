@@ -20,7 +20,7 @@ from mcap.records import Channel, McapRecord, Message, Metadata, Schema
 from mcap.writer import CompressionType, Writer
 
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.places import refused, sync_directory
+from tacgrasp.episodes.paths import refused, sync_directory
 from tacgrasp.episodes.reader import check_format
 from tacgrasp.episodes.record import TOPIC_STATE
 from tacgrasp.episodes.scan import Scan, scan_file

@@ -7,8 +7,8 @@ from foxglove_schemas_protobuf.PackedElementField_pb2 import PackedElementField
 from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
 from google.protobuf.message import DecodeError
 
-from cltp.cloud import Stamp, TactileCloud
-from cltp.sensors import SensorSpec
+from cltp.tactile.cloud import Stamp, TactileCloud
+from cltp.tactile.sensors import SensorSpec
 
 FRAME_ID = "gel"
 _FIELDS = ("x", "y", "z")

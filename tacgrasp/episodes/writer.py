@@ -24,11 +24,11 @@ from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
 from mcap.writer import CompressionType, Writer
 from mcap_protobuf.schema import build_file_descriptor_set
 
-from cltp.cloud import Stamp
+from cltp.tactile.cloud import Stamp
 from tacgrasp.episodes.codec import json_schema, not_finite, to_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.interrupts import interrupts_held
-from tacgrasp.episodes.places import refused, sync_directory
+from tacgrasp.episodes.paths import refused, sync_directory
 from tacgrasp.episodes.record import (
     FORMAT,
     METADATA_NAME,

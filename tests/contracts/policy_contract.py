@@ -9,10 +9,10 @@ import math
 import numpy as np
 import pytest
 
-from cltp.cloud import TactileCloud, cloud_from_heights
-from cltp.sensors import sensor_named
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.sensors import sensor_named
 from policies import Decision, Policy
-from policies.extract import extract
+from policies.extraction.extract import extract
 
 SENSOR = sensor_named("gelsight_mini")
 INSTRUCTION = "Pick the strawberry gently, without bruising it."

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from cltp import TouchError
-from cltp.cloud import NUM_POINTS
+from cltp.tactile.cloud import NUM_POINTS
 
 
 class SensorContract:

@@ -3,11 +3,11 @@
 import os
 
 import pytest
-from arm_contract import ArmContract
 
-from sim.emulators.spawn import EmulatorProcess
-from tacgrasp.drivers.ur import connect_arm
-from tacgrasp.drivers.ur_emulated import emulated_arm
+from sim.emulators.process.spawn import EmulatorProcess
+from tacgrasp.drivers.ur.arm import connect_arm
+from tacgrasp.drivers.ur.emulated import emulated_arm
+from tests.contracts.arm_contract import ArmContract
 
 pytest.importorskip("rtde_control")
 

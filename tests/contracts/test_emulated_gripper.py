@@ -1,12 +1,12 @@
 """The Gripper contract on the Dynamixel driver and emulated servos, through the real SDK."""
 
 import pytest
-from gripper_contract import GripperContract
 
-from sim.emulators.dynamixel import DynamixelEmulator, ServoOptions
-from sim.emulators.dynamixel_fingers import SpringLoad
-from tacgrasp.drivers.dynamixel import connect_gripper
-from tacgrasp.drivers.dynamixel_emulated import emulated_gripper
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel.fingers import SpringLoad
+from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
+from tacgrasp.drivers.dynamixel.gripper import connect_gripper
+from tests.contracts.gripper_contract import GripperContract
 
 pytest.importorskip("dynamixel_sdk")
 

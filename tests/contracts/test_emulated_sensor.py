@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 from PIL import Image
-from sensor_contract import SensorContract
 
-from sim.emulators.taxels import TaxelEmulator
-from sim.emulators.taxels_ball import PressedBall
-from tacgrasp.drivers.gelsight_mini import connect_gelsight
-from tacgrasp.drivers.gelsight_settings import GelSightSettings
-from tacgrasp.drivers.recorded import connect_recorded
-from tacgrasp.drivers.recorded_settings import RecordedSettings
-from tacgrasp.drivers.taxel_settings import TaxelSettings
-from tacgrasp.drivers.taxels import connect_taxels
+from sim.emulators.taxels.array import TaxelEmulator
+from sim.emulators.taxels.ball import PressedBall
+from tacgrasp.drivers.gelsight.connect import connect_gelsight
+from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.recorded.sensor import connect_recorded
+from tacgrasp.drivers.recorded.settings import RecordedSettings
+from tacgrasp.drivers.taxels.connect import connect_taxels
+from tacgrasp.drivers.taxels.settings import TaxelSettings
+from tests.contracts.sensor_contract import SensorContract
 
 
 class TestTaxelArrayOnAPty(SensorContract):

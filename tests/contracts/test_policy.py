@@ -3,16 +3,16 @@
 import importlib.util
 
 import pytest
-from policy_contract import CLOUDS, INSTRUCTION, PolicyContract
 
-from cltp.sensors import sensor_named
-from cltp.states import ContactState, Side, area_word, depth_word, position_word
+from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies import Decision, PolicyError
 from policies.baselines import FixedForcePolicy, RandomPolicy
 from policies.goal import Band, Goal
 from policies.recorded import RecordedPolicy
 from policies.rules import RulesPolicy
 from primitives import Primitive
+from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract
 
 GOAL = Goal(
     force_n=Band(low=0.5, high=2.5),
@@ -72,7 +72,8 @@ class TestRules(PolicyContract):
 
 
 @pytest.mark.skipif(
-    importlib.util.find_spec("cltp.measure") is None, reason="cltp.measure is not there yet"
+    importlib.util.find_spec("cltp.tactile.measure") is None,
+    reason="cltp.tactile.measure is not there yet",
 )
 class TestRulesAsShipped(PolicyContract):
     def make(self):

@@ -1,11 +1,11 @@
 """The contracts of arm, gripper and sensor, run on the simulated rig."""
 
 import pytest
-from arm_contract import ArmContract
-from gripper_contract import GripperContract
-from sensor_contract import SensorContract
 
-from sim.rig import build
+from sim.grasp.rig import build
+from tests.contracts.arm_contract import ArmContract
+from tests.contracts.gripper_contract import GripperContract
+from tests.contracts.sensor_contract import SensorContract
 
 
 class TestSimulatedArm(ArmContract):

@@ -4,17 +4,17 @@ import numpy as np
 import pytest
 import torch
 
-from cltp.cloud import TactileCloud, cloud_from_heights
-from cltp.encoder import PRESETS, TactileEncoder
-from cltp.heads import StateHeads
-from cltp.language import Language, small_lm
-from cltp.sensors import SENSORS
-from cltp.tac3d_llm import Projector, Tac3dLlm
-from cltp.talk import Reply
-from cltp.tokenizer import ACTIONS, Words
-from cltp.weights import WeightsError, save_encoder, save_tac3d_llm
+from cltp.checkpoints.tac3d_llm import WeightsError, save_encoder, save_tac3d_llm
+from cltp.encoder.encoder import PRESETS, TactileEncoder
+from cltp.encoder.heads import StateHeads
+from cltp.llm.causal_lm import Language, small_lm
+from cltp.llm.generation import Reply
+from cltp.llm.tac3d_llm import Projector, Tac3dLlm
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.sensors import SENSORS
+from cltp.texts.tokenizer import ACTIONS, Words
 from policies.errors import PolicyError
-from policies.extract import extract
+from policies.extraction.extract import extract
 from policies.llm import (
     LlmPolicy,
     as_request,

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from test_teacher import GOAL, NOTHING, TOUCHES, touch
 
-from policies.extract import extract
+from policies.extraction.extract import extract
+from policies.extraction.verdict_words import DESCRIPTORS
 from policies.speech import (
     ACTION_WORDINGS,
     CONTACT_WORDINGS,
@@ -17,8 +17,8 @@ from policies.speech import (
     speak,
 )
 from policies.teacher import Advice, Why, teacher
-from policies.verdict_words import DESCRIPTORS
 from primitives import Primitive
+from tests.policies.test_teacher import GOAL, NOTHING, TOUCHES, touch
 
 ADVICE = [
     *((Advice(action=p, success=False, why=Why.TOO_FIRM), w) for p in Primitive

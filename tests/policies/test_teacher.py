@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cltp.sensors import sensor_named
-from cltp.states import ContactState, Side, area_word, depth_word, position_word
+from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies.goal import Band, Goal
 from policies.teacher import MOVE_STEP_MM, SLIVER_SHARE, Why, teacher
 from primitives import Primitive

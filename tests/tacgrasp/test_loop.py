@@ -5,7 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import pytest
-from loop_fakes import (
+
+from cltp import TouchError
+from policies import PolicyError
+from primitives import LimitError, Primitive, RobotError
+from tacgrasp.episodes import Phase, TickRecord
+from tacgrasp.runtime.outcome import EndReason
+from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
+from tests.fakes.loop_fakes import (
     BOTH,
     DOWN,
     GOOD,
@@ -21,13 +28,6 @@ from loop_fakes import (
     slips,
     with_end,
 )
-
-from cltp import TouchError
-from policies import PolicyError
-from primitives import LimitError, Primitive, RobotError
-from tacgrasp.episodes import Phase, TickRecord
-from tacgrasp.outcome import EndReason
-from tacgrasp.verify import not_lifted, verify_by_lifting
 
 
 def test_a_declared_and_verified_grasp_is_a_success_and_is_held() -> None:

@@ -1,0 +1,236 @@
+"""Weights on disk: one folder a part, safetensors and JSON in the ``save_pretrained`` layout.
+
+    weights/
+      README.md         model card: command, seed, checksum of the data, measured scores
+      encoder/          config.json, model.safetensors        E_T with its state heads
+      clip/             transformers' CLIP with tokenizer.json
+      projector/        config.json, model.safetensors
+      lm/               transformers' Qwen2 with tokenizer.json
+
+Numbers are stored in 16 bits and computed in 32. Loading is strict: every weight must be there, of
+the right shape, and no other; the projector names the tokenizer that it was trained with.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import os
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import torch
+from safetensors import SafetensorError
+from safetensors.torch import load_file, save_file
+from torch import Tensor, nn
+
+from cltp.encoder.clip_towers import Towers, load_towers
+from cltp.encoder.encoder import EncoderConfig, TactileEncoder
+from cltp.encoder.heads import StateHeads
+from cltp.errors import TouchError
+from cltp.llm.causal_lm import Language, load_language
+from cltp.llm.stored_lm import load_stored_lm
+from cltp.llm.tac3d_llm import Projector, Tac3dLlm
+from cltp.tactile.point_layout import EVEN
+from cltp.texts.tokenizer import Words
+
+if TYPE_CHECKING:
+    from transformers import CLIPModel
+
+VERSION = 1
+PROJECTOR_VERSION = 2
+"""2: the heads' readings go with the tokens."""
+
+
+class WeightsError(TouchError):
+    """Weights are missing, damaged or don't fit together."""
+
+
+class _EncoderWithHeads(nn.Module):
+    def __init__(self, encoder: TactileEncoder, heads: StateHeads) -> None:
+        super().__init__()
+        self.encoder, self.heads = encoder, heads
+
+
+def save_encoder(folder: Path, encoder: TactileEncoder, heads: StateHeads) -> None:
+    """Write E_T with the heads that read states from it."""
+    config = {"version": VERSION, "encoder": dataclasses.asdict(encoder.config)}
+    _save(folder, config, _EncoderWithHeads(encoder, heads))
+
+
+def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
+    """Read what ``save_encoder`` wrote.
+
+    Raises:
+        WeightsError: Missing, damaged, or of another shape.
+    """
+    config = _config(folder)
+    try:
+        encoder = TactileEncoder(EncoderConfig(**config["encoder"]))
+    except (KeyError, TypeError, TouchError) as error:
+        raise WeightsError(f"{folder}/config.json describes no encoder: {error}") from error
+    heads = StateHeads(2 * encoder.config.dim)
+    _load(folder, _EncoderWithHeads(encoder, heads))
+    return encoder, heads
+
+
+def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
+    """As ``load_encoder``, of an encoder that can take the clouds of sensors.
+
+    Raises:
+        WeightsError: As there, or it takes points that lie otherwise.
+    """
+    encoder, heads = load_encoder(folder)
+    if encoder.config.sampling != EVEN:
+        raise WeightsError(
+            f"the encoder in {folder} takes points as {encoder.config.tokenizer!r} lays them out; "
+            "clouds of sensors have 1024, evenly: train one with another preset"
+        )
+    return encoder, heads
+
+
+def save_clip(folder: Path, clip: CLIPModel, words: Words) -> None:
+    """Write a CLIP in transformers' layout, beside its tokenizer."""
+    _save_pretrained(folder, clip, words)
+
+
+def load_clip(folder: Path) -> Towers:
+    """Read towers, frozen.
+
+    Raises:
+        TouchError: As ``cltp.encoder.clip_towers.load_towers``.
+    """
+    _present(folder)
+    return load_towers(folder)
+
+
+def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
+    """Write projector and language model into ``folder``; its encoder is written by itself."""
+    words = model.language.words
+    if words is None:
+        raise WeightsError("a stock checkpoint is used from its own directory and not written")
+    config = {
+        "version": PROJECTOR_VERSION,
+        "encoder_dim": model.projector.encoder_dim,
+        "lm_dim": model.projector.lm_dim,
+        "tokenizer_sha256": words.fingerprint(),
+    }
+    _save(folder / "projector", config, model.projector)
+    _save_pretrained(folder / "lm", model.lm, words)
+
+
+def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
+    """Read a whole Tac3D-LLM.
+
+    Args:
+        folder: With ``encoder``, ``projector`` and ``lm``; the latter is read for decoding alone.
+        lm_folder: Another language model in transformers' layout; its projector is ``folder``'s.
+
+    Raises:
+        WeightsError: A part is missing, damaged, or belongs to other weights, or the encoder takes
+            points that sensors don't give.
+        TouchError: The language model can't be read.
+    """
+    encoder, heads = load_touching_encoder(folder / "encoder")
+    config = _config(folder / "projector", PROJECTOR_VERSION)
+    if lm_folder is None:
+        _present(folder / "lm")
+        language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
+    else:
+        language = load_language(lm_folder)
+    words = language.words
+    if words is not None and words.fingerprint() != config.get("tokenizer_sha256"):
+        raise WeightsError(
+            f"the tokenizer in {folder / 'lm'} is not the one that {folder / 'projector'} was "
+            "trained with; take both from one training"
+        )
+    sizes = (config.get("encoder_dim"), config.get("lm_dim"))
+    if sizes != (encoder.config.dim, language.dim):
+        raise WeightsError(
+            f"the projector in {folder} joins widths {sizes}, encoder and language model have "
+            f"{(encoder.config.dim, language.dim)}"
+        )
+    projector = Projector(encoder.config.dim, language.dim)
+    _load(folder / "projector", projector)
+    return Tac3dLlm(encoder, heads, projector, language).eval()
+
+
+def size_bytes(folder: Path) -> int:
+    """Bytes of everything in a folder of weights."""
+    return sum(path.stat().st_size for path in Path(folder).rglob("*") if path.is_file())
+
+
+def write_card(folder: Path, facts: Mapping[str, str], scores: Mapping[str, float]) -> None:
+    """Write the model card.
+
+    Args:
+        folder: Of the weights.
+        facts: Command, seed, checksum of the data, versions, duration.
+        scores: Measured scores by name.
+    """
+    lines = ["# Tac3D-LLM, small", "", "| | |", "|---|---|"]
+    lines += [f"| {name} | {value} |" for name, value in facts.items()]
+    lines += ["", "## Scores", "", "| | |", "|---|---|"]
+    lines += [f"| {name} | {value:.4g} |" for name, value in scores.items()]
+    Path(folder).mkdir(parents=True, exist_ok=True)
+    (Path(folder) / "README.md").write_text("\n".join(lines) + "\n")
+
+
+def _half(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    return {
+        name: (value.half() if value.is_floating_point() else value).contiguous()
+        for name, value in state.items()
+    }
+
+
+def _save(folder: Path, config: Mapping[str, Any], module: nn.Module) -> None:
+    folder.mkdir(parents=True, exist_ok=True)
+    beside = folder / f"model.safetensors.{os.getpid()}.part"
+    save_file(_half(module.state_dict()), beside)
+    beside.replace(folder / "model.safetensors")
+    (folder / "config.json").write_text(json.dumps(dict(config), indent=2) + "\n")
+
+
+def _save_pretrained(folder: Path, model: Any, words: Words) -> None:
+    beside = folder.with_name(f"{folder.name}.{os.getpid()}.part")
+    kept = {name: value.clone() for name, value in model.state_dict().items()}
+    model.half().save_pretrained(beside)
+    model.float().load_state_dict(kept)
+    words.save(beside)
+    shutil.rmtree(folder, ignore_errors=True)
+    beside.replace(folder)
+
+
+def _present(folder: Path) -> None:
+    for name in ("config.json", "model.safetensors"):
+        if not (Path(folder) / name).is_file():
+            raise WeightsError(
+                f"weights are missing: {Path(folder) / name} does not exist; "
+                "train them with `tacgrasp train all` or name the right folder"
+            )
+
+
+def _config(folder: Path, version: int = VERSION) -> dict[str, Any]:
+    _present(folder)
+    try:
+        config = json.loads((Path(folder) / "config.json").read_text())
+    except (OSError, ValueError) as error:
+        raise WeightsError(f"{folder}/config.json can't be read: {error}") from error
+    if not isinstance(config, dict) or config.get("version") != version:
+        raise WeightsError(f"{folder} holds weights of another version than {version}; train again")
+    return config
+
+
+def _load(folder: Path, module: nn.Module) -> None:
+    path = Path(folder) / "model.safetensors"
+    try:
+        state = load_file(path)
+        module.load_state_dict({name: value.float() for name, value in state.items()}, strict=True)
+    except (OSError, SafetensorError, RuntimeError) as error:
+        first = str(error).splitlines()[0]
+        raise WeightsError(f"{path} is damaged or does not fit its config: {first}") from error
+    for name, value in module.state_dict().items():
+        if not torch.isfinite(value).all():
+            raise WeightsError(f"{path}: {name} is not finite; train again")

@@ -1,0 +1,149 @@
+"""One labelled contact, as data sets hold it, and how its height map is packed into bytes.
+
+Not here: files of contacts (``cltp.data.dataset``), noise (``cltp.tactile.sensor_noise``): what is
+stored is clean.
+"""
+
+from __future__ import annotations
+
+import math
+import zlib
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import ContactState
+
+UNIT_MM = 0.001
+"""Step of a stored height [mm]. Our choice: a tenth of the finest noise of a real sensor."""
+
+LARGEST_MM = 32.7
+"""Largest height that 16 bits of ``UNIT_MM`` hold [mm]."""
+
+_ZSTD = pa.Codec("zstd", compression_level=3)
+
+
+class Split(StrEnum):
+    """What a contact may be used for: to train on, to choose by, or a test of one kind."""
+
+    TRAIN = "train"
+    VALIDATION = "validation"
+    TEST = "test"  # other contacts of the same objects, under the same gels: the paper's
+    OBJECT = "object"  # objects that training never shows
+    PHYSICS = "physics"  # gels that training never shows
+    GELSTEREO = "gelstereo"  # like the paper's GelStereo contacts
+    GELSIGHT = "gelsight"  # like the paper's GelSight contacts
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Gel:
+    """Properties of the gel under which a contact was made.
+
+    Attributes:
+        thickness_mm: Thickness [mm].
+        young_mpa: Young's modulus [MPa].
+        poisson: Poisson's ratio.
+
+    Raises:
+        TouchError: A value is not finite or not positive.
+    """
+
+    thickness_mm: float
+    young_mpa: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        for name in ("thickness_mm", "young_mpa", "poisson"):
+            if not (math.isfinite(getattr(self, name)) and getattr(self, name) > 0):
+                raise TouchError(f"gel: {name} must be positive, got {getattr(self, name)}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Contact:
+    """A labelled contact.
+
+    Attributes:
+        height_mm: Shape (H, W), float32, read-only; indentation without noise over the sensor's
+            whole field [mm], row 0 = top, 0 = the undeformed gel.
+        sensor: Whose field it is.
+        state: The truth in numbers and words; shape and texture None where nobody named them.
+        object: What touches, by name; splits are made by object or by series, never by contact.
+        series: Contacts of one object in one pose share a series: a press, deeper and deeper.
+        split: What it may be used for.
+        gel: Under which gel it was made; None for a real contact.
+        seed: What it can be made again from; 0 for a real contact.
+        unsure: Which of shape, texture, depth, position and area are so near another class that a
+            careful person might say that instead; None where nobody looked.
+        measured: Which labels and numbers nobody gave, so that they were read off the heights,
+            noise and all; only a person's own touches have such.
+        approach_mm: How far the undeformed body was moved into the undeformed gel [mm].
+        peak_kpa: Largest pressure [kPa].
+
+    Raises:
+        TouchError: Heights of a wrong shape, not finite, or beyond ``LARGEST_MM``; negative series.
+    """
+
+    height_mm: NDArray[np.float32]
+    sensor: SensorSpec
+    state: ContactState
+    object: str
+    series: int
+    split: Split
+    gel: Gel | None = None
+    seed: int = 0
+    unsure: frozenset[str] | None = None
+    approach_mm: float | None = None
+    peak_kpa: float | None = None
+    measured: frozenset[str] = frozenset()
+
+    def __post_init__(self) -> None:
+        heights = np.array(self.height_mm, dtype=np.float32)
+        if heights.ndim != 2 or min(heights.shape) < 8:
+            raise TouchError(f"a height map needs shape (H, W) from 8 × 8 up, got {heights.shape}")
+        if not np.isfinite(heights).all():
+            raise TouchError("the height map has NaN or infinite values; nothing was stored")
+        if np.abs(heights).max() > LARGEST_MM:
+            raise TouchError(f"heights beyond ±{LARGEST_MM} mm can't be stored; are they in µm?")
+        if self.series < 0:
+            raise TouchError(f"series must not be negative, got {self.series}")
+        heights.setflags(write=False)
+        object.__setattr__(self, "height_mm", heights)
+
+
+def pack_heights(height_mm: NDArray[np.float32]) -> bytes:
+    """Compress heights [mm] to bytes: steps of ``UNIT_MM``, differences, byte planes, zstd."""
+    steps = np.rint(height_mm / np.float32(UNIT_MM)).astype(np.int16)
+    steps[:, 1:] -= steps[:, :-1].copy()  # wraps around where it must, and back when it is read
+    steps[1:] -= steps[:-1].copy()
+    planes = np.ascontiguousarray(steps).view(np.uint8).reshape(-1, 2).T
+    return bytes(_ZSTD.compress(np.ascontiguousarray(planes).tobytes(), asbytes=True))
+
+
+def unpack_heights(packed: bytes | memoryview, rows: int, columns: int) -> NDArray[np.float32]:
+    """Heights [mm], shape (rows, columns), from what ``pack_heights`` made.
+
+    Raises:
+        TouchError: The bytes are damaged.
+    """
+    size = 2 * rows * columns
+    try:
+        raw = _ZSTD.decompress(bytes(packed), decompressed_size=size, asbytes=True)
+    except (OSError, pa.ArrowException) as error:
+        raise TouchError(f"a stored height map is damaged: {error}") from error
+    if len(raw) != size:
+        raise TouchError(f"a stored height map has {len(raw)} bytes where {size} were expected")
+    planes = np.frombuffer(raw, dtype=np.uint8).reshape(2, -1)
+    steps = np.ascontiguousarray(planes.T).view(np.int16).reshape(rows, columns)
+    steps = np.cumsum(steps, axis=0, dtype=np.int16)
+    steps = np.cumsum(steps, axis=1, dtype=np.int16)
+    return steps.astype(np.float32) * np.float32(UNIT_MM)
+
+
+def checksum(packed: bytes | memoryview) -> int:
+    """CRC-32 of packed heights."""
+    return zlib.crc32(packed)

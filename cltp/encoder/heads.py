@@ -1,0 +1,142 @@
+"""Heads that read a contact state from the encoder's pooled tokens, and their targets.
+
+Beyond the paper, whose encoder learns from captions and images alone: numbers (its 'limitations'
+asks for them) make the tokens precise enough to act on. Used in pre-training beside the contrastive
+losses and in evaluation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from cltp.data.sampler import CLASSES
+from cltp.tactile.states import ContactState, Side
+
+NUMBERS = ("depth_mm", "x_mm", "y_mm", "area_share", "force_n")
+SMALLEST_FORCE_N = 0.05
+"""Forces are learned as logarithms, softened here: below this, errors count in newtons."""
+
+IGNORED = -1
+
+
+class Targets(NamedTuple):
+    """What the heads should say for a batch.
+
+    Attributes:
+        classes: Shape (B, 5), indices into ``CLASSES``; ``IGNORED`` where nobody named one.
+        numbers: Shape (B, 5), transformed ``NUMBERS``.
+        touching: Shape (B,), 1 where there is contact.
+        cut: Shape (B, 4), 1 for each side that cuts the contact.
+    """
+
+    classes: Tensor
+    numbers: Tensor
+    touching: Tensor
+    cut: Tensor
+
+
+def targets(states: Sequence[ContactState]) -> Targets:
+    """Targets of labels."""
+    classes = [
+        [
+            IGNORED if (word := getattr(state, slot)) is None else names.index(word)
+            for slot, names in CLASSES.items()
+        ]
+        for state in states
+    ]
+    numbers = torch.tensor([[getattr(s, n) for n in NUMBERS] for s in states], dtype=torch.float32)
+    return Targets(
+        classes=torch.tensor(classes),
+        numbers=transformed(numbers),
+        touching=torch.tensor([float(s.in_contact) for s in states]),
+        cut=torch.tensor([[float(side in s.cut) for side in Side] for s in states]),
+    )
+
+
+def transformed(numbers: Tensor) -> Tensor:
+    """Bring ``NUMBERS`` (..., 5) to a common size: lengths scaled, area by root, force by log."""
+    depth, x, y, area, force = numbers.unbind(-1)
+    softened = torch.log1p(force.clamp(min=0) / SMALLEST_FORCE_N) / 2
+    return torch.stack([depth / 0.3, x / 5, y / 5, area.clamp(min=0).sqrt() / 0.3, softened], -1)
+
+
+def restored(values: Tensor) -> Tensor:
+    """Inverse of ``transformed``."""
+    depth, x, y, area, force = values.unbind(-1)
+    newtons = SMALLEST_FORCE_N * torch.expm1(2 * force.clamp(0, 5))
+    return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
+
+
+def felt(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
+    """States with what the heads read in place of their numbers; words stay, as does no contact.
+
+    Args:
+        states: B of them.
+        numbers: Shape (B, 5), transformed ``NUMBERS``, as the heads give them.
+    """
+    read = restored(numbers.detach().float().cpu())
+    read[:, NUMBERS.index("depth_mm")].clamp_(min=0)
+    read[:, NUMBERS.index("area_share")].clamp_(max=1)
+    return [
+        replace(state, **dict(zip(NUMBERS, row, strict=True))) if state.in_contact else state
+        for state, row in zip(states, read.tolist(), strict=True)
+    ]
+
+
+class HeadsOutput(NamedTuple):
+    """What the heads say of a batch.
+
+    Attributes:
+        logits: Of the five slots, each (B, classes).
+        numbers: Shape (B, 5), transformed ``NUMBERS``.
+        touching: Shape (B,), logit of contact.
+        cut: Shape (B, 4), logit of each side's cutting the contact.
+    """
+
+    logits: tuple[Tensor, ...]
+    numbers: Tensor
+    touching: Tensor
+    cut: Tensor
+
+
+class StateHeads(nn.Module):
+    """All heads behind one hidden layer.
+
+    Args:
+        pooled_dim: Width of ``Encoded.pooled``.
+        hidden_dim: Width of the hidden layer.
+    """
+
+    def __init__(self, pooled_dim: int, hidden_dim: int = 256) -> None:
+        super().__init__()
+        self.sizes = [len(names) for names in CLASSES.values()]
+        outputs = sum(self.sizes) + len(NUMBERS) + 1 + len(Side)
+        self.hidden = nn.Linear(pooled_dim, hidden_dim)
+        self.out = nn.Linear(hidden_dim, outputs)
+
+    def forward(self, pooled: Tensor) -> HeadsOutput:
+        """Read states from ``Encoded.pooled`` (B, 2 C)."""
+        out = self.out(F.gelu(self.hidden(pooled)))
+        *logits, numbers, touching, cut = out.split([*self.sizes, len(NUMBERS), 1, len(Side)], -1)
+        return HeadsOutput(tuple(logits), numbers, touching[:, 0], cut)
+
+    def losses(self, pooled: Tensor, wanted: Targets) -> dict[str, Tensor]:
+        """Named terms, each a mean over the batch."""
+        logits, numbers, touching, cut = self(pooled)
+        terms = {}
+        for column, (slot, scores) in enumerate(zip(CLASSES, logits, strict=True)):
+            goal = wanted.classes[:, column]
+            total = F.cross_entropy(scores, goal, ignore_index=IGNORED, reduction="sum")
+            terms[slot] = total / (goal != IGNORED).sum().clamp(min=1)
+        felt = wanted.touching[:, None]
+        off = F.smooth_l1_loss(numbers, wanted.numbers, beta=0.1, reduction="none")
+        terms["numbers"] = (off * felt).sum(1).mean()
+        terms["touching"] = F.binary_cross_entropy_with_logits(touching, wanted.touching)
+        terms["cut"] = F.binary_cross_entropy_with_logits(cut, wanted.cut)
+        return terms

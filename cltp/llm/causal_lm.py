@@ -1,0 +1,148 @@
+"""Causal language models of the Qwen2 family: our small one, or any local checkpoint directory.
+
+What they share, as far as Tac3D-LLM needs it, is ``Language``: inputs as embeddings, tokens as the
+checkpoint's own tokenizer makes them, and the eight actions as sequences of tokens. Ours are one
+token each; a stock checkpoint spells them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import torch
+from safetensors import SafetensorError
+from torch import Tensor
+
+from cltp.errors import TouchError
+from cltp.texts.exchange_packing import prompt_ids
+from cltp.texts.tokenizer import ACTIONS, Words
+
+if TYPE_CHECKING:  # its import takes seconds: only where it is needed
+    from transformers import Qwen2ForCausalLM
+
+CUE = "Action:"
+"""Stands before the action in every D_t."""
+
+
+def small_lm(words: Words, *, dim: int = 192, layers: int = 4) -> Qwen2ForCausalLM:
+    """A Qwen2 with random weights: 2 M parameters by default.
+
+    Args:
+        words: Its tokenizer; input and output embeddings are shared.
+        dim: Hidden width, a multiple of 48.
+        layers: Layers.
+    """
+    from transformers import Qwen2Config, Qwen2ForCausalLM
+
+    config = Qwen2Config(
+        vocab_size=len(words),
+        hidden_size=dim,
+        intermediate_size=8 * dim // 3,
+        num_hidden_layers=layers,
+        num_attention_heads=4,
+        num_key_value_heads=4,
+        max_position_embeddings=512,
+        tie_word_embeddings=True,
+        rope_parameters={"rope_type": "default", "rope_theta": 10_000.0},
+        bos_token_id=words.bos,
+        eos_token_id=words.eos,
+        pad_token_id=words.pad,
+    )
+    return Qwen2ForCausalLM(config)
+
+
+class Language:
+    """A causal language model with its tokenizer.
+
+    Args:
+        lm: A Qwen2 or Qwen2.5-VL of transformers, or a ``cltp.llm.stored_lm.StoredLm``.
+        words: Our tokenizer; None for a stock checkpoint.
+        stock: The checkpoint's own tokenizer; None for ours.
+    """
+
+    def __init__(self, lm: Any, *, words: Words | None = None, stock: Any = None) -> None:
+        if (words is None) == (stock is None):
+            raise TouchError("a language model needs one tokenizer: ours or its own")
+        self.lm, self.words, self._stock = lm, words, stock
+
+    @property
+    def dim(self) -> int:
+        """Width of the input embeddings."""
+        return int(self.lm.get_input_embeddings().weight.shape[1])
+
+    @property
+    def end(self) -> int:
+        """The token that ends a reply."""
+        return self.words.eos if self.words else int(self._stock.eos_token_id)
+
+    def actions(self) -> list[list[int]]:
+        """Tokens of the eight actions as they follow ``CUE``."""
+        if self.words:
+            return [[number] for number in self.words.actions]
+        return [self._stock_ids(" " + action.strip("<>")) for action in ACTIONS]
+
+    def prompt(self, text: str) -> list[int]:
+        """Tokens between the touch and the reply."""
+        if self.words:
+            return prompt_ids(self.words, text)
+        ask = f"{text}\n<|im_end|>\n<|im_start|>assistant\n"
+        return self._stock_ids(ask)
+
+    def decode(self, ids: Sequence[int]) -> str:
+        """Text of tokens."""
+        if self.words:
+            return self.words.decode(ids)
+        return str(self._stock.decode(ids, skip_special_tokens=True))
+
+    def embed(self, ids: Sequence[int]) -> Tensor:
+        """Input embeddings of tokens, shape (T, D)."""
+        table: Tensor = self.lm.get_input_embeddings().weight
+        return table[torch.tensor(list(ids), device=table.device)]
+
+    def _stock_ids(self, text: str) -> list[int]:
+        return [int(i) for i in self._stock(text, add_special_tokens=False)["input_ids"]]
+
+
+def load_language(folder: Path) -> Language:
+    """Read a Qwen2 or Qwen2.5-VL directory in transformers' layout; ours are told by their tokens.
+
+    Raises:
+        TouchError: Missing, damaged, another architecture, or weights that don't fit strictly.
+    """
+    from transformers import (
+        AutoConfig,
+        AutoTokenizer,
+        Qwen2_5_VLForConditionalGeneration,
+        Qwen2ForCausalLM,
+    )
+
+    kinds: dict[str, Any] = {
+        "qwen2": Qwen2ForCausalLM,
+        "qwen2_5_vl": Qwen2_5_VLForConditionalGeneration,
+    }
+    try:
+        kind = AutoConfig.from_pretrained(folder, local_files_only=True).model_type
+        if kind not in kinds:
+            raise TouchError(f"{folder} holds a {kind} model; Tac3D-LLM takes {' or '.join(kinds)}")
+        loaded: Any = kinds[kind].from_pretrained(
+            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
+        )
+    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
+        raise TouchError(f"no language model could be read from {folder}: {error}") from error
+    lm, info = loaded
+    wrong = sorted([*info["missing_keys"], *info["unexpected_keys"]])
+    wrong += [str(key) for key in info.get("mismatched_keys", [])]
+    if wrong:
+        raise TouchError(f"language model in {folder}: weights don't fit: {', '.join(wrong[:5])}")
+    lm.eval()
+    try:
+        return Language(lm, words=Words.load(folder))
+    except TouchError:
+        if not (Path(folder) / "tokenizer_config.json").exists():
+            raise
+    try:
+        return Language(lm, stock=AutoTokenizer.from_pretrained(folder, local_files_only=True))
+    except (OSError, ValueError) as error:
+        raise TouchError(f"no tokenizer could be read from {folder}: {error}") from error

@@ -1,0 +1,161 @@
+"""Greedy decoding of a small Qwen2 without the overhead of a general library.
+
+Same weights and same numbers as transformers' ``Qwen2ForCausalLM`` (tested), a batch of one, a
+cache of keys and values that is allocated once, matrices that share an input joined into one. At
+a few million parameters a token costs little arithmetic: what counts is the number of calls.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor
+
+
+class _Layer(NamedTuple):
+    norm1: Tensor
+    qkv: Tensor
+    qkv_bias: Tensor
+    out: Tensor
+    norm2: Tensor
+    gate_up: Tensor
+    down: Tensor
+
+
+class FastDecoder:
+    """Runs a Qwen2 token by token.
+
+    Args:
+        lm: A ``Qwen2ForCausalLM`` or a ``cltp.llm.stored_lm.StoredLm``. Its weights are copied;
+            make a new decoder after training on.
+        longest: Positions that the cache holds.
+    """
+
+    def __init__(self, lm: Any, longest: int = 512) -> None:
+        config = lm.config
+        self._eps = float(config.rms_norm_eps)
+        self._heads = int(config.num_attention_heads)
+        self._kv_heads = int(config.num_key_value_heads)
+        self._size = int(
+            getattr(config, "head_dim", None) or config.hidden_size // config.num_attention_heads
+        )
+        self._layers = [_joined(layer) for layer in lm.model.layers]
+        self._norm = lm.model.norm.weight.detach().clone()
+        self._embedding = lm.get_input_embeddings().weight.detach().clone()
+        self._head = lm.get_output_embeddings().weight.detach().clone()
+        self._longest = longest
+        with torch.no_grad():
+            places = torch.arange(longest, device=self._norm.device)[None]
+            cos, sin = lm.model.rotary_emb(self._embedding[:1, None], places)
+        self._cos, self._sin = cos[0].float(), sin[0].float()
+        half = self._size // 2
+        self._sin[:, :half] *= -1  # rotation by halves: (-x2, x1) becomes one multiplication
+        shape = (len(self._layers), 1, self._kv_heads, longest, self._size)
+        self._keys, self._values = self._norm.new_zeros(shape), self._norm.new_zeros(shape)
+        self._length = 0
+
+    @property
+    def longest(self) -> int:
+        """Positions that the cache holds."""
+        return self._longest
+
+    @torch.no_grad()
+    def prefill(self, embeddings: Tensor) -> Tensor:
+        """Start again with the given inputs (T, D) and return the last position's logits (V,)."""
+        self._length = 0
+        return self._advance(embeddings)
+
+    @torch.no_grad()
+    def step(self, token: int) -> Tensor:
+        """Append a token and return the logits of what follows, shape (V,)."""
+        return self._advance(self._embedding[token : token + 1])
+
+    def embed(self, ids: list[int]) -> Tensor:
+        """Embeddings of tokens, shape (T, D)."""
+        return self._embedding[torch.tensor(ids, device=self._embedding.device)]
+
+    def _advance(self, x: Tensor) -> Tensor:
+        count = len(x)
+        start, end = self._length, self._length + count
+        cos, sin = self._cos[start:end], self._sin[start:end]
+        width = (x.shape[1],)
+        heads, kv_heads, size = self._heads, self._kv_heads, self._size
+        for number, layer in enumerate(self._layers):
+            normed = F.rms_norm(x, width, layer.norm1, self._eps)
+            qkv = F.linear(normed, layer.qkv, layer.qkv_bias)
+            qkv = qkv.view(count, heads + 2 * kv_heads, size).transpose(0, 1)
+            turned = qkv[: heads + kv_heads]
+            turned = turned * cos + turned.roll(size // 2, -1) * sin
+            keys, values = self._keys[number], self._values[number]
+            keys[0, :, start:end] = turned[heads:]
+            values[0, :, start:end] = qkv[heads + kv_heads :]
+            mixed = F.scaled_dot_product_attention(
+                turned[None, :heads],
+                keys[:, :, :end],
+                values[:, :, :end],
+                is_causal=count > 1 and start == 0,
+                enable_gqa=heads != kv_heads,
+            )
+            x = x + F.linear(mixed[0].transpose(0, 1).reshape(count, -1), layer.out)
+            normed = F.rms_norm(x, width, layer.norm2, self._eps)
+            gate, up = F.linear(normed, layer.gate_up).chunk(2, -1)
+            x = x + F.linear(F.silu(gate) * up, layer.down)
+        self._length = end
+        return F.linear(F.rms_norm(x[-1], width, self._norm, self._eps), self._head)
+
+
+def _joined(layer: Any) -> _Layer:
+    attention, mlp = layer.self_attn, layer.mlp
+    projections = (attention.q_proj, attention.k_proj, attention.v_proj)
+    parts = (
+        layer.input_layernorm.weight,
+        torch.cat([p.weight for p in projections]),
+        torch.cat([p.bias for p in projections]),
+        attention.o_proj.weight,
+        layer.post_attention_layernorm.weight,
+        torch.cat([mlp.gate_proj.weight, mlp.up_proj.weight]),
+        mlp.down_proj.weight,
+    )
+    return _Layer(*(part.detach().clone() for part in parts))
+
+
+def greedy(
+    decoder: FastDecoder,
+    embeddings: Tensor,
+    *,
+    stop: int,
+    max_tokens: int,
+    watch: Callable[[int, Tensor], None] | None = None,
+    prefilled: Callable[[], None] | None = None,
+    against: Mapping[int, float] | None = None,
+) -> list[int]:
+    """Tokens that follow the given inputs, the likeliest each time.
+
+    Args:
+        decoder: Runs the model.
+        embeddings: Shape (T, D).
+        stop: Token that ends the reply; it is not returned.
+        max_tokens: At most so many.
+        watch: Called with every chosen token and the logits that it was chosen from.
+        prefilled: Called once, when the given inputs have been gone through.
+        against: Taken from the logits of these tokens; infinite: never chosen.
+    """
+    room = decoder.longest - len(embeddings)
+    ids: list[int] = []
+    logits = decoder.prefill(embeddings)
+    if prefilled is not None:
+        prefilled()
+    while len(ids) < min(max_tokens, room):
+        for costly, cost in (against or {}).items():
+            logits[costly] -= cost
+        token = int(logits.argmax())
+        if token == stop:
+            break
+        if watch is not None:
+            watch(token, logits)
+        ids.append(token)
+        logits = decoder.step(token)
+    return ids

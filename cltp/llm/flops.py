@@ -1,0 +1,98 @@
+"""Floating-point operations of the model's parts, counted by formula: a floor for their durations.
+
+A product of an (m, k) with a (k, n) matrix is 2 m k n operations. Counted are products,
+convolutions and attention; norms, activations and additions are left out, so that a floor is never
+too high.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import torch
+from torch import Tensor, nn
+
+from cltp.encoder.encoder import Block, TactileEncoder
+from cltp.llm.reading_tokens import NUM_READINGS
+from cltp.llm.tac3d_llm import Projector
+from cltp.tactile.cloud import NUM_POINTS
+
+
+def encoder_operations(encoder: TactileEncoder) -> int:
+    """Operations of E_T on one cloud: its layers', as they run, and attention's 4 T² C a block."""
+    total = 0
+
+    def count(layer: nn.Module, _: Any, out: Tensor) -> None:
+        nonlocal total
+        if isinstance(layer, nn.Conv2d):
+            size = layer.kernel_size
+            total += 2 * out.numel() * layer.in_channels * size[0] * size[1]
+        elif isinstance(layer, nn.Linear):
+            total += 2 * out.numel() * layer.in_features
+        elif isinstance(layer, Block):
+            _, length, dim = out.shape
+            total += 4 * length * length * dim
+
+    counted = (nn.Conv2d, nn.Linear, Block)
+    hooks = [m.register_forward_hook(count) for m in encoder.modules() if isinstance(m, counted)]
+    try:
+        with torch.no_grad():
+            encoder(torch.zeros(1, NUM_POINTS, 3, device=next(encoder.parameters()).device))
+    finally:
+        for hook in hooks:
+            hook.remove()
+    return total
+
+
+def projector_operations(projector: Projector, num_tokens: int) -> int:
+    """Operations of the MLP on one cloud's tokens, and of the readings' tokens beside them.
+
+    Args:
+        projector: Its widths count.
+        num_tokens: Of the encoder: the groups and the class token.
+    """
+    dim = projector.lm_dim
+    readings = projector.readings
+    inputs = sum(m.in_features * m.out_features for m in (readings.words, *readings.numbers))
+    outputs = NUM_READINGS * dim * dim
+    return 2 * (num_tokens * (projector.encoder_dim * dim + dim * dim) + inputs + outputs)
+
+
+def prefill_operations(config: Any, num_tokens: int) -> int:
+    """Operations of a Qwen2 on its inputs, with the logits of the last position alone.
+
+    Args:
+        config: transformers' ``Qwen2Config``.
+        num_tokens: Touch and prompt. Position t attends to t others.
+    """
+    places = num_tokens * (num_tokens + 1) // 2
+    return (
+        num_tokens * _matrices(config)
+        + places * _attended(config)
+        + 2 * config.vocab_size * config.hidden_size
+    )
+
+
+def generate_operations(config: Any, num_before: int, num_tokens: int) -> int:
+    """Operations of ``num_tokens`` further single tokens after ``num_before`` positions."""
+    each = _matrices(config) + 2 * config.vocab_size * config.hidden_size
+    places = sum(range(num_before + 1, num_before + num_tokens + 1))
+    return num_tokens * each + places * _attended(config)
+
+
+def _matrices(config: Any) -> int:
+    """Of the layers' matrices on one token."""
+    dim, inner = config.hidden_size, config.intermediate_size
+    size = getattr(config, "head_dim", None) or dim // config.num_attention_heads
+    query, key = config.num_attention_heads * size, config.num_key_value_heads * size
+    return (
+        2
+        * int(config.num_hidden_layers)
+        * (dim * (query + 2 * key) + query * dim + 3 * dim * inner)
+    )
+
+
+def _attended(config: Any) -> int:
+    """Of one token's attention to one position: a product for the score, one for the value."""
+    size = getattr(config, "head_dim", None) or config.hidden_size // config.num_attention_heads
+    return 4 * int(config.num_hidden_layers) * config.num_attention_heads * size

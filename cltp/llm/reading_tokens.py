@@ -1,0 +1,72 @@
+"""Tokens of what the state heads read, for the language model: numbers that it can copy.
+
+Beyond the paper, which hands on the encoder's tokens alone: a language model of a few million
+weights, trained for minutes, learns to say a millimetre from those tokens only coarsely. Here each
+number becomes a token of its phases at ten, a hundred, a thousand and ten thousand times the last
+digit that is spoken, so that each digit is a direction of the embedding.
+
+Source: Fourier number embeddings (Zhou et al., FoNE, 2025), here of measured numbers.
+"""
+
+from __future__ import annotations
+
+import math
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from cltp.data.sampler import CLASSES
+from cltp.encoder.heads import NUMBERS, HeadsOutput, restored
+from cltp.tactile.states import Side
+
+LAST_DIGIT = {
+    "depth_mm": 0.01,
+    "x_mm": 0.1,
+    "y_mm": 0.1,
+    "area_share": 0.001,
+    "force_n": 0.01,
+}
+"""The last digit of each number as it is spoken, in its unit."""
+
+PERIODS = (10.0, 100.0, 1000.0, 10000.0)
+"""Of the phases, in last digits."""
+
+NUM_READINGS = 1 + len(NUMBERS)
+
+
+class ReadingTokens(nn.Module):
+    """From what the heads say to tokens: one of all words, one of each number.
+
+    Args:
+        dim: Width D of the tokens.
+    """
+
+    unit: Tensor
+    periods: Tensor
+
+    def __init__(self, dim: int) -> None:
+        super().__init__()
+        num_words = sum(len(names) for names in CLASSES.values()) + 1 + len(Side)
+        self.words = nn.Linear(num_words, dim)
+        self.numbers = nn.ModuleList(nn.Linear(1 + 2 * len(PERIODS), dim) for _ in NUMBERS)
+        self.out = nn.Linear(dim, dim)
+        unit = torch.tensor([LAST_DIGIT[name] for name in NUMBERS])
+        self.register_buffer("unit", unit, persistent=False)
+        self.register_buffer("periods", torch.tensor(PERIODS), persistent=False)
+
+    def forward(self, readings: HeadsOutput) -> Tensor:
+        """What ``StateHeads`` says of a batch to tokens (B, 1 + 5, D)."""
+        logits, numbers, touching, cut = readings
+        chances = [scores.softmax(-1) for scores in logits]
+        words = torch.cat([*chances, touching.sigmoid()[:, None], cut.sigmoid()], dim=-1)
+        features = self.features(numbers)
+        tokens = [self.words(words)]
+        tokens += [layer(features[:, i]) for i, layer in enumerate(self.numbers)]
+        return self.out(F.gelu(torch.stack(tokens, dim=1)))
+
+    def features(self, numbers: Tensor) -> Tensor:
+        """Transformed numbers (B, 5) beside the sines and cosines of their phases: (B, 5, 9)."""
+        digits = restored(numbers) / self.unit
+        phases = 2 * math.pi * digits[..., None] / self.periods
+        return torch.cat([numbers[..., None], phases.sin(), phases.cos()], dim=-1)

@@ -1,0 +1,169 @@
+"""Our own small Qwen2 as its files hold it: enough to decode with, in milliseconds.
+
+``cltp.llm.fast_decode`` needs the weights and a few sizes. Reading them through transformers gives
+the same numbers (tested), but importing that library alone takes seconds, more than all else that a
+robot waits for before its first action. Any other checkpoint, and training, go through
+``cltp.llm.causal_lm``.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import torch
+from safetensors import SafetensorError
+from safetensors.torch import load_file
+from torch import Tensor
+
+from cltp.errors import TouchError
+
+AS_SMALL_LM = {
+    "model_type": "qwen2",
+    "hidden_act": "silu",
+    "tie_word_embeddings": True,
+    "use_sliding_window": False,
+}
+"""What ``cltp.llm.causal_lm.small_lm`` always makes; anything else is no language model of ours."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredConfig:
+    """Sizes of a Qwen2, under transformers' names.
+
+    Attributes:
+        vocab_size: Tokens.
+        hidden_size: Width D.
+        intermediate_size: Width inside the gated MLP.
+        num_hidden_layers: Layers.
+        num_attention_heads: Heads of queries.
+        num_key_value_heads: Heads of keys and values.
+        rms_norm_eps: Of the norms.
+        rope_theta: Base of the rotary frequencies.
+    """
+
+    vocab_size: int
+    hidden_size: int
+    intermediate_size: int
+    num_hidden_layers: int
+    num_attention_heads: int
+    num_key_value_heads: int
+    rms_norm_eps: float
+    rope_theta: float
+
+    @property
+    def head_dim(self) -> int:
+        """Width of a head."""
+        return self.hidden_size // self.num_attention_heads
+
+
+class StoredLm:
+    """Weights and sizes, where ``FastDecoder`` and ``Language`` look for them.
+
+    Args:
+        config: Sizes.
+        state: Every weight by transformers' name, in 32 bits.
+    """
+
+    def __init__(self, config: StoredConfig, state: Mapping[str, Tensor]) -> None:
+        self.config = config
+        root = _tree(state)
+        self.model = root.model
+        layers = vars(root.model.layers)
+        self.model.layers = [layers[str(n)] for n in range(config.num_hidden_layers)]
+        self.model.rotary_emb = self._rotary
+
+    def get_input_embeddings(self) -> Any:
+        """What has the table (V, D) as ``weight``."""
+        return self.model.embed_tokens
+
+    def get_output_embeddings(self) -> Any:
+        """The same: they are shared."""
+        return self.model.embed_tokens
+
+    def _rotary(self, like: Tensor, places: Tensor) -> tuple[Tensor, Tensor]:
+        """Cosine and sine of positions (1, T), each of shape (1, T, head_dim)."""
+        half = torch.arange(0, self.config.head_dim, 2, device=like.device).float()
+        frequency = 1.0 / self.config.rope_theta ** (half / self.config.head_dim)
+        angle = places[..., None].float() * frequency
+        both = torch.cat([angle, angle], dim=-1)
+        return both.cos(), both.sin()
+
+
+def load_stored_lm(folder: Path) -> StoredLm:
+    """Read what ``cltp.checkpoints.tac3d_llm.save_tac3d_llm`` wrote into ``lm``; strict.
+
+    Raises:
+        TouchError: Missing, damaged, not ours, or weights that don't fit the sizes.
+    """
+    config = _config(folder / "config.json")
+    try:
+        state = load_file(folder / "model.safetensors")
+    except (OSError, SafetensorError) as error:
+        raise TouchError(f"no language model could be read from {folder}: {error}") from error
+    wanted = _shapes(config)
+    wrong = sorted(set(wanted) ^ set(state))
+    wrong += [name for name in wanted if name in state and state[name].shape != wanted[name]]
+    if wrong:
+        raise TouchError(f"language model in {folder}: weights don't fit: {', '.join(wrong[:5])}")
+    floats = {name: value.float() for name, value in state.items()}
+    broken = [name for name, value in floats.items() if not torch.isfinite(value).all()]
+    if broken:
+        raise TouchError(f"language model in {folder}: {broken[0]} is not finite; train again")
+    return StoredLm(config, floats)
+
+
+def _config(path: Path) -> StoredConfig:
+    try:
+        said = json.loads(path.read_text())
+        other = {k: said.get(k) for k, value in AS_SMALL_LM.items() if said.get(k) != value}
+        rope = said["rope_parameters"]
+        if other or rope["rope_type"] != "default":
+            raise TouchError(f"{path} describes no language model of ours: {other or rope}")
+        said = {**said, "rope_theta": rope["rope_theta"]}
+        return StoredConfig(**{part.name: said[part.name] for part in fields(StoredConfig)})
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise TouchError(f"{path} describes no language model: {error!r}") from error
+
+
+def _shapes(config: StoredConfig) -> dict[str, tuple[int, ...]]:
+    """Every weight's shape."""
+    dim, inner = config.hidden_size, config.intermediate_size
+    query = config.num_attention_heads * config.head_dim
+    key = config.num_key_value_heads * config.head_dim
+    layer = {
+        "input_layernorm.weight": (dim,),
+        "post_attention_layernorm.weight": (dim,),
+        "self_attn.o_proj.weight": (dim, query),
+        "mlp.gate_proj.weight": (inner, dim),
+        "mlp.up_proj.weight": (inner, dim),
+        "mlp.down_proj.weight": (dim, inner),
+    }
+    for name, size in (("q", query), ("k", key), ("v", key)):
+        layer[f"self_attn.{name}_proj.weight"] = (size, dim)
+        layer[f"self_attn.{name}_proj.bias"] = (size,)
+    shapes: dict[str, tuple[int, ...]] = {
+        "model.embed_tokens.weight": (config.vocab_size, dim),
+        "model.norm.weight": (dim,),
+    }
+    for number in range(config.num_hidden_layers):
+        shapes |= {f"model.layers.{number}.{name}": shape for name, shape in layer.items()}
+    return shapes
+
+
+def _tree(state: Mapping[str, Tensor]) -> SimpleNamespace:
+    """'a.b.weight' as attributes."""
+    root = SimpleNamespace()
+    for name, value in state.items():
+        *path, last = name.split(".")
+        here = root
+        for part in path:
+            if not hasattr(here, part):
+                setattr(here, part, SimpleNamespace())
+            here = getattr(here, part)
+        setattr(here, last, value)
+    return root

@@ -1,0 +1,110 @@
+"""Tac3D-LLM: encoder tokens, projected into a causal language model's input space.
+
+Source: paper, section 5.3, after LLaVA: a small MLP maps the encoder's tokens to embeddings, which
+stand before the prompt; beyond the paper, what the encoder's state heads read follows them as a few
+tokens more (``cltp.llm.reading_tokens``). Not here: how replies are generated
+(``cltp.llm.generation``).
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import torch
+import torch.nn.functional as F
+from torch import Tensor, nn
+
+from cltp.encoder.encoder import Encoded, TactileEncoder
+from cltp.encoder.heads import HeadsOutput, StateHeads
+from cltp.llm.causal_lm import Language
+from cltp.llm.reading_tokens import NUM_READINGS, ReadingTokens
+from cltp.texts.exchange_packing import NOT_LEARNED, Packed
+
+
+class Projector(nn.Module):
+    """Two layers from the encoder's width to the language model's, and the heads' readings.
+
+    Args:
+        encoder_dim: Width C of the encoder's tokens.
+        lm_dim: Width D of the language model's inputs.
+    """
+
+    def __init__(self, encoder_dim: int, lm_dim: int) -> None:
+        super().__init__()
+        self.encoder_dim, self.lm_dim = encoder_dim, lm_dim
+        self.first = nn.Linear(encoder_dim, lm_dim)
+        self.second = nn.Linear(lm_dim, lm_dim)
+        self.readings = ReadingTokens(lm_dim)
+
+    def forward(self, tokens: Tensor, readings: HeadsOutput) -> Tensor:
+        """Tokens (B, G + 1, C) and what the heads read to embeddings (B, G + 1 + 6, D)."""
+        seen = self.second(F.gelu(self.first(tokens)))
+        return torch.cat([seen, self.readings(readings)], dim=1)
+
+
+class Tac3dLlm(nn.Module):
+    """The whole model.
+
+    Args:
+        encoder: E_T.
+        heads: Its state heads.
+        projector: The MLP between.
+        language: The causal language model.
+    """
+
+    lm: Any
+
+    def __init__(
+        self,
+        encoder: TactileEncoder,
+        heads: StateHeads,
+        projector: Projector,
+        language: Language,
+    ) -> None:
+        super().__init__()
+        self.encoder, self.heads, self.projector = encoder, heads, projector
+        self.lm = language.lm
+        self.language = language
+
+    @property
+    def num_touch(self) -> int:
+        """Touch tokens in front of a prompt: the groups, the class token and the readings."""
+        return self.encoder.config.num_groups + 1 + NUM_READINGS
+
+    def touch(self, points: Tensor) -> Tensor:
+        """Embeddings of scaled points (B, 1024, 3): shape (B, P, D)."""
+        return self.projected(self.encoder(points))
+
+    def projected(self, encoded: Encoded) -> Tensor:
+        """Embeddings of what the encoder made of a batch: shape (B, P, D)."""
+        return self.projector(encoded.tokens, self.heads(encoded.pooled))
+
+    def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
+        """Loss of packed exchanges behind touch embeddings, or of text alone.
+
+        Only replies are learned. Returns the weighted mean as ``language``, and for people
+        ``action_right``: the share of actions that come first among the eight.
+        """
+        embedded = self.lm.get_input_embeddings()(packed.ids)
+        num_touch = 0
+        if touch is not None:
+            num_touch = touch.shape[1]
+            embedded = torch.cat([touch, embedded], dim=1)
+        hidden = self.lm.model(
+            inputs_embeds=embedded,
+            attention_mask=packed.mask,
+            position_ids=packed.positions,
+            use_cache=False,
+        ).last_hidden_state[:, num_touch:]
+        learned = packed.labels != NOT_LEARNED
+        logits = self.lm.get_output_embeddings()(hidden[learned])
+        labels, weights = packed.labels[learned], packed.weights[learned]
+        each = F.cross_entropy(logits, labels, reduction="none")
+        terms = {"language": (each * weights).sum() / weights.sum()}
+        if self.language.words is not None:
+            actions = torch.tensor(self.language.words.actions, device=labels.device)
+            place = torch.isin(labels, actions)
+            if place.any():
+                chosen = actions[logits[place][:, actions].argmax(dim=1)]
+                terms["action_right"] = (chosen == labels[place]).float().mean().detach()
+        return terms

@@ -1,0 +1,166 @@
+"""A sensor's photometric calibration: one small safetensors file with what it was made from.
+
+Loading is strict: another version, another sensor or a missing number is refused, never repaired.
+
+Not here: making one (``cltp.train.photometric``), using one (``cltp.sensing.photometric``).
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+from dataclasses import asdict, dataclass, fields
+from pathlib import Path
+
+from safetensors import SafetensorError, safe_open
+from safetensors.numpy import save_file
+
+from cltp.errors import TouchError
+from cltp.sensing.photometric import GradientNet
+from cltp.tactile.sensors import SensorSpec
+
+VERSION = 1
+
+_KEY = "tacgrasp_calibration"
+_MAX_BYTES = 1_000_000  # ours has 8 kB; a file far beyond that is something else
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Calibration:
+    """What was measured, and from what.
+
+    Attributes:
+        net: The network.
+        sensor: Name of the sensor's model.
+        unit: Which one, as the person who calibrated it calls it.
+        date: Of the calibration, ISO 8601.
+        ball_diameter_mm: Of the ball that was pressed [mm].
+        num_frames: Presses that it was trained on.
+        residual: Misfit of the slopes under the ball, root mean square [mm per mm].
+        seed: Of the training.
+        source: Where the frames are from.
+
+    Raises:
+        TouchError: A value makes no sense.
+    """
+
+    net: GradientNet
+    sensor: str
+    unit: str
+    date: str
+    ball_diameter_mm: float
+    num_frames: int
+    residual: float
+    seed: int
+    source: str
+
+    def __post_init__(self) -> None:
+        try:
+            datetime.date.fromisoformat(self.date)
+        except (TypeError, ValueError):
+            raise TouchError(
+                f"calibration: date must be like 2026-01-31, got {self.date!r}"
+            ) from None
+        if not (0 < self.ball_diameter_mm < math.inf and 0 <= self.residual < math.inf):
+            raise TouchError(
+                "calibration: ball_diameter_mm must be > 0 and residual >= 0, both finite; got "
+                f"{self.ball_diameter_mm} and {self.residual}"
+            )
+        if self.num_frames < 1:
+            raise TouchError(f"calibration: num_frames must be >= 1, got {self.num_frames}")
+
+    def age_days(self, today: datetime.date) -> int:
+        """Days since it was made."""
+        return (today - datetime.date.fromisoformat(self.date)).days
+
+
+def default_calibration(sensor: SensorSpec) -> Path:
+    """The calibration that ships for a sensor's model: another unit's, so heights are rough.
+
+    Raises:
+        TouchError: None ships for this model.
+    """
+    path = Path(__file__).parent / "calibrations" / f"{sensor.name}.safetensors"
+    if not path.is_file():
+        raise TouchError(f"no calibration ships for {sensor.name}; make one and give its file")
+    return path
+
+
+def save_calibration(path: Path, calibration: Calibration) -> None:
+    """Write a calibration, whole or not at all.
+
+    Raises:
+        OSError: The file can't be written.
+    """
+    record = {f.name: getattr(calibration, f.name) for f in fields(calibration) if f.name != "net"}
+    beside = path.with_name(path.name + ".part")
+    save_file(
+        asdict(calibration.net),
+        beside,
+        metadata={_KEY: json.dumps({"version": VERSION, **record}, sort_keys=True)},
+    )
+    beside.replace(path)
+
+
+def load_calibration(path: Path, sensor: SensorSpec, unit: str | None = None) -> Calibration:
+    """Read a calibration for ``sensor``.
+
+    Args:
+        path: File that ``save_calibration`` wrote.
+        sensor: The model that it must be for.
+        unit: The unit that it must be for; None takes any.
+
+    Raises:
+        TouchError: Missing, damaged, not a calibration, of another version, sensor or unit.
+    """
+    if not path.is_file():
+        raise TouchError(f"calibration {path} does not exist; make it: tacgrasp calibrate")
+    if path.stat().st_size > _MAX_BYTES:
+        raise TouchError(f"calibration {path} is too large to be one: {path.stat().st_size} bytes")
+    try:
+        with safe_open(path, framework="np") as file:
+            text = (file.metadata() or {}).get(_KEY)
+            arrays = {name: file.get_tensor(name) for name in file.keys()}  # noqa: SIM118
+    except (SafetensorError, OSError, TypeError) as error:
+        raise TouchError(f"calibration {path} is damaged or no calibration: {error}") from None
+    try:
+        return _calibration(text, arrays, sensor, unit)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _calibration(
+    text: str | None, arrays: dict[str, object], sensor: SensorSpec, unit: str | None
+) -> Calibration:
+    try:
+        record = json.loads(text or "null")
+    except ValueError:
+        record = None
+    if not isinstance(record, dict):
+        raise TouchError("safetensors, but not a calibration: it lacks our record")
+    version = record.pop("version", None)
+    if version != VERSION:
+        raise TouchError(
+            f"calibration of version {version}, expected {VERSION}; calibrate anew with this "
+            "version of tacgrasp"
+        )
+    wanted = {f.name: f.type for f in fields(Calibration) if f.name != "net"}
+    if record.keys() != wanted.keys():
+        raise TouchError(f"calibration: expected fields {sorted(wanted)}, got {sorted(record)}")
+    for name, kind in wanted.items():
+        value = record[name]
+        if type(value).__name__ != kind and not (kind == "float" and type(value) is int):
+            raise TouchError(f"calibration: {name} must be {kind}, got {value!r}")
+    if record["sensor"] != sensor.name:
+        raise TouchError(
+            f"calibration of a {record['sensor']}, expected {sensor.name}; name the right file"
+        )
+    if unit is not None and record["unit"] != unit:
+        raise TouchError(
+            f"calibration of unit {record['unit']!r}, expected {unit!r}; calibrate this unit"
+        )
+    names = {f.name for f in fields(GradientNet)}
+    if arrays.keys() != names:
+        raise TouchError(f"calibration: expected arrays {sorted(names)}, got {sorted(arrays)}")
+    return Calibration(net=GradientNet(**arrays), **record)  # type: ignore[arg-type]

@@ -1,0 +1,180 @@
+"""Readers of three small formats of point clouds: PLY, PCD and plain columns of x, y and z.
+
+They return points as written, (N, 3) float64; ``cltp.sensing.touch_files`` checks what the points
+mean.
+Sources: Turk, 'The PLY polygon file format' (1994); pointclouds.org, 'The PCD file format', v0.7.
+"""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+
+_PLY_TYPES = {
+    "char": "i1",
+    "uchar": "u1",
+    "short": "i2",
+    "ushort": "u2",
+    "int": "i4",
+    "uint": "u4",
+    "float": "f4",
+    "double": "f8",
+    "int8": "i1",
+    "uint8": "u1",
+    "int16": "i2",
+    "uint16": "u2",
+    "int32": "i4",
+    "uint32": "u4",
+    "float32": "f4",
+    "float64": "f8",
+}
+_PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
+
+
+def read_ply(path: Path) -> NDArray[np.float64]:
+    """Vertices of a PLY file (ascii or binary); faces and other elements are not read.
+
+    Raises:
+        TouchError: Not PLY, no x, y, z of the vertices, truncated, or vertices not first.
+    """
+    data = path.read_bytes()
+    head, mark, body = data.partition(b"end_header")
+    if not data.startswith(b"ply") or not mark:
+        raise TouchError("expected a PLY file ('ply' … 'end_header'), got something else")
+    body = body[2:] if body.startswith(b"\r\n") else body[1:]
+    order, count, fields = _ply_header(head.decode("ascii", errors="replace").split("\n"))
+    if order == "":
+        return _text_columns(body, fields, count)
+    return _binary_columns(body, [(name, order + kind) for name, kind in fields], count)
+
+
+def _ply_header(lines: list[str]) -> tuple[str, int, list[tuple[str, str]]]:
+    """Byte order ('' for text), number of vertices, and their properties (name, dtype)."""
+    order: str | None = None
+    element, count, fields = "", None, []
+    for words in (line.split() for line in lines):
+        if words[:1] == ["format"] and len(words) == 3:
+            order = _PLY_ORDERS.get(words[1])
+        elif words[:1] == ["element"] and len(words) == 3:
+            if count is None and words[1] != "vertex":
+                raise TouchError(f"expected the vertices first in a PLY file, got {words[1]!r}")
+            element = words[1]
+            if element == "vertex":
+                count = _count(words[2])
+        elif words[:1] == ["property"] and element == "vertex":
+            kind = _PLY_TYPES.get(words[1])
+            if kind is None or len(words) != 3:
+                raise TouchError(f"can't read the vertex property {' '.join(words[1:])!r} of a PLY")
+            fields.append((words[2], kind))
+    if order is None or count is None:
+        raise TouchError("the PLY header names no known format or no vertices")
+    return order, count, fields
+
+
+def read_pcd(path: Path) -> NDArray[np.float64]:
+    """Points of a PCD file (DATA ascii or binary).
+
+    Raises:
+        TouchError: Not PCD, compressed, no x, y, z, or truncated.
+    """
+    data = path.read_bytes()
+    header: dict[str, list[str]] = {}
+    offset = 0
+    while "DATA" not in header:
+        end = data.find(b"\n", offset)
+        if end < 0:
+            raise TouchError("expected a PCD file (a header up to 'DATA …'), got something else")
+        words = data[offset:end].decode("ascii", errors="replace").split()
+        if words and not words[0].startswith("#"):
+            header[words[0]] = words[1:]
+        offset = end + 1
+    names = header.get("FIELDS", [])
+    kinds, sizes = header.get("TYPE", []), header.get("SIZE", [])
+    counts = header.get("COUNT", ["1"] * len(names))
+    if not len(names) == len(kinds) == len(sizes) == len(counts) or "POINTS" not in header:
+        raise TouchError("the PCD header's FIELDS, SIZE, TYPE, COUNT and POINTS don't fit together")
+    fields = _pcd_fields(names, kinds, sizes, counts)
+    num_points = _count(" ".join(header["POINTS"]))
+    coding = " ".join(header["DATA"])
+    if coding == "ascii":
+        return _text_columns(data[offset:], fields, num_points)
+    if coding == "binary":
+        return _binary_columns(data[offset:], fields, num_points)
+    raise TouchError(f"PCD with DATA {coding} is not read; save it as binary or ascii")
+
+
+def _pcd_fields(
+    names: list[str], kinds: list[str], sizes: list[str], counts: list[str]
+) -> list[tuple[str, str]]:
+    fields: list[tuple[str, str]] = []
+    for name, kind, size, count in zip(names, kinds, sizes, counts, strict=True):
+        dtype = f"<{kind.lower()}{size}"
+        if kind not in ("F", "I", "U") or size not in ("1", "2", "4", "8"):
+            raise TouchError(f"can't read the PCD field {name!r} of type {kind} and size {size}")
+        repeated = _count(count)
+        fields += [(name if n == 0 else f"{name}[{n}]", dtype) for n in range(repeated)]
+    return fields
+
+
+def read_xyz(path: Path) -> NDArray[np.float64]:
+    """Rows of x, y, z in text, separated by spaces or commas; '#' begins a comment.
+
+    Raises:
+        TouchError: Something that is not a number, or fewer than three in a row.
+    """
+    try:
+        text = path.read_text("utf-8").replace(",", " ")
+        if not any(line.split("#")[0].strip() for line in text.splitlines()):
+            return np.zeros((0, 3))
+        columns = np.loadtxt(io.StringIO(text), ndmin=2)
+    except UnicodeDecodeError:
+        raise TouchError("expected rows of three numbers in text, got binary data") from None
+    except ValueError as error:
+        raise TouchError(f"expected rows of three numbers: {error}") from None
+    if columns.shape[1] < 3:
+        raise TouchError(f"expected three numbers in a row, got {columns.shape[1]}")
+    return columns[:, :3]
+
+
+def _count(text: str) -> int:
+    if not text.isdigit():
+        raise TouchError(f"expected a number of points in the header, got {text!r}")
+    return int(text)
+
+
+def _coordinates(fields: list[tuple[str, str]]) -> list[int]:
+    names = [name for name, _ in fields]
+    missing = [axis for axis in "xyz" if axis not in names]
+    if missing or len(set(names)) != len(names):
+        raise TouchError(f"expected fields x, y and z, got {', '.join(names) or 'none'}")
+    return [names.index(axis) for axis in "xyz"]
+
+
+def _text_columns(body: bytes, fields: list[tuple[str, str]], count: int) -> NDArray[np.float64]:
+    indices = _coordinates(fields)
+    lines = [line for line in body.decode("ascii", errors="replace").splitlines() if line.strip()]
+    if len(lines) < count:
+        raise TouchError(f"truncated: the header says {count} points, the file has {len(lines)}")
+    if count == 0:
+        return np.zeros((0, 3))
+    try:
+        rows = [[float(word) for word in line.split()] for line in lines[:count]]
+        return np.array([[row[i] for i in indices] for row in rows])
+    except (ValueError, IndexError) as error:
+        raise TouchError(f"expected {len(fields)} numbers in a row: {error}") from None
+
+
+def _binary_columns(body: bytes, fields: list[tuple[str, str]], count: int) -> NDArray[np.float64]:
+    _coordinates(fields)
+    row = np.dtype(fields)
+    if len(body) < count * row.itemsize:
+        raise TouchError(
+            f"truncated: {count} points need {count * row.itemsize} bytes, the file has {len(body)}"
+        )
+    points = np.frombuffer(body, dtype=row, count=count)
+    return np.stack([points[axis].astype(np.float64) for axis in "xyz"], axis=1)

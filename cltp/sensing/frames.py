@@ -1,0 +1,81 @@
+"""Frames of a camera behind a gel: read from image files, refused when they can't be one.
+
+Not here: what a frame means (``cltp.sensing.photometric``), live capture (drivers).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+from cltp.tactile.sensors import SensorSpec
+
+FRAME_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp")
+"""Images that can hold a frame."""
+
+DARK_LEVEL = 10.0
+"""A frame whose mean is below this (of 255) was taken without light. Our choice: the frames that
+we have are at 92; without light a camera is at 0 to 3."""
+
+Frame = NDArray[np.uint8]
+
+
+def read_frame(path: Path, sensor: SensorSpec) -> Frame:
+    """Read one frame.
+
+    Returns:
+        Shape (rows, columns, 3), uint8, red, green, blue; row 0 is the top of the gel (+y).
+
+    Raises:
+        TouchError: Missing, not an image, truncated, in grey, of another size, or black.
+    """
+    from PIL import Image, UnidentifiedImageError  # only where an image is read
+
+    if path.suffix.lower() not in FRAME_SUFFIXES:
+        raise TouchError(f"{path}: expected an image {', '.join(FRAME_SUFFIXES)}")
+    if not path.is_file():
+        raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
+    try:
+        with Image.open(path) as image:
+            if image.mode not in ("RGB", "RGBA", "P"):
+                raise TouchError(
+                    f"{path}: expected a colour image, got mode {image.mode}; heights are read "
+                    "from colours, so save the camera's frames in colour"
+                )
+            # the size is checked before the pixels are decoded: a file can claim any size
+            _check_size((image.height, image.width), sensor, str(path))
+            frame = np.asarray(image.convert("RGB"))
+    except UnidentifiedImageError:
+        raise TouchError(f"{path} is not an image that can be read") from None
+    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
+        raise TouchError(f"{path} can't be read whole: {error}") from None
+    return check_frame(frame, sensor, str(path))
+
+
+def check_frame(frame: NDArray[np.generic], sensor: SensorSpec, name: str = "the frame") -> Frame:
+    """Return ``frame`` if it can be one of ``sensor``.
+
+    Raises:
+        TouchError: Wrong shape, type or size, or black.
+    """
+    if frame.ndim != 3 or frame.shape[2] != 3 or frame.dtype != np.uint8:
+        raise TouchError(f"{name}: expected (H, W, 3) of uint8, got {frame.shape} of {frame.dtype}")
+    _check_size(frame.shape[:2], sensor, name)
+    mean = float(frame.mean())
+    if mean < DARK_LEVEL:
+        raise TouchError(
+            f"{name} is black (mean {mean:.1f} of 255); expected the gel lit by the sensor's LEDs: "
+            "check its cable and exposure"
+        )
+    return frame.astype(np.uint8, copy=False)
+
+
+def _check_size(size: tuple[int, ...], sensor: SensorSpec, name: str) -> None:
+    if tuple(size) != (sensor.rows, sensor.columns):
+        raise TouchError(
+            f"{name} has {size[1]} × {size[0]} px, expected {sensor.columns} × {sensor.rows} "
+            f"of {sensor.name}; scale and crop it the way that the calibration's frames were"
+        )

@@ -1,0 +1,213 @@
+"""Frames to heights: colours become gradients, gradients become a surface. Loads no torch.
+
+Three coloured lamps light the gel from its sides, so the colour at a pixel says how the gel is
+tilted there, in a way that varies over the field. A small network, calibrated on presses of a ball,
+gives for each pixel a matrix M of 2 × 3, and
+
+    (dz/dx, dz/dy) = M(colour change, place) · colour change,
+
+so that where nothing changed the gradient is exactly zero (our choice: a plain network has to learn
+that, and drifts by what it did not). The surface is the least-squares integral of the gradients.
+
+Source: R. J. Woodham, Photometric method for determining surface orientation (1980); a network per
+pixel as customary for GelSight sensors; the form above and the integration are ours.
+
+Not here: training the network (``cltp.train.photometric``), its file
+(``cltp.sensing.calibration``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import fft
+
+from cltp.errors import TouchError
+from cltp.sensing.frames import Frame, check_frame
+from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.sensors import SensorSpec
+
+FloatArray = NDArray[np.float32]
+
+COLOUR_SCALE = 50.0
+"""Grey levels of change that count as 1 for the network. Fixed: part of a calibration's version."""
+
+STALE_LEVELS = 20.0
+"""Median change of a frame against its background from which on the two don't belong together.
+Our choice: 2 levels on the frames that we have, though a ball presses; a lamp lost gives 30."""
+
+_BLOCK = 400  # pixels at a time: below what BLAS would share among threads, which here only wait
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GradientNet:
+    """The network: 3 colours and 2 coordinates -> H -> H -> 6, rectified.
+
+    Attributes:
+        w1: (5, H). Rows: red, green, blue change in ``COLOUR_SCALE``; x and y in half-fields.
+        b1: (H,).
+        w2: (H, H).
+        b2: (H,).
+        w3: (H, 6). Columns: the rows of M, dz/dx first.
+        b3: (6,).
+
+    Raises:
+        TouchError: Shapes don't fit each other, or a value is not finite.
+    """
+
+    w1: FloatArray
+    b1: FloatArray
+    w2: FloatArray
+    b2: FloatArray
+    w3: FloatArray
+    b3: FloatArray
+
+    def __post_init__(self) -> None:
+        hidden = self.b1.size
+        wanted = ((5, hidden), (hidden,), (hidden, hidden), (hidden,), (hidden, 6), (6,))
+        for field, shape in zip(fields(self), wanted, strict=True):
+            # in C order: safetensors writes a transposed array as it lies in memory
+            value = np.array(getattr(self, field.name), dtype=np.float32, order="C")
+            if hidden == 0 or value.shape != shape or not np.isfinite(value).all():
+                raise TouchError(
+                    f"calibration: {field.name} must be finite, of shape {shape}, "
+                    f"got {value.shape}; calibrate anew"
+                )
+            value.setflags(write=False)
+            object.__setattr__(self, field.name, value)
+
+
+def place_inputs(sensor: SensorSpec) -> FloatArray:
+    """Each pixel's place, (rows × columns, 2): x to the right, y to the bottom, in [-1, 1]."""
+    x = (np.arange(sensor.columns) + 0.5) / sensor.columns * 2 - 1
+    y = (np.arange(sensor.rows) + 0.5) / sensor.rows * 2 - 1
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).astype(np.float32)
+
+
+def colour_change(frame: Frame, background: Frame) -> FloatArray:
+    """Change of colour against the untouched gel, (rows × columns, 3), in ``COLOUR_SCALE``."""
+    change = frame.astype(np.float32) - background.astype(np.float32)
+    return change.reshape(-1, 3) * np.float32(1 / COLOUR_SCALE)
+
+
+class Photometer:
+    """Turns the frames of one unit into heights.
+
+    Args:
+        net: Of the unit's calibration.
+        background: Frame of the untouched gel, (rows, columns, 3) uint8.
+        sensor: Whose field and pixels they are.
+
+    Raises:
+        TouchError: The background is no frame of this sensor.
+    """
+
+    def __init__(self, net: GradientNet, background: Frame, sensor: SensorSpec) -> None:
+        self.sensor = sensor
+        self._net = net
+        self._background = check_frame(background, sensor, "the background")
+        self._placed = place_inputs(sensor) @ net.w1[3:] + net.b1  # the same for every frame
+
+    def gradients(self, frame: Frame) -> tuple[FloatArray, FloatArray]:
+        """Slope of the gel in every pixel.
+
+        Returns:
+            dz/dx and dz/d(down), each (rows, columns), mm per mm: x to the right, down along the
+            rows (towards -y).
+
+        Raises:
+            TouchError: Not a frame of this sensor, or the background doesn't belong to it.
+        """
+        frame = check_frame(frame, self.sensor)
+        change = colour_change(frame, self._background)
+        median = COLOUR_SCALE * float(np.median(np.abs(change[::7])))
+        if median > STALE_LEVELS:
+            raise TouchError(
+                f"half of the frame differs from the background by more than {median:.0f} levels "
+                f"(expected below {STALE_LEVELS:.0f}): the background is another unit's, out of "
+                "date, or the light has changed; take a new one with nothing touching the gel"
+            )
+        net, slopes = self._net, np.empty((len(change), 2), dtype=np.float32)
+        for start in range(0, len(change), _BLOCK):
+            part = slice(start, start + _BLOCK)
+            colours = change[part]
+            hidden = colours @ net.w1[:3]
+            hidden += self._placed[part]
+            np.maximum(hidden, 0, out=hidden)
+            hidden = hidden @ net.w2
+            hidden += net.b2
+            np.maximum(hidden, 0, out=hidden)
+            matrix = hidden @ net.w3
+            matrix += net.b3
+            slopes[part, 0] = np.einsum("ij,ij->i", matrix[:, :3], colours)
+            slopes[part, 1] = np.einsum("ij,ij->i", matrix[:, 3:], colours)
+        shape = (self.sensor.rows, self.sensor.columns)
+        return slopes[:, 0].reshape(shape), slopes[:, 1].reshape(shape)
+
+    def heights(self, frame: Frame) -> FloatArray:
+        """Surface of the gel, (rows, columns), float32 [mm]: positive into the gel, median zero.
+
+        The zero is the frame's median: a frame alone can't tell a gel that is sunk all over.
+
+        Raises:
+            TouchError: As ``gradients``.
+        """
+        height = integrate(*self.gradients(frame), self.sensor.mm_per_px)
+        return height - np.median(height)
+
+    def cloud(self, frame: Frame, stamp: Stamp | None = None) -> TactileCloud:
+        """The frame as a cloud of 1024 points.
+
+        Raises:
+            TouchError: As ``gradients``, or heights that no gel can have.
+        """
+        return cloud_from_heights(self.heights(frame), self.sensor, stamp=stamp)
+
+
+def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> FloatArray:
+    """The surface whose slopes are nearest to these, root mean square; its mean is zero.
+
+    Differences between neighbouring pixels are taken as the mean of their two slopes. Minimising
+    the squared misfit of all differences gives a Poisson equation whose natural edges carry the
+    slopes across (Neumann, not zero), so a contact cut by the border isn't bent flat there; the
+    type-II cosine transform diagonalises it exactly.
+
+    Args:
+        slope_x: (H, W), mm per mm, along the columns.
+        slope_down: (H, W), mm per mm, along the rows, downwards.
+        mm_per_px: Pixel pitch [mm].
+
+    Returns:
+        (H, W) [mm], of the slopes' type.
+    """
+    across = 0.5 * mm_per_px * (slope_x[:, 1:] + slope_x[:, :-1])
+    down = 0.5 * mm_per_px * (slope_down[1:] + slope_down[:-1])
+    return integrate_differences(across, down)
+
+
+def integrate_differences(across: FloatArray, down: FloatArray) -> FloatArray:
+    """The surface with these differences between neighbours, by least squares; mean zero.
+
+    Args:
+        across: (H, W - 1), each pixel's right neighbour minus itself [mm].
+        down: (H - 1, W), each pixel's lower neighbour minus itself [mm].
+
+    Returns:
+        (H, W) [mm].
+    """
+    rows, columns = across.shape[0], down.shape[1]
+    divergence = np.zeros((rows, columns), dtype=across.dtype)
+    divergence[:, :-1] += across
+    divergence[:, 1:] -= across
+    divergence[:-1] += down
+    divergence[1:] -= down
+    waves = fft.dctn(divergence, type=2, overwrite_x=True)
+    eigen_x = 2 * np.cos(np.pi * np.arange(columns) / columns) - 2
+    eigen_y = 2 * np.cos(np.pi * np.arange(rows) / rows) - 2
+    eigen = eigen_y[:, None] + eigen_x[None, :]
+    eigen[0, 0] = 1
+    waves[0, 0] = 0  # the mean, which no difference knows
+    waves /= eigen.astype(waves.dtype)
+    return fft.idctn(waves, type=2, overwrite_x=True)

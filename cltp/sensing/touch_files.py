@@ -1,0 +1,216 @@
+"""Read one touch from a file: a cloud, a height map, or a camera's frame of the gel.
+
+Clouds (.ply .pcd .xyz .npy .npz) are (N, 3) in mm in the gel frame; height maps (.npy .npz) are
+(H, W) indentations in mm over the sensor's whole field, row 0 at the top; frames (.png .jpg .bmp)
+become heights by a calibration. Nothing is guessed, scaled or repaired.
+
+Not here: datasets of many contacts (``cltp.data.dataset``), episodes (``tacgrasp.episodes``).
+"""
+
+from __future__ import annotations
+
+import zipfile
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+from cltp.sensing.cloud_formats import read_pcd, read_ply, read_xyz
+from cltp.sensing.frames import FRAME_SUFFIXES, read_frame
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
+from cltp.tactile.sensors import SensorSpec
+
+ASPECT_TOLERANCE = 0.05
+"""A height map's aspect may differ this much from the sensor's; transposed, it is 80 % off."""
+
+SURFACE_ROWS = 75
+"""Rows of the map that a cloud becomes: 0.2 mm on a GelSight Mini, finer than its points."""
+
+METRES_MM = 2e-3
+"""A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
+
+
+def read_touch(
+    path: Path,
+    sensor: SensorSpec,
+    *,
+    background: Path | None = None,
+    calibration: Path | None = None,
+) -> TactileCloud:
+    """Read a cloud, or sample a height map or a frame's heights at the centres of 1024 cells.
+
+    Args:
+        path: File; its suffix says the format.
+        sensor: Whose field and gel the numbers refer to.
+        background: Frame of the same unit untouched; a frame can't be read without.
+        calibration: Of that unit; None is the one that ships. For frames only.
+
+    Raises:
+        TouchError: Missing, empty, truncated or foreign file; no numbers where they should be;
+            numbers that can't be a touch of this sensor; or a frame without a background.
+    """
+    if path.suffix.lower() in FRAME_SUFFIXES:
+        heights = _frame_heights(path, sensor, background, calibration)
+        try:
+            return cloud_from_heights(heights, sensor)
+        except TouchError as error:
+            raise TouchError(f"{path}: {error}") from None
+    array = _array(path)
+    try:
+        return _touch(array, sensor)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def read_heights(
+    path: Path,
+    sensor: SensorSpec,
+    *,
+    background: Path | None = None,
+    calibration: Path | None = None,
+) -> NDArray[np.float32]:
+    """Read the heights of a touch: a height map as it is, a frame's, or the surface of a cloud.
+
+    A cloud becomes a map of 75 rows by linear interpolation between its points; where it has none
+    around, its nearest point's height.
+
+    Args:
+        path: File; its suffix says the format.
+        sensor: Whose field and gel the numbers refer to.
+        background: As for ``read_touch``.
+        calibration: As for ``read_touch``.
+
+    Returns:
+        Shape (H, W), row 0 = top [mm].
+
+    Raises:
+        TouchError: As ``read_touch``.
+    """
+    if path.suffix.lower() in FRAME_SUFFIXES:
+        return _frame_heights(path, sensor, background, calibration)
+    array = _array(path)
+    try:
+        cloud = _touch(array, sensor)
+        return array.astype(np.float32) if array.shape[1] != 3 else _surface(cloud)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _surface(cloud: TactileCloud) -> NDArray[np.float32]:
+    """Heights on a grid over the whole field, through the points of a cloud."""
+    from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
+    from scipy.spatial import QhullError
+
+    columns = round(SURFACE_ROWS * cloud.sensor.columns / cloud.sensor.rows)
+    x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, SURFACE_ROWS, columns))
+    points = cloud.points_mm.astype(np.float64)
+    try:
+        heights = LinearNDInterpolator(points[:, :2], points[:, 2])(x, y)
+    except QhullError:
+        raise TouchError("the points of the cloud lie on a line; they span no surface") from None
+    nearest = NearestNDInterpolator(points[:, :2], points[:, 2])(x, y)
+    return np.where(np.isfinite(heights), heights, nearest).astype(np.float32)
+
+
+def _array(path: Path) -> NDArray[np.float64]:
+    """The numbers in a file, as they stand."""
+    readers: dict[str, Callable[[Path], NDArray[np.float64]]] = {
+        ".ply": read_ply,
+        ".pcd": read_pcd,
+        ".xyz": read_xyz,
+        ".npy": _read_npy,
+        ".npz": _read_npz,
+    }
+    reader = readers.get(path.suffix.lower())
+    if reader is None:
+        raise TouchError(
+            f"{path}: expected a file ending in {', '.join((*readers, *FRAME_SUFFIXES))}, "
+            f"got {path.suffix or 'none'!r}"
+        )
+    if not path.is_file():
+        raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
+    if path.stat().st_size == 0:
+        raise TouchError(f"{path} is empty; expected a cloud or a height map")
+    try:
+        return reader(path)
+    except OSError as error:
+        raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _frame_heights(
+    path: Path, sensor: SensorSpec, background: Path | None, calibration: Path | None
+) -> NDArray[np.float32]:
+    from cltp.sensing.calibration import default_calibration, load_calibration
+    from cltp.sensing.photometric import Photometer
+
+    frame = read_frame(path, sensor)
+    if background is None:
+        raise TouchError(
+            f"{path} is a frame, and heights follow from its difference to the untouched gel: "
+            "give a frame of the same unit with nothing touching it as --background"
+        )
+    net = load_calibration(calibration or default_calibration(sensor), sensor).net
+    try:
+        return Photometer(net, read_frame(background, sensor), sensor).heights(frame)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+
+
+def _touch(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
+    if array.ndim != 2:
+        raise TouchError(
+            f"expected a cloud (N, 3) or a height map (H, W), got an array of shape {array.shape}"
+        )
+    if array.shape[1] == 3:
+        return TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
+    rows, columns = array.shape
+    expected = sensor.columns / sensor.rows
+    if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:
+        raise TouchError(
+            f"a height map of {rows} × {columns} doesn't fit {sensor.name}, whose field is "
+            f"{sensor.rows} × {sensor.columns} px (rows × columns, or any map as wide as that)"
+        )
+    if np.isfinite(array).all() and 0 < np.ptp(array) < METRES_MM:
+        raise TouchError(
+            f"the height map's whole relief is {np.ptp(array):.2g}, below a gel's noise in mm; "
+            "is it in metres? Multiply by 1000"
+        )
+    if np.isfinite(array).all() and np.abs(array).max() > sensor.gel_mm:
+        raise TouchError(
+            f"heights reach {np.abs(array).max():.3g} mm, more than the {sensor.gel_mm} mm gel of "
+            f"{sensor.name}; is it in mm, with the untouched gel at 0?"
+        )
+    return cloud_from_heights(array, sensor)
+
+
+def _read_npy(path: Path) -> NDArray[np.float64]:
+    try:
+        return _numbers(np.load(path, allow_pickle=False), path.name)
+    except (ValueError, EOFError) as error:
+        raise TouchError(f"not a whole .npy array of numbers: {error}") from None
+
+
+def _read_npz(path: Path) -> NDArray[np.float64]:
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            names = list(archive.files)
+            wanted = [n for n in ("points_mm", "height_mm") if n in names] or names
+            if len(wanted) != 1:
+                raise TouchError(
+                    "expected one array, or one named points_mm or height_mm; the file has "
+                    f"{', '.join(names) or 'none'}"
+                )
+            return _numbers(archive[wanted[0]], wanted[0])
+    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
+        raise TouchError(f"not a whole .npz of arrays of numbers: {error}") from None
+
+
+def _numbers(array: object, name: str) -> NDArray[np.float64]:
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "fiu":
+        kind = getattr(array, "dtype", type(array).__name__)
+        raise TouchError(f"expected real numbers in {name}, got {kind}")
+    return array.astype(np.float64)

@@ -1,0 +1,72 @@
+"""From clouds to what the encoder is given: 1024 stratified points, scaled by sensor constants.
+
+Absolute x, y and z are kept: a cloud is never centred or scaled by its own extent, which would
+destroy position, depth and area. Loads no torch.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial import cKDTree
+
+from cltp.tactile.cloud import NUM_POINTS, TactileCloud
+from cltp.tactile.sensors import SensorSpec
+
+LATTICE = math.isqrt(NUM_POINTS)
+"""Cells of the stratification along either side of the field: 32 × 32 hold 1024 points."""
+
+
+def encoder_input(cloud: TactileCloud) -> NDArray[np.float32]:
+    """Points of any cloud as an encoder takes them: shape (1024, 3), scaled, row by row."""
+    return scaled(lattice_points(cloud), cloud.sensor)
+
+
+def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.float32]:
+    """Scale points [mm, gel frame], shape (..., 3), by constants of the sensor.
+
+    x and y by half the field's width, so that x fills -1 .. 1 and shapes keep their proportions; z
+    by the sensor's ``max_depth_mm``.
+    """
+    half = sensor.width_mm / 2
+    factors = np.array([1 / half, 1 / half, 1 / sensor.max_depth_mm], dtype=np.float32)
+    return np.asarray(points_mm, dtype=np.float32) * factors
+
+
+def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:
+    """One point in each of 32 × 32 cells of the field, from the top left row by row.
+
+    A cloud that is stratified already is returned as it is. Otherwise each cell takes the cloud's
+    own point nearest to its centre, and a cell without any takes, at its centre, the mean of the
+    four nearest points weighted by inverse distance.
+
+    Returns:
+        Shape (1024, 3), float32 [mm].
+    """
+    points, sensor = cloud.points_mm, cloud.sensor
+    column = np.floor((points[:, 0] / sensor.width_mm + 0.5) * LATTICE)
+    row = np.floor((0.5 - points[:, 1] / sensor.height_mm) * LATTICE)
+    cell = (np.clip(row, 0, LATTICE - 1) * LATTICE + np.clip(column, 0, LATTICE - 1)).astype(int)
+    if len(points) == NUM_POINTS and np.array_equal(cell, np.arange(NUM_POINTS)):
+        return points
+    centres = cell_centres(sensor)
+    away = ((points[:, :2] - centres[cell]) ** 2).sum(axis=1)
+    order = np.lexsort((away, cell))
+    filled, first = np.unique(cell[order], return_index=True)
+    result = np.concatenate([centres, np.zeros((NUM_POINTS, 1), np.float32)], axis=1)
+    result[filled] = points[order[first]]
+    empty = np.setdiff1d(np.arange(NUM_POINTS), filled)
+    if len(empty):
+        distance, near = cKDTree(points[:, :2]).query(centres[empty], k=4)
+        weights = 1 / np.maximum(distance, 1e-6)
+        result[empty, 2] = (points[near, 2] * weights).sum(axis=1) / weights.sum(axis=1)
+    return result
+
+
+def cell_centres(sensor: SensorSpec) -> NDArray[np.float32]:
+    """Centres of the 32 × 32 cells, shape (1024, 2) [mm], from the top left row by row."""
+    steps = (np.arange(LATTICE, dtype=np.float32) + 0.5) / LATTICE - 0.5
+    x, y = np.meshgrid(steps * sensor.width_mm, -steps * sensor.height_mm)
+    return np.stack([x.ravel(), y.ravel()], axis=1).astype(np.float32)

@@ -1,0 +1,289 @@
+"""What a real sensor adds to the height map of a gel: unit errors, drift, fine noise, a lost zero.
+
+Drawn whenever a contact is read and never baked into data. The simulated sensor and training use
+the same model. It is applied to the clean heights, before a cloud is sampled. Loads no torch.
+
+Not here: the gel itself (``sim``), the sampling of points (``cltp.tactile.cloud``).
+
+Source: figures measured on one GelSight Mini, project's notes: low-frequency drift of standard
+deviation 0.04 mm with a correlation length of 3-8 mm, linear tilt 0.003 mm per mm, depth scale
+±15 % from unit to unit, residual of a fitted ball about 10 µm, and gains of the x and y gradients
+that differ by up to e^0.6 on an uncalibrated unit.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import dctn, idctn
+
+from cltp.errors import TouchError
+from cltp.tactile.sensors import SensorSpec
+
+DRIFT_MM = 0.04
+DRIFT_LENGTH_MM = (3.0, 8.0)
+TILT = 0.003
+DEPTH_SCALE = 0.15
+FINE_MM = 0.010
+GAIN_LOG_RATIO = 0.6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoiseSpread:
+    """How the units of one model of sensor differ, and their frames.
+
+    Attributes:
+        depth_scale: Half width of the uniform distribution of the factor on heights, about 1.
+        tilt: Standard deviation of the slope along either axis, normal [mm per mm].
+        drift_mm: Standard deviation of the low-frequency error in a frame [mm].
+        drift_length_mm: Range of its correlation length, uniform [mm].
+        fine_mm: Standard deviation of the error of one pixel, or of one marker's depth [mm].
+        gain_log_ratio: Largest |ln| of the ratio of the gradients' gains, uniform, of a unit that
+            nobody calibrated; 0 where heights are not integrated from gradients.
+        border_mm: Largest width of the dead border, uniform from 0; no gradient is seen there [mm].
+        marker_mm: Standard deviation of a marker's place along x and along y [mm].
+        marker_loss: Chance that a marker is not found in a frame.
+    """
+
+    depth_scale: float
+    tilt: float
+    drift_mm: float
+    drift_length_mm: tuple[float, float]
+    fine_mm: float
+    gain_log_ratio: float
+    border_mm: float = 0.0
+    marker_mm: float = 0.0
+    marker_loss: float = 0.0
+
+
+SPREADS: dict[str, NoiseSpread] = {
+    # Measured on one unit; see the module's source.
+    "gelsight_mini": NoiseSpread(
+        depth_scale=DEPTH_SCALE,
+        tilt=TILT,
+        drift_mm=DRIFT_MM,
+        drift_length_mm=DRIFT_LENGTH_MM,
+        fine_mm=FINE_MM,
+        gain_log_ratio=GAIN_LOG_RATIO,
+    ),
+    # Not measured. Our assumption: as the GelSight Mini, photometric too, but nobody calibrates
+    # it as well, and its curved gel is out of sight within up to 1 mm of the border.
+    "digit": NoiseSpread(
+        depth_scale=0.20,
+        tilt=0.005,
+        drift_mm=0.05,
+        drift_length_mm=DRIFT_LENGTH_MM,
+        fine_mm=FINE_MM,
+        gain_log_ratio=GAIN_LOG_RATIO,
+        border_mm=1.0,
+    ),
+    # Stereo: 0.1 px of error in either view at f = 651 px, base 6.5 mm and 28.7 mm distance (as in
+    # TacFlex) is 0.027 mm in depth and 0.004 mm along the surface. Loss: 93.9 % of the markers in
+    # contact are found (Marknet, arXiv 2211.13428), nearly all elsewhere; 3 % is our mean. Scale,
+    # tilt and drift are what a calibration through refracting layers leaves: assumed.
+    "gelstereo": NoiseSpread(
+        depth_scale=0.05,
+        tilt=0.001,
+        drift_mm=0.02,
+        drift_length_mm=(5.0, 12.0),
+        fine_mm=0.027,
+        gain_log_ratio=0.0,
+        marker_mm=0.004,
+        marker_loss=0.03,
+    ),
+}
+"""By the names of ``cltp.tactile.sensors.SENSORS``."""
+
+
+def spread_of(sensor: SensorSpec) -> NoiseSpread:
+    """What is known or assumed of a sensor's noise.
+
+    Raises:
+        TouchError: Nothing is; the message lists the sensors of which something is.
+    """
+    try:
+        return SPREADS[sensor.name]
+    except KeyError:
+        known = ", ".join(sorted(SPREADS))
+        raise TouchError(f"no noise known for sensor {sensor.name!r}; known: {known}") from None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NoiseUnit:
+    """The errors of one sensor unit, which stay the same for an episode.
+
+    Attributes:
+        depth_scale: Factor on every height; its calibration is off by that much.
+        tilt_x, tilt_y: Slope that the unit adds [mm per mm of the field].
+        gain_x, gain_y: Factors on the gradients along x and y before they are integrated.
+        drift_mm: Standard deviation of the low-frequency error, new in every frame [mm].
+        fine_mm: Standard deviation of the error of a single pixel, new in every frame [mm].
+        drift_length_mm: Range of the correlation length of the low-frequency error [mm].
+        border_mm: Width of the dead border: heights there are those at its inner edge [mm].
+        marker_mm: Standard deviation of the place of a marker, new in every frame [mm].
+        marker_loss: Chance that a marker is not found in a frame.
+    """
+
+    depth_scale: float = 1.0
+    tilt_x: float = 0.0
+    tilt_y: float = 0.0
+    gain_x: float = 1.0
+    gain_y: float = 1.0
+    drift_mm: float = 0.0
+    fine_mm: float = 0.0
+    drift_length_mm: tuple[float, float] = DRIFT_LENGTH_MM
+    border_mm: float = 0.0
+    marker_mm: float = 0.0
+    marker_loss: float = 0.0
+
+    @classmethod
+    def draw(
+        cls,
+        rng: np.random.Generator,
+        level: float = 1.0,
+        *,
+        gain_log_ratio: float = 0.0,
+        spread: NoiseSpread = SPREADS["gelsight_mini"],
+    ) -> NoiseUnit:
+        """Draw a unit.
+
+        Args:
+            rng: Where the draws come from.
+            level: 1 is the sensor that was measured, 0 a perfect one; scales every spread.
+            gain_log_ratio: Largest |ln(gain_x / gain_y)|; ``spread.gain_log_ratio`` for units that
+                nobody calibrated. The product of both gains is 1.
+            spread: Of the model of sensor, from ``spread_of``.
+
+        Raises:
+            TouchError: ``level`` or ``gain_log_ratio`` is negative or not finite.
+        """
+        if not (0 <= level < math.inf and 0 <= gain_log_ratio < math.inf):
+            raise TouchError(f"noise needs levels of 0 or more, got {level} and {gain_log_ratio}")
+        half_ratio = 0.5 * rng.uniform(-gain_log_ratio, gain_log_ratio)
+        return cls(
+            # Uniform: the notes give a range, not a distribution.
+            depth_scale=max(
+                0.05, 1.0 + level * rng.uniform(-spread.depth_scale, spread.depth_scale)
+            ),
+            tilt_x=level * rng.normal(0.0, spread.tilt),
+            tilt_y=level * rng.normal(0.0, spread.tilt),
+            gain_x=math.exp(half_ratio),
+            gain_y=math.exp(-half_ratio),
+            drift_mm=level * spread.drift_mm,
+            fine_mm=level * spread.fine_mm,
+            drift_length_mm=spread.drift_length_mm,
+            # No draw where there is none: what is drawn after a unit must stay what it was.
+            border_mm=level * rng.uniform(0, spread.border_mm) if spread.border_mm > 0 else 0.0,
+            marker_mm=level * spread.marker_mm,
+            marker_loss=min(1.0, level * spread.marker_loss),
+        )
+
+    def apply(
+        self, height_mm: NDArray[np.floating], sensor: SensorSpec, rng: np.random.Generator
+    ) -> NDArray[np.float32]:
+        """Heights as this unit would report them in one frame.
+
+        Args:
+            height_mm: Shape (H, W), true indentation over the sensor's whole field [mm].
+            sensor: Whose field it is.
+            rng: Draws this frame's drift and fine noise.
+
+        Returns:
+            Shape (H, W) [mm]; its median is 0, since photometric sensors lose the constant.
+        """
+        heights = np.asarray(height_mm, dtype=np.float32)
+        if self.gain_x != 1.0 or self.gain_y != 1.0:
+            heights = integrated_with_gains(heights, sensor, self.gain_x, self.gain_y)
+        rows, columns = heights.shape
+        noisy = heights * np.float32(self.depth_scale)
+        if self.drift_mm > 0:
+            noisy += np.float32(self.drift_mm) * smooth_field(
+                (rows, columns), sensor, rng.uniform(*self.drift_length_mm), rng
+            )
+        if self.tilt_x or self.tilt_y:
+            noisy += _plane(rows, columns, sensor, self.tilt_x, self.tilt_y)
+        if self.fine_mm > 0:
+            noisy += np.float32(self.fine_mm) * rng.standard_normal((rows, columns), np.float32)
+        if self.border_mm > 0:
+            noisy = _without_border(noisy, sensor, self.border_mm)
+        noisy -= np.median(noisy)
+        return noisy
+
+
+def _without_border(
+    height_mm: NDArray[np.float32], sensor: SensorSpec, border_mm: float
+) -> NDArray[np.float32]:
+    """Heights whose gradient is lost within ``border_mm`` of the border: they end at its edge."""
+    rows, columns = height_mm.shape
+    dead_rows = min(round(border_mm / sensor.height_mm * rows), (rows - 1) // 2)
+    dead_columns = min(round(border_mm / sensor.width_mm * columns), (columns - 1) // 2)
+    inner = height_mm[dead_rows : rows - dead_rows, dead_columns : columns - dead_columns]
+    return np.pad(inner, ((dead_rows, dead_rows), (dead_columns, dead_columns)), mode="edge")
+
+
+def smooth_field(
+    shape: tuple[int, int], sensor: SensorSpec, length_mm: float, rng: np.random.Generator
+) -> NDArray[np.float32]:
+    """A random field of mean 0 and variance 1 with a Gaussian correlation.
+
+    White noise on nodes half a correlation length apart, spread by a Gaussian of the same width
+    along either axis: two small matrix products, whatever the size of the map.
+
+    Args:
+        shape: (H, W) of the map over the whole field.
+        sensor: Whose field it is.
+        length_mm: Distance at which the correlation has fallen to 1/e [mm].
+        rng: Draws the nodes.
+    """
+    along_y = _spread(shape[0], sensor.height_mm, length_mm)
+    along_x = _spread(shape[1], sensor.width_mm, length_mm)
+    nodes = rng.standard_normal((along_y.shape[1], along_x.shape[1]), np.float32)
+    return np.asarray(along_y @ nodes @ along_x.T, dtype=np.float32)
+
+
+def _spread(num: int, extent_mm: float, length_mm: float) -> NDArray[np.float32]:
+    """Weights (num, nodes) of a row of nodes at ``num`` pixel centres; each row has norm 1."""
+    sigma = 0.5 * length_mm
+    centres = (np.arange(num) + 0.5) * (extent_mm / num)
+    nodes = np.arange(-3.0, math.ceil(extent_mm / sigma) + 4.0) * sigma
+    weights = np.exp(-0.5 * ((centres[:, None] - nodes) / sigma) ** 2)
+    weights /= np.sqrt((weights**2).sum(axis=1, keepdims=True))
+    return weights.astype(np.float32)
+
+
+def _plane(
+    rows: int, columns: int, sensor: SensorSpec, slope_x: float, slope_y: float
+) -> NDArray[np.float32]:
+    x = (np.arange(columns, dtype=np.float32) + 0.5) / columns - 0.5
+    y = 0.5 - (np.arange(rows, dtype=np.float32) + 0.5) / rows
+    tilted = (y * np.float32(slope_y * sensor.height_mm))[:, None]
+    return np.asarray(tilted + x * np.float32(slope_x * sensor.width_mm), dtype=np.float32)
+
+
+def integrated_with_gains(
+    height_mm: NDArray[np.floating], sensor: SensorSpec, gain_x: float, gain_y: float
+) -> NDArray[np.float32]:
+    """Heights that Poisson integration finds when the gradients are off by two gains.
+
+    With free (Neumann) edges each cosine mode of wavenumbers (kx, ky) is multiplied by
+    (gain_x kx² + gain_y ky²) / (kx² + ky²); the mean is kept.
+    """
+    factor = _gain_factor(height_mm.shape, sensor.width_mm, sensor.height_mm)
+    modes = dctn(np.asarray(height_mm, dtype=np.float32), norm="ortho")
+    modes *= np.float32(gain_y) + np.float32(gain_x - gain_y) * factor
+    modes[0, 0] *= 1.0 / (gain_y + (gain_x - gain_y) * factor[0, 0])
+    return np.asarray(idctn(modes, norm="ortho"), dtype=np.float32)
+
+
+@lru_cache(maxsize=8)
+def _gain_factor(shape: tuple[int, int], width_mm: float, height_mm: float) -> NDArray[np.float32]:
+    """Share kx² / (kx² + ky²) of every cosine mode, 0 for the mean."""
+    ky = np.arange(shape[0])[:, None] / height_mm
+    kx = np.arange(shape[1])[None, :] / width_mm
+    total = kx**2 + ky**2
+    total[0, 0] = 1.0
+    return (kx**2 / total).astype(np.float32)

@@ -1,0 +1,99 @@
+"""Geometry constants of the tactile sensors that we know, and the gel frame they share.
+
+Gel frame: origin at the pad's centre, seen as the sensor sees it; +x right, +y towards the palm
+('top'), -y towards the fingertip ('bottom'), z = indentation in mm, positive into the gel.
+Row 0 of a height map is the top (+y), column 0 the left (-x).
+
+Not here: materials and noise of a gel (``sim.gel.layer``, ``cltp.tactile.sensor_noise``), frame
+capture (drivers).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cltp.errors import TouchError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SensorSpec:
+    """What is fixed about one model of sensor.
+
+    Attributes:
+        name: Identifier used in files and on the command line.
+        columns: Width of its height map [px].
+        rows: Height of its height map [px].
+        mm_per_px: Edge of a (square) pixel on the gel [mm].
+        gel_mm: Thickness of the gel [mm]; nothing can be pressed deeper.
+        max_depth_mm: Indentation that the scaled z = 1 stands for [mm]; constant of the sensor.
+        markers: Rows and columns of tracked markers, in the middles of as many equal cells of the
+            field; None where the sensor sees its whole surface.
+    """
+
+    name: str
+    columns: int
+    rows: int
+    mm_per_px: float
+    gel_mm: float
+    max_depth_mm: float
+    markers: tuple[int, int] | None = None
+
+    @property
+    def width_mm(self) -> float:
+        """Extent of the field along x [mm]."""
+        return self.columns * self.mm_per_px
+
+    @property
+    def height_mm(self) -> float:
+        """Extent of the field along y [mm]."""
+        return self.rows * self.mm_per_px
+
+    @property
+    def area_mm2(self) -> float:
+        """Area of the field [mm²]."""
+        return self.width_mm * self.height_mm
+
+
+# 320×240 px and 0.0634 mm/px: gsrobotics README (GelSight Mini); gel 3.6 mm: fit of the elastic
+# layer to real presses, shared notes. DIGIT: 320×240 at the value that gs_sdk uses; gel thickness
+# not published, ours assumed alike. GelStereo 2.0: about 530 tracked points and a square field of
+# 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers, github.com/Zhang-Chaofan);
+# that the points are 23 × 23 in equal cells, and the gel's thickness, are assumed. Rows, columns
+# and mm_per_px are those of the grid that we simulate it on.
+SENSORS: dict[str, SensorSpec] = {
+    spec.name: spec
+    for spec in (
+        SensorSpec(
+            name="gelsight_mini",
+            columns=320,
+            rows=240,
+            mm_per_px=0.0634,
+            gel_mm=3.6,
+            max_depth_mm=1.5,
+        ),
+        SensorSpec(
+            name="digit", columns=320, rows=240, mm_per_px=0.0405, gel_mm=3.6, max_depth_mm=1.5
+        ),
+        SensorSpec(
+            name="gelstereo",
+            columns=240,
+            rows=240,
+            mm_per_px=0.1092,
+            gel_mm=4.0,
+            max_depth_mm=1.5,
+            markers=(23, 23),
+        ),
+    )
+}
+
+
+def sensor_named(name: str) -> SensorSpec:
+    """Return the sensor called ``name``.
+
+    Raises:
+        TouchError: No sensor has this name; the message lists those that exist.
+    """
+    try:
+        return SENSORS[name]
+    except KeyError:
+        raise TouchError(f"unknown sensor {name!r}; known: {', '.join(sorted(SENSORS))}") from None

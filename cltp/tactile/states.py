@@ -1,0 +1,143 @@
+"""The vocabulary of contact states: 19 shapes, 5 textures, 4 depths, 9 positions, 5 areas.
+
+The paper (section 3.2) names the counts and some of the words; the others, and the limits between
+classes, are our completion and stand beside each class below. How a state is computed from a cloud
+is in ``cltp.tactile.measure``, how it is worded in ``cltp.texts.captions``. Loads no torch.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from cltp.tactile.sensors import SensorSpec
+
+
+class Shape(StrEnum):
+    """Local geometry of what touches the gel."""
+
+    SPHERE = "sphere"  # cap, ratio of principal curvatures below 1.4
+    ELLIPSOID = "ellipsoid"  # cap, ratio 1.4 to 4
+    CUBOID = "cuboid"  # flat punch, rectangular outline, aspect below 2.5
+    TRIANGLE = "triangle"  # flat punch, triangular outline
+    HEXAGON = "hexagon"  # flat punch, hexagonal outline
+    DISC = "disc"  # flat punch, circular outline
+    PEAK = "peak"  # cone or pyramid tip, half-angle 20-60°
+    PLANE = "plane"  # flat, more than 80 % of the field
+    CYLINDER = "cylinder"  # side of a rod, radius at least 1.5 mm
+    RING = "ring"  # annulus or torus
+    CRESCENT = "crescent"  # part of one
+    EDGE = "edge"  # dihedral of 60-120°
+    CORNER = "corner"  # three faces
+    LINE = "line"  # bar at most 1.5 mm wide
+    CROSS = "cross"  # two bars crossing
+    STRIPES = "stripes"  # two or more parallel bars
+    DOTS = "dots"  # three or more bumps, pitch 2-5 mm
+    WAVE = "wave"  # sinusoid, wavelength 3-6 mm
+    HOLE = "hole"  # flat with a cavity
+
+
+class Texture(StrEnum):
+    """Fine relief on the touching surface."""
+
+    SMOOTH = "smooth"  # below 10 µm
+    ROUGH = "rough"  # isotropic, σ 30-80 µm, correlation 0.3-0.6 mm
+    RIDGED = "ridged"  # one direction, 0.05-0.2 mm high, period 0.6-1.5 mm
+    BUMPY = "bumpy"  # caps 0.05-0.2 mm high, pitch 1-3 mm
+    WOVEN = "woven"  # two crossed directions
+
+
+class Depth(StrEnum):
+    """Largest indentation."""
+
+    SLIGHT = "slight"  # below 0.3 mm
+    MODERATE = "moderate"  # 0.3-0.6 mm
+    DEEP = "deep"  # 0.6-0.9 mm
+    VERY_DEEP = "very deep"  # 0.9 mm and more
+
+
+class Position(StrEnum):
+    """Cell of the field, in thirds, where the contact is."""
+
+    TOP_LEFT = "top-left"
+    TOP_CENTER = "top-center"
+    TOP_RIGHT = "top-right"
+    MIDDLE_LEFT = "middle-left"
+    CENTERED = "centered"
+    MIDDLE_RIGHT = "middle-right"
+    BOTTOM_LEFT = "bottom-left"
+    BOTTOM_CENTER = "bottom-center"
+    BOTTOM_RIGHT = "bottom-right"
+
+
+class Area(StrEnum):
+    """Share of the field in contact."""
+
+    TINY = "tiny"  # below 3 %
+    SMALL = "small"  # 3-8 %
+    MEDIUM = "medium"  # 8-15 %
+    LARGE = "large"  # 15-30 %
+    VERY_LARGE = "very large"  # 30 % and more
+
+
+class Side(StrEnum):
+    """A side of the pad, where it may cut a contact off."""
+
+    TOP = "top"
+    BOTTOM = "bottom"
+    LEFT = "left"
+    RIGHT = "right"
+
+
+DEPTH_LIMITS_MM = (0.3, 0.6, 0.9)
+AREA_LIMITS_SHARE = (0.03, 0.08, 0.15, 0.30)
+
+
+def depth_word(depth_mm: float) -> Depth:
+    """Class of an indentation [mm]."""
+    return list(Depth)[sum(depth_mm >= limit for limit in DEPTH_LIMITS_MM)]
+
+
+def area_word(share: float) -> Area:
+    """Class of a share of the field, 0 to 1."""
+    return list(Area)[sum(share >= limit for limit in AREA_LIMITS_SHARE)]
+
+
+def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
+    """Cell, in thirds of the sensor's field, of a point [mm, gel frame]."""
+    column = sum(x_mm >= limit for limit in (-sensor.width_mm / 6, sensor.width_mm / 6))
+    row = sum(y_mm <= limit for limit in (sensor.height_mm / 6, -sensor.height_mm / 6))
+    return list(Position)[3 * row + column]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactState:
+    """What a contact is, in numbers and words.
+
+    Attributes:
+        depth_mm: Largest indentation [mm]; 0 without contact.
+        x_mm, y_mm: Where the contact is [mm, gel frame]: its deepest point, and for flat contacts
+            the centre of what is pressed; 0, 0 without contact.
+        area_share: Share of the field in contact, 0 to 1.
+        force_n: Normal force that the gel's shape suggests [N]; an estimate.
+        depth, position, area: Their classes; None without contact.
+        cut: Sides of the pad that the contact runs over.
+        shape, texture: None when nobody has named them (they need a learned encoder or a label).
+    """
+
+    depth_mm: float
+    x_mm: float
+    y_mm: float
+    area_share: float
+    force_n: float
+    depth: Depth | None
+    position: Position | None
+    area: Area | None
+    cut: frozenset[Side] = frozenset()
+    shape: Shape | None = None
+    texture: Texture | None = None
+
+    @property
+    def in_contact(self) -> bool:
+        """Whether anything touches."""
+        return self.depth is not None

@@ -1,0 +1,57 @@
+"""Everything that is said of a stored contact, derived when asked for and the same every time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from cltp.data.dataset import ContactDataset
+from cltp.tactile.sensors import sensor_named
+from cltp.texts.captions import caption
+from cltp.texts.paraphrases import PROMPTS, paraphrase, prompts, text_seed
+from cltp.texts.question_answers import QuestionAnswer, question_answers
+from cltp.texts.tolerances import toleranced_caption
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactTexts:
+    """The texts of one contact.
+
+    Attributes:
+        caption: In the paper's template.
+        numbers: In mm, mm² and N, with tolerances.
+        paraphrase: In other words.
+        prompts: By dimension, those of the contact's own class; only of dimensions that are known.
+        questions: With their answers.
+    """
+
+    caption: str
+    numbers: str
+    paraphrase: str
+    prompts: Mapping[str, list[str]]
+    questions: list[QuestionAnswer]
+
+
+def texts_of(data: ContactDataset, index: int) -> ContactTexts:
+    """The texts of a contact; they depend on its row alone, not on its place in the data.
+
+    Raises:
+        TouchError: Its labels can't be worded: a depth without position or area.
+    """
+    state = data.state(index)
+    sensor = sensor_named(data.column("sensor")[index])
+    seed = text_seed(
+        seed=int(data.column("seed")[index]),
+        series=int(data.column("series")[index]),
+        depth_mm=float(np.float32(state.depth_mm)),
+    )
+    words = {slot: getattr(state, slot) for slot in PROMPTS}
+    return ContactTexts(
+        caption=caption(state),
+        numbers=toleranced_caption(state, sensor),
+        paraphrase=paraphrase(state, seed),
+        prompts={slot: prompts(slot, word) for slot, word in words.items() if word is not None},
+        questions=question_answers(state, sensor, seed),
+    )

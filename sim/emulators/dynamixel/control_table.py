@@ -1,0 +1,279 @@
+"""Control tables of the emulated X-series servos: registers, their limits, and the models.
+
+Source: ROBOTIS e-Manual, 'Control Table' of XC330-T288, XM430-W350 and XL430-W250.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+from sim.emulators.dynamixel.packets import BAD_LENGTH, BEYOND_LIMIT, NO_ACCESS, OK, OUT_OF_RANGE
+
+MODEL, FIRMWARE, ID, BAUD, MODE = 0, 6, 7, 8, 11
+MOVING_THRESHOLD, MAX_TEMPERATURE, MAX_VOLTAGE, MIN_VOLTAGE = 24, 31, 32, 34
+CURRENT_LIMIT, VELOCITY_LIMIT, MAX_POSITION, MIN_POSITION, SHUTDOWN = 38, 44, 48, 52, 63
+TORQUE, HARDWARE_ERROR, WATCHDOG = 64, 70, 98
+GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, PROFILE_VELOCITY, GOAL_POSITION = 100, 102, 104, 112, 116
+MOVING, PRESENT_CURRENT, PRESENT_VELOCITY, PRESENT_POSITION = 122, 126, 128, 132
+VOLTAGE, TEMPERATURE = 144, 146
+
+CURRENT_BASED_POSITION = 5
+
+BAUDS = (9600, 57600, 115200, 1000000, 2000000, 3000000, 4000000)
+"""By the value of the baud rate register."""
+
+VELOCITY_TICKS_S = 0.229 / 60 * 4096
+"""One unit of velocity, 0.229 rev/min [ticks/s]."""
+
+_SIZE = 147
+
+
+class Area(Enum):
+    """What may be written when."""
+
+    READ_ONLY = "read only"
+    EEPROM = "written with torque off"
+    RAM = "written at any time"
+
+
+@dataclass(frozen=True, slots=True)
+class Register:
+    """Size [bytes], area, smallest and largest value that can be written (signed when below 0)."""
+
+    size: int
+    area: Area
+    low: int = 0
+    high: int = 2**32 - 1
+
+
+_R, _E, _W = Area.READ_ONLY, Area.EEPROM, Area.RAM
+_REGISTERS: dict[int, Register] = {
+    MODEL: Register(2, _R),
+    2: Register(4, _R),
+    FIRMWARE: Register(1, _R),
+    ID: Register(1, _E, 0, 252),
+    BAUD: Register(1, _E, 0, 6),
+    9: Register(1, _E, 0, 254),
+    10: Register(1, _E, 0, 13),
+    MODE: Register(1, _E, 0, 16),
+    12: Register(1, _E, 0, 255),
+    13: Register(1, _E, 1, 22),
+    20: Register(4, _E, -1044479, 1044479),
+    MOVING_THRESHOLD: Register(4, _E, 0, 1023),
+    MAX_TEMPERATURE: Register(1, _E, 0, 100),
+    MAX_VOLTAGE: Register(2, _E, 31, 160),
+    MIN_VOLTAGE: Register(2, _E, 31, 160),
+    36: Register(2, _E, 0, 885),
+    CURRENT_LIMIT: Register(2, _E),
+    VELOCITY_LIMIT: Register(4, _E, 0, 2047),
+    MAX_POSITION: Register(4, _E, 0, 4095),
+    MIN_POSITION: Register(4, _E, 0, 4095),
+    SHUTDOWN: Register(1, _E, 0, 255),
+    TORQUE: Register(1, _W, 0, 1),
+    65: Register(1, _W, 0, 1),
+    68: Register(1, _W, 0, 2),
+    69: Register(1, _R),
+    HARDWARE_ERROR: Register(1, _R),
+    76: Register(2, _W, 0, 16383),
+    78: Register(2, _W, 0, 16383),
+    80: Register(2, _W, 0, 16383),
+    82: Register(2, _W, 0, 16383),
+    84: Register(2, _W, 0, 16383),
+    88: Register(2, _W, 0, 16383),
+    90: Register(2, _W, 0, 16383),
+    WATCHDOG: Register(1, _W, 0, 127),
+    GOAL_PWM: Register(2, _W, -885, 885),
+    GOAL_CURRENT: Register(2, _W, -32768, 32767),
+    GOAL_VELOCITY: Register(4, _W, -2047, 2047),
+    108: Register(4, _W, 0, 32767),
+    PROFILE_VELOCITY: Register(4, _W, 0, 32767),
+    GOAL_POSITION: Register(4, _W, -1048575, 1048575),
+    120: Register(2, _R),
+    MOVING: Register(1, _R),
+    123: Register(1, _R),
+    124: Register(2, _R, -885, 885),
+    PRESENT_CURRENT: Register(2, _R, -32768, 32767),
+    PRESENT_VELOCITY: Register(4, _R, -(2**31), 2**31 - 1),
+    PRESENT_POSITION: Register(4, _R, -(2**31), 2**31 - 1),
+    136: Register(4, _R),
+    140: Register(4, _R),
+    VOLTAGE: Register(2, _R),
+    TEMPERATURE: Register(1, _R),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Model:
+    """A servo as it leaves the factory.
+
+    Attributes:
+        number: Of the model.
+        firmware: Version that a new one came with.
+        current_limit: Factory setting and largest [units]; None: no current control.
+        unit_ma: One unit of current [mA].
+        volts: Voltage that it is fed with here [V].
+        volt_limits: Lowest and highest [V].
+        hottest_c: Temperature limit [°C].
+        shutdown: Mask of the errors at which it lets go.
+        watchdog_stops: Whether it stops when the bus watchdog trips. Source: the notes' trial; 330-
+            size servos did not.
+    """
+
+    number: int
+    firmware: int
+    current_limit: int | None
+    unit_ma: float
+    volts: float
+    volt_limits: tuple[float, float]
+    hottest_c: int
+    shutdown: int
+    watchdog_stops: bool
+
+
+MODELS = {
+    "XC330-T288": Model(
+        number=1220,
+        firmware=46,
+        current_limit=910,
+        unit_ma=1.0,
+        volts=11.1,
+        volt_limits=(5.5, 14.0),
+        hottest_c=70,
+        shutdown=0x35,
+        watchdog_stops=False,
+    ),
+    "XM430-W350": Model(
+        number=1020,
+        firmware=45,
+        current_limit=1193,
+        unit_ma=2.69,
+        volts=12.0,
+        volt_limits=(9.5, 16.0),
+        hottest_c=80,
+        shutdown=0x34,
+        watchdog_stops=True,
+    ),
+    "XM540-W270": Model(
+        number=1120,
+        firmware=45,
+        current_limit=2047,
+        unit_ma=2.69,
+        volts=12.0,
+        volt_limits=(9.5, 16.0),
+        hottest_c=80,
+        shutdown=0x34,
+        watchdog_stops=True,
+    ),
+    "XL430-W250": Model(
+        number=1060,
+        firmware=45,
+        current_limit=None,
+        unit_ma=1.0,
+        volts=12.0,
+        volt_limits=(6.5, 12.0),
+        hottest_c=72,
+        shutdown=0x34,
+        watchdog_stops=True,
+    ),
+}
+
+
+class Table:
+    """The memory of one servo: registers by their address."""
+
+    def __init__(self, model: Model, servo_id: int, baud: int, mode: int) -> None:
+        self._registers = dict(_REGISTERS)
+        self._memory = bytearray(_SIZE)
+        if model.current_limit is None:
+            del self._registers[CURRENT_LIMIT], self._registers[GOAL_CURRENT]
+        else:
+            self._registers[CURRENT_LIMIT] = Register(2, Area.EEPROM, 0, model.current_limit)
+        low_v, high_v = model.volt_limits
+        start = {
+            MODEL: model.number,
+            FIRMWARE: model.firmware,
+            ID: servo_id,
+            BAUD: BAUDS.index(baud),
+            MODE: mode,
+            12: 255,
+            13: 2,
+            MOVING_THRESHOLD: 10,
+            MAX_TEMPERATURE: model.hottest_c,
+            MAX_VOLTAGE: round(10 * high_v),
+            MIN_VOLTAGE: round(10 * low_v),
+            36: 885,
+            VELOCITY_LIMIT: 400,
+            MAX_POSITION: 4095,
+            SHUTDOWN: model.shutdown,
+            VOLTAGE: round(10 * model.volts),
+            TEMPERATURE: 34,
+        }
+        if model.current_limit is not None:
+            start[CURRENT_LIMIT] = model.current_limit
+        for address, value in start.items():
+            self[address] = value
+        self.start_up()
+
+    def start_up(self) -> None:
+        """The volatile registers as after switching on."""
+        for address, value in ((68, 2), (GOAL_PWM, 885), (TORQUE, 0), (HARDWARE_ERROR, 0)):
+            self[address] = value
+        for address in (WATCHDOG, GOAL_VELOCITY, PROFILE_VELOCITY, 108):
+            self[address] = 0
+        if GOAL_CURRENT in self._registers:
+            self[GOAL_CURRENT] = self[CURRENT_LIMIT]
+
+    def __contains__(self, address: int) -> bool:
+        return address in self._registers
+
+    def __getitem__(self, address: int) -> int:
+        register = self._registers[address]
+        raw = self._memory[address : address + register.size]
+        return int.from_bytes(raw, "little", signed=register.low < 0)
+
+    def __setitem__(self, address: int, value: int) -> None:
+        register = self._registers[address]
+        raw = value.to_bytes(register.size, "little", signed=register.low < 0)
+        self._memory[address : address + register.size] = raw
+
+    def read(self, address: int, length: int) -> tuple[int, bytes]:
+        """Error number and the bytes; reading runs over addresses that hold nothing."""
+        if length == 0 or address + length > _SIZE:
+            return OUT_OF_RANGE, b""
+        return OK, bytes(self._memory[address : address + length])
+
+    def write(self, address: int, data: bytes) -> tuple[int, frozenset[int]]:
+        """Error number and the addresses that were written: either all of the data or nothing."""
+        values: dict[int, int] = {}
+        place = address
+        while place < address + len(data):
+            register = self._registers.get(place)
+            if register is None:
+                return NO_ACCESS, frozenset()
+            raw = data[place - address : place - address + register.size]
+            if len(raw) < register.size:
+                return BAD_LENGTH, frozenset()
+            values[place] = int.from_bytes(raw, "little", signed=register.low < 0)
+            place += register.size
+        error = next((e for a, v in values.items() if (e := self._refusal(a, v))), OK)
+        if error or not values:
+            return error or BAD_LENGTH, frozenset()
+        for place, value in values.items():
+            self[place] = value
+        return OK, frozenset(values)
+
+    def _refusal(self, address: int, value: int) -> int:
+        register = self._registers[address]
+        if register.area is Area.READ_ONLY:
+            return NO_ACCESS
+        if register.area is Area.EEPROM and self[TORQUE]:
+            return NO_ACCESS
+        tripped = self[WATCHDOG] == 0xFF
+        if tripped and address in (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION):
+            return NO_ACCESS
+        if not register.low <= value <= register.high:
+            return OUT_OF_RANGE
+        if address == GOAL_CURRENT and abs(value) > self[CURRENT_LIMIT]:
+            return BEYOND_LIMIT
+        return OK

@@ -1,0 +1,133 @@
+"""Faults of the emulated bus: what can be injected, and what it does to answers and servos."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from sim.emulators.dynamixel import control_table as at
+from sim.emulators.dynamixel.servo import Servo
+from sim.emulators.dynamixel.wire import Wire
+
+VOLTAGE_BIT, HEAT_BIT, ENCODER_BIT, OVERLOAD_BIT = 0x01, 0x04, 0x08, 0x20
+"""Bits of the hardware error status (70)."""
+
+FAULTS = {
+    "silence": "no answers any more; id: of one servo only",
+    "bad_crc": "the next answers carry a wrong CRC; count: 1",
+    "late_reply": "the next answers come late; delay_ms: 50, count: 1",
+    "partial_reply": "the next answers break off half-way; count: 1",
+    "wrong_baud": "the servos listen at another baud rate; garbage: 1 for noise as an answer",
+    "wrong_model": "another servo is there; model: 1060, an XL430 without current control",
+    "port_taken": "another program has the port",
+    "unplug": "the port is gone; clear plugs it in again",
+    "alert": "a hardware error that does not let go; bit: 8, the encoder",
+    "overload": "overload: torque goes off",
+    "over_temperature": "too hot: torque goes off; celsius: 85",
+    "register": "a register is changed; address, value, id: all",
+}
+"""What can be injected, and its details with their defaults."""
+
+
+class Faults:
+    """The faults of one bus. Not thread-safe: the caller's lock guards it.
+
+    Attributes:
+        active: Names of what was injected since the last ``clear``.
+    """
+
+    def __init__(self, servos: Sequence[Servo], wire: Wire, clock: Callable[[], float]) -> None:
+        self._servos, self._wire, self._clock = servos, wire, clock
+        self._injected_s: float | None = None
+        self.active: set[str] = set()
+        self._silent: set[int] = set()
+        self._spoil: list[tuple[str, float]] = []
+        self._garbage = False
+        self._before: list[tuple[Servo, int, int]] = []
+
+    def inject(self, fault: str, details: Mapping[str, float | str]) -> None:
+        """Let a fault happen.
+
+        Raises:
+            ValueError: It is not known, or can't happen now.
+        """
+        if fault not in FAULTS:
+            known = "; ".join(f"{name} ({what})" for name, what in FAULTS.items())
+            raise ValueError(f"no fault {fault!r}; known: {known}")
+        values = {name: float(value) for name, value in details.items()}
+        only = int(values.get("id", 0))
+        servos = [servo for servo in self._servos if only in (0, servo.id)]
+        if fault in ("bad_crc", "late_reply", "partial_reply"):
+            delay_s = values.get("delay_ms", 50.0) / 1000
+            self._spoil += [(fault, delay_s)] * int(values.get("count", 1))
+        elif fault == "silence":
+            self._silent |= {servo.id for servo in servos}
+        elif fault == "port_taken":
+            self._wire.take()
+        elif fault == "unplug":
+            self._wire.unplug()
+        else:
+            self._change(fault, values, servos)
+        self.active.add(fault)
+        self._injected_s = self._clock()
+
+    def clear(self) -> None:
+        """Take everything back; what went off stays off."""
+        self.active.clear()
+        self._silent.clear()
+        self._spoil.clear()
+        self._garbage = False
+        for servo, address, value in reversed(self._before):
+            servo.table[address] = value
+        self._before.clear()
+        for servo in self._servos:
+            servo.table[at.HARDWARE_ERROR] = 0
+        self._wire.give_back()
+        self._wire.plug_in()
+
+    def injected_ago_ms(self) -> float | None:
+        """Time since the last injection [ms]; None when there was none."""
+        return None if self._injected_s is None else 1000 * (self._clock() - self._injected_s)
+
+    def silenced(self, servo_id: int) -> bool:
+        """Whether this servo does not answer."""
+        return servo_id in self._silent
+
+    def noise(self, heard: bytes) -> bytes:
+        """What comes back at a wrong baud rate: nothing, or as many bytes of garbage."""
+        return bytes((byte * 37 + 11) % 256 for byte in heard) if self._garbage else b""
+
+    def spoiled(self, reply: bytes) -> tuple[float, bytes]:
+        """Delay [s] and bytes of an answer after the faults that are due."""
+        if not reply or not self._spoil:
+            return 0.0, reply
+        fault, delay_s = self._spoil.pop(0)
+        if fault == "late_reply":
+            return delay_s, reply
+        if fault == "bad_crc":
+            return 0.0, reply[:-1] + bytes([reply[-1] ^ 0x5A])
+        return 0.0, reply[: len(reply) // 2]
+
+    def _change(self, fault: str, values: Mapping[str, float], servos: Sequence[Servo]) -> None:
+        self._garbage = self._garbage or bool(values.get("garbage", 0))
+        for servo in servos:
+            if fault == "wrong_baud":
+                self._set(servo, at.BAUD, 1 if servo.table[at.BAUD] != 1 else 3)
+            elif fault == "wrong_model":
+                self._set(servo, at.MODEL, int(values.get("model", 1060)))
+            elif fault == "alert":
+                servo.fail(int(values.get("bit", ENCODER_BIT)))
+            elif fault == "overload":
+                servo.fail(OVERLOAD_BIT)
+            elif fault == "over_temperature":
+                self._set(servo, at.TEMPERATURE, int(values.get("celsius", 85)))
+                servo.fail(HEAT_BIT)
+            else:
+                if "address" not in values or "value" not in values:
+                    raise ValueError("register needs an address and a value")
+                self._set(servo, int(values["address"]), int(values["value"]))
+
+    def _set(self, servo: Servo, address: int, value: int) -> None:
+        if address not in servo.table:
+            raise ValueError(f"no register at address {address}")
+        self._before.append((servo, address, servo.table[address]))
+        servo.table[address] = value

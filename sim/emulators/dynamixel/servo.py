@@ -1,0 +1,170 @@
+"""One emulated servo: its control table, and how it moves.
+
+Simple dynamics, honest where a driver could be fooled: limited speed and acceleration, a current
+that has to overcome friction before anything moves, goals that are reached after time, a stop
+where fingers meet something, and torque that goes off. Not emulated: gains, voltage sag, heating,
+multi-turn wrap.
+"""
+
+from __future__ import annotations
+
+import math
+
+from sim.emulators.dynamixel import control_table as at
+from sim.emulators.dynamixel.control_table import Model, Table
+from sim.emulators.dynamixel.packets import NO_ACCESS, NO_INSTRUCTION, OK, PING, READ, REBOOT, WRITE
+
+NO_LOAD_TICKS_S = 4800.0
+"""Fastest [ticks/s]; source: XC330-T288 at 11.1 V, 65 rev/min."""
+
+_ACCELERATION = 60_000.0  # ticks/s²
+_APPROACH_PER_S = 80.0  # speed towards a goal, per tick that is left
+_CURRENT_RISE_S = 0.010
+_ARRIVED_TICKS = 0.3
+
+
+class Servo:
+    """A servo on the bus.
+
+    Attributes:
+        model: What it is.
+        table: Its memory.
+        position: Of the horn [ticks].
+        current_ma: Signed as the position [mA].
+        waits: It is about to press and not yet told where the fingers will stop.
+        stop: Position at which the fingers meet something in closing direction; None: nowhere.
+        closing: Sign of the direction in which the fingers close.
+    """
+
+    def __init__(
+        self, model: Model, servo_id: int, *, baud: int, mode: int, friction_ma: float
+    ) -> None:
+        self.model, self.closing = model, 1
+        self.table = Table(model, servo_id, baud, mode)
+        self.position, self.current_ma = 0.0, 0.0
+        self.waits = False
+        self.stop: float | None = None
+        self._friction_ma = friction_ma
+        self._velocity = 0.0
+        self._heard_s: float | None = None
+
+    @property
+    def id(self) -> int:
+        """Its id on the bus."""
+        return self.table[at.ID]
+
+    @property
+    def torque(self) -> bool:
+        """Whether it holds."""
+        return bool(self.table[at.TORQUE])
+
+    @property
+    def goal_current_ma(self) -> float:
+        """Largest current that it may use [mA]."""
+        if self.table[at.MODE] != at.CURRENT_BASED_POSITION or at.GOAL_CURRENT not in self.table:
+            return math.inf
+        return abs(self.table[at.GOAL_CURRENT]) * self.model.unit_ma
+
+    @property
+    def moving(self) -> bool:
+        """Whether it is on its way, or about to be."""
+        return self.waits or abs(self._velocity) > self.table[at.MOVING_THRESHOLD]
+
+    def execute(self, code: int, parameters: bytes) -> tuple[int, bytes, frozenset[int]]:
+        """Carry out an instruction: error number, data, addresses that were written."""
+        nothing: frozenset[int] = frozenset()
+        if code == PING:
+            return OK, bytes(self.table.read(at.MODEL, 2)[1]) + bytes([self.table[6]]), nothing
+        if code == REBOOT:
+            self.table.start_up()
+            self.position %= 4096  # the turn count is lost
+            return OK, b"", frozenset({at.TORQUE})
+        if code == READ and len(parameters) == 4:
+            address, length = _u16(parameters), _u16(parameters[2:])
+            return *self.table.read(address, length), nothing
+        if code == WRITE and len(parameters) > 2:
+            return self.write(_u16(parameters), parameters[2:])
+        return NO_INSTRUCTION, b"", nothing
+
+    def write(self, address: int, data: bytes) -> tuple[int, bytes, frozenset[int]]:
+        """Write registers; torque can't be switched on while a hardware error stands."""
+        turns_on = address == at.TORQUE and data[:1] == b"\x01"
+        if turns_on and self.table[at.HARDWARE_ERROR] & self.table[at.SHUTDOWN]:
+            return NO_ACCESS, b"", frozenset()
+        was_on = self.torque
+        error, written = self.table.write(address, data)
+        if at.TORQUE in written and self.torque and not was_on:
+            self.table[at.GOAL_POSITION] = round(self.position)
+        return error, b"", written
+
+    def fail(self, bits: int) -> None:
+        """A hardware error; torque goes off when the shutdown mask says so."""
+        self.table[at.HARDWARE_ERROR] = self.table[at.HARDWARE_ERROR] | bits
+        if self.table[at.SHUTDOWN] & bits:
+            self.table[at.TORQUE] = 0
+
+    def hear(self, now_s: float) -> None:
+        """Something was said on the bus: the watchdog is content."""
+        self._heard_s = now_s
+
+    def watch(self, now_s: float) -> None:
+        """Trip the bus watchdog when nothing was said for too long while torque is on."""
+        limit = self.table[at.WATCHDOG]
+        if self._heard_s is None or not self.torque or not 1 <= limit <= 127:
+            return
+        if now_s - self._heard_s > 0.020 * limit:
+            self.table[at.WATCHDOG] = 0xFF
+
+    def step(self, dt_s: float) -> None:
+        """Let time pass, at most a few milliseconds at once."""
+        if not self.torque or self.waits:
+            self._velocity = 0.0
+            if not self.torque:
+                self.current_ma = 0.0
+        else:
+            self._move(dt_s)
+        self.publish()
+
+    def _move(self, dt_s: float) -> None:
+        goal, blocked = float(self.table[at.GOAL_POSITION]), False
+        if self._watchdog_holds():
+            goal = self.position
+        if self.stop is not None and self.closing * (goal - self.stop) > 0:
+            goal, blocked = self.stop, True
+        left = goal - self.position
+        arrived = abs(left) < _ARRIVED_TICKS
+        if arrived or self.goal_current_ma <= self._friction_ma:
+            self._velocity = 0.0
+            if arrived:
+                self.position = goal
+            pressing = blocked and arrived
+            wanted_ma = self.closing * self.goal_current_ma if pressing else 0.0
+        else:
+            self._velocity = self._speed_towards(left, dt_s)
+            step = self._velocity * dt_s
+            self.position += math.copysign(min(abs(step), abs(left)), step)
+            wanted_ma = math.copysign(min(self._friction_ma, self.goal_current_ma), left)
+        share = min(1.0, dt_s / _CURRENT_RISE_S)
+        self.current_ma += share * (wanted_ma - self.current_ma)
+
+    def _speed_towards(self, left: float, dt_s: float) -> float:
+        profile = self.table[at.PROFILE_VELOCITY] * at.VELOCITY_TICKS_S
+        fastest = min(profile or NO_LOAD_TICKS_S, NO_LOAD_TICKS_S)
+        wanted = max(-fastest, min(fastest, _APPROACH_PER_S * left))
+        change = _ACCELERATION * dt_s
+        return self._velocity + max(-change, min(change, wanted - self._velocity))
+
+    def _watchdog_holds(self) -> bool:
+        return self.table[at.WATCHDOG] == 0xFF and self.model.watchdog_stops and self.stop is None
+
+    def publish(self) -> None:
+        """Let the registers say what is so now."""
+        table = self.table
+        table[at.PRESENT_POSITION] = round(self.position)
+        table[at.PRESENT_VELOCITY] = round(self._velocity / at.VELOCITY_TICKS_S)
+        table[at.PRESENT_CURRENT] = round(self.current_ma / self.model.unit_ma)
+        table[at.MOVING] = int(self.moving)
+
+
+def _u16(data: bytes) -> int:
+    return int.from_bytes(data[:2], "little")

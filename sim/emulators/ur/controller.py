@@ -1,0 +1,210 @@
+"""An emulated UR controller: modes, safety, registers, watchdog, and what its variables are.
+
+Works on times that it is given and has no sockets (``ur_sessions``). What a real controller leaves
+open is chosen here and marked so: the decelerations of program and safety stops, and what becomes
+of the program then.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from sim.emulators.ur.kinematics import Floats
+from sim.emulators.ur.robot import Report, Robot
+from sim.emulators.ur.urscript import Program
+
+PROGRAM_STOP_M_S2 = 10.0
+"""Deceleration when a program ends in motion. Our choice: Universal Robots states none."""
+
+SAFETY_STOP_M_S2 = 10.0
+"""Deceleration of protective, safeguard and emergency stops. Our choice, as above."""
+
+RUNNING, POWER_OFF, BOOTING = 7, 3, 2
+ROBOT_MODES = {RUNNING: "RUNNING", POWER_OFF: "POWER_OFF", BOOTING: "BOOTING"}
+
+NORMAL, PROTECTIVE, SAFEGUARD, SYSTEM_STOP, ROBOT_STOP = 1, 3, 5, 6, 7
+SAFETY_MODES = {
+    NORMAL: "NORMAL",
+    PROTECTIVE: "PROTECTIVE_STOP",
+    SAFEGUARD: "SAFEGUARD_STOP",
+    SYSTEM_STOP: "SYSTEM_EMERGENCY_STOP",
+    ROBOT_STOP: "ROBOT_EMERGENCY_STOP",
+}
+SAFETY_BITS = {
+    NORMAL: 1 << 0,
+    PROTECTIVE: 1 << 2 | 1 << 10,
+    SAFEGUARD: 1 << 4 | 1 << 10,
+    SYSTEM_STOP: 1 << 5 | 1 << 7 | 1 << 10,
+    ROBOT_STOP: 1 << 6 | 1 << 7 | 1 << 10,
+}
+STOPPED, PLAYING, PAUSED = 1, 2, 4
+
+
+class Controller:
+    """The state of an emulated controller.
+
+    Attributes:
+        robot: The arm.
+        program: The control script, None while none runs.
+        robot_mode, safety_mode: As RTDE numbers them.
+        remote: Whether the pendant says remote control.
+        scripts_start: False for a version that takes a script and never runs it.
+        ended: Why the last program ended, '' when none has.
+    """
+
+    def __init__(
+        self, tcp: Floats, tcp_offset: Floats, report: Report | None, clock: Callable[[], float]
+    ) -> None:
+        self._clock = clock
+        self._began_s = clock()
+        self.robot = Robot(tcp, tcp_offset, report, self._began_s)
+        self.program: Program | None = None
+        self.robot_mode, self.safety_mode, self.remote = RUNNING, NORMAL, True
+        self.scripts_start = True
+        self.ended = ""
+        self.num_programs = 0
+        self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
+        self.inputs: dict[str, float] = {f"input_int_register_{i}": 0 for i in range(48)}
+        self.inputs |= {f"input_double_register_{i}": 0.0 for i in range(48)}
+        self.outputs: dict[str, float] = {f"output_int_register_{i}": 0 for i in range(48)}
+        self.outputs |= {f"output_double_register_{i}": 0.0 for i in range(48)}
+        self._paused = False
+        self._kicked_s = self._began_s
+
+    # -- time and inputs -------------------------------------------------------------------------
+
+    def advance(self) -> None:
+        """Let time pass until now."""
+        now_s = self._clock()
+        self.robot.advance(now_s)
+        if self.program is None:
+            return
+        if not self._paused:
+            self.program.advance()
+            if self.program.payload_kg is not None:
+                self.payload_kg = self.program.payload_kg
+                self.payload_cog_m = self.program.payload_cog_m
+        least_hz = self.program.watchdog_hz
+        if least_hz > 0 and now_s - self._kicked_s > 1.0 / least_hz:
+            self.stop_program(f"watchdog: no input within {1000 / least_hz:.0f} ms")
+        elif not self.program.running:
+            self.stop_program("the script ended")
+
+    @property
+    def next_deadline_s(self) -> float | None:
+        """When the watchdog would trip, on the clock; None without one."""
+        if self.program is None or self.program.watchdog_hz <= 0:
+            return None
+        return self._kicked_s + 1.0 / self.program.watchdog_hz
+
+    def written(self, kicked: bool) -> None:
+        """Input registers were written; ``kicked``: the command register among them."""
+        self.advance()
+        if kicked:
+            self._kicked_s = self._clock()
+        if self.program is not None and not self._paused:
+            self.program.inputs_changed()
+            self.advance()
+
+    # -- programs --------------------------------------------------------------------------------
+
+    @property
+    def runtime_state(self) -> int:
+        """1 stopped, 2 playing, 4 paused."""
+        if self.program is None:
+            return STOPPED
+        return PAUSED if self._paused else PLAYING
+
+    def start_program(self) -> None:
+        """The control script has been uploaded: it replaces what ran."""
+        self.stop_program("another script was uploaded")
+        ready = self.robot_mode == RUNNING and self.safety_mode == NORMAL and self.remote
+        if not (self.scripts_start and ready):
+            return
+        for i in range(48):
+            self.inputs[f"input_int_register_{i}"] = 0
+        self.num_programs += 1
+        self._kicked_s = self._clock()
+        self.program = Program(self.robot, self.inputs, self.outputs, self.protective_stop)
+
+    def stop_program(self, why: str) -> None:
+        """End the program, if one runs; the arm comes to rest."""
+        self.robot.advance(self._clock())
+        if self.program is not None:
+            self.program, self.ended, self._paused = None, why, False
+            self.outputs["output_int_register_0"] = 0
+            self.robot.halt(PROGRAM_STOP_M_S2)
+
+    def stop_line(self, deceleration_m_s2: float) -> None:
+        """A one-line ``stopl`` script: it replaces the program and brings the arm to rest."""
+        self.stop_program("a one-line script replaced it")
+        self.robot.halt(deceleration_m_s2)
+
+    # -- safety ----------------------------------------------------------------------------------
+
+    def safety_stop(self, mode: int) -> None:
+        """Protective and safeguard stop pause the program, emergency stops end it (our choice)."""
+        self.robot.advance(self._clock())
+        self.safety_mode = mode
+        self.robot.halt(SAFETY_STOP_M_S2)
+        if mode in (PROTECTIVE, SAFEGUARD):
+            self._paused = self.program is not None
+        else:
+            self.stop_program(SAFETY_MODES[mode].lower())
+            self.robot_mode = POWER_OFF
+
+    def protective_stop(self) -> None:
+        """A protective stop."""
+        self.safety_stop(PROTECTIVE)
+
+    def unlock(self) -> None:
+        """Safety back to normal, program gone, power on."""
+        self.stop_program("unlocked after a safety stop")
+        self.safety_mode, self.robot_mode = NORMAL, RUNNING
+
+    def restart(self) -> None:
+        """Power goes; brakes hold the arm, and what was set is forgotten."""
+        self.stop_program("controller restart")
+        self.robot.halt(SAFETY_STOP_M_S2)
+        self.robot_mode, self._began_s = BOOTING, self._clock()
+        self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
+
+    # -- variables -------------------------------------------------------------------------------
+
+    def values(self, name: str) -> list[float]:
+        """The numbers of an output variable; none for what is not emulated (currents and such)."""
+        robot = self.robot
+        if name in self.outputs:
+            return [self.outputs[name]]
+        if name in ("actual_TCP_pose", "target_TCP_pose"):
+            return robot.tcp_pose()
+        if name in ("actual_TCP_speed", "target_TCP_speed"):
+            return robot.place.twist.tolist()
+        if name in ("actual_q", "target_q"):
+            return robot.joints().tolist()
+        if name in ("actual_qd", "target_qd"):
+            return robot.joint_speeds().tolist()
+        if name in ("actual_TCP_force", "ft_raw_wrench"):
+            return robot.force()
+        if name == "tcp_offset":
+            return robot.tcp_offset.tolist()
+        if name == "payload_cog":
+            return list(self.payload_cog_m)
+        return self._numbers(name)
+
+    def _numbers(self, name: str) -> list[float]:
+        playing = self.runtime_state == PLAYING
+        powered = self.robot_mode == RUNNING
+        scalars: dict[str, float] = {
+            "timestamp": self._clock() - self._began_s,
+            "robot_mode": self.robot_mode,
+            "safety_mode": self.safety_mode,
+            "safety_status": self.safety_mode,
+            "runtime_state": self.runtime_state,
+            "robot_status_bits": (1 if powered else 0) | (2 if playing else 0),
+            "safety_status_bits": SAFETY_BITS[self.safety_mode],
+            "speed_scaling": self.robot.speed_fraction if self.robot.in_motion else 1.0,
+            "target_speed_fraction": self.robot.speed_fraction,
+            "payload": self.payload_kg,
+        }
+        return [scalars[name]] if name in scalars else []

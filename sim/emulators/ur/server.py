@@ -1,0 +1,282 @@
+"""The sockets of an emulated controller: one thread that serves all clients and lets time pass.
+
+Here are also the faults of the link: a controller that accepts and is silent, one that answers
+garbage, one whose stream has stopped, connections that drop. Ports are those of a real controller,
+so every emulator has a loopback address of its own.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import selectors
+import socket
+import threading
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+from sim.emulators.process.real_time import ask_for_real_time
+from sim.emulators.ur.controller import Controller
+from sim.emulators.ur.sessions import (
+    DASHBOARD_PORT,
+    RTDE_PORT,
+    SCRIPT_PORT,
+    DashboardSession,
+    RtdeSession,
+    ScriptSession,
+    Session,
+)
+
+PORTS = (DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT)
+TICK_S = 0.004
+"""Cycle while the arm moves; what happens in between is computed, not rounded to it."""
+
+IDLE_S = 0.02
+GARBAGE = bytes(range(256)) * 2
+
+
+@dataclass(slots=True)
+class Link:
+    """What is wrong with the connections.
+
+    Attributes:
+        mute: New connections are accepted and never answered.
+        garbage: New connections get nonsense.
+        frozen: No packet goes out; ``deaf``: what comes in is not read either.
+        refused: Ports that do not listen.
+    """
+
+    mute: bool = False
+    garbage: bool = False
+    frozen: bool = False
+    deaf: bool = False
+    refused: set[int] = field(default_factory=set)
+
+
+@dataclass(slots=True)
+class _Connection:
+    socket: socket.socket
+    port: int
+    session: Session | None
+    due_s: float = 0.0
+    unsent: bytearray = field(default_factory=bytearray)
+
+
+class Server:
+    """Serves a controller on one loopback address.
+
+    Attributes:
+        link: What is wrong with the connections; change it under ``lock``.
+        lock: Guards controller and link against the control channel.
+        fastest_hz: Bound on the rate of a client's stream [Hz].
+    """
+
+    def __init__(
+        self,
+        host: str,
+        controller: Controller,
+        version: tuple[int, int],
+        fastest_hz: float,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """Listen and serve.
+
+        Raises:
+            OSError: The ports of this address are taken.
+        """
+        self.host, self.version, self.fastest_hz = host, version, fastest_hz
+        self.link = Link()
+        self.lock = threading.RLock()
+        self._controller, self._clock = controller, clock
+        self._taken: dict[str, RtdeSession] = {}
+        self._selector = selectors.DefaultSelector()
+        self._listening: dict[int, socket.socket] = {}
+        self._connections: list[_Connection] = []
+        self._reopen_s: float | None = None
+        self._ended = False
+        try:
+            self._listen()
+        except OSError:
+            self._close_all()
+            raise
+        self._thread = threading.Thread(target=self._serve, name=f"ur {host}", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        """Hang up everywhere. Idempotent."""
+        self._ended = True
+        self._thread.join(timeout=2)
+        with self.lock:
+            self._close_all()
+
+    @property
+    def num_clients(self) -> int:
+        """Connections that are open."""
+        return len(self._connections)
+
+    def reserve(self, names: Sequence[str], *, taken: bool) -> None:
+        """Let another client have these inputs, or give them back."""
+        if taken:
+            other = RtdeSession(self._controller, self.version, self._taken)
+            self._taken |= dict.fromkeys(names, other)
+        else:
+            for name in names:
+                self._taken.pop(name, None)
+
+    def drop(self, ports: Sequence[int], reopen_after_s: float | None = None) -> None:
+        """Reset all connections to some ports and refuse new ones, for a time or until told."""
+        self.link.refused |= set(ports)
+        for connection in [c for c in self._connections if c.port in ports]:
+            with contextlib.suppress(OSError):  # a reset, not a farewell
+                connection.socket.setsockopt(
+                    socket.SOL_SOCKET, socket.SO_LINGER, b"\x01\x00\x00\x00\x00\x00\x00\x00"
+                )
+            self._hang_up(connection)
+        for port in ports:
+            self._unlisten(port)
+        self._reopen_s = None if reopen_after_s is None else self._clock() + reopen_after_s
+
+    def restore(self) -> None:
+        """No fault of the link any more; silent and garbling connections are ended."""
+        for connection in [c for c in self._connections if c.session is None]:
+            self._hang_up(connection)
+        self.link, self._reopen_s = Link(), None
+        self._listen()
+
+    # -- the thread ------------------------------------------------------------------------------
+
+    def _serve(self) -> None:
+        ask_for_real_time()
+        while not self._ended:
+            ready = self._selector.select(self._pause_s())
+            with self.lock:
+                now_s = self._clock()
+                if self._reopen_s is not None and now_s >= self._reopen_s:
+                    self.restore()
+                for key, _ in ready:
+                    if isinstance(key.data, _Connection):
+                        if key.data in self._connections:
+                            self._hear(key.data)
+                    elif key.data in self._listening:
+                        self._accept(key.data)
+                self._controller.advance()
+                self._stream(self._clock())
+            if self.link.deaf and ready:
+                time.sleep(TICK_S)  # unread input keeps the selector awake
+
+    def _pause_s(self) -> float:
+        with self.lock:
+            now_s = self._clock()
+            due_s = [c.due_s for c in self._connections if _streaming(c)]
+            deadline_s = self._controller.next_deadline_s
+            if deadline_s is not None:
+                due_s.append(deadline_s)
+            pause_s = min(due_s, default=now_s + IDLE_S) - now_s
+            longest_s = TICK_S if self._controller.robot.moving else IDLE_S
+            return max(0.0, min(pause_s, longest_s))
+
+    def _listen(self) -> None:
+        for port in PORTS:
+            if port in self._listening or port in self.link.refused:
+                continue
+            listener = socket.socket()
+            self._listening[port] = listener
+            listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            listener.bind((self.host, port))
+            listener.listen(16)
+            listener.setblocking(False)
+            self._selector.register(listener, selectors.EVENT_READ, port)
+
+    def _unlisten(self, port: int) -> None:
+        listener = self._listening.pop(port, None)
+        if listener is not None:
+            with contextlib.suppress(KeyError, ValueError):
+                self._selector.unregister(listener)
+            listener.close()
+
+    def _accept(self, port: int) -> None:
+        try:
+            client, _ = self._listening[port].accept()
+        except OSError:
+            return
+        client.setblocking(False)
+        client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        session: Session | None = None
+        if not (self.link.mute or self.link.garbage):
+            session = self._session(port)
+        connection = _Connection(client, port, session)
+        self._connections.append(connection)
+        self._selector.register(client, selectors.EVENT_READ, connection)
+        if self.link.garbage:
+            self._send(connection, GARBAGE)
+        elif isinstance(session, DashboardSession):
+            self._send(connection, DashboardSession.GREETING)
+
+    def _session(self, port: int) -> Session:
+        if port == RTDE_PORT:
+            return RtdeSession(self._controller, self.version, self._taken)
+        if port == DASHBOARD_PORT:
+            return DashboardSession(self._controller, self.version)
+        return ScriptSession(self._controller)
+
+    def _hear(self, connection: _Connection) -> None:
+        if self.link.deaf:
+            return
+        try:
+            data = connection.socket.recv(65536)
+        except BlockingIOError:
+            return
+        except OSError:
+            data = b""
+        if not data:
+            self._hang_up(connection)
+        elif connection.session is not None:
+            try:
+                self._send(connection, connection.session.heard(data))
+            except ValueError:
+                self._hang_up(connection)
+        elif self.link.garbage:
+            self._send(connection, GARBAGE)
+
+    def _stream(self, now_s: float) -> None:
+        for connection in list(self._connections):
+            session = connection.session
+            if not (isinstance(session, RtdeSession) and session.streaming):
+                continue
+            if now_s >= connection.due_s:
+                period_s = max(session.period_s, 1.0 / self.fastest_hz)
+                late = now_s - connection.due_s > period_s
+                connection.due_s = (now_s if late else connection.due_s) + period_s
+                if not self.link.frozen:
+                    self._send(connection, session.data())
+
+    def _send(self, connection: _Connection, data: bytes) -> None:
+        if self.link.frozen:
+            return
+        connection.unsent += data
+        try:
+            sent = connection.socket.send(connection.unsent) if connection.unsent else 0
+        except BlockingIOError:
+            return
+        except OSError:
+            self._hang_up(connection)
+            return
+        del connection.unsent[:sent]
+
+    def _hang_up(self, connection: _Connection) -> None:
+        if connection in self._connections:
+            self._connections.remove(connection)
+            self._selector.unregister(connection.socket)
+            connection.socket.close()
+            if connection.session is not None:
+                connection.session.closed()
+
+    def _close_all(self) -> None:
+        for connection in list(self._connections):
+            self._hang_up(connection)
+        for port in PORTS:
+            self._unlisten(port)
+
+
+def _streaming(connection: _Connection) -> bool:
+    return isinstance(connection.session, RtdeSession) and connection.session.streaming

@@ -1,0 +1,215 @@
+"""The control script that ur_rtde uploads, as its registers behave; the script itself is not run.
+
+Commands come in ``input_int_register_0``; ``output_int_register_0`` says 1 (ready) or 2 (done,
+until the client sends 0). Known are the commands below; any other ends the program, as an error in
+a script would. Simplified: commands are taken when they arrive, not at the next 2 ms cycle; a new
+line begins from rest; force mode moves at its speed limits.
+
+Source: wire behaviour of ur_rtde 1.6.5.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, MutableMapping
+
+import numpy as np
+
+from sim.emulators.ur.kinematics import Floats, as_frame, base_from_flange, jacobian, matrix
+from sim.emulators.ur.motion import Line, Servo, run_at
+from sim.emulators.ur.robot import Robot
+
+READY, DONE = 1, 2
+MOVE_L, FORCE, FORCE_STOP, ZERO_FT, SPEED_J, SPEED_L, SERVO_J = 3, 6, 7, 8, 9, 10, 11
+SPEED_STOP, SERVO_STOP, PAYLOAD, SERVO_L, GET_WAYPOINT, TCP = 15, 16, 17, 24, 28, 29
+PROTECTIVE_STOP, STOP_L, STOP_J, WATCHDOG, GET_TCP, STEADY, TARGET_PAYLOAD, END = (
+    31, 33, 34, 35, 40, 47, 65, 255
+)  # fmt: skip
+REALTIME = (FORCE, SPEED_J, SPEED_L, SERVO_J, SERVO_L)
+FORCE_ACCELERATION = 0.5
+
+
+class Program:
+    """One run of the control script on a robot.
+
+    Attributes:
+        running: False once it has ended.
+        watchdog_hz: Least rate of ``input_int_register_0`` that it asked for; 0 when none.
+        stops_straight: ``stopL`` brakes on the line; until the first asynchronous stop it brakes as
+            ``stopJ`` does.
+        payload_kg, payload_cog_m: As last set.
+        protective_stop: Called for a protective stop that the client asked for.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        inputs: MutableMapping[str, float],
+        outputs: MutableMapping[str, float],
+        protective_stop: Callable[[], None],
+    ) -> None:
+        self.running = True
+        self.watchdog_hz = 0.0
+        self.payload_kg: float | None = None
+        self.payload_cog_m = [0.0, 0.0, 0.0]
+        self.protective_stop = protective_stop
+        self._robot, self._in, self._out = robot, inputs, outputs
+        self._executing = False
+        self._awaited: Callable[[], bool] | None = None
+        self._line: Line | None = None
+        self.stops_straight = False
+        self._going: str | None = None
+        self._again: Callable[[], None] | None = None
+        self._asynchronous = False
+        self._writes, self._operation = 0, 0
+        self._progress(running=False)
+        self._out["output_int_register_0"] = READY
+
+    # -- registers -------------------------------------------------------------------------------
+
+    def _doubles(self, first: int, count: int = 6) -> Floats:
+        return np.array([self._in[f"input_double_register_{first + i}"] for i in range(count)])
+
+    def _progress(self, *, running: bool) -> None:
+        """Bit 15 running, 16-22 writes, 24-30 operation."""
+        self._writes = (self._writes + 1) % 128
+        if running:
+            self._operation = (self._operation + 1) % 128
+        bits = (self._operation << 24) | (self._writes << 16) | (0x8000 if running else 0)
+        self._out["output_int_register_2"] = bits
+
+    # -- time ------------------------------------------------------------------------------------
+
+    def inputs_changed(self) -> None:
+        """The client has written the input registers."""
+        if not self.running or self._awaited is not None:
+            return
+        command = int(self._in["input_int_register_0"])
+        if command in REALTIME:
+            self._in_real_time(command)
+            self._out["output_int_register_0"] = READY
+        elif command == 0:
+            self._executing = False
+            self._out["output_int_register_0"] = READY
+        elif not self._executing:
+            self._executing = True
+            try:
+                self._carry_out(command)
+            except ValueError:
+                self.running = False  # a runtime error ends a script
+            if self.running and self._awaited is None:
+                self._out["output_int_register_0"] = DONE
+
+    def advance(self) -> None:
+        """After the robot has: finish what waited for it, go on with what a stop does not end."""
+        if not self.running or self._robot.moving:
+            return
+        if self._asynchronous:
+            self._asynchronous = False
+            self._progress(running=False)
+        if self._awaited is not None and self._awaited():
+            self._awaited = None
+            self._out["output_int_register_0"] = DONE
+            self.inputs_changed()
+        if self._again is not None and not self._robot.moving:
+            self._again()
+
+    # -- commands --------------------------------------------------------------------------------
+
+    def _in_real_time(self, command: int) -> None:
+        first = self._doubles(0)
+        if command in (SPEED_L, SPEED_J):
+            acceleration = self._in["input_double_register_6"]
+            if not (np.isfinite(first).all() and math.isfinite(acceleration) and acceleration > 0):
+                return
+            # The script repeats speedl for ever: its time argument does not end the motion.
+            self._keep("speed", lambda: self._speed(first, acceleration, joints=command == SPEED_J))
+        elif command in (SERVO_L, SERVO_J):
+            if command == SERVO_J:
+                goal = base_from_flange(first) @ as_frame(self._robot.tcp_offset)
+                position, turn = goal[:3, 3], goal[:3, :3]
+            else:
+                position, turn = first[:3], matrix(first[3:])
+            lookahead_s = self._in["input_double_register_9"]
+            self._keep(
+                "servo",
+                lambda: self._robot.begin(Servo(self._robot.place, position, turn, lookahead_s)),
+            )
+        else:
+            chosen = [int(self._in[f"input_int_register_{i}"]) for i in range(2, 8)]
+            wrench, limits = self._doubles(6), self._doubles(12)
+            frame = matrix(first[3:])
+            self._keep("force", lambda: self._force(np.array(chosen), wrench, limits, frame))
+
+    def _keep(self, name: str, motion: Callable[[], None]) -> None:
+        self._going, self._again = name, motion
+        motion()
+
+    def _speed(self, target: Floats, acceleration: float, *, joints: bool) -> None:
+        twist = jacobian(self._robot.joints()) @ target if joints else target
+        speed = float(np.linalg.norm(twist[:3]))
+        motion = run_at(self._robot.place, twist, acceleration, math.inf)
+        self._robot.begin(motion, speed, acceleration)
+
+    def _force(self, chosen: Floats, wrench: Floats, limits: Floats, frame: Floats) -> None:
+        """Give way along the chosen axes, at their speed limits, until the forces balance."""
+        pushed = np.concatenate([
+            frame.T @ self._robot.contact[:3], frame.T @ self._robot.contact[3:]
+        ])  # fmt: skip
+        left = wrench + pushed
+        local = np.where((chosen != 0) & (np.abs(left) > 0.5), np.sign(left) * limits, 0.0)
+        twist = np.concatenate([frame @ local[:3], frame @ local[3:]])
+        motion = run_at(self._robot.place, twist, FORCE_ACCELERATION, math.inf)
+        self._robot.begin(motion, float(np.linalg.norm(twist[:3])), FORCE_ACCELERATION)
+
+    def _carry_out(self, command: int) -> None:
+        if command in (MOVE_L, STOP_L, STOP_J, SPEED_STOP, SERVO_STOP, FORCE_STOP):
+            self._move_or_stop(command)
+        elif command == ZERO_FT:
+            self._robot.zero_force()
+        elif command in (PAYLOAD, TARGET_PAYLOAD):
+            self.payload_kg = self._in["input_double_register_0"]
+            self.payload_cog_m = self._doubles(1, 3).tolist()
+        elif command == TCP:
+            self._robot.set_tcp(self._doubles(0))
+        elif command in (GET_TCP, GET_WAYPOINT):
+            pose = self._robot.tcp_offset.tolist() if command == GET_TCP else self._robot.tcp_pose()
+            for i, value in enumerate(pose):
+                self._out[f"output_double_register_{i}"] = value
+        elif command == PROTECTIVE_STOP:
+            self.protective_stop()
+        elif command == WATCHDOG:
+            self.watchdog_hz = self._in["input_double_register_0"]
+        elif command == STEADY:
+            self._out["output_int_register_1"] = 0 if self._robot.moving else 1
+        else:
+            self.running = False
+
+    def _move_or_stop(self, command: int) -> None:
+        asynchronous = int(self._in["input_int_register_1"]) == 1
+        if command == MOVE_L:
+            pose = self._doubles(0)
+            speed, acceleration = self._doubles(6, 2).tolist()
+            line = Line(self._robot.place, pose[:3], matrix(pose[3:]), speed, acceleration)
+            self._robot.begin(line, speed, acceleration)
+        else:
+            deceleration = self._in["input_double_register_0"]
+            if not (math.isfinite(deceleration) and deceleration > 0):
+                raise ValueError(f"a stop needs a deceleration above 0, got {deceleration}")
+            ends = {SPEED_STOP: "speed", SERVO_STOP: "servo", FORCE_STOP: "force"}.get(command)
+            if ends is not None and ends == self._going:
+                self._going = self._again = None
+            asynchronous = asynchronous and ends is None
+            if command in (STOP_L, STOP_J) and asynchronous:
+                self.stops_straight = command == STOP_L
+            if command == FORCE_STOP:
+                self._robot.halt(10.0)
+            elif command == SPEED_STOP or (command in (STOP_L, STOP_J) and self.stops_straight):
+                self._robot.halt(deceleration)
+            else:  # also a stopL before the first asynchronous stop
+                self._robot.halt_joints(deceleration)
+        if asynchronous:
+            self._asynchronous = True
+            self._progress(running=True)
+        else:
+            self._awaited = lambda: not self._robot.in_motion

@@ -1,0 +1,212 @@
+"""Normal contact of an elastic surface with a shape: constrained conjugate gradients.
+
+Finds the pressure p >= 0 with gap >= 0 and p·gap = 0, for a given force or a given approach, for
+a batch of contacts at once. Each contact stops on its own residual and leaves the batch then, so
+that its answer does not depend on its company.
+
+Not here: the compliance (``sim.gel.compliance``), units and materials of a sensor
+(``sim.gel.layer``).
+
+Source: Polonsky & Keer (1999), Wear 231, 206-219; with the stop on the residual gap instead of
+the change of pressure (our choice: it bounds the error of the surface).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from sim.gel.compliance import Spectrum
+from sim.gel.gap import NO_BODY_MM
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Solution:
+    """Pressures and approaches of a batch.
+
+    Attributes:
+        pressure_mpa: (B, H, W) [MPa].
+        approach_mm: (B,) [mm]; +inf where the force cannot be reached by any approach.
+        iterations: (B,) int64.
+        converged: (B,) bool; False where ``max_iterations`` ended it.
+    """
+
+    pressure_mpa: Tensor
+    approach_mm: Tensor
+    iterations: Tensor
+    converged: Tensor
+
+
+@dataclass(slots=True, kw_only=True)
+class _Active:
+    """The contacts that are still being solved; fields are flat, (B, H·W)."""
+
+    index: Tensor
+    pressure: Tensor
+    gap: Tensor
+    target: Tensor
+    direction: Tensor
+    norm: Tensor
+    conjugate: Tensor
+    compliance: Spectrum
+
+    def keep(self, rest: Tensor) -> None:
+        """Drop every contact whose ``rest`` is False."""
+        self.index, self.pressure, self.gap = self.index[rest], self.pressure[rest], self.gap[rest]
+        self.target, self.direction = self.target[rest], self.direction[rest]
+        self.norm, self.conjugate = self.norm[rest], self.conjugate[rest]
+        self.compliance = self.compliance.select(rest)
+
+    def displacement(self, pressure: Tensor) -> Tensor:
+        """Displacement under ``pressure``, both flat."""
+        grid = pressure.unflatten(1, (self.compliance.rows, self.compliance.columns))
+        return self.compliance.apply(grid).flatten(1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Residual:
+    """How far a contact's pressures are from solving it.
+
+    Attributes:
+        gap: Deformed gap where there is pressure, overlap where there is none, else 0.
+        contact: 1 where there is pressure, else 0.
+        count: Number of elements with pressure, at least 1.
+        level: Approach.
+        norm: Sum of the squared gap.
+        mean: Mean displacement in contact.
+    """
+
+    gap: Tensor
+    contact: Tensor
+    count: Tensor
+    level: Tensor
+    norm: Tensor
+    mean: Tensor
+
+    def keep(self, rest: Tensor) -> _Residual:
+        """The residual of those contacts whose ``rest`` is True."""
+        return _Residual(
+            gap=self.gap[rest],
+            contact=self.contact[rest],
+            count=self.count[rest],
+            level=self.level[rest],
+            norm=self.norm[rest],
+            mean=self.mean[rest],
+        )
+
+
+def _dot(a: Tensor, b: Tensor) -> Tensor:
+    # Not bmm: its rounding depends on the size of the batch.
+    return (a * b).sum(1)
+
+
+def solve(
+    compliance: Spectrum,
+    gap_mm: Tensor,
+    target: Tensor,
+    *,
+    by_force: bool,
+    start_mpa: Tensor,
+    stiffness: float,
+    tol: float,
+    max_iterations: int,
+) -> Solution:
+    """Solve a batch of contacts.
+
+    Args:
+        compliance: Of the two surfaces together.
+        gap_mm: Undeformed gap, (B, H, W) [mm]; ``NO_BODY_MM`` where no pressure can act.
+        target: (B,) sum of the pressures [MPa] if ``by_force``, else the approach [mm].
+        by_force: Which of the two is given.
+        start_mpa: First guess, >= 0, zero where no pressure can act, (B, H, W) [MPa].
+        stiffness: Pressure per gap of the first step where no contact exists [MPa/mm].
+        tol: Root mean square of the residual gap over the mean displacement in contact.
+        max_iterations: Bound.
+
+    Returns:
+        The solution; contacts with nothing to carry have zero pressure.
+    """
+    batch = gap_mm.shape[0]
+    flat = gap_mm.flatten(1)
+    lowest = flat.amin(1)
+    pressure = torch.zeros_like(flat)
+    approach = torch.where(lowest < NO_BODY_MM, lowest, torch.inf) if by_force else target.clone()
+    iterations = torch.zeros(batch, dtype=torch.int64, device=flat.device)
+    converged = torch.ones(batch, dtype=torch.bool, device=flat.device)
+    loaded = (target > 0) & (lowest < NO_BODY_MM) & (by_force | (target > lowest))
+    act = _Active(
+        index=torch.arange(batch, device=flat.device),
+        pressure=start_mpa.flatten(1),
+        gap=flat,
+        target=target,
+        direction=torch.zeros_like(flat),
+        norm=torch.ones_like(target),
+        conjugate=torch.zeros_like(target),
+        compliance=compliance,
+    )
+    if not bool(loaded.all()):
+        act.keep(loaded)
+    for step in range(max_iterations + 1):
+        if act.index.numel() == 0:
+            break
+        left = _residual(act, by_force=by_force)
+        done = left.norm <= left.count * (tol * left.mean) ** 2
+        if step == max_iterations:
+            converged[act.index] = done
+            done = torch.ones_like(done)
+        if bool(done.any()):
+            ended = act.index[done]
+            pressure[ended], approach[ended] = act.pressure[done], left.level[done]
+            iterations[ended] = step
+            rest = ~done
+            act.keep(rest)
+            left = left.keep(rest)
+            if act.index.numel() == 0:
+                break
+        _advance(act, left, by_force=by_force, stiffness=stiffness)
+    return Solution(
+        pressure_mpa=pressure.view_as(gap_mm),
+        approach_mm=approach,
+        iterations=iterations,
+        converged=converged,
+    )
+
+
+def _residual(act: _Active, *, by_force: bool) -> _Residual:
+    displacement = act.displacement(act.pressure)
+    pressed = act.pressure > 0
+    contact = pressed.to(displacement.dtype)
+    count = contact.sum(1).clamp(min=1)
+    mean = _dot(displacement, contact) / count
+    gap = displacement.add_(act.gap)
+    level = _dot(gap, contact) / count if by_force else act.target
+    gap -= level[:, None]
+    gap = torch.where(pressed, gap, gap.clamp(max=0))
+    return _Residual(
+        gap=gap, contact=contact, count=count, level=level, norm=_dot(gap, gap), mean=mean
+    )
+
+
+def _advance(act: _Active, left: _Residual, *, by_force: bool, stiffness: float) -> None:
+    """One conjugate-gradient step, in place: direction, step length, projection, force."""
+    gap_in = left.gap * left.contact
+    norm = _dot(gap_in, gap_in)
+    beta = act.conjugate * norm / act.norm.clamp(min=1e-30)
+    act.direction = torch.addcmul(gap_in, act.direction * left.contact, beta[:, None])
+    act.norm = norm
+    response = act.displacement(act.direction)
+    curvature = _dot(response, act.direction)
+    if by_force:
+        mean = _dot(response, left.contact) / left.count
+        curvature -= mean * act.direction.sum(1)
+    ratio = _dot(gap_in, act.direction) / curvature.clamp(min=1e-30)
+    length = torch.where(curvature > 0, ratio, stiffness)[:, None]
+    overlap = left.gap - gap_in
+    pressure = act.pressure.addcmul(act.direction, length, value=-1.0).clamp_(min=0)
+    pressure = pressure.addcmul_(overlap, length, value=-1.0)
+    act.conjugate = (overlap.amin(1) >= 0).to(norm.dtype)
+    if by_force:
+        pressure *= (act.target / pressure.sum(1).clamp(min=1e-30))[:, None]
+    act.pressure = pressure

@@ -1,0 +1,191 @@
+"""One grid of a cascade: contacts solved each in its box, and the surface of the whole field.
+
+On a processor contacts that are pressed to a depth are solved one by one (``sim.gel.fine.single``);
+forces and accelerators take the plain solver (``sim.gel.contact_solver``).
+
+Not here: from which grid to which (``sim.gel.fine.fine``), the boxes (``sim.gel.fine.boxes``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import torch
+from torch import Tensor
+
+from sim.gel.compliance import GelMaterial, Spectrum, layer_kernel, love_kernel, spectrum_from
+from sim.gel.contact_solver import Solution, solve
+from sim.gel.fine.boxes import Box, by_size
+from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
+from sim.gel.gap import NO_BODY_MM
+from sim.gel.layer import ElasticLayer
+
+TOLERANCE = 1e-3
+"""Of every level: residual gap over the mean displacement in contact, root mean square."""
+
+_MOST_STEPS = 300
+
+
+@lru_cache(maxsize=32)
+def _kernel(material: GelMaterial | None, rows: int, columns: int, pitch_mm: float) -> Tensor:
+    if material is None:
+        return love_kernel(rows, columns, pitch_mm)
+    return layer_kernel(rows, columns, pitch_mm, material)
+
+
+@lru_cache(maxsize=128)
+def _spectrum(
+    material: GelMaterial | None,
+    grid: tuple[int, int, float],
+    size: tuple[int, int],
+    dtype: torch.dtype,
+    device: torch.device,
+) -> Spectrum:
+    """Of a box within a grid (rows, columns, pitch): a corner of the grid's kernel."""
+    return spectrum_from(_kernel(material, *grid)[: size[0], : size[1]], dtype, device)
+
+
+@lru_cache(maxsize=512)
+def _compliance(
+    material: GelMaterial | None,
+    grid: tuple[int, int, float],
+    size: tuple[int, int],
+    dtype: torch.dtype,
+) -> BoxCompliance:
+    """The same for one contact on a processor."""
+    return box_compliance(_kernel(material, *grid)[: size[0], : size[1]], dtype)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Level:
+    """One grid of the cascade, and E* of each body that presses (None: rigid)."""
+
+    layer: ElasticLayer
+    moduli_mpa: Tensor | None
+
+    @property
+    def _grid(self) -> tuple[int, int, float]:
+        return self.layer.rows, self.layer.columns, self.layer.pitch_mm
+
+    def _spectrum_of(self, size: tuple[int, int], chosen: Tensor, *, both: bool) -> Spectrum:
+        layer = self.layer
+        gel = _spectrum(layer.material, self._grid, size, layer.dtype, layer.device)
+        if self.moduli_mpa is None or not both:
+            return gel
+        body = _spectrum(None, self._grid, size, layer.dtype, layer.device)
+        inverse = (1.0 / self.moduli_mpa[chosen])[:, None, None]
+        return replace(gel, values=gel.values + inverse * body.values)
+
+    def _compliance_of(self, size: tuple[int, int], which: int, *, both: bool) -> BoxCompliance:
+        gel = _compliance(self.layer.material, self._grid, size, self.layer.dtype)
+        if self.moduli_mpa is None or not both:
+            return gel
+        body = _compliance(None, self._grid, size, self.layer.dtype)
+        return gel.beside(body, 1.0 / float(self.moduli_mpa[which]))
+
+    def surface(self, solved: Solution, gap: Tensor) -> tuple[Tensor, Tensor]:
+        """Surface of the gel, and the deformed gap between it and the body, both (B, H, W)."""
+        height = self._displacement(solved.pressure_mpa, both=False)
+        total = height
+        if self.moduli_mpa is not None:
+            total = self._displacement(solved.pressure_mpa, both=True)
+        return height, total + gap - solved.approach_mm[:, None, None]
+
+    def short_wave_share(self) -> Tensor | float:
+        """Share of the gel in the residual, which is short against the gel: as of half-spaces."""
+        if self.moduli_mpa is None:
+            return 1.0
+        gel = 1.0 / self.layer.material.plane_strain_mpa
+        return (gel / (gel + 1.0 / self.moduli_mpa))[:, None, None]
+
+    def _displacement(self, pressure_mpa: Tensor, *, both: bool) -> Tensor:
+        size = (self.layer.rows, self.layer.columns)
+        if self.layer.device.type == "cpu":
+            return torch.stack(
+                [
+                    convolution(self._compliance_of(size, which, both=both)).apply(one)
+                    for which, one in enumerate(pressure_mpa)
+                ]
+            )
+        # Not all at once, for their padded spectra.
+        parts = torch.arange(len(pressure_mpa), device=self.layer.device).split(256)
+        return torch.cat(
+            [self._spectrum_of(size, part, both=both).apply(pressure_mpa[part]) for part in parts]
+        )
+
+    def solve(
+        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
+    ) -> Solution:
+        """Solve every contact in its box.
+
+        Args:
+            boxes: One for each contact.
+            gap: (B, H, W), ``NO_BODY_MM`` where no pressure can act [mm].
+            load: (B,) [N] if ``by_force``, else [mm].
+            start: (B, H, W) [MPa].
+            by_force: Which of the two is given.
+        """
+        if gap.device.type == "cpu" and not by_force:
+            return self._solve_single(boxes, gap, load, start)
+        return self._solve_batches(boxes, gap, load, start, by_force=by_force)
+
+    def _solve_single(
+        self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor
+    ) -> Solution:
+        pressure = torch.zeros_like(start)
+        solved = []
+        for which, box in enumerate(boxes):
+            compliance = self._compliance_of((box.rows, box.columns), which, both=True)
+            one = solve_single(
+                compliance,
+                box.of(gap[which]),
+                float(depth[which]),
+                start_mpa=box.of(start[which]),
+                tol=TOLERANCE,
+                max_iterations=_MOST_STEPS,
+            )
+            box.of(pressure[which]).copy_(one.pressure_mpa)
+            solved.append(one)
+        return Solution(
+            pressure_mpa=pressure,
+            approach_mm=depth.clone(),
+            iterations=torch.tensor([one.iterations for one in solved]),
+            converged=torch.tensor([one.converged for one in solved]),
+        )
+
+    def _solve_batches(
+        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
+    ) -> Solution:
+        """Those whose boxes are equally large together."""
+        pressure = torch.zeros_like(start)
+        approach = torch.zeros_like(load)
+        iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)
+        converged = torch.ones(len(load), dtype=torch.bool, device=gap.device)
+        for size, members in by_size(boxes, one_by_one=gap.device.type == "cpu"):
+            chosen = torch.tensor(members, device=gap.device)
+            target = load[chosen]
+            first = torch.stack([boxes[i].of(start[i]) for i in members])
+            inside = torch.stack([boxes[i].of(gap[i]) for i in members])
+            first = first.clamp(min=0) * (inside < NO_BODY_MM)
+            if by_force:
+                target = target / self.layer.pitch_mm**2
+                total = first.flatten(1).sum(1).clamp(min=1e-30)
+                first = first * (target / total)[:, None, None]
+            solved = solve(
+                self._spectrum_of(size, chosen, both=True),
+                inside,
+                target,
+                by_force=by_force,
+                start_mpa=first,
+                stiffness=self.layer.stiffness,
+                tol=TOLERANCE,
+                max_iterations=_MOST_STEPS,
+            )
+            for place, i in enumerate(members):
+                boxes[i].of(pressure[i]).copy_(solved.pressure_mpa[place])
+            approach[chosen] = solved.approach_mm
+            iterations[chosen], converged[chosen] = solved.iterations, solved.converged
+        return Solution(
+            pressure_mpa=pressure, approach_mm=approach, iterations=iterations, converged=converged
+        )

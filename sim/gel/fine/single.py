@@ -1,0 +1,195 @@
+"""One contact at a time on a processor, pressed to a depth: conjugate gradients, preconditioned.
+
+The compliance yields far more to long waves than to short ones, so that plain conjugate gradients
+(``sim.gel.contact_solver``) need the more steps the finer the grid. Here the residual is first
+divided by the compliance as if the box were periodic; three or four steps then do, on any grid.
+Elements that overlap the body join the contact at once, without beginning anew.
+
+Not here: batches, forces, accelerators (``sim.gel.contact_solver``), levels and boxes
+(``sim.gel.fine.fine``).
+
+Source: Vollebregt (2014), J. Comput. Phys. 257, 333-351, for the preconditioner and for keeping
+the direction while the contact changes; the stop is that of ``sim.gel.contact_solver``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import torch
+from scipy.fft import dctn, next_fast_len
+from torch import Tensor
+
+_LEAST_SHARE = 1e-4  # of the largest compliance: bounds the preconditioner
+_FIRST_STEP = 0.8  # of what the preconditioner asks; in full it mostly goes too far
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BoxCompliance:
+    """A kernel ready for one contact in a box of (rows, columns) elements.
+
+    The spectra lie with rows inmost, which is how they are used, and repeat every value: for the
+    real and for the imaginary part.
+
+    Attributes:
+        rows: Of the box.
+        columns: Of the box.
+        padded_rows: Of the transform, >= 2 rows - 1, even.
+        padded_columns: Of the transform, >= 2 columns - 1, even.
+        values: Transform of the kernel, (padded_columns // 2 + 1, 2 padded_rows) [mm/MPa].
+        periodic: Transform of the kernel of the box as if it were periodic, shape
+            (columns // 2 + 1, 2 rows) [mm/MPa].
+    """
+
+    rows: int
+    columns: int
+    padded_rows: int
+    padded_columns: int
+    values: Tensor
+    periodic: Tensor
+
+    def beside(self, other: BoxCompliance, share: float) -> BoxCompliance:
+        """Both in series: this one and ``share`` of another for the same box."""
+        return replace(
+            self,
+            values=self.values + share * other.values,
+            periodic=self.periodic + share * other.periodic,
+        )
+
+
+def box_compliance(kernel: Tensor, dtype: torch.dtype) -> BoxCompliance:
+    """Of a kernel given for lags >= 0, (rows, columns), for a box of that size."""
+    rows, columns = kernel.shape
+    padded_rows, padded_columns = (2 * next_fast_len(n, real=True) for n in (rows, columns))
+    # The kernel is even, so a cosine transform over lags >= 0 is all of it.
+    half = torch.zeros(padded_rows // 2 + 1, padded_columns // 2 + 1, dtype=torch.float64)
+    half[:rows, :columns] = kernel
+    waves = torch.from_numpy(dctn(half.numpy(), type=1))
+    down, across = torch.arange(rows), torch.arange(columns)
+    nearest = kernel[torch.minimum(down, rows - down)][:, torch.minimum(across, columns - across)]
+    periodic = torch.fft.rfft2(nearest).real
+    periodic = periodic.clamp(min=_LEAST_SHARE * float(periodic.max()))
+    return BoxCompliance(
+        rows=rows,
+        columns=columns,
+        padded_rows=padded_rows,
+        padded_columns=padded_columns,
+        values=_twice(torch.cat([waves, waves[1:-1].flip(0)]), dtype),
+        periodic=_twice(periodic, dtype),
+    )
+
+
+def _twice(values: Tensor, dtype: torch.dtype) -> Tensor:
+    """(H, W) -> (W, 2 H), every value twice."""
+    return values.T.to(dtype).repeat_interleave(2, dim=1).contiguous()
+
+
+class Convolution:
+    """Zero-padded convolution with one real spectrum, its room kept from one to the next.
+
+    Rows are transformed first, and only those that hold anything; then columns, laid side by side.
+    """
+
+    def __init__(self, values: Tensor, size: tuple[int, int], padded: tuple[int, int]) -> None:
+        """With ``values`` (padded columns // 2 + 1, 2 padded rows) of fields of ``size``."""
+        self.padded = padded
+        self._values, (self._rows, self._columns) = values, size
+        self._field = values.new_zeros(size[0], padded[1])
+        self._waves = torch.zeros(
+            padded[1] // 2 + 1, padded[0], dtype=values.dtype.to_complex(), device=values.device
+        )
+
+    def apply(self, field: Tensor) -> Tensor:
+        """Convolve a field (rows, columns)."""
+        self._field[:, : self._columns] = field
+        self._waves[:, : self._rows] = torch.fft.rfft(self._field).T
+        waves = torch.fft.fft(self._waves)
+        torch.view_as_real(waves).view_as(self._values).mul_(self._values)
+        waves = torch.fft.ifft(waves)[:, : self._rows]
+        return torch.fft.irfft(waves.T, n=self.padded[1])[:, : self._columns]
+
+
+def convolution(compliance: BoxCompliance) -> Convolution:
+    """Displacement [mm] of pressure [MPa]."""
+    size = (compliance.rows, compliance.columns)
+    padded = (compliance.padded_rows, compliance.padded_columns)
+    return Convolution(compliance.values, size, padded)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SingleSolution:
+    """Pressure of one contact.
+
+    Attributes:
+        pressure_mpa: (H, W) [MPa].
+        iterations: How many.
+        converged: False where ``max_iterations`` ended it.
+    """
+
+    pressure_mpa: Tensor
+    iterations: int
+    converged: bool
+
+
+def solve_single(
+    compliance: BoxCompliance,
+    gap_mm: Tensor,
+    depth_mm: float,
+    *,
+    start_mpa: Tensor,
+    tol: float,
+    max_iterations: int,
+) -> SingleSolution:
+    """Solve one contact by depth.
+
+    Args:
+        compliance: Of the two surfaces together.
+        gap_mm: Undeformed gap, (H, W) [mm].
+        depth_mm: Approach [mm].
+        start_mpa: First guess, (H, W) [MPa]; what it has where the body does not come below the
+            undeformed surface is not used.
+        tol: Root mean square of the residual gap over the mean displacement in contact.
+        max_iterations: Bound.
+    """
+    yielding = convolution(compliance)
+    size = (compliance.rows, compliance.columns)
+    stiffening = Convolution(compliance.periodic.reciprocal(), size, size)
+    above = gap_mm - depth_mm
+    pressure = torch.where(above < 0, start_mpa.clamp(min=0), 0.0)
+    direction, before, power = torch.zeros_like(above), torch.zeros_like(above), torch.inf
+    if not bool((above < 0).any()):
+        return SingleSolution(pressure_mpa=pressure, iterations=0, converged=True)
+    displacement = yielding.apply(pressure)
+    for step in range(max_iterations + 1):
+        opening = displacement + above
+        inside = pressure > 0
+        pressed = inside.to(above.dtype)
+        count = max(float(pressed.sum()), 1.0)
+        mean = _dot(displacement, pressed) / count
+        residual = torch.where(inside, opening, opening.clamp(max=0))
+        done = _dot(residual, residual) <= count * (tol * mean) ** 2
+        if done or step == max_iterations:
+            break
+        free = (residual != 0).to(above.dtype)
+        wanted = stiffening.apply(residual).mul_(free)
+        if step == 0:
+            pressure = pressure.sub_(wanted, alpha=_FIRST_STEP).clamp_(min=0)
+            displacement = yielding.apply(pressure)
+            continue
+        # Polak and Ribière's rule forgets by itself what a change of the contact made useless.
+        kept = max(0.0, _dot(wanted, torch.sub(residual, before, out=before)) / power)
+        torch.add(wanted, direction.mul_(free), alpha=kept, out=direction)
+        before, power = residual, _dot(wanted, residual)
+        response = yielding.apply(direction)
+        length = _dot(residual, direction) / max(_dot(response, direction), 1e-30)
+        pressure = pressure.sub_(direction, alpha=length)
+        if float(pressure.amin()) < 0:
+            pressure = pressure.clamp_(min=0)
+            displacement = yielding.apply(pressure)
+        else:
+            displacement = displacement.sub(response, alpha=length)
+    return SingleSolution(pressure_mpa=pressure, iterations=step, converged=done)
+
+
+def _dot(first: Tensor, second: Tensor) -> float:
+    return float(torch.dot(first.flatten(), second.flatten()))

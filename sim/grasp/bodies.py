@@ -1,0 +1,323 @@
+"""Bodies that a gripper can hold: their surface as a finger sees it, and what they are made of.
+
+A body is a height field (how far its surface lies behind the point that is nearest to the finger)
+with a mass, a stiffness, a friction and a bruise limit, drawn from stated ranges by a seed. Both
+fingers are taken to see the same surface (mirrored): our simplification, exact for bodies that are
+symmetric about the plane between the fingers.
+
+Body frame: the pad's axes (x right, y up), origin at the point nearest to the finger.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
+
+from sim.gel.gap import NO_BODY_MM
+
+FloatArray = NDArray[np.float64]
+
+PITCH_MM = 0.15
+HALF_SPAN_MM = 24.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Range:
+    """Interval that a quantity is drawn from, uniformly or log-uniformly."""
+
+    low: float
+    high: float
+    log: bool = False
+
+    def quantile(self, u: float) -> float:
+        """The ``u`` quantile, u in [0, 1]."""
+        if self.log:
+            return float(self.low * (self.high / self.low) ** u)
+        return float(self.low + (self.high - self.low) * u)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Body:
+    """One drawn body.
+
+    Attributes:
+        name: What it is.
+        gap_mm: Shape (N, N), height field on a square grid of ``PITCH_MM`` centred on the origin,
+            row 0 at the top; 0 at the point nearest to the finger, ``NO_BODY_MM`` where nothing is.
+        com_mm: Centre of mass (x, y) relative to that point [mm].
+        gyration_mm: Radius of gyration about the closing axis [mm].
+        thickness_mm: Extent along the closing direction [mm].
+        mass_kg: Mass [kg].
+        young_mpa: Young's modulus [MPa]; infinite for a rigid body.
+        poisson: Poisson's ratio.
+        friction: Coulomb coefficient against the gel.
+        bruise_n: Force of flat gelled fingers that just bruises (or cracks) it [N]; the pressure
+            that this makes is the limit wherever and however it is held (``sim.grasp.world``).
+    """
+
+    name: str
+    gap_mm: FloatArray
+    com_mm: tuple[float, float]
+    gyration_mm: float
+    thickness_mm: float
+    mass_kg: float
+    young_mpa: float
+    poisson: float
+    friction: float
+    bruise_n: float
+
+    @property
+    def modulus_mpa(self) -> float:
+        """Plane-strain modulus E / (1 - ν²) [MPa]."""
+        return self.young_mpa / (1 - self.poisson**2)
+
+    def gap_on(self, x_mm: FloatArray, y_mm: FloatArray) -> FloatArray:
+        """Gap at body-frame coordinates.
+
+        Args:
+            x_mm: Shape (W,), ascending [mm].
+            y_mm: Shape (H,), descending [mm].
+
+        Returns:
+            Shape (H, W) [mm].
+        """
+        centre = (self.gap_mm.shape[0] - 1) / 2
+        rows = centre - y_mm / PITCH_MM
+        columns = centre + x_mm / PITCH_MM
+        grid = np.meshgrid(rows, columns, indexing="ij")
+        return np.asarray(
+            map_coordinates(self.gap_mm, grid, order=1, mode="constant", cval=NO_BODY_MM),
+            dtype=np.float64,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ranges:
+    """What an object's properties are drawn from. Sources beside each preset."""
+
+    mass_g: Range
+    young_mpa: Range
+    poisson: float
+    friction: Range
+    bruise_n: Range
+    first_force_n: Range
+
+
+# Strawberry. Mass 7-40 g (cultivars 11-40 g, classes from 7 g: weak web sources); E 0.20 MPa
+# (GelSight-lab/TactileEstimateModulus, citing a paper) within a factor of 1.5; friction with
+# silicone was found nowhere: an assumption. Bruise force 2.0-3.2 N: an assumption of the order of
+# the 1.1-2.7 N that punctures (by cultivar).
+# Tomato, egg, peg: assumptions of the same kind, chosen to need rising force.
+OBJECTS: dict[str, Ranges] = {
+    "strawberry": Ranges(
+        mass_g=Range(low=7, high=40),
+        young_mpa=Range(low=0.133, high=0.30, log=True),
+        poisson=0.35,
+        friction=Range(low=0.3, high=0.8),
+        bruise_n=Range(low=2.0, high=3.2),
+        first_force_n=Range(low=0.3, high=3.0, log=True),
+    ),
+    "cherry_tomato": Ranges(
+        mass_g=Range(low=8, high=18),
+        young_mpa=Range(low=0.25, high=0.6, log=True),
+        poisson=0.45,
+        friction=Range(low=0.4, high=0.9),
+        bruise_n=Range(low=1.4, high=2.4),
+        first_force_n=Range(low=0.2, high=1.5, log=True),
+    ),
+    "egg": Ranges(
+        mass_g=Range(low=45, high=65),
+        young_mpa=Range(low=50, high=100, log=True),
+        poisson=0.3,
+        friction=Range(low=0.3, high=0.6),
+        bruise_n=Range(low=7, high=12),
+        first_force_n=Range(low=0.8, high=5.0, log=True),
+    ),
+    "peg": Ranges(
+        mass_g=Range(low=60, high=140),
+        young_mpa=Range(low=2e4, high=2e5, log=True),
+        poisson=0.3,
+        friction=Range(low=0.4, high=0.8),
+        bruise_n=Range(low=200, high=400),
+        first_force_n=Range(low=1.5, high=9.0, log=True),
+    ),
+}
+
+_GRID = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
+
+
+def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
+    """Draw a body of a known kind.
+
+    Args:
+        name: A key of ``OBJECTS``.
+        rng: Where the draws come from.
+        tails: Share of each range left out at either end: 0 draws from all, 0.1 from the 10-90 %
+            quantiles.
+
+    Raises:
+        ValueError: Unknown kind; the message lists the known ones.
+    """
+    if name not in OBJECTS:
+        raise ValueError(f"unknown object {name!r}; known: {', '.join(OBJECTS)}")
+    ranges = OBJECTS[name]
+
+    def draw(of: Range) -> float:
+        return of.quantile(tails + (1 - 2 * tails) * rng.random())
+
+    mass_g = draw(ranges.mass_g)
+    young, friction, bruise = draw(ranges.young_mpa), draw(ranges.friction), draw(ranges.bruise_n)
+    gap, com, gyration, thickness = _SHAPES[name](mass_g, rng)
+    return Body(
+        name=name,
+        gap_mm=gap,
+        com_mm=com,
+        gyration_mm=gyration,
+        thickness_mm=thickness,
+        mass_kg=mass_g / 1000,
+        young_mpa=young,
+        poisson=ranges.poisson,
+        friction=friction,
+        bruise_n=bruise,
+    )
+
+
+Shaped = tuple[FloatArray, tuple[float, float], float, float]
+
+
+def _strawberry(mass_g: float, rng: np.random.Generator) -> Shaped:
+    """Berry hanging tip down: revolved profile, tilted a little, with achenes.
+
+    Diameter from the mass at constant shape through (7 g, 25 mm), ± 6 %: within 4 % of the four
+    mass classes of the notes.
+    """
+    diameter = 25.0 * (mass_g / 7.0) ** (1 / 3) * rng.uniform(0.94, 1.06)
+    length = diameter * rng.uniform(1.05, 1.35)
+    shoulder = rng.uniform(0.55, 0.65)  # where it is widest, from the tip
+
+    def radius(s: FloatArray) -> FloatArray:
+        """Radius [mm] at the share s of the length from the tip; ends are round (∝ √)."""
+        inside = np.clip(s, 0.0, 1.0)
+        # s^a (1-s)^b is widest at a / (a + b); a = 1/2 keeps the tip round
+        a, b = 0.5, 0.5 * (1 - shoulder) / shoulder
+        widest = shoulder**a * (1 - shoulder) ** b
+        return diameter / 2 * inside**a * (1 - inside) ** b / widest
+
+    roll = rng.normal(0, math.radians(8))  # hangs nearly straight
+    return _revolved(radius, length, roll, _achenes(rng, length))
+
+
+def _egg(mass_g: float, rng: np.random.Generator) -> Shaped:
+    """Egg standing on its blunt end; a 60 g egg is about 43 mm wide and 56 mm long."""
+    diameter = 43.0 * (mass_g / 60.0) ** (1 / 3)
+    length = diameter * rng.uniform(1.22, 1.38)
+
+    def radius(s: FloatArray) -> FloatArray:
+        u = 2 * np.clip(s, 0, 1) - 1
+        taper = 1 + 0.1 * u  # a little wider below
+        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None)) / taper
+
+    return _revolved(radius, length, rng.normal(0, math.radians(4)))
+
+
+def _tomato(mass_g: float, rng: np.random.Generator) -> Shaped:
+    """Cherry tomato: a slightly oval ball, density 1 g/cm³."""
+    oval = rng.uniform(0.95, 1.25)
+    diameter = (6 * mass_g * 1000 / (math.pi * oval)) ** (1 / 3)
+
+    def radius(s: FloatArray) -> FloatArray:
+        u = 2 * np.clip(s, 0, 1) - 1
+        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None))
+
+    return _revolved(radius, diameter * oval, rng.normal(0, math.radians(20)))
+
+
+def _peg(mass_g: float, rng: np.random.Generator) -> Shaped:
+    """Upright steel peg, 12-20 mm across, its length (from the mass at 7.8 g/cm³) 25-80 mm."""
+    diameter = rng.uniform(12, 20)
+    length = float(np.clip(mass_g * 1000 / 7.8 / (math.pi * diameter**2 / 4), 25, 80))
+
+    def radius(s: FloatArray) -> FloatArray:
+        inside = (s >= 0) & (s <= 1)
+        return np.where(inside, diameter / 2, 0.0)
+
+    return _revolved(radius, length, rng.normal(0, math.radians(2)))
+
+
+_SHAPES: dict[str, Callable[[float, np.random.Generator], Shaped]] = {
+    "strawberry": _strawberry,
+    "cherry_tomato": _tomato,
+    "egg": _egg,
+    "peg": _peg,
+}
+
+
+def _revolved(
+    radius: Callable[[FloatArray], FloatArray],
+    length: float,
+    roll: float,
+    relief: Callable[[FloatArray, FloatArray], FloatArray] | None = None,
+) -> Shaped:
+    """Height field of a body of revolution whose axis lies in the plane between the fingers.
+
+    Args:
+        radius: Radius [mm] at the share s of the length, 0 at the lower end.
+        length: Along the axis [mm].
+        roll: Tilt of the axis from the vertical, in the pad's plane [rad].
+        relief: Added height [mm] at (s, angle about the axis), for seeds and the like.
+    """
+    x, y = np.meshgrid(_GRID, -_GRID)
+    s = np.linspace(0, 1, 401)
+    r = radius(s)
+    widest = float(s[r >= r.max() - 1e-9].mean())
+    # along and across the axis, from the widest point, which is the nearest to the finger
+    t = x * math.sin(roll) + y * math.cos(roll)
+    u = x * math.cos(roll) - y * math.sin(roll)
+    share = widest + t / length
+    reach = radius(share)
+    hit = (reach > np.abs(u)) & (share > 0) & (share < 1)
+    front = np.sqrt(np.clip(reach**2 - u**2, 0, None))
+    if relief is not None:
+        front = front + relief(share, np.arctan2(u, front))
+    gap = np.where(hit, front[hit].max() - front, NO_BODY_MM)
+    weight = r**2
+    centroid = float((s * weight).sum() / weight.sum())
+    along = (centroid - widest) * length
+    spread = float(np.sqrt(((s - centroid) ** 2 * weight).sum() / weight.sum())) * length
+    gyration = math.hypot(spread, float(np.sqrt((r**2 * weight).sum() / weight.sum()) / 2))
+    com = (along * math.sin(roll), along * math.cos(roll))
+    return gap, com, gyration, 2 * float(r.max())
+
+
+def _achenes(
+    rng: np.random.Generator, length: float
+) -> Callable[[FloatArray, FloatArray], FloatArray]:
+    """Relief of 120-280 achenes, 2 mm long, on a golden-angle spiral.
+
+    Count within the 20-500 and length within the 1.5-2.5 mm of the notes. Height 0.05-0.12 mm: our
+    choice, since they sit in pits.
+    """
+    count = int(rng.integers(120, 280))
+    height = rng.uniform(0.05, 0.12)
+    start = rng.uniform(0, 2 * math.pi)
+    index = np.arange(count)
+    at_s = 0.06 + 0.88 * (index + 0.5) / count
+    at_angle = (start + index * math.pi * (3 - math.sqrt(5))) % (2 * math.pi) - math.pi
+    half_long, half_wide, mean_radius = 1.0, 0.6, 0.42 * length
+
+    def relief(s: FloatArray, angle: FloatArray) -> FloatArray:
+        bumps = np.zeros_like(s)
+        for one_s, one_angle in zip(at_s, at_angle, strict=True):
+            if abs(one_angle) > 1.3:  # behind the berry, seen from this finger
+                continue
+            along = (s - one_s) * length / half_long
+            across = (angle - one_angle) * mean_radius / half_wide
+            bumps = np.maximum(bumps, np.clip(1 - along**2 - across**2, 0, None))
+        return height * bumps
+
+    return relief

@@ -1,0 +1,231 @@
+"""Simulated arm, gripper, tactile sensor and clock around one ``sim.grasp.world.Grasp``.
+
+They see only what real ones would: poses, commanded forces, a noisy gel. Time is simulated: motions
+and waits take the time that they would take, at once.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
+
+from cltp.errors import TouchError
+from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.sensor_noise import NoiseUnit
+from cltp.tactile.sensors import SensorSpec
+from primitives.devices import GripperState, Pose
+from primitives.errors import LimitError, RobotError
+from sim.grasp.fingers import COLUMNS, ROWS
+from sim.grasp.world import Grasp
+
+START_POSE = Pose(
+    position_m=np.array([0.45, -0.10, 0.20]), rotvec_rad=np.array([math.pi, 0.0, 0.0])
+)
+"""Fingers pointing down: TCP z along base -z, TCP x along base x."""
+
+PAD_X_IN_TCP = (1.0, 0.0, 0.0)
+PAD_Y_IN_TCP = (0.0, 0.0, -1.0)
+
+MAX_WIDTH_M = 0.11
+MAX_FORCE_N = 20.0
+REACH_M = 0.9
+GRIP_S = 0.6
+OPEN_SPEED_M_S = 0.05
+
+
+class SimClock:
+    """Time in a simulated world: real time, plus what motions and waits would have taken."""
+
+    def __init__(self) -> None:
+        self._ahead_s = 0.0
+        self._grasp: Grasp | None = None
+
+    def monotonic(self) -> float:
+        """Monotonic clock [s]."""
+        return time.monotonic() + self._ahead_s
+
+    def wall(self) -> float:
+        """Wall clock [s since the epoch], metadata only."""
+        return time.time() + self._ahead_s
+
+    def sleep(self, seconds: float) -> None:
+        """Let simulated time pass; the world acts."""
+        if seconds < 0:
+            raise ValueError(f"can't sleep for {seconds} s")
+        self.advance(seconds)
+        if self._grasp is not None:
+            self._grasp.wait(seconds)
+
+    def advance(self, seconds: float) -> None:
+        """Move the clock on after a motion that the world has already done."""
+        self._ahead_s += seconds
+
+    def watch(self, grasp: Grasp) -> None:
+        """Let ``sleep`` act on this grasp."""
+        self._grasp = grasp
+
+    def stamp(self) -> Stamp:
+        """Both clocks, now."""
+        return Stamp(monotonic_s=self.monotonic(), wall_s=self.wall())
+
+
+class SimArm:
+    """Moves the pad of a simulated grasp; a ``primitives.devices.Arm``."""
+
+    def __init__(self, grasp: Grasp, clock: SimClock) -> None:
+        self._grasp, self._clock = grasp, clock
+        self._pose = START_POSE
+        self._connected = True
+
+    def pose(self) -> Pose:
+        """The pose of the TCP in the base frame."""
+        self._check_connected()
+        return self._pose
+
+    def move_to(
+        self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
+    ) -> Pose:
+        """Move on a straight line; the world decides what happens to what is held."""
+        self._check_connected()
+        if not (0 < speed_m_s <= 1 and 0 < acceleration_m_s2 <= 10):
+            raise LimitError(
+                f"speed {speed_m_s} m/s or acceleration {acceleration_m_s2} m/s² is beyond the "
+                "simulated arm (1 m/s, 10 m/s²)"
+            )
+        if np.linalg.norm(pose.position_m) > REACH_M:
+            raise LimitError(
+                f"position {pose.position_m.round(3).tolist()} m is beyond the simulated arm's "
+                f"reach of {REACH_M} m"
+            )
+        if np.linalg.norm(pose.rotvec_rad - self._pose.rotvec_rad) > 1e-6:
+            raise LimitError("the simulated arm keeps its orientation; only the position may move")
+        base_from_tcp = Rotation.from_rotvec(np.array(self._pose.rotvec_rad))
+        by_m = pose.position_m - self._pose.position_m
+        by_mm = tuple(
+            float(1000 * base_from_tcp.apply(axis) @ by_m) for axis in (PAD_X_IN_TCP, PAD_Y_IN_TCP)
+        )
+        seconds = self._grasp.move((by_mm[0], by_mm[1]), speed_m_s, acceleration_m_s2)
+        self._clock.advance(seconds)
+        self._pose = pose
+        return self._pose
+
+    def stop(self) -> None:
+        """Nothing to stop: simulated motions have ended when ``move_to`` returns."""
+
+    def disconnect(self) -> None:
+        """Refuse further commands."""
+        self._connected = False
+
+    def _check_connected(self) -> None:
+        if not self._connected:
+            raise RobotError("the simulated arm is disconnected")
+
+
+def settled_width_m(grasp: Grasp) -> float:
+    """Opening at which closed fingers rest [m]: on what they hold, 0 when that is nothing."""
+    if grasp.patch is None:
+        return 0.0
+    return max(0.0, grasp.fingers.body.thickness_mm - 2 * grasp.patch.depth_mm) / 1000
+
+
+class SimGripper:
+    """Closes the fingers of a simulated grasp; a ``primitives.devices.Gripper``.
+
+    Attributes:
+        factor: True force over commanded force; hidden from policies (a worn gripper).
+    """
+
+    def __init__(self, grasp: Grasp, clock: SimClock, factor: float) -> None:
+        self._grasp, self._clock, self.factor = grasp, clock, factor
+        self._state = GripperState(width_m=MAX_WIDTH_M, force_n=0.0, closed=False)
+        self._connected = True
+
+    def state(self) -> GripperState:
+        """Opening and last commanded force."""
+        self._check_connected()
+        return self._state
+
+    def grip(self, force_n: float) -> GripperState:
+        """Close, or adjust the grip, to a commanded force; the true one is off by ``factor``."""
+        self._check_connected()
+        if not (math.isfinite(force_n) and 0 < force_n <= MAX_FORCE_N):
+            raise LimitError(f"force must lie in (0, {MAX_FORCE_N}] N, got {force_n}")
+        self._clock.advance(GRIP_S)
+        self._grasp.close(force_n * self.factor)
+        self._state = GripperState(
+            width_m=settled_width_m(self._grasp), force_n=force_n, closed=True
+        )
+        return self._state
+
+    def open_by(self, clear_m: float) -> GripperState:
+        """Open by ``clear_m`` [m]."""
+        self._check_connected()
+        if not (math.isfinite(clear_m) and clear_m > 0):
+            raise LimitError(f"the gripper opens by a positive number of metres, got {clear_m}")
+        self._grasp.open()
+        width_m = min(MAX_WIDTH_M, self._state.width_m + clear_m)
+        self._clock.advance((width_m - self._state.width_m) / OPEN_SPEED_M_S)
+        self._state = GripperState(width_m=width_m, force_n=0.0, closed=False)
+        return self._state
+
+    def stop(self) -> None:
+        """Nothing to stop; the grip is kept."""
+
+    def disconnect(self) -> None:
+        """Refuse further commands; the grip is kept."""
+        self._connected = False
+
+    def _check_connected(self) -> None:
+        if not self._connected:
+            raise RobotError("the simulated gripper is disconnected")
+
+
+class SimSensor:
+    """A ``tacgrasp.rig.protocols.TactileSensor`` that reads the gel of a simulated grasp."""
+
+    def __init__(
+        self,
+        grasp: Grasp,
+        clock: SimClock,
+        spec: SensorSpec,
+        unit: NoiseUnit,
+        seed: int,
+    ) -> None:
+        self._grasp, self._clock, self._spec = grasp, clock, spec
+        self._unit, self._seed = unit, seed
+        self._rng = np.random.default_rng([seed, 2])
+        self._connected = True
+
+    @property
+    def spec(self) -> SensorSpec:
+        """Which sensor this is."""
+        return self._spec
+
+    def height_mm(self) -> NDArray[np.float32]:
+        """The gel as it is now, with this unit's errors and this contact's noise.
+
+        The drift is that of the reconstruction, not of the camera: frames of one contact share it,
+        a new grip draws a new one, and averaging frames takes none of it away.
+
+        Returns:
+            Shape (ROWS, COLUMNS) [mm].
+        """
+        patch = self._grasp.patch
+        clean = np.zeros((ROWS, COLUMNS)) if patch is None else patch.height_mm
+        contact = np.random.default_rng([self._seed, 3, self._grasp.contacts])
+        return self._unit.apply(clean, self._spec, contact)
+
+    def read(self) -> TactileCloud:
+        """A cloud of the gel as it is now."""
+        if not self._connected:
+            raise TouchError("the simulated sensor is disconnected")
+        heights, stamp = self.height_mm(), self._clock.stamp()
+        return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=stamp)
+
+    def disconnect(self) -> None:
+        """Refuse further reads."""
+        self._connected = False

@@ -1,0 +1,320 @@
+"""Contact and friction of a body between two flat fingers: pressure, and what it can hold.
+
+One contact solve a grip (``sim.gel.layer``), and the limit of static friction of both patches
+against a load. What becomes of the body in time is in ``sim.grasp.world``.
+
+World and pad share axes: x right, y up (towards the palm), gravity along -y. Both fingers carry
+the same gel, one of them the camera. The pad ends at the sensor's field: the part of a patch that
+would lie beyond it carries nothing, so what is left carries all of the force, at a higher pressure.
+Sources: limit surface and maximum dissipation after Goyal, Ruina and
+Papadopoulos (1991), 'Planar sliding with dry friction'; contact in ``sim.gel.layer``.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.sensors import SensorSpec
+from sim.gel.layer import ElasticLayer, GelMaterial
+from sim.grasp.bodies import Body
+
+FloatArray = NDArray[np.float64]
+
+GRAVITY_M_S2 = 9.81
+
+ROWS, COLUMNS = 60, 80
+"""Grid over the sensor's field: 0.254 mm on a GelSight Mini."""
+
+BRUISE_RADIUS_MM = 1.5
+"""Pressure is averaged over a disc of this radius before it is compared with the bruise limit.
+
+Our choice: flesh yields over millimetres, not at the tip of an achene or at the sharp edge of the
+pad, where the pressure of linear elasticity is unbounded and would depend on the grid.
+"""
+
+_TOLERANCE = 1e-3  # of the solver: heights within about 1 µm of the converged ones
+_LENGTH_MM = 5.0  # turns a rotation into a displacement when motions are sampled
+
+
+_BLOCK = 2
+
+
+def _motions(count: int = 500) -> FloatArray:
+    """Unit planar motions (x, y, rotation × length), spread evenly over half of the sphere.
+
+    The other half are their opposites, in which friction dissipates the same. Shape (count, 3).
+    """
+    i = np.arange(count) + 0.5
+    z = 1 - i / count
+    angle = i * math.pi * (3 - math.sqrt(5))
+    rim = np.sqrt(1 - z**2)
+    return np.stack([rim * np.cos(angle), rim * np.sin(angle), z], axis=1)
+
+
+_MOTIONS = _motions()
+
+
+def _around(motion: FloatArray, spread: float) -> FloatArray:
+    """Unit motions in a 5 × 5 grid of steps ``spread`` about one. Shape (25, 3)."""
+    aside = np.cross(motion, np.eye(3)[int(np.argmin(np.abs(motion)))])
+    aside /= np.linalg.norm(aside)
+    other = np.cross(motion, aside)
+    steps = spread * np.arange(-2, 3)
+    near = motion + steps[:, None, None] * aside + steps[:, None] * other
+    near = near.reshape(-1, 3)
+    return np.asarray(near / np.linalg.norm(near, axis=1, keepdims=True))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Patch:
+    """A body pressed between the fingers, seen by one of them.
+
+    Attributes:
+        force_n: True normal force [N].
+        offset_mm: The body's origin on the pad [mm, gel frame].
+        height_mm: Shape (ROWS, COLUMNS), the gel's surface over the field [mm].
+        pressure_kpa: Same shape.
+        peak_kpa: Largest pressure, averaged as ``BRUISE_RADIUS_MM`` says.
+        depth_mm: Approach of the body [mm].
+    """
+
+    force_n: float
+    offset_mm: tuple[float, float]
+    height_mm: FloatArray
+    pressure_kpa: FloatArray
+    peak_kpa: float
+    depth_mm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Resistance:
+    """Whether two patches hold a body against a load.
+
+    Attributes:
+        margin: Largest factor on the load that friction resists; below 1 the body slides.
+        motion: Shape (3,), the motion (x, y [mm], rotation [rad] × 5 mm) in which it would slide.
+        excess_n: Load less friction along that motion [N].
+        patch_speed: Root mean square speed of the patch in that motion, per unit speed.
+    """
+
+    margin: float
+    motion: FloatArray
+    excess_n: float
+    patch_speed: float
+
+
+@dataclass(slots=True, kw_only=True)
+class _Friction:
+    """A patch's loaded blocks about the centre of mass; what ``_MOTIONS`` dissipate in them."""
+
+    patch: Patch
+    force: FloatArray
+    x: FloatArray
+    y: FloatArray
+    push: FloatArray
+    dissipated: FloatArray = field(default_factory=lambda: np.zeros(0))
+
+    def slide(self, motions: FloatArray) -> FloatArray:
+        """Force times sliding speed, summed over the blocks, for each motion."""
+        return np.asarray(np.sqrt(self._squared_speed(motions)) @ self.force)
+
+    def patch_speed(self, motion: FloatArray) -> float:
+        """Root mean square speed of the patch in a motion."""
+        square = self._squared_speed(motion[None])[0]
+        return float(np.sqrt(square @ self.force / self.force.sum()))
+
+    def _squared_speed(self, motions: FloatArray) -> FloatArray:
+        spin = motions[:, 2:] / _LENGTH_MM
+        return np.asarray(
+            (motions[:, :1] - spin * self.y) ** 2 + (motions[:, 1:2] + spin * self.x) ** 2
+        )
+
+
+class _Worst(NamedTuple):
+    margin: float
+    motion: FloatArray
+    excess_n: float
+
+
+def _worst(motions: FloatArray, dissipated: FloatArray, load: FloatArray) -> _Worst:
+    """The motion, of either sign, that the load is nearest to driving."""
+    power = motions @ load
+    margins = dissipated / np.maximum(np.abs(power), 1e-12)
+    at = int(np.argmin(margins))
+    forwards = 1.0 if power[at] >= 0 else -1.0
+    return _Worst(
+        margin=float(margins[at]),
+        motion=forwards * motions[at],
+        excess_n=float(abs(power[at]) - dissipated[at]),
+    )
+
+
+class FlatFingers:
+    """Solves contact and friction of one body between the two fingers of a sensor's gripper."""
+
+    def __init__(self, body: Body, sensor: SensorSpec, material: GelMaterial) -> None:
+        self.body = body
+        self.sensor = sensor
+        self._pitch_mm = sensor.width_mm / COLUMNS
+        self._x_mm, self._y_mm = grid_axes_mm(sensor, ROWS, COLUMNS)
+        self._layer = ElasticLayer(
+            material,
+            rows=ROWS,
+            columns=COLUMNS,
+            pitch_mm=self._pitch_mm,
+            body_modulus_mpa=body.modulus_mpa,
+        )
+        self._disc = _disc(BRUISE_RADIUS_MM / self._pitch_mm)
+        self._bruise_kpa: float | None = None
+        self._friction: _Friction | None = None
+
+    @property
+    def bruise_kpa(self) -> float:
+        """Pressure that bruises the body: what its bruise force makes at the pad's centre [kPa]."""
+        if self._bruise_kpa is None:
+            self._bruise_kpa = self.press((0.0, 0.0), self.body.bruise_n).peak_kpa
+        return self._bruise_kpa
+
+    def slip_minimum_n(self, accelerations_m_s2: Sequence[tuple[float, float]]) -> float:
+        """Smallest true force [N] that holds the body, centred, through all accelerations.
+
+        Interpolated between eight forces from 0.04 to 16 N, in which it nearly is a power law.
+        """
+        forces = np.geomspace(0.04, 16, 8)
+        patches = self.press_many([(0.0, 0.0)] * len(forces), forces.tolist())
+        margins = [
+            min(self.resistance(patch, each).margin for each in accelerations_m_s2)
+            for patch in patches
+        ]
+        return float(np.exp(np.interp(0.0, np.log(margins), np.log(forces))))
+
+    def gap_mm(self, offset_mm: tuple[float, float]) -> FloatArray:
+        """How far the body lies behind its nearest point, over the pad [mm]."""
+        return self.body.gap_on(self._x_mm - offset_mm[0], self._y_mm - offset_mm[1])
+
+    def reaches(self, offset_mm: tuple[float, float]) -> bool:
+        """Whether the fingers, closing, would meet the body at all."""
+        return bool(self.gap_mm(offset_mm).min() < self.body.thickness_mm / 2)
+
+    def press(self, offset_mm: tuple[float, float], force_n: float) -> Patch:
+        """Patch of a body at ``offset_mm`` pressed with ``force_n`` [N]."""
+        return self.press_many([offset_mm], [force_n])[0]
+
+    def press_many(
+        self, offsets_mm: list[tuple[float, float]], forces_n: list[float]
+    ) -> list[Patch]:
+        """Like ``press`` for several places and forces in one batch."""
+        gaps = np.stack([self.gap_mm(offset) for offset in offsets_mm])
+        gaps -= gaps.min(axis=(1, 2), keepdims=True)
+        with torch.inference_mode():
+            pressed = self._layer.press_to_force(
+                torch.as_tensor(gaps, dtype=torch.float32),
+                torch.as_tensor(forces_n, dtype=torch.float32),
+                tol=_TOLERANCE,
+            )
+        heights = pressed.height_mm.double().numpy()
+        pressures = pressed.pressure_kpa.double().numpy()
+        return [
+            Patch(
+                force_n=force,
+                offset_mm=offset,
+                height_mm=heights[i],
+                pressure_kpa=pressures[i],
+                peak_kpa=self._peak_kpa(pressures[i]),
+                depth_mm=float(pressed.depth_mm[i]),
+            )
+            for i, (offset, force) in enumerate(zip(offsets_mm, forces_n, strict=True))
+        ]
+
+    def _peak_kpa(self, pressure_kpa: FloatArray) -> float:
+        field_ = torch.as_tensor(pressure_kpa)[None, None]
+        mean = torch.nn.functional.conv2d(field_, self._disc, padding=self._disc.shape[-1] // 2)
+        return float(mean.max())
+
+    def resistance(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> Resistance:
+        """Whether the patch holds the body while the fingers accelerate.
+
+        The load on either patch is half of weight and inertia, and what the slanted pressure adds:
+        a body cut by the pad's edge is squeezed outwards. Motions are taken about the centre of
+        mass, so that an off-centre patch must carry the moment by torsion.
+
+        Args:
+            patch: What is held.
+            acceleration_m_s2: Of the fingers, (x, y) of the pad.
+        """
+        friction = self._friction_of(patch)
+        half_mass = self.body.mass_kg / 2
+        load = friction.push.copy()
+        load[0] -= half_mass * acceleration_m_s2[0]
+        load[1] -= half_mass * (GRAVITY_M_S2 + acceleration_m_s2[1])
+        worst = _worst(_MOTIONS, friction.dissipated, load)
+        for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
+            near = _around(worst.motion, spread)
+            worst = _worst(near, self.body.friction * friction.slide(near), load)
+        return Resistance(
+            margin=worst.margin,
+            motion=worst.motion,
+            excess_n=worst.excess_n,
+            patch_speed=friction.patch_speed(worst.motion),
+        )
+
+    def _friction_of(self, patch: Patch) -> _Friction:
+        """What the patch can dissipate in every motion; kept for the patch last asked about."""
+        if self._friction is None or self._friction.patch is not patch:
+            force, x, y, push_x, push_y = self._loaded(patch)
+            moment = float((x * push_y - y * push_x).sum()) / _LENGTH_MM
+            push = np.array([push_x.sum(), push_y.sum(), moment])
+            friction = _Friction(patch=patch, force=force, x=x, y=y, push=push)
+            friction.dissipated = self.body.friction * friction.slide(_MOTIONS)
+            self._friction = friction
+        return self._friction
+
+    def _loaded(self, patch: Patch) -> tuple[FloatArray, ...]:
+        """Loaded blocks: force [N], place about the centre of mass [mm], outward push [N].
+
+        Blocks of ``_BLOCK``² elements (0.5 mm) carry the friction of their elements; the moment
+        that this leaves out is that of an element about its block's centre, below 0.3 mm.
+        """
+        force = patch.pressure_kpa * 1e-3 * self._pitch_mm**2
+        slope_y, slope_x = np.gradient(patch.height_mm, -self._pitch_mm, self._pitch_mm)
+        blocks = [
+            _in_blocks(of)
+            for of in (
+                force,
+                force * self._x_mm,
+                force * self._y_mm[:, None],
+                force * slope_x,
+                force * slope_y,
+            )
+        ]
+        loaded = blocks[0] > 0
+        total, moment_x, moment_y, push_x, push_y = (block[loaded] for block in blocks)
+        com_x = patch.offset_mm[0] + self.body.com_mm[0]
+        com_y = patch.offset_mm[1] + self.body.com_mm[1]
+        return total, moment_x / total - com_x, moment_y / total - com_y, push_x, push_y
+
+    def inertia_kg(self, motion: FloatArray) -> float:
+        """Half of the body's mass as seen along a unit motion (one patch carries half) [kg]."""
+        gyration = self.body.gyration_mm / _LENGTH_MM
+        share = motion[0] ** 2 + motion[1] ** 2 + (gyration * motion[2]) ** 2
+        return float(self.body.mass_kg / 2 * share)
+
+
+def _in_blocks(field_: FloatArray) -> FloatArray:
+    rows, columns = (size // _BLOCK for size in field_.shape)
+    return np.asarray(field_.reshape(rows, _BLOCK, columns, _BLOCK).sum(axis=(1, 3)))
+
+
+def _disc(radius_px: float) -> torch.Tensor:
+    reach = math.ceil(radius_px)
+    rows, columns = np.mgrid[-reach : reach + 1, -reach : reach + 1]
+    inside = (rows**2 + columns**2 <= radius_px**2).astype(np.float64)
+    return torch.as_tensor(inside / inside.sum())[None, None]

@@ -1,0 +1,105 @@
+"""Bodies from scanned meshes (millimetres): any closed mesh can be grasped in simulation.
+
+The mesh is turned so that a narrow side that bulges in the middle meets the fingers and its longer
+other extent hangs; its height field is cast with rays (open3d). It is taken as rigid and can't be
+bruised.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from cltp.errors import TouchError
+from sim.gel.gap import NO_BODY_MM
+from sim.grasp.bodies import HALF_SPAN_MM, PITCH_MM, Body, FloatArray
+from sim.objects.meshes import IntArray, checked_mesh, volume_and_centre
+
+DENSITY_G_PER_MM3 = 0.3e-3
+"""Of a mesh whose mass is not given. Our assumption: household things are hollow or light."""
+
+RIGID_MPA = 2000.0
+UNBRUISED_N = 1000.0
+MAX_OPENING_MM = 110.0
+_EXTENT_WEIGHT = 0.05  # mm of hollow that a grasp narrower by 20 mm is worth
+
+
+def body_from_mesh(path: Path, *, mass_g: float | None, like: Body) -> Body:
+    """Turn a mesh into a body between the fingers.
+
+    Args:
+        path: PLY, OBJ or STL, millimetres, closed.
+        mass_g: Its mass [g]; None: from its volume.
+        like: Whose friction it gets.
+
+    Raises:
+        TouchError: The mesh is refused by ``sim.objects.meshes``, or too large for the gripper.
+    """
+    vertices, faces = checked_mesh(path)
+    extents = np.ptp(vertices, axis=0)
+    if extents.min() > MAX_OPENING_MM:
+        raise TouchError(
+            f"{path}: its smallest extent is {extents.min():.0f} mm, more than the gripper opens "
+            f"({MAX_OPENING_MM:.0f} mm)"
+        )
+    middle = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    volume_mm3, centre = volume_and_centre(vertices, faces)
+    grasps = []
+    for closing in np.flatnonzero(extents <= MAX_OPENING_MM):
+        turn = _turn(extents, int(closing))
+        gap = _gap((vertices - middle) @ turn.T, faces)
+        hollow = float(gap[gap.shape[0] // 2, gap.shape[1] // 2])
+        grasps.append((hollow + _EXTENT_WEIGHT * extents[closing], closing, turn, gap))
+    _, closing, turn, gap = min(grasps, key=lambda grasp: grasp[0])
+    if gap.min() >= NO_BODY_MM:
+        raise TouchError(f"{path}: no surface within {HALF_SPAN_MM} mm of the mesh's centre")
+    com = turn @ (centre - middle)
+    if mass_g is None:
+        mass_g = max(1.0, DENSITY_G_PER_MM3 * volume_mm3)
+    width, height, _ = np.abs(turn) @ extents
+    return Body(
+        name=path.stem,
+        gap_mm=gap,
+        com_mm=(float(com[0]), float(com[1])),
+        gyration_mm=math.hypot(width, height) / math.sqrt(12),
+        thickness_mm=float(extents[closing]),
+        mass_kg=mass_g / 1000,
+        young_mpa=RIGID_MPA,
+        poisson=0.3,
+        friction=like.friction,
+        bruise_n=UNBRUISED_N,
+    )
+
+
+def _turn(extents: FloatArray, closing: int) -> FloatArray:
+    """Rotation that brings axis ``closing`` to +z and the longer of the others upright, +y."""
+    across, along = sorted((axis for axis in range(3) if axis != closing), key=lambda a: extents[a])
+    turn = np.zeros((3, 3))
+    turn[0, across] = turn[1, along] = turn[2, closing] = 1.0
+    if np.linalg.det(turn) < 0:
+        turn[0] *= -1
+    return turn
+
+
+def _gap(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Height field of the side that faces the sensor's finger (+z), as ``Body.gap_mm``."""
+    import open3d
+
+    scene: Any = open3d.t.geometry.RaycastingScene()
+    tensor: Any = open3d.core.Tensor
+    scene.add_triangles(tensor(vertices.astype(np.float32)), tensor(faces.astype(np.uint32)))
+    axis = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
+    x, y = np.meshgrid(axis, -axis)
+    top = float(vertices[:, 2].max()) + 1.0
+    origins = np.stack([x, y, np.full_like(x, top)], axis=-1)
+    rays = np.concatenate([origins, np.zeros_like(origins)], axis=-1)
+    rays[..., 5] = -1.0
+    reach = scene.cast_rays(tensor(rays.astype(np.float32)))["t_hit"].numpy()
+    hit = np.isfinite(reach)
+    if not hit.any():
+        return np.full(reach.shape, NO_BODY_MM)
+    gap = np.where(hit, reach - reach[hit].min(), NO_BODY_MM)
+    return np.clip(gap, 0.0, NO_BODY_MM).astype(np.float64)

@@ -1,0 +1,183 @@
+"""A simulated episode: the devices around one drawn body, and the truth behind them.
+
+The truth of the world is had from ``SimRig.truth`` by benchmarks and records, never by a policy.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from cltp.tactile.sensor_noise import NoiseUnit
+from cltp.tactile.sensors import sensor_named
+from primitives.devices import Pose
+from primitives.errors import RobotError
+from sim.gel.layer import gel_of
+from sim.grasp.bodies import OBJECTS, Body, Range, draw_body
+from sim.grasp.devices import (
+    PAD_X_IN_TCP,
+    PAD_Y_IN_TCP,
+    START_POSE,
+    SimArm,
+    SimClock,
+    SimGripper,
+    SimSensor,
+)
+from sim.grasp.fingers import FlatFingers
+from sim.grasp.world import Grasp
+
+BENCHMARK_SEED = 1_000_000
+"""Seeds from here on belong to the benchmark, and draw from all of every range; smaller ones belong
+to training and tuning, and draw from the 10-90 % quantiles."""
+
+OFFSET_X_MM = Range(low=-11.0, high=11.0)
+OFFSET_Y_MM = Range(low=-8.5, high=8.5)
+GRIPPER_FACTOR = Range(low=0.5, high=2.0, log=True)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Truth:
+    """What really happened, for records and benchmarks.
+
+    Attributes:
+        held: Lifted or not, the body is between the fingers and has slipped less than 1 mm.
+        slipped: It slid (or turned, at the patch) by 1 mm or more.
+        slip_mm: By how much [mm].
+        dropped: It is no longer between the fingers.
+        bruised_at_start: The first grip passed its pressure limit.
+        bruised: A later action did.
+        peak_force_n: Largest true force so far [N].
+        peak_kpa: Largest (averaged) pressure so far [kPa].
+        force_n: True force now [N], 0 when nothing is held.
+        offset_mm: Where the body's origin is on the pad [mm, gel frame].
+        gripper_factor: True over commanded force.
+        mass_g, friction, young_mpa, bruise_n: The body's draws.
+    """
+
+    held: bool
+    slipped: bool
+    slip_mm: float
+    dropped: bool
+    bruised_at_start: bool
+    bruised: bool
+    peak_force_n: float
+    peak_kpa: float
+    force_n: float
+    offset_mm: tuple[float, float]
+    gripper_factor: float
+    mass_g: float
+    friction: float
+    young_mpa: float
+    bruise_n: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SimRig:
+    """The devices of one simulated episode, and how it starts.
+
+    Attributes:
+        arm, gripper, sensor, clock: The devices, at the start pose, open.
+        grasp: The world behind them; for the oracle and the benchmark only.
+        start_pose: Where the first grasp is made.
+        first_force_n: First commanded force [N], drawn with the body.
+        pad_x_in_tcp, pad_y_in_tcp: The pad's axes in the TCP frame, unit vectors.
+    """
+
+    arm: SimArm
+    gripper: SimGripper
+    sensor: SimSensor
+    clock: SimClock
+    grasp: Grasp
+    start_pose: Pose
+    first_force_n: float
+    pad_x_in_tcp: tuple[float, float, float] = PAD_X_IN_TCP
+    pad_y_in_tcp: tuple[float, float, float] = PAD_Y_IN_TCP
+
+    def truth(self) -> Truth:
+        """What really happened so far. Never for a policy."""
+        grasp, body = self.grasp, self.grasp.fingers.body
+        return Truth(
+            held=grasp.patch is not None and not grasp.slipped and not grasp.dropped,
+            slipped=grasp.slipped,
+            slip_mm=grasp.slip_mm,
+            dropped=grasp.dropped,
+            bruised_at_start=grasp.bruised_at_start,
+            bruised=grasp.bruised,
+            peak_force_n=grasp.peak_force_n,
+            peak_kpa=grasp.peak_kpa,
+            force_n=grasp.patch.force_n if grasp.patch else 0.0,
+            offset_mm=grasp.offset_mm,
+            gripper_factor=self.gripper.factor,
+            mass_g=1000 * body.mass_kg,
+            friction=body.friction,
+            young_mpa=body.young_mpa,
+            bruise_n=body.bruise_n,
+        )
+
+    def disconnect(self) -> None:
+        """Disconnect every device."""
+        for device in (self.arm, self.gripper, self.sensor):
+            device.disconnect()
+
+
+def build(
+    object_name: str,
+    seed: int,
+    *,
+    mesh: Path | None = None,
+    mass_g: float | None = None,
+    sensor_name: str = "gelsight_mini",
+    start_offset_mm: tuple[float, float] | None = None,
+    first_force_n: float | None = None,
+    gripper_factor: float | None = None,
+    noise_level: float = 1.0,
+) -> SimRig:
+    """Draw an episode: a body, where the fingers start, a worn gripper, a sensor unit.
+
+    Args:
+        object_name: A key of ``sim.grasp.bodies.OBJECTS``.
+        seed: Draws everything; below ``BENCHMARK_SEED`` from the 10-90 % quantiles.
+        mesh: Grasp this mesh (millimetres) instead of the drawn body.
+        mass_g: Mass of the mesh [g]; by default from its volume (see ``sim.grasp.mesh_bodies``).
+        sensor_name: A key of ``cltp.tactile.sensors.SENSORS``.
+        start_offset_mm: Where the body lies on the pad at first, instead of the draw [mm].
+        first_force_n: First commanded force instead of the draw [N].
+        gripper_factor: True over commanded force instead of the draw.
+        noise_level: 1 is the sensor that was measured, 0 a perfect one.
+
+    Raises:
+        RobotError: Unknown object.
+        TouchError: Unknown sensor.
+    """
+    if object_name not in OBJECTS:
+        raise RobotError(f"unknown object {object_name!r}; known: {', '.join(OBJECTS)}")
+    world_rng, sensor_rng = (np.random.default_rng([seed, part]) for part in (0, 1))
+    tails = 0.0 if seed >= BENCHMARK_SEED else 0.1
+    sensor = sensor_named(sensor_name)
+    body = draw_body(object_name, world_rng, tails)
+    if mesh is not None:
+        body = _mesh_body(mesh, mass_g, body)
+    u = tails + (1 - 2 * tails) * world_rng.random(4)
+    offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
+    factor = gripper_factor or GRIPPER_FACTOR.quantile(u[2])
+    grasp = Grasp(fingers=FlatFingers(body, sensor, gel_of(sensor_name)), body_xy_mm=offset)
+    clock = SimClock()
+    clock.watch(grasp)
+    unit = NoiseUnit.draw(sensor_rng, noise_level)
+    return SimRig(
+        arm=SimArm(grasp, clock),
+        gripper=SimGripper(grasp, clock, factor),
+        sensor=SimSensor(grasp, clock, sensor, unit, seed),
+        clock=clock,
+        grasp=grasp,
+        start_pose=START_POSE,
+        first_force_n=first_force_n or OBJECTS[object_name].first_force_n.quantile(u[3]),
+    )
+
+
+def _mesh_body(mesh: Path, mass_g: float | None, drawn: Body) -> Body:
+    from sim.grasp.mesh_bodies import body_from_mesh  # loads open3d, which most runs don't need
+
+    return body_from_mesh(mesh, mass_g=mass_g, like=drawn)

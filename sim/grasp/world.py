@@ -1,0 +1,168 @@
+"""The truth of a grasp in time: what is held, slides, falls or is bruised.
+
+Rigid-body dynamics of one body against the friction of two patches (``sim.grasp.fingers``). Not a
+physics
+engine: nothing else is touched, and what the body stands on carries it until it is lifted. In-plane
+rotation counts as slip, but the body's surface is not turned with it.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+
+from sim.grasp.fingers import FlatFingers, Patch, Resistance
+
+SLIPPED_MM = 1.0
+DROPPED_MM = 12.0
+SPUN_MM = 30.0
+"""A body that has turned this far in the grip hangs; sliding is not followed any further."""
+
+_SAME_PRESSURE = 1.02  # the same grip a little elsewhere on the grid differs by less than 2 %
+
+
+def trapezoid_s(
+    distance_m: float, speed_m_s: float, acceleration_m_s2: float
+) -> tuple[float, float]:
+    """Duration of each ramp and of the cruise between them on a straight way [s]."""
+    speed = min(speed_m_s, math.sqrt(distance_m * acceleration_m_s2))
+    return speed / acceleration_m_s2, distance_m / speed - speed / acceleration_m_s2
+
+
+@dataclass(slots=True)
+class Grasp:
+    """The evolving truth of one body and one pair of fingers.
+
+    Attributes:
+        fingers: Contact and friction.
+        body_xy_mm: Where the body's origin is, in the world's pad axes [mm].
+        pad_xy_mm: Where the pad's centre is.
+        patch: What is held, None while the fingers are open or hold nothing.
+        slip_mm: How far the body has slid along the pads, turning included [mm].
+        slid_mm: How far without turning [mm].
+        grips: Times that the fingers closed or changed their force.
+        contacts: Times that what the gel feels changed by a command.
+        peak_force_n, peak_kpa: Largest true force and pressure so far.
+    """
+
+    fingers: FlatFingers
+    body_xy_mm: tuple[float, float]
+    pad_xy_mm: tuple[float, float] = (0.0, 0.0)
+    patch: Patch | None = None
+    slip_mm: float = 0.0
+    slid_mm: float = 0.0
+    dropped: bool = False
+    bruised_at_start: bool = False
+    bruised: bool = False
+    grips: int = 0
+    contacts: int = 0
+    peak_force_n: float = 0.0
+    peak_kpa: float = 0.0
+    _speed: float = field(default=0.0, repr=False)
+    _lifted_mm: float = field(default=0.0, repr=False)
+
+    @property
+    def offset_mm(self) -> tuple[float, float]:
+        """The body's origin on the pad [mm, gel frame]."""
+        return (
+            self.body_xy_mm[0] - self.pad_xy_mm[0],
+            self.body_xy_mm[1] - self.pad_xy_mm[1],
+        )
+
+    def close(self, force_n: float) -> None:
+        """Close with, or adjust a grip to, a true force [N].
+
+        A bruise is counted when the pressure passes both the limit and all that this body has borne
+        before (flesh that gave way gives way no further under less): the first grip's as
+        ``bruised_at_start``, any later one's as ``bruised``.
+        """
+        before = self.peak_kpa * _SAME_PRESSURE
+        self.grips += 1
+        self.contacts += 1
+        if self.dropped or not self.fingers.reaches(self.offset_mm):
+            self.patch = None
+            return
+        self.patch = self.fingers.press(self.offset_mm, force_n)
+        self.peak_force_n = max(self.peak_force_n, force_n)
+        self.peak_kpa = max(self.peak_kpa, self.patch.peak_kpa)
+        if self.patch.peak_kpa > max(before, self.fingers.bruise_kpa):
+            if self.grips == 1:
+                self.bruised_at_start = True
+            else:
+                self.bruised = True
+        if self._lifted_mm > 0:
+            self.load((0.0, 0.0), 0.05)
+
+    def open(self) -> None:
+        """Let go; what was lifted falls."""
+        if self.patch is not None and self._lifted_mm > 1.0:
+            self.dropped = True
+        self.patch = None
+        self.contacts += 1
+        self._speed = 0.0
+
+    def move(self, by_mm: tuple[float, float], speed_m_s: float, acceleration_m_s2: float) -> float:
+        """Move the fingers on a straight line with a trapezoidal speed; returns its duration [s].
+
+        A held body comes along, and slides while the friction of both patches is exceeded. While it
+        stands on what it was found on, that carries its weight.
+        """
+        distance = math.hypot(*by_mm) / 1000
+        if distance == 0:
+            return 0.0
+        ux, uy = by_mm[0] / 1000 / distance, by_mm[1] / 1000 / distance
+        ramp, cruise = trapezoid_s(distance, speed_m_s, acceleration_m_s2)
+        self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
+        if self.patch is not None:
+            self.body_xy_mm = (self.body_xy_mm[0] + by_mm[0], self.body_xy_mm[1] + by_mm[1])
+            self._lifted_mm = max(0.0, self._lifted_mm + by_mm[1])
+            if self._lifted_mm > 0:
+                push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
+                self.load(push, ramp)
+                self.load((0.0, 0.0), cruise)
+                self.load((-push[0], -push[1]), ramp)
+        return 2 * ramp + cruise
+
+    def wait(self, seconds: float) -> None:
+        """Let time pass; a lifted body that friction can't hold slides."""
+        if self.patch is not None and self._lifted_mm > 0:
+            self.load((0.0, 0.0), seconds)
+
+    def load(self, acceleration_m_s2: tuple[float, float], seconds: float) -> None:
+        """Slide under a constant load for a while; the patch follows in steps of 0.5 mm."""
+        left = seconds
+        while left > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
+            held = self.fingers.resistance(self.patch, acceleration_m_s2)
+            if held.margin >= 1 and self._speed <= 0:
+                return
+            gain = held.excess_n / self.fingers.inertia_kg(held.motion)
+            step = min(left, self._time_to_slide(gain, 0.5e-3 / held.patch_speed))
+            slide_mm = 1000 * max(0.0, self._speed * step + gain * step**2 / 2)
+            self._speed = max(0.0, self._speed + gain * step)
+            self._slide(held, slide_mm)
+            left -= step
+
+    def _time_to_slide(self, gain: float, distance_m: float) -> float:
+        """Time until a slide covers a distance or, slowed by ``gain``, stops [s]."""
+        if gain < 0:
+            stop = self._speed / -gain
+            if self._speed * stop / 2 <= distance_m:
+                return max(stop, 1e-6)
+        root = math.sqrt(max(0.0, self._speed**2 + 2 * gain * distance_m))
+        return max(1e-6, 2 * distance_m / (self._speed + root)) if self._speed + root > 0 else 1e-3
+
+    def _slide(self, held: Resistance, slide_mm: float) -> None:
+        self.slip_mm += slide_mm * held.patch_speed
+        x, y = held.motion[0] * slide_mm, held.motion[1] * slide_mm
+        self.body_xy_mm = (self.body_xy_mm[0] + x, self.body_xy_mm[1] + y)
+        self.slid_mm += math.hypot(x, y)
+        gone = self.slid_mm > DROPPED_MM or not self.fingers.reaches(self.offset_mm)
+        if gone or self.patch is None:
+            self.dropped, self.patch = True, None
+        elif math.dist(self.patch.offset_mm, self.offset_mm) > 0.05:
+            self.patch = self.fingers.press(self.offset_mm, self.patch.force_n)
+
+    @property
+    def slipped(self) -> bool:
+        """Whether the body has slid by a millimetre or more, by displacement or by rotation."""
+        return self.slip_mm >= SLIPPED_MM

@@ -1,0 +1,135 @@
+"""Solids made of solids: grown into one, hollowed out, set around an axis.
+
+Not here: what they are made of (``sim.objects.solids``), turning and moving
+(``sim.objects.placing``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import torch
+from torch import Tensor
+
+from sim.objects.faces import Cell, Form
+from sim.objects.solids import Solid, stacked_as
+
+
+@dataclass(frozen=True, slots=True)
+class Blend:
+    """Several solids grown into one, their joints rounded by about ``radius`` [mm]; 0: a union.
+
+    Source: polynomial smooth minimum (Quilez); it is 1-Lipschitz where the parts are.
+    """
+
+    parts: tuple[Solid, ...]
+    radius: float = 0.0
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of its parts, in order."""
+        return tuple(cell for part in self.parts for cell in part.cells)
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the furthest part."""
+        return max(part.reach_mm for part in self.parts)
+
+    @property
+    def steep(self) -> float:
+        """Of the steepest part."""
+        return max(part.steep for part in self.parts)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        total = self.parts[0].distance(points)
+        for part in self.parts[1:]:
+            other = part.distance(points)
+            lower = torch.minimum(total, other)
+            if self.radius > 0:
+                near = (1 - (total - other).abs() / (4 * self.radius)).clamp_(min=0)
+                lower = lower - self.radius * near.square_()
+            total = lower
+        return total
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        away = torch.stack([part.distance(points) for part in self.parts])
+        own = torch.stack([part.cell(points) for part in self.parts])
+        counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])
+        first = counts.cumsum(0).to(points.device).view(-1, *[1] * (points.ndim - 1))
+        return (own + first).gather(0, away.argmin(0)[None])[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Hollow:
+    """A solid without what another takes away."""
+
+    solid: Solid
+    without: Solid
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of the solid, then those of the cavity, as curved ones."""
+        return (*self.solid.cells, *(Cell(form=Form.CURVED) for _ in self.without.cells))
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid."""
+        return self.solid.reach_mm
+
+    @property
+    def steep(self) -> float:
+        """Of the steeper one."""
+        return max(self.solid.steep, self.without.steep)
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return torch.maximum(self.solid.distance(points), -self.without.distance(points))
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        cavity = -self.without.distance(points) > self.solid.distance(points)
+        inner = self.without.cell(points) + len(self.solid.cells)
+        return torch.where(cavity, inner, self.solid.cell(points))
+
+
+@dataclass(frozen=True, slots=True)
+class Around:
+    """Copies of a solid that lies about +x, ``count`` of them evenly about z."""
+
+    solid: Solid
+    count: int
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of each copy."""
+        return self.solid.cells * self.count
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid."""
+        return self.solid.reach_mm
+
+    @property
+    def steep(self) -> float:
+        """Of the solid."""
+        return self.solid.steep
+
+    def _folded(self, points: Tensor) -> tuple[Tensor, Tensor]:
+        step = 2 * math.pi / self.count
+        copy = torch.round(torch.atan2(points[..., 1], points[..., 0]) / step)
+        cos, sin = torch.cos(copy * step), torch.sin(copy * step)
+        x = points[..., 0] * cos + points[..., 1] * sin
+        y = points[..., 1] * cos - points[..., 0] * sin
+        return stacked_as(points, x, y, points[..., 2]), copy.long() % self.count
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.distance(self._folded(points)[0])
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        folded, copy = self._folded(points)
+        return self.solid.cell(folded) + copy * len(self.solid.cells)

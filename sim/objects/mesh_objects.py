@@ -1,0 +1,224 @@
+"""Objects from meshes (millimetres), beside those of the catalogue: felt by open3d's rays.
+
+A mesh is cut into regions along its creases; a region is flat, curved, or the surroundings of a
+tip. What a contact is called then follows from the regions that touch, as for any object
+(``sim.tcl3d.shape_labels``): a scanned box gives planes, edges and corners as a drawn one does.
+
+Not here: reading and checking files (``sim.objects.meshes``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from cltp.errors import TouchError
+from cltp.tactile.states import Shape
+from sim.objects.faces import Cell, Form
+from sim.objects.meshes import SUFFIXES, checked_mesh
+from sim.objects.object import Family, Part, Thing
+from sim.objects.ray_casting import FloatArray
+
+IntArray = NDArray[np.int64]
+
+CREASE_DEG = 25.0
+"""Angle between faces from which they belong to different regions. Our choice: a tube of 16 sides
+is still round."""
+
+SMALL_MM = 50.0
+"""Largest extent of a small object. Source: the paper, section 3.1."""
+
+_EVERY = 37
+_LEVEL_DEG = 2.0  # spread of normals of a flat region
+_TIP_MM = 0.6  # faces this near to a tip belong to it
+_TIP_DEFECT = 1.2  # angle that is missing around the vertex of a tip [rad]
+
+
+def meshes_in(folder: Path) -> list[Path]:
+    """The mesh files of a folder, by name.
+
+    Raises:
+        TouchError: There is no such folder, or no mesh in it.
+    """
+    if not folder.is_dir():
+        raise TouchError(f"{folder} is no folder; --meshes expects one with PLY, OBJ or STL files")
+    found = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
+    if not found:
+        raise TouchError(f"{folder} has no mesh; expected files that end in {', '.join(SUFFIXES)}")
+    return found
+
+
+@lru_cache(maxsize=4)
+def thing_from_mesh(path: Path) -> Thing:
+    """An object of the shape of a mesh, smooth and rigid, about its bounding box's middle.
+
+    Raises:
+        TouchError: The mesh is not one closed surface in mm; the message says why.
+    """
+    vertices, faces = checked_mesh(path)
+    vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    surface = _Surface(vertices, faces)
+    large = float(np.ptp(vertices, axis=0).max()) >= SMALL_MM
+    return MeshThing(
+        name=path.stem,
+        family=Family.HOUSEHOLD if large else Family.PEG,
+        features=f"mesh of {len(faces):,} faces",
+        parts=(Part(surface),),
+    )
+
+
+class _Surface:
+    """A closed mesh as a solid (``sim.objects.solids.Solid``)."""
+
+    def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
+        import open3d
+
+        core: Any = open3d.core
+        self._tensor = core.Tensor
+        self._scene: Any = open3d.t.geometry.RaycastingScene()
+        self._scene.add_triangles(
+            self._tensor(vertices.astype(np.float32)),
+            self._tensor(np.asarray(faces, dtype=np.uint32)),
+        )
+        self._region, self.cells = _regions(vertices, faces)
+        self.reach_mm = float(np.linalg.norm(vertices, axis=1).max())
+        self.steep = 1.0
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``sim.objects.solids.Solid``."""
+        away = self._scene.compute_signed_distance(self._points(points)).numpy()
+        return torch.from_numpy(away.reshape(points.shape[:-1])).to(points)
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``sim.objects.solids.Solid``."""
+        nearest = self._scene.compute_closest_points(self._points(points))
+        face = nearest["primitive_ids"].numpy().astype(np.int64)
+        return torch.from_numpy(self._region[face].reshape(points.shape[:-1])).to(points.device)
+
+    def rays(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """See ``sim.objects.ray_casting.Castable.surface``."""
+        starts = origins.detach().cpu().numpy().astype(np.float32)
+        ways = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
+        rays = self._tensor(np.concatenate([starts, ways], axis=1))
+        far = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
+        far[far > far_mm] = np.inf
+        some = np.ascontiguousarray(starts[::_EVERY])  # a part that is in the way is no needle
+        inside = self._scene.compute_signed_distance(self._tensor(some)).numpy() < 0
+        if inside.any():
+            far[:] = np.nan
+        return torch.from_numpy(far).to(origins)
+
+    def _points(self, points: Tensor) -> Any:
+        flat = points.detach().cpu().numpy().astype(np.float32).reshape(-1, 3)
+        return self._tensor(np.ascontiguousarray(flat))
+
+
+@dataclass(frozen=True)
+class MeshThing(Thing):
+    """An object whose only part is a mesh."""
+
+    def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """See ``sim.objects.ray_casting.Castable``: by rays, exact, instead of sphere tracing."""
+        solid = self.parts[0].solid
+        if not isinstance(solid, _Surface):
+            raise TypeError(f"{self.name} is not made of a mesh")
+        return solid.rays(origins, along, far_mm)
+
+    def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """See ``sim.objects.ray_casting.Castable``."""
+        return self.surface(origins.view(-1, 3), along, far_mm).view(origins.shape[:2])
+
+
+def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cell, ...]]:
+    """Region of every face, and what each region is."""
+    import trimesh
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    mesh: Any = trimesh.Trimesh(vertices, faces, process=False)
+    pairs = mesh.face_adjacency[mesh.face_adjacency_angles < np.radians(CREASE_DEG)]
+    ones = np.ones(len(pairs))
+    graph = coo_matrix((ones, (pairs[:, 0], pairs[:, 1])), shape=(len(faces), len(faces)))
+    count, region = connected_components(graph, directed=False)
+    region = region.astype(np.int64)
+    normals, areas = np.asarray(mesh.face_normals), np.asarray(mesh.area_faces)
+    cells: list[Cell] = []
+    in_order = np.argsort(region, kind="stable")
+    ends = np.cumsum(np.bincount(region, minlength=count))
+    for own in np.split(in_order, ends[:-1]):  # each of a scan's many regions without the others
+        mean = (normals[own] * areas[own, None]).sum(axis=0)
+        mean /= max(float(np.linalg.norm(mean)), 1e-12)
+        level = bool((normals[own] @ mean > np.cos(np.radians(_LEVEL_DEG))).all())
+        outline = _outline(vertices, faces[own], mean) if level else None
+        cells.append(Cell(form=Form.FLAT if level else Form.CURVED, outline=outline))
+    return _with_tips(mesh, region, cells)
+
+
+def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray, tuple[Cell, ...]]:
+    """Cones: a curved region around a vertex with little angle left is a side and its tip."""
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    defects = np.asarray(mesh.vertex_defects)
+    for vertex in np.flatnonzero(defects > _TIP_DEFECT):
+        around = mesh.vertex_faces[vertex]
+        around = around[around >= 0]
+        of = np.unique(region[around])
+        if len(of) != 1 or cells[of[0]].form is Form.FLAT:
+            continue
+        side = np.flatnonzero(region == of[0])
+        corners = vertices[faces[side]]
+        near = np.linalg.norm(corners - vertices[vertex], axis=2).max(axis=1) < _TIP_MM
+        cells[of[0]] = Cell(form=Form.TAPER)
+        region[side[near | np.isin(side, around)]] = len(cells)
+        cells.append(Cell(form=Form.TAPER, outline=Shape.PEAK))
+    return region, tuple(cells)
+
+
+def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape | None:
+    """What a flat region is called when all of it touches; None: by its proportions."""
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    rim, counts = np.unique(edges, axis=0, return_counts=True)
+    rim = rim[counts == 1]
+    if _num_loops(rim) > 1:
+        return Shape.HOLE
+    ways = vertices[rim[:, 1]] - vertices[rim[:, 0]]
+    lengths = np.linalg.norm(ways, axis=1)
+    first = np.cross(normal, ways[int(lengths.argmax())])
+    first /= max(float(np.linalg.norm(first)), 1e-12)
+    second = np.cross(normal, first)
+    angle = np.degrees(np.arctan2(ways @ second, ways @ first)) % 180
+    bins = np.bincount((np.round(angle / 10).astype(int)) % 18, weights=lengths, minlength=18)
+    main = int((bins > 0.08 * lengths.sum()).sum())
+    if main >= 5:
+        return Shape.DISC
+    if main == 3:
+        opposite = len(rim) % 2 == 0 and _is_symmetric(vertices, rim)
+        return Shape.HEXAGON if opposite else Shape.TRIANGLE
+    return None
+
+
+def _num_loops(rim: IntArray) -> int:
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    names, ends = np.unique(rim, return_inverse=True)
+    ends = ends.reshape(-1, 2)
+    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(names),) * 2)
+    return int(connected_components(graph, directed=False)[0])
+
+
+def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
+    """Whether an outline is its own image when turned by half a turn: a hexagon, no triangle."""
+    from scipy.spatial import cKDTree
+
+    corners = vertices[np.unique(rim)]
+    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    turned = 2 * middle - corners
+    apart, _ = cKDTree(corners).query(turned)
+    return float(apart.max()) < 0.05 * float(np.ptp(corners, axis=0).max())

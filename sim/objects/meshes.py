@@ -1,0 +1,243 @@
+"""Meshes that people bring, read and checked: closed surfaces in millimetres, normals outwards.
+
+Nothing is repaired or scaled; vertices at the same place are joined, since STL has no others.
+
+Not here: what a mesh becomes (``sim.grasp.mesh_bodies``: a body between the fingers).
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.errors import TouchError
+
+FloatArray = NDArray[np.float64]
+IntArray = NDArray[np.int64]
+
+SUFFIXES = (".ply", ".obj", ".stl", ".off")
+MAX_FACES = 2_000_000
+"""Our choice: at 0.1 mm a face this is a body of 100 mm; more is slower and touches no better."""
+
+SMALLEST_MM = 2.0
+"""A mesh that is smaller as a whole is taken to be in metres. Our choice: nothing that a pad of
+15 mm can tell from a point, and no hand-held thing is 2 m large."""
+
+LARGEST_MM = 5000.0
+"""A mesh that is larger is taken to be in micrometres or inches times something. Our choice."""
+
+_HEADER_BYTES = 1 << 16  # of a PLY with many comments; more than that is nobody's
+_CHUNK_BYTES = 1 << 22
+_REASON_LENGTH = 200  # readers quote what they can't read, be it the whole file
+
+
+def checked_mesh(path: Path) -> tuple[FloatArray, IntArray]:
+    """Read a mesh, and refuse what is no closed surface in millimetres.
+
+    Args:
+        path: PLY, OBJ, STL or OFF.
+
+    Returns:
+        Vertices, shape (V, 3) [mm], and faces, shape (F, 3), indices into them, counter-clockwise
+        seen from outside.
+
+    Raises:
+        TouchError: No such file, not a whole mesh, no faces, more than ``MAX_FACES`` (counted
+            before anything is loaded), NaN, faces of vertices that don't exist, apparently not in
+            millimetres, open, with faces that turn both ways, flat, or inside out.
+    """
+    path = Path(path)
+    _check_file(path)
+    vertices, faces = _loaded(path)
+    try:
+        _check_numbers(vertices, faces)
+        vertices, faces = _joined(vertices, faces)
+        _check_surface(vertices, faces)
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+    return vertices, faces
+
+
+def volume_and_centre(vertices: FloatArray, faces: IntArray) -> tuple[float, FloatArray]:
+    """Volume that a closed mesh encloses [mm³] and its centre of mass, shape (3,) [mm]."""
+    volumes = _face_volumes(vertices, faces)
+    middle = vertices.mean(axis=0)
+    # The centre of a tetrahedron from the middle to a face lies 3/4 of the way to the face's own.
+    centres = middle + 0.75 * (vertices[faces].mean(axis=1) - middle)
+    total = float(volumes.sum())
+    return total, np.asarray(volumes @ centres / total)
+
+
+def _check_file(path: Path) -> None:
+    if path.suffix.lower() not in SUFFIXES:
+        raise TouchError(
+            f"{path}: expected a mesh ending in {', '.join(SUFFIXES)}, "
+            f"got {path.suffix or 'none'!r}"
+        )
+    if not path.is_file():
+        raise TouchError(f"{path} {'is a directory' if path.is_dir() else 'does not exist'}")
+    try:
+        size = path.stat().st_size
+        declared = _declared_faces(path, size)
+    except OSError as error:
+        raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
+    except TouchError as error:
+        raise TouchError(f"{path}: {error}") from None
+    if size == 0:
+        raise TouchError(f"{path} is an empty file; expected a closed surface in mm")
+    if declared is not None:
+        _check_count(path, declared)
+
+
+def _check_count(path: Path, faces: int) -> None:
+    if faces == 0:
+        raise TouchError(f"{path}: the mesh is empty (no faces); expected a closed surface in mm")
+    if faces > MAX_FACES:
+        raise TouchError(f"{path}: {faces:,} faces; simplify it to below {MAX_FACES:,}")
+
+
+def _declared_faces(path: Path, size: int) -> int | None:
+    """Faces that a file announces in its header or has lines for; None where it doesn't say."""
+    with path.open("rb") as file:
+        head = file.read(_HEADER_BYTES)
+        match path.suffix.lower():
+            case ".stl":
+                binary = _binary_stl_faces(head, size)
+                return (_occurrences(file, head, b"endfacet") or None) if binary is None else binary
+            case ".obj":  # none: for the reader to say, as above
+                return _occurrences(file, head, b"\nf ") or None
+            case ".off":
+                lines = (line.partition(b"#")[0] for line in head.splitlines())
+                counts = [word for word in b" ".join(lines).split()[:4] if word.isdigit()]
+                return int(counts[1]) if len(counts) > 1 else None
+    found = re.search(rb"[\r\n]element\s+face\s+(\d+)", head.split(b"end_header")[0])
+    return int(found[1]) if found else None
+
+
+def _binary_stl_faces(head: bytes, size: int) -> int | None:
+    """Faces by the header of a binary STL, bytes after them allowed; None for one in text.
+
+    Raises:
+        TouchError: It ends before its last face.
+    """
+    announced = int.from_bytes(head[80:84], "little")
+    text = head.lstrip()[:5] == b"solid" and b"facet" in head
+    if len(head) < 84 or (text and size != 84 + 50 * announced):
+        return None
+    if size < 84 + 50 * announced:
+        raise TouchError(
+            f"its header announces {announced:,} faces, but it ends after "
+            f"{(size - 84) // 50:,}; is the file cut off, or no STL?"
+        )
+    return announced
+
+
+def _occurrences(file: BinaryIO, head: bytes, wanted: bytes) -> int:
+    count, chunk = 0, b"\n" + head
+    while chunk:
+        count += chunk.count(wanted)
+        following = file.read(_CHUNK_BYTES)
+        # An occurrence may lie across two chunks; its tail alone is too short to count twice.
+        chunk = chunk[-len(wanted) + 1 :] + following if following else b""
+    return count
+
+
+def _loaded(path: Path) -> tuple[FloatArray, IntArray]:
+    import trimesh
+
+    try:
+        mesh: Any = trimesh.load(path, force="mesh", process=False, skip_materials=True)
+        vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
+        faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
+    except Exception as error:  # trimesh raises whatever its readers meet
+        reason = " ".join(str(error).split())[:_REASON_LENGTH]
+        raise TouchError(
+            f"{path} can't be read as a mesh ({', '.join(SUFFIXES)}): {reason}"
+        ) from None
+    _check_count(path, len(faces))
+    return vertices, faces
+
+
+def _check_numbers(vertices: FloatArray, faces: IntArray) -> None:
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        raise TouchError(
+            f"a face names vertex {int(faces.max())} of {len(vertices)}; is the file cut off?"
+        )
+    if not np.isfinite(vertices).all():
+        raise TouchError("the mesh has vertices that are NaN or infinite")
+    largest = float(np.ptp(vertices[np.unique(faces)], axis=0).max())
+    if largest < SMALLEST_MM:
+        raise TouchError(
+            f"the mesh is only {largest:.3g} mm large; is it in metres? Multiply by 1000"
+        )
+    if largest > LARGEST_MM:
+        raise TouchError(
+            f"the mesh is {largest:.3g} mm large, more than {LARGEST_MM:.0f}; is it in µm? "
+            "Scale it to millimetres"
+        )
+
+
+def _joined(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+    """One vertex for each place, no faces without area, no vertices without a face."""
+    places, which = np.unique(vertices, axis=0, return_inverse=True)
+    faces = which.reshape(-1)[faces]
+    a, b, c = faces.T
+    faces = faces[(a != b) & (b != c) & (c != a)]
+    if len(faces) == 0:
+        raise TouchError("the mesh is empty: every face has two corners at one place")
+    used, renumbered = np.unique(faces, return_inverse=True)
+    return places[used], renumbered.reshape(-1, 3)
+
+
+def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
+    edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    low, high = edges.min(axis=1), edges.max(axis=1)
+    _, edge, count = np.unique(low * len(vertices) + high, return_inverse=True, return_counts=True)
+    # Four faces at an edge are two parts that touch there: closed all the same.
+    if (count % 2).any():
+        raise TouchError(
+            f"the mesh is open ({int((count % 2).sum()):,} edges lack a face: holes or loose "
+            "sheets); close it first"
+        )
+    forward = np.bincount(edge.reshape(-1), weights=edges[:, 0] < edges[:, 1])
+    if (2 * forward != count).any():
+        raise TouchError(
+            "neighbouring faces of the mesh turn both ways; make its normals consistent first"
+        )
+    _check_outwards(vertices, faces)
+
+
+def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
+    """Every part has its normals outwards, but a cavity within another part has not."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    links = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
+    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(len(vertices),) * 2)
+    number, part = connected_components(graph, directed=False)
+    volumes = np.bincount(part[faces[:, 0]], weights=_face_volumes(vertices, faces))
+    if np.abs(volumes).sum() < 1e-9 * float(np.prod(np.ptp(vertices, axis=0) + 1e-9)):
+        raise TouchError("the mesh encloses no volume; expected a body, not a sheet")
+    low, high = np.full((number, 3), np.inf), np.full((number, 3), -np.inf)
+    np.minimum.at(low, part, vertices)
+    np.maximum.at(high, part, vertices)
+    solid = volumes > 0
+    for each in np.flatnonzero(volumes < 0):
+        within = (low[solid] <= low[each]).all(axis=1) & (high[solid] >= high[each]).all(axis=1)
+        if not within.any():
+            raise TouchError(
+                "the mesh is inside out (normals point inwards"
+                f"{f' in {int((~solid).sum())} of {number} parts' if number > 1 else ''}); "
+                "flip its faces"
+            )
+
+
+def _face_volumes(vertices: FloatArray, faces: IntArray) -> FloatArray:
+    """Signed volume of the tetrahedron from each face to the mesh's middle [mm³], shape (F,)."""
+    middle = vertices.mean(axis=0)
+    a, b, c = (vertices[faces[:, i]] - middle for i in range(3))
+    return np.asarray(np.einsum("ij,ij->i", a, np.cross(b, c)) / 6)

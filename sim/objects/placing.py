@@ -1,0 +1,80 @@
+"""Solids turned and moved to where they belong.
+
+Not here: the solids (``sim.objects.solids``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+
+from torch import Tensor
+
+from sim.objects.faces import Cell, Vector, constant
+from sim.objects.solids import Solid, stacked_as
+
+
+@dataclass(frozen=True, slots=True)
+class Placed:
+    """A solid turned by ``turn`` (rows: its axes in the new frame), then moved."""
+
+    solid: Solid
+    move: Vector = (0.0, 0.0, 0.0)
+    turn: tuple[Vector, Vector, Vector] | None = field(default=None)
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        """Those of the solid."""
+        return self.solid.cells
+
+    @property
+    def reach_mm(self) -> float:
+        """Of the solid where it is now."""
+        return self.solid.reach_mm + math.hypot(*self.move)
+
+    @property
+    def steep(self) -> float:
+        """Of the solid."""
+        return self.solid.steep
+
+    def _back(self, points: Tensor) -> Tensor:
+        own = points - constant(self.move, points.dtype, points.device)
+        if self.turn is None:
+            return own
+        x, y, z = own.unbind(-1)
+        # Not a matrix product: its rounding may depend on the number of points.
+        return stacked_as(points, *(x * a + y * b + z * c for a, b, c in self.turn))
+
+    def distance(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.distance(self._back(points))
+
+    def cell(self, points: Tensor) -> Tensor:
+        """See ``Solid``."""
+        return self.solid.cell(self._back(points))
+
+
+_ALONG: dict[str, tuple[Vector, Vector, Vector]] = {
+    "x": ((0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)),
+    "y": ((1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0)),
+    "-z": ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0)),
+}
+
+
+def moved(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Placed:
+    """A solid moved [mm]."""
+    if isinstance(solid, Placed):
+        a, b, c = solid.move
+        return replace(solid, move=(a + x, b + y, c + z))
+    return Placed(solid, (x, y, z))
+
+
+def along(axis: str, solid: Solid) -> Placed:
+    """A solid turned so that its z axis lies along ``axis``: 'x', 'y' or '-z'."""
+    return Placed(solid, turn=_ALONG[axis])
+
+
+def leaning(degrees: float, solid: Solid) -> Placed:
+    """A solid turned about y, so that its z axis leans towards +x by an angle."""
+    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return Placed(solid, turn=((cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)))

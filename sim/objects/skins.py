@@ -1,0 +1,152 @@
+"""Skins: the fine relief that an object always carries, one of the five textures with its numbers.
+
+Limits are those of the notes, beside each class of ``cltp.tactile.states.Texture``. A relief lies
+in the pad's plane and turns with the object; where a surface falls away steeply it fades, since no
+finger feels the grain on a flank.
+
+Not here: textures drawn anew for every press (``sim.starter.textures``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.tactile.sensor_noise import smooth_field
+from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import Texture
+
+FloatArray = NDArray[np.float64]
+
+_LIMITS: dict[Texture, tuple[tuple[float, float], tuple[float, float]]] = {
+    Texture.SMOOTH: ((0.0, 0.0), (0.0, 0.0)),
+    Texture.ROUGH: ((0.03, 0.08), (0.3, 0.6)),
+    Texture.RIDGED: ((0.05, 0.2), (0.6, 1.5)),
+    Texture.BUMPY: ((0.05, 0.2), (1.0, 3.0)),
+    Texture.WOVEN: ((0.05, 0.2), (0.6, 1.5)),
+}
+
+FADE_SLOPE = (0.5, 1.2)
+"""Slopes of a surface between which its relief fades: about 27° and 50°. Our choice."""
+
+
+@dataclass(frozen=True, slots=True)
+class Skin:
+    """What a surface is like, close up.
+
+    Attributes:
+        texture: Its class.
+        height_mm: Of ridges, caps and threads; of ``rough`` the standard deviation [mm].
+        pitch_mm: From one to the next; of ``rough`` the correlation length [mm].
+
+    Raises:
+        ValueError: Numbers outside the limits of the class.
+    """
+
+    texture: Texture
+    height_mm: float = 0.0
+    pitch_mm: float = 0.0
+
+    def __post_init__(self) -> None:
+        heights, pitches = _LIMITS[self.texture]
+        if not (
+            heights[0] <= self.height_mm <= heights[1] and pitches[0] <= self.pitch_mm <= pitches[1]
+        ):
+            raise ValueError(
+                f"a {self.texture} skin is {heights[0]}-{heights[1]} mm high and "
+                f"{pitches[0]}-{pitches[1]} mm apart, got {self.height_mm} and {self.pitch_mm} mm"
+            )
+
+
+SMOOTH = Skin(Texture.SMOOTH)
+
+
+def rough(height_mm: float, length_mm: float) -> Skin:
+    """Isotropic grain: standard deviation and correlation length [mm]."""
+    return Skin(Texture.ROUGH, height_mm, length_mm)
+
+
+def ridged(height_mm: float, pitch_mm: float) -> Skin:
+    """Parallel ridges across the object's axis [mm]."""
+    return Skin(Texture.RIDGED, height_mm, pitch_mm)
+
+
+def bumpy(height_mm: float, pitch_mm: float) -> Skin:
+    """Caps on a hexagonal lattice [mm]."""
+    return Skin(Texture.BUMPY, height_mm, pitch_mm)
+
+
+def woven(height_mm: float, pitch_mm: float) -> Skin:
+    """Threads along and across the object's axis [mm]."""
+    return Skin(Texture.WOVEN, height_mm, pitch_mm)
+
+
+def relief_of(
+    skin: Skin,
+    rng: np.random.Generator,
+    x_mm: FloatArray,
+    y_mm: FloatArray,
+    axis_rad: float,
+    sensor: SensorSpec,
+) -> FloatArray:
+    """How far a skin lies behind a smooth surface.
+
+    Args:
+        skin: Which.
+        rng: Draws where it begins, and the grain of ``rough``.
+        x_mm: Shape (H, W), over the whole field [mm].
+        y_mm: Same shape [mm].
+        axis_rad: Direction of the object's axis on the pad [rad]; ridges lie across it.
+        sensor: Whose field it is.
+
+    Returns:
+        Shape (H, W) [mm]: 0 at the tops, except ``rough``, whose mean is 0.
+    """
+    start = rng.uniform(0, 3, 2)
+    if skin.texture is Texture.SMOOTH:
+        return np.zeros(np.shape(x_mm))
+    if skin.texture is Texture.ROUGH:
+        field = smooth_field((x_mm.shape[0], x_mm.shape[1]), sensor, skin.pitch_mm, rng)
+        # Clipped: the one highest of thousands of tops would hold all others off the gel.
+        return skin.height_mm * field.astype(np.float64).clip(-2, 2)
+    cos, sin = math.cos(axis_rad), math.sin(axis_rad)
+    u = x_mm * cos + y_mm * sin + start[0]
+    v = y_mm * cos - x_mm * sin + start[1]
+    if skin.texture is Texture.RIDGED:
+        return skin.height_mm * _valley(u, skin.pitch_mm)
+    if skin.texture is Texture.WOVEN:
+        return skin.height_mm * np.minimum(_valley(u, skin.pitch_mm), _valley(v, skin.pitch_mm))
+    return _caps(u, v, skin)
+
+
+def faded(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
+    """A relief where the surface under it has this slope; both (H, W)."""
+    first, last = FADE_SLOPE
+    return relief_mm * ((last - slope) / (last - first)).clip(0, 1)
+
+
+def _valley(along: FloatArray, pitch: float) -> FloatArray:
+    """0 on the ridges, 1 between them."""
+    return np.asarray(np.sin(math.pi * along / pitch) ** 2)
+
+
+def _caps(u: FloatArray, v: FloatArray, skin: Skin) -> FloatArray:
+    """Spherical caps, nearly touching."""
+    row = skin.pitch_mm * math.sqrt(3)
+    squared = np.minimum(
+        *(
+            _off_lattice(u + shift * skin.pitch_mm, skin.pitch_mm) ** 2
+            + _off_lattice(v + shift * row, row) ** 2
+            for shift in (0.0, 0.5)
+        )
+    )
+    radius = 0.44 * skin.pitch_mm
+    return np.asarray(skin.height_mm * (squared / radius**2).clip(max=1))
+
+
+def _off_lattice(along: FloatArray, pitch: float) -> FloatArray:
+    """Distance from the nearest multiple of ``pitch``."""
+    return np.asarray(along - pitch * np.round(along / pitch))

@@ -1,0 +1,97 @@
+"""Rigid probes named in a word: ``ball:9.5``, ``flat:4``, ``cylinder:6``; sizes in mm.
+
+Not here: drawn indenters (``sim.starter.shapes``), the catalogue of objects, pressing
+(``sim.gel.layer``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.tactile.states import Shape
+
+FloatArray = NDArray[np.float64]
+
+LEAST_MM, MOST_MM = 0.2, 500.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Probe:
+    """A rigid probe, its tip at the origin.
+
+    Attributes:
+        kind: A key of ``KINDS``.
+        size_mm: Diameter, or edge of a square face [mm].
+
+    Raises:
+        ValueError: An unknown kind, or a size out of ``LEAST_MM`` to ``MOST_MM``.
+    """
+
+    kind: str
+    size_mm: float
+
+    def __post_init__(self) -> None:
+        if self.kind not in KINDS:
+            raise ValueError(f"unknown probe {self.kind!r}; known: {', '.join(KINDS)}")
+        if not LEAST_MM <= self.size_mm <= MOST_MM:
+            raise ValueError(
+                f"the size of a {self.kind} must be {LEAST_MM} to {MOST_MM:g} mm, "
+                f"got {self.size_mm}"
+            )
+
+    @classmethod
+    def named(cls, name: str) -> Probe:
+        """Read ``ball:9.5`` and the like.
+
+        Raises:
+            ValueError: Not a kind and a size, or not one that exists.
+        """
+        kind, _, size = name.partition(":")
+        try:
+            size_mm = float(size)
+        except ValueError:
+            forms = ", ".join(f"{kind}:{what}" for kind, (what, _, _) in KINDS.items())
+            raise ValueError(f"expected a probe such as {forms} in mm, got {name!r}") from None
+        return cls(kind=kind, size_mm=size_mm)
+
+    @property
+    def shape(self) -> Shape:
+        """What its contact is called."""
+        return KINDS[self.kind][1]
+
+    def behind_mm(self, x_mm: FloatArray, y_mm: FloatArray) -> FloatArray:
+        """How far its surface lies behind its tip, same shape as ``x_mm``; inf beside it [mm]."""
+        return KINDS[self.kind][2](x_mm, y_mm, self.size_mm)
+
+
+def _cap(r_mm: FloatArray, radius_mm: float) -> FloatArray:
+    inside = np.abs(r_mm) < radius_mm
+    # (R² - r²) as (R - r)(R + r), and the height as r² / (R + ...): no cancellation near the tip.
+    root = np.sqrt(np.clip((radius_mm - r_mm) * (radius_mm + r_mm), 0, None))
+    return np.where(inside, r_mm**2 / (radius_mm + root), np.inf)
+
+
+def _ball(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
+    return _cap(np.hypot(x, y), 0.5 * diameter)
+
+
+def _cylinder(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
+    """Side of a rod along x, longer than any field."""
+    return _cap(np.abs(y), 0.5 * diameter) + 0.0 * x
+
+
+def _flat(x: FloatArray, y: FloatArray, edge: float) -> FloatArray:
+    there = np.maximum(np.abs(x), np.abs(y)) <= 0.5 * edge
+    return np.where(there, 0.0, np.inf)
+
+
+KINDS: dict[str, tuple[str, Shape, Callable[[FloatArray, FloatArray, float], FloatArray]]] = {
+    "ball": ("DIAMETER", Shape.SPHERE, _ball),
+    "cylinder": ("DIAMETER", Shape.CYLINDER, _cylinder),
+    "flat": ("EDGE", Shape.CUBOID, _flat),
+}
+"""What its size is, what its contact is called, and its surface."""

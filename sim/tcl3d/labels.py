@@ -1,0 +1,126 @@
+"""The truth about a solved contact, as labels: from pressure and clean heights, never from a cloud.
+
+One rule for every contact, whatever its shape:
+
+- depth: the largest height;
+- in contact: where pressure acts, closed over gaps narrower than ``CLOSING_MM``, so that the
+  valleys of a fine texture count and the space between two dots does not;
+- position: the pressure-weighted centre of what is on the pad. For a cap it is the deepest point.
+  Where the two differ (tilted, textured, flat or cut contacts) the deepest point is as noisy as the
+  paper says of large ones, and the centre of the load is what a gripper has to bring to the middle;
+- cut: sides where at least ``CUT_MM`` of the border is in contact.
+
+Not here: shape and texture, which only the maker of a contact knows.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+from torch import Tensor
+
+from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import (
+    ContactState,
+    Shape,
+    Side,
+    Texture,
+    area_word,
+    depth_word,
+    position_word,
+)
+from sim.tcl3d.masks import share_of
+
+CLOSING_MM = 1.4
+"""Gaps in contact narrower than this are closed. Our choice: just below the longest period (1.5 mm)
+of ridged and woven textures, well below the shortest pitch (2 mm) of dots."""
+
+CUT_MM = 0.6
+"""Length of border in contact from which a side cuts a contact. Our choice: a point of a cloud."""
+
+
+def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
+    """Where contacts touch, fine gaps closed.
+
+    Args:
+        pressure: Shape (B, H, W), any unit.
+        pitch_mm: Of the grid [mm].
+    """
+    reach = max(1, round(CLOSING_MM / pitch_mm / 2))
+    size = 2 * reach + 1
+    # What lies beyond the border is like the border: a contact that is cut does not end there.
+    beyond = ((2 * reach,) * 2,) * 2
+    masks = (np.pad(one, beyond, mode="edge") for one in (pressure > 0).numpy())
+    return np.stack([_all_in(_any_in(mask, size), size) for mask in masks])
+
+
+def _any_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
+    """Whether a point of each square of ``size`` is set: one axis after the other, by doubling."""
+    for _ in range(2):
+        reached = 1
+        while reached < size:
+            step = min(reached, size - reached)
+            mask = mask[:-step] | mask[step:]
+            reached += step
+        mask = mask.T
+    return mask
+
+
+def _all_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
+    """Whether all points of each square of ``size`` are set."""
+    return ~_any_in(~mask, size)
+
+
+def label(
+    *,
+    height_mm: NDArray[np.float32],
+    pressure_kpa: NDArray[np.float32],
+    touching: NDArray[np.bool_],
+    force_n: float,
+    sensor: SensorSpec,
+    shape: Shape,
+    texture: Texture,
+) -> ContactState:
+    """Label one solved contact over the whole field.
+
+    Args:
+        height_mm: Shape (H, W) [mm].
+        pressure_kpa: Same shape [kPa], somewhere above 0.
+        touching: Same shape, from ``in_contact``.
+        force_n: Normal force on the pad [N].
+        sensor: Whose field it is.
+        shape: What was pressed.
+        texture: What was on it.
+    """
+    rows, columns = height_mm.shape
+    x, y = grid_axes_mm(sensor, rows, columns)
+    load = pressure_kpa.astype(np.float64)
+    total = load.sum()
+    x_mm = float(load.sum(axis=0) @ x / total)
+    y_mm = float(load.sum(axis=1) @ y / total)
+    depth_mm, share = float(height_mm.max()), share_of(touching)
+    return ContactState(
+        depth_mm=depth_mm,
+        x_mm=x_mm,
+        y_mm=y_mm,
+        area_share=share,
+        force_n=force_n,
+        depth=depth_word(depth_mm),
+        position=position_word(x_mm, y_mm, sensor),
+        area=area_word(share),
+        cut=_cut(touching, sensor.width_mm / columns),
+        shape=shape,
+        texture=texture,
+    )
+
+
+def _cut(touching: NDArray[np.bool_], pitch_mm: float) -> frozenset[Side]:
+    borders = {
+        Side.TOP: touching[0],
+        Side.BOTTOM: touching[-1],
+        Side.LEFT: touching[:, 0],
+        Side.RIGHT: touching[:, -1],
+    }
+    least = round(CUT_MM / pitch_mm)
+    return frozenset(side for side, border in borders.items() if border.sum() >= least)

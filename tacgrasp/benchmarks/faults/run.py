@@ -1,0 +1,69 @@
+"""Run the fault matrix on one emulated rig, with progress, and write its figures."""
+
+from __future__ import annotations
+
+import json
+import logging
+from collections.abc import Callable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+
+from rich.progress import Progress
+
+from sim.emulators.process.spawn import EmulatorProcess
+from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.faults.cases import FaultCase, Phase
+from tacgrasp.benchmarks.faults.injection import FaultBench
+from tacgrasp.benchmarks.faults.table import FaultRow, markdown_of, row_of, table_of
+from tacgrasp.config.layers import load
+from tacgrasp.console import console
+
+log = logging.getLogger(__name__)
+
+
+def run(
+    cases: Sequence[FaultCase],
+    *,
+    repeats: int,
+    json_path: Path | None,
+    markdown_path: Path | None,
+) -> bool:
+    """Inject every fault ``repeats`` times, print and write the table.
+
+    Returns:
+        Whether every fault was dealt with every time as it must be.
+
+    Raises:
+        RobotError: The emulators did not start.
+    """
+    config, _ = load("strawberry", "emulated")
+    if config.hardware is None:
+        raise UsageError("rigs/emulated.yaml names no hardware")
+    out, rows = console(), []
+    logging.getLogger("tacgrasp.drivers").setLevel(logging.CRITICAL)  # faults are what is wanted
+    with EmulatorProcess("rig") as emulators, Progress(console=out, transient=True) as progress:
+        bench = FaultBench(config, config.hardware, emulators)
+        task = progress.add_task("faults", total=len(cases) * repeats)
+        try:
+            for case in cases:
+                rows.append(_row(bench, case, repeats, lambda: progress.advance(task)))
+        finally:
+            bench.close()
+    out.print(table_of(rows))
+    passed = sum(row.passed for row in rows)
+    out.print(f"{passed} of {len(rows)} faults were dealt with as they must be, every time")
+    if json_path is not None:
+        json_path.write_text(json.dumps({"faults": [asdict(r) for r in rows]}, indent=1), "utf-8")
+    if markdown_path is not None:
+        command = f"tacgrasp bench faults --repeats {repeats}"
+        markdown_path.write_text(markdown_of(rows, command), encoding="utf-8")
+    return passed == len(rows)
+
+
+def _row(bench: FaultBench, case: FaultCase, repeats: int, advance: Callable[[], None]) -> FaultRow:
+    trials = []
+    for repeat in range(repeats):
+        in_episode = repeat == repeats - 1 and case.phase is not Phase.START
+        trials.append(bench.trial(case, in_episode=in_episode))
+        advance()
+    return row_of(case, trials)

@@ -1,0 +1,136 @@
+"""Series of TCL3D made from object to caption at any resolution, each stage timed.
+
+Not here: what the figures are held to (``tacgrasp.benchmarks.learning.tcl3d``), the data set's
+files (``tacgrasp.datasets.generate``).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from unittest.mock import patch
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from cltp.texts.captions import caption, numeric_caption
+from sim.gel.compliance import Spectrum
+from sim.gel.fine.fine import FineLayer
+from sim.gel.fine.single import Convolution
+from sim.gel.layer import Press
+from sim.tcl3d import series as tcl3d
+from sim.tcl3d.series import Order, Scene, draw_scene, order_of
+
+ROWS, COLUMNS = 240, 320
+SEED = 0
+STAGES = ("geometry", "solve", "labels", "caption")
+_SOFT_SHARE_MPA = 0.35  # as in ``sim.tcl3d.series``: how much deeper a soft body has to go
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Made:
+    """What one process made.
+
+    Attributes:
+        contacts: How many.
+        begin_s, end_s: On the machine's clock, which all processes share.
+        stage_s: Seconds of processor time in each of ``STAGES``, which no neighbour can stretch.
+        transforms: Sizes of the convolutions, and how many of each: rows that hold anything, and
+            padded rows and columns.
+    """
+
+    contacts: int
+    begin_s: float
+    end_s: float
+    stage_s: dict[str, float]
+    transforms: dict[tuple[int, int, int], int]
+
+
+@contextmanager
+def resolution(rows: int, columns: int) -> Iterator[None]:
+    """The data set's own code on a grid of another size."""
+    with patch.object(tcl3d, "ROWS", rows), patch.object(tcl3d, "COLUMNS", columns):
+        yield
+
+
+@contextmanager
+def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
+    """Count convolutions by their sizes, those of batches and those of single contacts."""
+    of_batches, of_one = Spectrum.apply, Convolution.apply
+
+    def count(size: tuple[int, int, int], num: int) -> None:
+        transforms[size] = transforms.get(size, 0) + num
+
+    def counting(self: Spectrum, pressure_mpa: Tensor) -> Tensor:
+        count((self.rows, self.padded_rows, self.padded_columns), len(pressure_mpa))
+        return of_batches(self, pressure_mpa)
+
+    def counting_one(self: Convolution, field: Tensor) -> Tensor:
+        count((field.shape[0], *self.padded), 1)
+        return of_one(self, field)
+
+    with (
+        patch.object(Spectrum, "apply", counting),
+        patch.object(Convolution, "apply", counting_one),
+    ):
+        yield
+
+
+def scene_of(number: int, device: str) -> tuple[Order, Scene, list[float]]:
+    """What a series is, what lies over the pad, and how deep it is pressed [mm]."""
+    order = order_of(SEED, number)
+    rng = np.random.default_rng([SEED, number, 1])
+    scene, depths = draw_scene(order, rng, device)
+    soft = order.thing.modulus_mpa
+    return order, scene, [d * (1 + (_SOFT_SHARE_MPA / soft if soft else 0.0)) for d in depths]
+
+
+def solved(order: Order, scene: Scene, approach: list[float], device: str) -> Press:
+    """Press a series at the resolution of its scene."""
+    gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).to(device)
+    layer = FineLayer(
+        order.gel,
+        rows=gap.shape[0],
+        columns=gap.shape[1],
+        pitch_mm=order.sensor.width_mm / gap.shape[1],
+        body_modulus_mpa=order.thing.modulus_mpa,
+        device=device,
+    )
+    with torch.inference_mode():
+        press = layer.press_to_depth(gap.expand(len(approach), -1, -1), torch.tensor(approach))
+        if device != "cpu":
+            torch.cuda.synchronize()
+    return press
+
+
+def make(numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS, COLUMNS)) -> Made:
+    """Make series of contacts from object to caption, one after the other, and time each stage."""
+    stage_s = dict.fromkeys(STAGES, 0.0)
+    transforms: dict[tuple[int, int, int], int] = {}
+    contacts, begin = 0, time.monotonic()
+    with resolution(*grid), _counted(transforms):
+        for number in numbers:
+            times = [time.process_time()]
+            order, scene, approach = scene_of(number, device)
+            times.append(time.process_time())
+            press = solved(order, scene, approach, device)
+            times.append(time.process_time())
+            made = tcl3d._labelled(SEED, order, scene, approach, press)
+            times.append(time.process_time())
+            for contact in made:
+                caption(contact.state)
+                numeric_caption(contact.state, contact.sensor)
+            times.append(time.process_time())
+            contacts += len(made)
+            for stage, begun, ended in zip(STAGES, times, times[1:], strict=False):
+                stage_s[stage] += ended - begun
+    return Made(
+        contacts=contacts,
+        begin_s=begin,
+        end_s=time.monotonic(),
+        stage_s=stage_s,
+        transforms=transforms,
+    )

@@ -1,0 +1,135 @@
+"""``tacgrasp bench drivers``: how regular the supervision is, and how soon commands take effect.
+
+On the emulated rig, through the real libraries, with all devices at work at once: the arm moves to
+and fro under supervision at 125 Hz, the gripper grips and opens, the gel is read.
+"""
+
+from __future__ import annotations
+
+import json
+import tempfile
+import time
+from collections import defaultdict
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from rich.progress import Progress
+from rich.table import Table
+
+from primitives.devices import Pose
+from sim.emulators.process.spawn import EmulatorProcess
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.layers import load
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.console import console
+from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper, connect_gripper
+from tacgrasp.drivers.ur.arm import UrArm, connect_arm
+from tacgrasp.drivers.ur.shared_state import Distribution
+from tacgrasp.rig.emulated import settings_for
+from tacgrasp.rig.hardware import connect_sensor
+from tacgrasp.rig.protocols import WatchedSensor
+
+STEP_M = 0.003
+STATE_READS = 20
+_WHAT = {
+    "supervision": "period of the arm's supervision, 8 ms is meant",
+    "command to motion": "arm: from an order to a speed above 1 mm/s",
+    "gripper state": "gripper: opening read on the wire",
+    "grip": "gripper: from the order until the fingers rest",
+    "open": "gripper: 5 mm, from the order until the fingers rest",
+    "touch": "sensor: a cloud captured after the call, 20 ms a frame",
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Devices:
+    arm: UrArm
+    gripper: DynamixelGripper
+    sensor: WatchedSensor
+
+
+def run(*, minutes: float, json_path: Path | None) -> Mapping[str, Distribution]:
+    """Work for some minutes, print the distributions and write them.
+
+    Raises:
+        RobotError: The emulators did not start, or a device failed on the way.
+    """
+    config, _ = load("strawberry", "emulated")
+    out = console()
+    with ExitStack() as stack:
+        devices = _connected(config, stack)
+        progress = stack.enter_context(Progress(console=out, transient=True))
+        task = progress.add_task("drivers", total=60 * minutes)
+        times_ms = _work(devices, 60 * minutes, lambda s: progress.update(task, completed=s))
+        timing = devices.arm.timing()
+        survived = devices.gripper.transients
+    figures = {
+        "supervision": timing.period,
+        "command to motion": timing.command_to_motion,
+        **{name: _distribution(values) for name, values in times_ms.items()},
+    }
+    table = Table(title=f"{minutes:g} minutes on the emulated rig, ms")
+    for column in ("", "count", "p50", "p99", "max"):
+        table.add_column(column, justify="left" if not column else "right")
+    for name, one in figures.items():
+        cells = (f"{value:.1f}" for value in (one.p50_ms, one.p99_ms, one.max_ms))
+        table.add_row(_WHAT[name], str(one.count), *cells)
+    out.print(table)
+    out.print(f"survived on the gripper's bus: {survived}")
+    if json_path is not None:
+        report = {"minutes": minutes} | {name: asdict(one) for name, one in figures.items()}
+        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
+    return figures
+
+
+def _connected(config: RunConfig, stack: ExitStack) -> _Devices:
+    if config.hardware is None:
+        raise UsageError("rigs/emulated.yaml names no hardware")
+    emulators = stack.enter_context(EmulatorProcess("rig"))
+    folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="tacgrasp-"))
+    settings = settings_for(config.hardware, emulators, Path(folder))
+    sensor = connect_sensor(settings.sensor, config)
+    stack.callback(sensor.disconnect)
+    gripper = connect_gripper(settings.gripper)
+    stack.callback(gripper.disconnect)
+    arm = connect_arm(settings.arm)
+    stack.callback(arm.disconnect)
+    return _Devices(arm=arm, gripper=gripper, sensor=sensor)
+
+
+def _work(
+    devices: _Devices, seconds: float, report: Callable[[float], None]
+) -> Mapping[str, list[float]]:
+    """Move, grip, open and read in turn for so long; returns times by name [ms]."""
+    times: dict[str, list[float]] = defaultdict(list)
+
+    def timed(name: str, call: Callable[[], object]) -> None:
+        began_s = time.perf_counter()
+        call()
+        times[name].append(1e3 * (time.perf_counter() - began_s))
+
+    start, began_s, sign = devices.arm.pose(), time.monotonic(), 1.0
+    while (passed_s := time.monotonic() - began_s) < seconds:
+        report(passed_s)
+        target = Pose(
+            position_m=start.position_m + np.array([sign * STEP_M, 0.0, 0.0]),
+            rotvec_rad=start.rotvec_rad,
+        )
+        devices.arm.move_to(target, speed_m_s=0.1)
+        sign = -sign
+        timed("grip", lambda: devices.gripper.grip(1.0))
+        for _ in range(STATE_READS):
+            timed("gripper state", devices.gripper.state)
+        timed("touch", devices.sensor.read)
+        timed("open", lambda: devices.gripper.open_by(0.005))
+    return times
+
+
+def _distribution(values_ms: list[float]) -> Distribution:
+    p50, p99 = np.percentile(values_ms, [50, 99])
+    return Distribution(
+        count=len(values_ms), p50_ms=float(p50), p99_ms=float(p99), max_ms=max(values_ms)
+    )

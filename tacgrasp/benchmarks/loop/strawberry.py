@@ -1,0 +1,292 @@
+"""``tacgrasp bench strawberry``: every policy in the same simulated episodes, against the truth.
+
+The rules of the benchmark are in the README. Beside the policies it sweeps the best single force,
+so that the figures say whether touch was needed, and prints Wilson intervals.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict, dataclass
+from functools import lru_cache, partial
+from multiprocessing import get_context
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.progress import Progress
+from rich.table import Table
+
+from policies import Policy, PolicyError
+from policies.oracle import GraspTruth, OraclePolicy
+from sim.grasp.rig import SimRig, Truth, build
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.schema import RunConfig, VerifyConfig
+from tacgrasp.loop import run_episode
+from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
+from tacgrasp.rig.factory import make_executor
+from tacgrasp.runtime.tick import NoRecorder
+from tacgrasp.runtime.verify import verify_by_lifting
+
+FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
+"""Commanded forces that ``fixed_force`` is swept over."""
+
+
+Contestant = tuple[str, float | None]
+"""A policy's name, and the first force that it chose itself [N] (``fixed_force`` alone does)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EpisodeResult:
+    """What one episode came to.
+
+    Attributes:
+        seed: Its seed.
+        reason: The named end.
+        declared: The policy declared success.
+        verified_by_touch: The lift's verdict; None when it was not tried.
+        actions: Actions carried out after the first grasp.
+        truth: What really happened.
+        slip_minimum_n: Smallest force that would have held the body, centred [N].
+        chose_first_force: The policy chose the force of the first grasp (``fixed_force``), so that
+            a bruise of that grasp is its own.
+    """
+
+    seed: int
+    reason: str
+    declared: bool
+    verified_by_touch: bool | None
+    actions: int
+    truth: Truth
+    slip_minimum_n: float
+    chose_first_force: bool = False
+
+    @property
+    def bruised(self) -> bool:
+        """Bruised by the policy, not by a first grasp that it did not choose."""
+        return self.truth.bruised or (self.chose_first_force and self.truth.bruised_at_start)
+
+    @property
+    def verified(self) -> bool:
+        """Declared, truly held through lift and wait, and not bruised by the policy."""
+        return self.declared and self.truth.held and not self.bruised
+
+
+def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
+    """Accelerations (x, y of the pad) [m/s²] that a held body is put to in the verification."""
+    shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
+    return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
+
+
+def run_seed(
+    config: RunConfig, contestants: Sequence[Contestant], seed: int
+) -> list[EpisodeResult]:
+    """Run every contestant in the same episode, without records."""
+    config = config.model_copy(update={"seed": seed, "on_failure": "hold"})  # a release is no drop
+    drawn = build(config.object, seed, sensor_name=config.sensor)
+    slip_minimum = drawn.grasp.fingers.slip_minimum_n(accelerations(config.verify))
+    return [_run_one(config, one, slip_minimum) for one in contestants]
+
+
+def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -> EpisodeResult:
+    name, force_n = contestant
+    rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
+    outcome = run_episode(
+        rig,
+        make_executor(rig, config),
+        _policy(name, config, rig, slip_minimum_n),
+        config,
+        verify=verify_by_lifting,
+        recorder=NoRecorder(),
+    )
+    return EpisodeResult(
+        seed=config.seed,
+        reason=outcome.reason.value,
+        declared=outcome.declared,
+        verified_by_touch=outcome.verified,
+        actions=outcome.steps,
+        truth=rig.truth(),
+        slip_minimum_n=slip_minimum_n,
+        chose_first_force=force_n is not None,
+    )
+
+
+def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
+    if name == "llm":
+        return _language_model(config.weights, config.instruction)
+    if name != "oracle":
+        return make_policy(name, config)
+    grasp = rig.grasp
+
+    def truth() -> GraspTruth:
+        return GraspTruth(
+            x_mm=grasp.offset_mm[0],
+            y_mm=grasp.offset_mm[1],
+            force_n=grasp.patch.force_n if grasp.patch else 0.0,
+            slip_n=slip_minimum_n,
+            bruise_n=grasp.fingers.body.bruise_n,
+        )
+
+    return OraclePolicy(truth)
+
+
+@lru_cache(maxsize=1)
+def _language_model(weights: Path | None, instruction: str) -> Policy:
+    """Read once a process: it judges every touch by itself, so that episodes can share it."""
+    policy = load_llm(weights)
+    try:
+        policy.check(instruction)
+    except PolicyError as error:
+        raise UsageError(str(error)) from None
+    return policy
+
+
+def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
+    """95 % Wilson score interval of a rate (Wilson 1927)."""
+    if trials == 0:
+        return (0.0, 1.0)
+    rate = successes / trials
+    centre = (rate + z * z / (2 * trials)) / (1 + z * z / trials)
+    half = z * math.sqrt(rate * (1 - rate) / trials + z * z / (4 * trials**2))
+    half /= 1 + z * z / trials
+    return (max(0.0, centre - half), min(1.0, centre + half))
+
+
+def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
+    """Figures of one policy, rates with their 95 % intervals."""
+    figures: dict[str, Any] = {"episodes": len(results)}
+    events: dict[str, Callable[[EpisodeResult], bool]] = {
+        "verified_success": lambda r: r.verified,
+        "bruised": lambda r: r.bruised,
+        "bruised_at_start": lambda r: r.truth.bruised_at_start,
+        "dropped": lambda r: r.truth.dropped,
+        "declared": lambda r: r.declared,
+    }
+    for name, event in events.items():
+        count = sum(event(r) for r in results)
+        figures[f"{name}_rate"] = count / len(results)
+        figures[f"{name}_interval"] = wilson(count, len(results))
+    figures["median_actions"] = median(r.actions for r in results)
+    figures["median_peak_force_over_slip_minimum"] = median(
+        r.truth.peak_force_n / r.slip_minimum_n for r in results
+    )
+    ends = sorted({r.reason for r in results})
+    figures["ends"] = {end: sum(r.reason == end for r in results) for end in ends}
+    return figures
+
+
+def run(
+    config: RunConfig,
+    *,
+    episodes: int,
+    first_seed: int,
+    policies: Sequence[str],
+    json_path: Path | None,
+) -> dict[str, Any]:
+    """Run the benchmark, print its table, and return (and write) its figures.
+
+    Raises:
+        UsageError: An unknown policy, or nothing to run.
+    """
+    known = [*POLICIES, "oracle"]
+    unknown = [name for name in policies if name not in known]
+    if unknown or not policies or episodes < 1:
+        raise UsageError(
+            f"bench needs at least one episode and policies out of {', '.join(known)}; "
+            f"got {episodes} episodes and {', '.join(policies) or 'no policy'}"
+        )
+    if "llm" in policies:
+        _language_model(config.weights, config.instruction)  # refused here, not in a worker
+    contestants: list[Contestant] = []
+    for name in policies:
+        forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
+        contestants += [(name, force_n) for force_n in forces]
+    console = Console()
+    results = _all_episodes(console, config, contestants, range(first_seed, first_seed + episodes))
+    figures: dict[str, Any] = {}
+    details: dict[str, list[dict[str, Any]]] = {}
+    sweep: dict[str, float] = {}
+    for name in policies:
+        tried = {force_n: results[name, force_n] for n, force_n in contestants if n == name}
+        best = max(tried.values(), key=lambda tries: sum(one.verified for one in tries))
+        figures[name], details[name] = summary(best), [_flat(one) for one in best]
+        if name == "fixed_force":
+            sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in tried.items()}
+    report = {
+        "task": config.task,
+        "first_seed": first_seed,
+        "episodes": episodes,
+        "policies": figures,
+        "fixed_force_sweep_n": sweep,
+        "episodes_by_policy": details,
+    }
+    _print(console, figures, sweep, episodes, first_seed)
+    if json_path is not None:
+        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
+    return report
+
+
+def _all_episodes(
+    console: Console, config: RunConfig, contestants: Sequence[Contestant], seeds: range
+) -> dict[Contestant, list[EpisodeResult]]:
+    results: dict[Contestant, list[EpisodeResult]] = {one: [] for one in contestants}
+    # spawned, not forked: torch's threads don't survive a fork
+    with (
+        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=_one_thread) as pool,
+        Progress(console=console, disable=not console.is_terminal) as progress,
+    ):
+        task = progress.add_task("episodes", total=len(seeds))
+        for of_seed in pool.map(partial(run_seed, config, contestants), seeds):
+            for contestant, result in zip(contestants, of_seed, strict=True):
+                results[contestant].append(result)
+            progress.advance(task)
+    return results
+
+
+def _one_thread() -> None:
+    import torch
+
+    torch.set_num_threads(1)
+
+
+def _flat(result: EpisodeResult) -> dict[str, Any]:
+    return asdict(result) | {"verified": result.verified, "bruised": result.bruised}
+
+
+def _print(
+    console: Console,
+    figures: dict[str, Any],
+    sweep: dict[str, float],
+    episodes: int,
+    first_seed: int,
+) -> None:
+    table = Table(title=f"{episodes} episodes, seeds from {first_seed:,}; 95 % Wilson intervals")
+    columns = ("policy", "verified", "bruised", "bruised at start", "dropped", "actions")
+    for column in (*columns, "peak force / slip minimum", "ends"):
+        table.add_column(column, justify="left" if column in ("policy", "ends") else "right")
+    for name, row in figures.items():
+
+        def rate(event: str, row: dict[str, Any] = row) -> str:
+            low, high = row[f"{event}_interval"]
+            return f"{100 * row[f'{event}_rate']:.1f} % [{100 * low:.1f}, {100 * high:.1f}]"
+
+        table.add_row(
+            name,
+            rate("verified_success"),
+            rate("bruised"),
+            f"{100 * row['bruised_at_start_rate']:.1f} %",
+            f"{100 * row['dropped_rate']:.1f} %",
+            f"{row['median_actions']:g}",
+            f"{row['median_peak_force_over_slip_minimum']:.1f}",
+            ", ".join(f"{end} {count}" for end, count in row["ends"].items()),
+        )
+    console.print(table)
+    if sweep:
+        swept = ", ".join(f"{force} N {100 * rate:.0f} %" for force, rate in sweep.items())
+        console.print(f"fixed_force is the best of a sweep (verified): {swept}")

@@ -1,0 +1,253 @@
+"""``tacgrasp bench balls``: how right the heights of real frames are, and what they cost.
+
+Presses of a ball of known diameter. Each press is measured by a calibration made from nothing
+without it (in folds), and the sphere fitted to its heights is told nothing about the ball.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from statistics import median
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+from cltp.errors import TouchError
+from cltp.sensing.ball_fit import FittedBall, fit_ball
+from cltp.sensing.calibration import default_calibration, load_calibration
+from cltp.sensing.photometric import Photometer
+from cltp.tactile.sensors import SensorSpec, sensor_named
+from cltp.train.photometric import train_gradients
+from cltp.train.progress import Bar
+from tacgrasp.bringup.ball_profiles import ball_profiles
+from tacgrasp.drivers.gelsight.frame_folder import BallFrames, read_ball_frames
+
+FOLDER = Path(__file__).parents[3].parent / "shared/data/gelsight_mini_balls"
+PROFILE = "profile_6.31mm.csv"
+DIAMETER_LIMIT_PERCENT = 4.0
+TIME_LIMIT_MS = 25.0
+
+_FLAT_MM = 5.0  # farther from a ball the gel rises or sinks by less than 0.03 mm
+_CENTRED = 20  # presses whose profile is averaged: those farthest from the border
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Held:
+    """A press measured by a calibration that never saw it.
+
+    Attributes:
+        name: Of the frame.
+        ball: What was fitted; None where no ball could be.
+        height_mm: (rows, columns) [mm].
+    """
+
+    name: str
+    ball: FittedBall | None
+    height_mm: NDArray[np.float32]
+
+
+def measure_held_out(
+    balls: BallFrames,
+    sensor: SensorSpec,
+    diameter_mm: float,
+    folds: int,
+    *,
+    bare_sphere: bool = False,
+) -> list[Held]:
+    """Calibrate ``folds`` times, each time without every ``folds``-th press, and measure those.
+
+    ``bare_sphere`` leaves out what the gel does around the contact.
+
+    Raises:
+        TouchError: Too few presses are left to calibrate on.
+    """
+    profiles = None if bare_sphere else ball_profiles(sensor.name, diameter_mm)
+    held: dict[int, Held] = {}
+    with Bar(sys.stderr) as bar:
+        for fold in range(folds):
+            kept = [f for i, f in enumerate(balls.frames) if i % folds != fold]
+            trained = train_gradients(
+                kept, balls.background, sensor, diameter_mm, profiles=profiles
+            )
+            photometer = Photometer(trained.net, balls.background, sensor)
+            for index in range(fold, len(balls.frames), folds):
+                height = photometer.heights(balls.frames[index])
+                held[index] = Held(
+                    name=balls.names[index], ball=_fit(height, sensor), height_mm=height
+                )
+            bar("calibrating without", fold + 1, folds, {})
+    return [held[index] for index in sorted(held)]
+
+
+def _fit(height_mm: NDArray[np.float32], sensor: SensorSpec) -> FittedBall | None:
+    try:
+        return fit_ball(height_mm, sensor.mm_per_px)
+    except TouchError:
+        return None
+
+
+def profile_rmse(held: list[Held], sensor: SensorSpec, file: Path) -> tuple[float, float] | None:
+    """How far the median radial profile of the centred presses is from a file's.
+
+    Returns:
+        Root mean square difference [mm], as it is and after the best scaling; None without file.
+    """
+    if not file.is_file():
+        return None
+    r_mm, known = np.loadtxt(file, delimiter=",", comments=("#", "r_mm")).T
+    row, column = np.mgrid[0 : sensor.rows, 0 : sensor.columns]
+    found = [(one.ball, one.height_mm) for one in held if one.ball is not None]
+    found.sort(key=lambda one: _to_border_px(one[0], sensor), reverse=True)
+    profiles = []
+    for ball, height_mm in found[:_CENTRED]:
+        r = np.hypot(column - ball.column, row - ball.row) * sensor.mm_per_px
+        profiles.append([np.median(height_mm[np.abs(r - at) <= 0.1]) for at in r_mm])
+    ours = np.median(profiles, axis=0)
+    scale = float(ours @ known / (ours @ ours))
+    errors = [float(np.sqrt(np.mean((s * ours - known) ** 2))) for s in (1.0, scale)]
+    return errors[0], errors[1]
+
+
+def drift_mm(held: list[Held], sensor: SensorSpec) -> float:
+    """Standard deviation of the heights where the gel is nearly flat, median over presses [mm]."""
+    row, column = np.mgrid[0 : sensor.rows, 0 : sensor.columns]
+    spreads = []
+    for one in held:
+        if one.ball is not None:
+            r = np.hypot(column - one.ball.column, row - one.ball.row) * sensor.mm_per_px
+            spreads.append(float(one.height_mm[r > _FLAT_MM].std()))
+    return median(spreads)
+
+
+def _to_border_px(ball: FittedBall, sensor: SensorSpec) -> float:
+    across = min(ball.column, sensor.columns - 1 - ball.column)
+    return min(across, ball.row, sensor.rows - 1 - ball.row)
+
+
+def reconstruction_ms(
+    photometer: Photometer,
+    balls: BallFrames,
+    *,
+    repeats: int = 100,
+    clock: Callable[[], float] = time.perf_counter,
+) -> list[float]:
+    """Time of single frames, colours in, heights out [ms], ascending."""
+    photometer.heights(balls.frames[0])
+    times = []
+    for index in range(repeats):
+        began = clock()
+        photometer.heights(balls.frames[index % len(balls.frames)])
+        times.append(1e3 * (clock() - began))
+    return sorted(times)
+
+
+def run(
+    folder: Path,
+    *,
+    diameter_mm: float,
+    background: Path | None,
+    folds: int,
+    bare_sphere: bool = False,
+    json_path: Path | None,
+) -> bool:
+    """Measure, print, write ``json_path`` if given; whether both limits are kept.
+
+    Raises:
+        TouchError: The folder can't be used, or no ball was found in any press.
+        OSError: The file can't be written.
+    """
+    sensor, to = sensor_named("gelsight_mini"), Console()
+    balls = read_ball_frames(folder, sensor, background)
+    folds = min(folds, len(balls.frames))
+    held = measure_held_out(balls, sensor, diameter_mm, folds, bare_sphere=bare_sphere)
+    fitted = [one.ball for one in held if one.ball is not None]
+    if not fitted:
+        raise TouchError(f"{folder}: no ball could be fitted in any of {len(held)} presses")
+    net = load_calibration(default_calibration(sensor), sensor).net
+    times = reconstruction_ms(Photometer(net, balls.background, sensor), balls)
+    diameters = sorted(ball.diameter_mm for ball in fitted)
+    profile = profile_rmse(held, sensor, folder / PROFILE)
+    error = 100 * (median(diameters) / diameter_mm - 1)
+    figures = {
+        "presses": len(held),
+        "fitted": len(fitted),
+        "folds": folds,
+        "diameter_mm": diameter_mm,
+        "diameter_mm_p10": float(np.percentile(diameters, 10)),
+        "diameter_mm_p50": median(diameters),
+        "diameter_mm_p90": float(np.percentile(diameters, 90)),
+        "diameter_error_percent": error,
+        "fit_residual_mm_p50": median(ball.residual_mm for ball in fitted),
+        "drift_mm_p50": drift_mm(held, sensor),
+        "profile_rmse_mm": None if profile is None else profile[0],
+        "profile_rmse_scaled_mm": None if profile is None else profile[1],
+        "reconstruction_ms_p50": median(times),
+        "reconstruction_ms_p95": float(np.percentile(times, 95)),
+    }
+    _print(to, held, figures)
+    if json_path is not None:
+        presses = [
+            {"name": one.name, **(asdict(one.ball) if one.ball else {"diameter_mm": None})}
+            for one in held
+        ]
+        report = {**figures, "per_press": presses}
+        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    return abs(error) <= DIAMETER_LIMIT_PERCENT and median(times) <= TIME_LIMIT_MS
+
+
+def _print(to: Console, held: list[Held], figures: dict[str, float | None]) -> None:
+    presses = Table("press", "diameter mm", "depth mm", "x px", "y px", "residual µm")
+    for one in held:
+        if one.ball is None:
+            presses.add_row(one.name, "no ball", "", "", "", "")
+            continue
+        ball = one.ball
+        presses.add_row(
+            one.name,
+            f"{ball.diameter_mm:.2f}",
+            f"{ball.depth_mm:.3f}",
+            f"{ball.column:.0f}",
+            f"{ball.row:.0f}",
+            f"{1e3 * ball.residual_mm:.0f}",
+        )
+    to.print(presses)
+    table = Table("what", "value", "note", title="Real frames to heights, presses held out")
+    f = {key: float("nan") if value is None else value for key, value in figures.items()}
+    table.add_row(
+        "fitted diameter, median",
+        f"{f['diameter_mm_p50']:.3f} mm ({f['diameter_error_percent']:+.1f} %)",
+        f"{f['diameter_mm']:g} mm; limit {DIAMETER_LIMIT_PERCENT:g} %; {f['folds']:.0f} folds",
+    )
+    table.add_row(
+        "fitted diameter, 10 to 90 %",
+        f"{f['diameter_mm_p10']:.2f} to {f['diameter_mm_p90']:.2f} mm",
+        f"{f['fitted']:.0f} of {f['presses']:.0f} presses",
+    )
+    table.add_row("fit residual, median", f"{1e3 * f['fit_residual_mm_p50']:.0f} µm", "")
+    table.add_row(
+        "drift, median",
+        f"{1e3 * f['drift_mm_p50']:.0f} µm",
+        f"standard deviation farther than {_FLAT_MM:g} mm from the ball",
+    )
+    if figures["profile_rmse_mm"] is None:
+        table.add_row("profile RMSE", "not measured", f"no {PROFILE} in the folder")
+    else:
+        table.add_row(
+            "profile RMSE",
+            f"{f['profile_rmse_mm']:.4f} mm",
+            f"scaled to the same depth {f['profile_rmse_scaled_mm']:.4f} mm; the profile is "
+            "photometric too",
+        )
+    table.add_row(
+        "one frame to heights",
+        f"p50 {f['reconstruction_ms_p50']:.1f}, p95 {f['reconstruction_ms_p95']:.1f} ms",
+        f"limit {TIME_LIMIT_MS:g} ms for p50",
+    )
+    to.print(table)

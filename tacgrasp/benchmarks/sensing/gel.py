@@ -1,0 +1,331 @@
+"""``tacgrasp bench gel``: how far the gel is from closed forms and real presses, and what it costs.
+
+Every error is measured here, on this machine, as it runs. The tests hold the same figures to
+limits (``tests/sim/test_gel.py``); timing is only ever printed.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import time
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+import torch
+from rich.console import Console
+from rich.table import Table
+from torch import Tensor
+
+from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
+from tacgrasp.benchmarks.sensing.radial_profiles import (
+    FIT_DIAMETER_MM,
+    Profile,
+    Simulator,
+    fit,
+    gel,
+    match,
+    read_profiles,
+    tacto,
+    taxim,
+)
+
+PROFILES = Path(__file__).parents[3].parent / "shared/data/gelsight_mini_balls"
+ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """One line of the table.
+
+    Attributes:
+        key: Name in the JSON file.
+        what: What was measured, in words.
+        value: The result; None where it could not be measured.
+        unit: Its unit, empty for a ratio.
+        note: Setting, limit or the reason why there is no value.
+    """
+
+    key: str
+    what: str
+    value: float | None
+    unit: str
+    note: str
+
+
+def _radius_mm(rows: int, columns: int, pitch_mm: float) -> Tensor:
+    y = (torch.arange(rows, dtype=torch.float64) - (rows - 1) / 2) * pitch_mm
+    x = (torch.arange(columns, dtype=torch.float64) - (columns - 1) / 2) * pitch_mm
+    return torch.hypot(y[:, None], x[None, :])
+
+
+def _ball(radius_mm: float, rows: int, columns: int, pitch_mm: float) -> Tensor:
+    """Gap of a ball, (1, rows, columns) [mm]."""
+    r = _radius_mm(rows, columns, pitch_mm)
+    gap = radius_mm - (radius_mm**2 - r**2).clamp(min=0).sqrt()
+    return torch.where(r < radius_mm, gap, torch.inf)[None]
+
+
+def _square(material: GelMaterial, size: int, pitch_mm: float) -> ElasticLayer:
+    return ElasticLayer(material, rows=size, columns=size, pitch_mm=pitch_mm, dtype=torch.float64)
+
+
+def hertz() -> list[Figure]:
+    """Half-space under a paraboloid of R 10 mm at 0.1 mm: a = 1 mm, 20 elements."""
+    material = GelMaterial(thickness_mm=math.inf, young_mpa=0.145, poisson=0.495)
+    gap = (_radius_mm(61, 61, 0.05) ** 2 / 20.0)[None]
+    press = _square(material, 61, 0.05).press_to_depth(gap, torch.tensor(0.1))
+    force = 4 / 3 * material.plane_strain_mpa * math.sqrt(10) * 0.1**1.5
+    radius = math.sqrt((press.pressure_kpa > 0).sum().item() * 0.05**2 / math.pi)
+    note = "Love half-space, 20 elements to the radius; limit 2 %"
+    return [
+        Figure(
+            key="hertz_force_error_percent",
+            what="Force against Hertz",
+            value=100 * (press.force_n.item() / force - 1),
+            unit="%",
+            note=note,
+        ),
+        Figure(
+            key="hertz_radius_error_percent",
+            what="Radius against Hertz",
+            value=100 * (radius - 1),
+            unit="%",
+            note=note,
+        ),
+    ]
+
+
+def dimitriadis() -> list[Figure]:
+    """Bonded layer, nu = 0.4999, against the series for nu = 1/2."""
+    h, r = 3.6, 20.0
+    material = GelMaterial(thickness_mm=h, young_mpa=0.145, poisson=0.4999)
+    figures = []
+    for chi in (0.1, 0.2, 0.3):
+        depth, pitch = (chi * h) ** 2 / r, chi * h / 30
+        gap = (_radius_mm(81, 81, pitch) ** 2 / (2 * r))[None]
+        press = _square(material, 81, pitch).press_to_depth(gap, torch.tensor(depth))
+        force = 4 / 3 * material.plane_strain_mpa * math.sqrt(r) * depth**1.5
+        series = 1 + 1.133 * chi + 1.283 * chi**2 + 0.769 * chi**3 + 0.0975 * chi**4
+        figures.append(
+            Figure(
+                key=f"dimitriadis_chi_{chi:.1f}_error_percent",
+                what=f"Force against Dimitriadis, chi {chi:.1f}",
+                value=100 * (press.force_n.item() / (force * series) - 1),
+                unit="%",
+                note="bonded, nu 0.4999; limit 3 %",
+            )
+        )
+    return figures
+
+
+def volume() -> list[Figure]:
+    """Share of the sunk volume that does not rise again, nu = 0.4999."""
+    material = GelMaterial(thickness_mm=2.0, young_mpa=0.145, poisson=0.4999)
+    press = _square(material, 121, 0.4).press_to_force(_ball(4.0, 121, 121, 0.4), torch.tensor(1.0))
+    sunk = press.height_mm.clamp(min=0).sum().item()
+    return [
+        Figure(
+            key="volume_lost_percent",
+            what="Volume lost",
+            value=100 * press.height_mm.sum().item() / sunk,
+            unit="%",
+            note="nu 0.4999, field 24 thicknesses wide",
+        )
+    ]
+
+
+def profiles(folder: Path = PROFILES) -> list[Figure]:
+    """Real balls: the gel fitted on one of them, the preset, TACTO and Taxim on all.
+
+    Source: ``tacgrasp.benchmarks.sensing.radial_profiles`` has the protocol.
+    """
+    known = read_profiles(folder)
+    if not known:
+        note = f"no profile_*mm.csv in {folder}"
+        return [
+            Figure(
+                key="profile_rmse_mm", what="Real ball's profile", value=None, unit="mm", note=note
+            )
+        ]
+    preset = gel_of("gelsight_mini")
+    figures = []
+    for one in known:
+        if one.diameter_mm == FIT_DIAMETER_MM:
+            figures += _fitted(one, preset)
+        where = f"ball {one.diameter_mm:g} mm"
+        rows: list[tuple[str, Simulator, float]] = [
+            ("gel preset", gel(preset), 0.2),
+            ("gel preset", gel(preset), 0.127),
+            ("gel preset", gel(preset), 0.0634),
+            ("TACTO", tacto, 0.0634),
+            ("Taxim", taxim, 0.0634),
+        ]
+        for who, simulator, pitch in rows:
+            best = match(simulator, one, pitch)
+            figures.append(
+                Figure(
+                    key=f"{who.split()[0].lower()}_rmse_mm_{one.diameter_mm:g}mm_at_{pitch}",
+                    what=f"RMSE of {who}, {where}, {pitch} mm grid",
+                    value=best.rmse_mm,
+                    unit="mm",
+                    note=f"at {best.depth_mm:.2f} mm depth"
+                    + ("; limit 0.007" if who == "gel preset" and pitch < 0.2 else ""),
+                )
+            )
+    return figures
+
+
+def _fitted(profile: Profile, preset: GelMaterial) -> list[Figure]:
+    best, near = fit(profile)
+    note = f"RMSE {near.rmse_mm:.5f} mm; the preset is "
+    note += "the fit" if best == preset else "NOT the fit"
+    return [
+        Figure(
+            key="fit_thickness_mm",
+            what="Fitted thickness",
+            value=best.thickness_mm,
+            unit="mm",
+            note=note,
+        ),
+        Figure(
+            key="fit_poisson",
+            what="Fitted Poisson's ratio",
+            value=best.poisson,
+            unit="",
+            note=f"on nothing but the {profile.diameter_mm:g} mm ball, 0.127 mm grid",
+        ),
+    ]
+
+
+def discretisation() -> list[Figure]:
+    """What grid, tolerance and precision cost on a ball of R 5 mm and a soft one of R 15 mm."""
+    forces: dict[float, float] = {}
+    for pitch, size in ((0.4, 38), (0.2, 76), (0.1, 152)):
+        gel = _square(gel_of("gelsight_mini"), size, pitch)
+        press = gel.press_to_depth(_ball(5.0, size, size, pitch), torch.tensor(0.6))
+        forces[pitch] = press.force_n.item()
+    figures = [
+        Figure(
+            key=f"grid_{pitch}_mm_force_error_percent",
+            what=f"Force at {pitch} mm grid",
+            value=100 * (forces[pitch] / forces[0.1] - 1),
+            unit="%",
+            note="ball R 5 mm at 0.6 mm, against 0.1 mm grid",
+        )
+        for pitch in (0.4, 0.2)
+    ]
+    gap, force = _ball(15.0, ROWS, COLUMNS, PITCH_MM), torch.tensor(1.0)
+    exact = _mini(torch.float64).press_to_force(gap, force, tol=1e-8)
+    for tol in (1e-3, 1e-4):
+        press = _mini(torch.float32).press_to_force(gap, force, tol=tol)
+        error = (press.height_mm.double() - exact.height_mm).abs().max().item()
+        figures.append(
+            Figure(
+                key=f"tol_{tol:g}_height_error_um",
+                what=f"Worst height, float32 at tol {tol:g}",
+                value=1e3 * error,
+                unit="µm",
+                note=f"soft ball R 15 mm, 1 N; {press.iterations.item()} iterations; "
+                "against float64 at 1e-8",
+            )
+        )
+    return figures
+
+
+def _mini(dtype: torch.dtype) -> ElasticLayer:
+    return ElasticLayer(
+        gel_of("gelsight_mini"),
+        rows=ROWS,
+        columns=COLUMNS,
+        pitch_mm=PITCH_MM,
+        body_modulus_mpa=0.23,
+        dtype=dtype,
+    )
+
+
+def _median_ms(call: Callable[[], object], repeats: int) -> float:
+    call()
+    times = []
+    for _ in range(repeats):
+        begin = time.perf_counter()
+        call()
+        times.append(1e3 * (time.perf_counter() - begin))
+    return float(np.median(times))
+
+
+def cost() -> list[Figure]:
+    """Time per solve, alone and batched, on one thread.
+
+    One, because the fields are too small to share: on a busy machine more threads wait for each
+    other, and a solve has been seen to take twenty times as long.
+    """
+    threads = torch.get_num_threads()
+    torch.set_num_threads(1)
+    try:
+        return _cost()
+    finally:
+        torch.set_num_threads(threads)
+
+
+def _cost() -> list[Figure]:
+    """``cost`` on the threads that there are, and what bare FFTs would need of it."""
+    gel, gap = _mini(torch.float32), _ball(15.0, ROWS, COLUMNS, PITCH_MM).float()
+    where = f"{ROWS}×{COLUMNS} at {PITCH_MM} mm, soft ball R 15 mm, 1 N, one thread"
+    force = torch.tensor(1.0)
+    press = gel.press_to_force(gap, force)
+    single = _median_ms(lambda: gel.press_to_force(gap, force), 20)
+    loose = _median_ms(lambda: gel.press_to_force(gap, force, tol=1e-3), 20)
+    warm = _median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
+    many = gap.expand(32, -1, -1)
+    batched = _median_ms(lambda: gel.press_to_force(many, force), 5) / 32
+    # Two convolutions an iteration, one to find out that it is done, one for the surface.
+    convolutions = 2 * int(press.iterations.item()) + 2
+    padded = (2 * ROWS, 2 * COLUMNS)
+    waves = torch.fft.rfft2(gap.clamp(max=1.0), s=padded)
+    bare = _median_ms(
+        lambda: (torch.fft.rfft2(gap, s=padded), torch.fft.irfft2(waves, s=padded)), 20
+    )
+    floor = f"{convolutions} plain convolutions, padded to double; above 1: ours are faster"
+    return [
+        Figure(key="ms_single", what="One solve", value=single, unit="ms", note=where),
+        Figure(key="ms_loose", what="One solve, tol 1e-3", value=loose, unit="ms", note=""),
+        Figure(
+            key="ms_warm", what="One solve, warm start", value=warm, unit="ms", note="+5 % force"
+        ),
+        Figure(key="ms_batched", what="Per solve, batch of 32", value=batched, unit="ms", note=""),
+        Figure(
+            key="fft_floor_share",
+            what="Bare FFTs / whole solve",
+            value=bare * convolutions / single,
+            unit="",
+            note=floor,
+        ),
+    ]
+
+
+def measure() -> list[Figure]:
+    """All figures, in the order of the table."""
+    parts = (hertz, dimitriadis, volume, profiles, discretisation, cost)
+    return [figure for part in parts for figure in part()]
+
+
+def run(json_path: Path | None) -> None:
+    """Measure, print a table, and write the figures to ``json_path`` if given.
+
+    Raises:
+        OSError: The file cannot be written.
+    """
+    figures = measure()
+    table = Table("what", "value", "unit", "note", title="Elastic-layer gel")
+    for figure in figures:
+        value = "not measured" if figure.value is None else f"{figure.value:.4g}"
+        table.add_row(figure.what, value, figure.unit, figure.note)
+    Console().print(table)
+    if json_path is not None:
+        report = {"figures": [asdict(figure) for figure in figures]} | {
+            figure.key: figure.value for figure in figures
+        }
+        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")

@@ -1,0 +1,199 @@
+"""Move a rig by hand: a key is one small step, held to the same limits as everything else.
+
+``command_of`` says what a key means and touches no device; ``Jogger`` carries it out. Not here: the
+keyboard and the screen (``tacgrasp.cli.jog``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.tactile.measure import contact_state
+from primitives.devices import Pose
+from primitives.execution import PadAxes, rotated
+from primitives.limits import Limits, check_workspace, clamp_force, clamp_step
+from tacgrasp.console import contact_words
+from tacgrasp.rig.protocols import Rig
+
+SPEED_M_S = 0.02
+"""Of every step. Our choice: slow enough to be stopped by hand."""
+
+STEPS_MM = (0.2, 0.5, 1.0, 2.0, 5.0)
+FORCE_FACTOR = 1.25
+_STEP = 2  # 1 mm at first
+
+_DIRECTIONS: Mapping[str, tuple[str, tuple[float, float, float]]] = {
+    "w": ("pad", (0.0, 1.0, 0.0)),
+    "s": ("pad", (0.0, -1.0, 0.0)),
+    "a": ("pad", (-1.0, 0.0, 0.0)),
+    "d": ("pad", (1.0, 0.0, 0.0)),
+    "r": ("base", (0.0, 0.0, 1.0)),
+    "f": ("base", (0.0, 0.0, -1.0)),
+    "i": ("base", (1.0, 0.0, 0.0)),
+    "k": ("base", (-1.0, 0.0, 0.0)),
+    "j": ("base", (0.0, 1.0, 0.0)),
+    "l": ("base", (0.0, -1.0, 0.0)),
+}
+"""Frame and direction of every key that moves: pad x right, y to the palm; base as the arm's."""
+
+HELP = (
+    "w s a d  towards palm, fingertip, left, right of the pad      r f  up, down      "
+    "i k j l  +x -x +y -y of the base",
+    "g  close (or adjust) with the force      o  open      + -  force      [ ]  step      "
+    "space  stop      ?  this      q  quit",
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """What the next key will do.
+
+    Attributes:
+        step: Index into ``STEPS_MM``.
+        force_n: Of the next grip [N].
+    """
+
+    step: int = _STEP
+    force_n: float
+
+    @property
+    def step_mm(self) -> float:
+        """Length of a step [mm]."""
+        return STEPS_MM[self.step]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """Move by ``length_mm`` along ``direction``, a unit vector in the ``frame`` pad or base."""
+
+    frame: str
+    direction: tuple[float, float, float]
+    length_mm: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Grip:
+    """Close, or adjust the grip, to a force [N]."""
+
+    force_n: float
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """Open the gripper a little."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Bring the arm to rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Help:
+    """Say what the keys are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quit:
+    """End."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unknown:
+    """A key that means nothing."""
+
+    key: str
+
+
+Command = Step | Grip | Open | Stop | Help | Quit | Unknown | None
+"""None: only the settings change."""
+
+
+def command_of(key: str, settings: Settings) -> tuple[Command, Settings]:
+    """What a key means, and the settings after it."""
+    if key in _DIRECTIONS:
+        frame, direction = _DIRECTIONS[key]
+        return Step(frame=frame, direction=direction, length_mm=settings.step_mm), settings
+    if key in "[]" and key:
+        step = settings.step + (1 if key == "]" else -1)
+        return None, replace(settings, step=min(max(step, 0), len(STEPS_MM) - 1))
+    if key in ("+", "=", "-"):
+        factor = 1 / FORCE_FACTOR if key == "-" else FORCE_FACTOR
+        return None, replace(settings, force_n=settings.force_n * factor)
+    plain: Mapping[str, Command] = {
+        "g": Grip(force_n=settings.force_n),
+        "o": Open(),
+        " ": Stop(),
+        "?": Help(),
+        "h": Help(),
+        "q": Quit(),
+        "\x1b": Quit(),
+        "\x03": Quit(),
+    }
+    return plain.get(key, Unknown(key=key)), settings
+
+
+class Jogger:
+    """Carries commands out on a rig, inside the limits (but that of an episode's travel)."""
+
+    def __init__(self, rig: Rig, limits: Limits, axes: PadAxes, *, clear_mm: float) -> None:
+        self._rig, self._limits = rig, limits
+        self._pad = np.array([axes.x_tcp, axes.y_tcp])
+        self._clear_m = clear_mm / 1000
+
+    def carry_out(self, command: Command) -> str:
+        """Do it, and say what was done.
+
+        Raises:
+            LimitError: It would leave the limits; nothing was sent.
+            RobotError: A device failed.
+        """
+        if isinstance(command, Step):
+            return self._step(command)
+        if isinstance(command, Grip):
+            force = clamp_force(command.force_n, self._limits)
+            state = self._rig.gripper.grip(force.value)
+            note = f" ({force.note})" if force.note else ""
+            return f"closed with {force.value:.2f} N at {1000 * state.width_m:.1f} mm{note}"
+        if isinstance(command, Open):
+            state = self._rig.gripper.open_by(self._clear_m)
+            return f"open at {1000 * state.width_m:.1f} mm"
+        if isinstance(command, Stop):
+            self._rig.arm.stop()
+            return "stopped"
+        if isinstance(command, Unknown):
+            return f"{command.key!r} is no command; ? lists them"
+        return "\n".join(HELP) if isinstance(command, Help) else ""
+
+    def contact(self) -> str:
+        """The contact now, in words.
+
+        Raises:
+            TouchError: The sensor failed.
+        """
+        return contact_words(contact_state(self._rig.sensor.read()))
+
+    def _step(self, step: Step) -> str:
+        here = self._rig.arm.pose()
+        length = clamp_step(step.length_mm, self._limits)
+        direction = self._in_base(step, here)
+        target = Pose(
+            position_m=here.position_m + 1e-3 * length.value * direction,
+            rotvec_rad=here.rotvec_rad,
+        )
+        check_workspace(target, self._limits)
+        speed_m_s = min(SPEED_M_S, self._limits.max_speed_m_s)
+        reached = self._rig.arm.move_to(target, speed_m_s=speed_m_s)
+        x, y, z = 1000 * reached.position_m
+        note = f" ({length.note})" if length.note else ""
+        return f"at ({x:.1f}, {y:.1f}, {z:.1f}) mm{note}"
+
+    def _in_base(self, step: Step, here: Pose) -> NDArray[np.float64]:
+        if step.frame == "base":
+            return np.array(step.direction)
+        x, y, _ = step.direction
+        return rotated(here.rotvec_rad, x * self._pad[0] + y * self._pad[1])

@@ -1,0 +1,210 @@
+"""Fill the configuration: defaults < task file < rig file < environment (< flags, ``cli.flags``).
+
+Not here: the fields and their ranges (``tacgrasp.config.schema``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import ValidationError
+
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.settings import Section
+from tacgrasp.config.errors import explain, path_of
+from tacgrasp.config.hard_limits import HardLimits
+from tacgrasp.config.hardware import beside
+from tacgrasp.config.schema import ArmConfig, GripperConfig, RunConfig
+
+ENV_PREFIX = "TACGRASP_"
+"""``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
+
+RIG_FIELDS = ("devices", "hardware", "arm", "gripper", "pad")
+"""Sections that a rig's file has to fill; what else has no default belongs to the task's."""
+
+Sources = dict[str, str]
+"""Where each value came from: dotted path of a field -> 'default', a file, a variable, a flag."""
+
+
+def load(
+    task: str | None = None,
+    rig: str | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> tuple[RunConfig, Sources]:
+    """``load_with_limits`` for those who have no flags to hold to the limits."""
+    config, sources, _ = load_with_limits(task, rig, environment)
+    return config, sources
+
+
+def load_with_limits(
+    task: str | None = None,
+    rig: str | None = None,
+    environment: Mapping[str, str] | None = None,
+) -> tuple[RunConfig, Sources, HardLimits]:
+    """Fill the model from the task's file, the rig's file and the environment, in this order.
+
+    Args:
+        task: Name or path; None takes ``TACGRASP_TASK``, and without it the strawberry.
+        rig: Name or path; None takes ``TACGRASP_RIG``, and without it the simulated one.
+        environment: Variables; only those with our prefix are read.
+
+    Returns:
+        The configuration, where each value came from, and the limits that nothing may widen.
+
+    Raises:
+        UsageError: No such task or rig, not YAML, an unknown field, a value that doesn't fit, or
+            the environment would widen a limit of the rig's file.
+    """
+    variables = {k: v for k, v in (environment or {}).items() if k.startswith(ENV_PREFIX)}
+    sources: Sources = {}
+    merged: dict[str, Any] = {}
+    for kind, flag, default in (("task", task, "strawberry"), ("rig", rig, "sim")):
+        variable = f"{ENV_PREFIX}{kind.upper()}"
+        from_env = variables.pop(variable, None)
+        merged[kind] = flag or from_env or default
+        if from_env and not flag:
+            sources[kind] = f"environment variable {variable}"
+    folder = Path()
+    for kind in ("task", "rig"):
+        where, fields, folder = _read_layer(kind, merged[kind])
+        if kind == "task" and "hardware" in fields:
+            raise UsageError(f"{where}: hardware belongs into a rig's file")
+        _merge(merged, fields, where, sources)
+    hard = _hard_limits(merged)
+    for variable, value in sorted(variables.items()):
+        layer: Any = _yaml_value(value)
+        keys = variable.removeprefix(ENV_PREFIX).lower().split("__")
+        if keys[0] == "hardware":
+            raise UsageError(
+                f"environment variable {variable}: hardware is set in the rig's file alone"
+            )
+        for key in reversed(keys):
+            layer = {key: layer}
+        _merge(merged, layer, f"environment variable {variable}", sources)
+    config = _complete(merged)
+    if config.hardware is not None:
+        config = config.model_copy(update={"hardware": beside(config.hardware, folder)})
+    hard.check(config, lambda path: sources.get(path, "the default"))
+    return config, {path: sources.get(path, "default") for path in leaves(config)}, hard
+
+
+def leaves(config: Section, prefix: str = "") -> dict[str, Any]:
+    """Every value of a configuration by its dotted path, in the order of the models."""
+    flat: dict[str, Any] = {}
+    for name in type(config).model_fields:
+        value = getattr(config, name)
+        if isinstance(value, Section):
+            flat |= leaves(value, f"{prefix}{name}.")
+        else:
+            flat[prefix + name] = value
+    return flat
+
+
+def names(kind: str) -> list[str]:
+    """Names of the tasks or rigs that come with the package (``kind`` is 'task' or 'rig')."""
+    folder = resources.files("tacgrasp") / f"{kind}s"
+    files = [f.name for f in folder.iterdir() if f.name.endswith(".yaml")]
+    return sorted(name.removesuffix(".yaml") for name in files)
+
+
+def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
+    """What messages call a file, its fields, and the folder that its relative paths start from."""
+    folder = Path(str(resources.files("tacgrasp"))) / f"{kind}s"
+    if name.endswith((".yaml", ".yml")):
+        where, path = name, Path(name)
+        folder = path.resolve().parent
+        if not path.is_file():
+            raise UsageError(f"{kind} file {name} does not exist")
+        try:
+            text = path.read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
+    elif name in names(kind):
+        where = f"{kind}s/{name}.yaml"
+        text = (folder / f"{name}.yaml").read_text("utf-8")
+    else:
+        raise UsageError(
+            f"unknown {kind} {name!r}; known: {', '.join(names(kind))}, or the path of a .yaml file"
+        )
+    try:
+        fields = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise UsageError(f"{where} is not YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(fields, dict):
+        raise UsageError(f"{where} must hold fields such as 'instruction: ...', got {fields!r:.60}")
+    for own in ("task", "rig"):
+        if own in fields:
+            raise UsageError(f"{where}: {own} can't be set in a file; give --{own} instead")
+    return where, fields, folder
+
+
+def _yaml_value(text: str) -> Any:
+    try:
+        return yaml.safe_load(text)
+    except yaml.YAMLError:
+        return text
+
+
+def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: Sources) -> None:
+    """Lay ``layer`` over ``merged`` (changed in place), check it, note where values came from.
+
+    A later layer may still bring what is missing; all else that is wrong is this layer's doing.
+    """
+    _overlay(merged, layer)
+    try:
+        RunConfig.model_validate(merged)
+    except ValidationError as error:
+        # a list whose items are wrong is also called too short: say what is wrong with the item
+        for wrong in sorted(error.errors(), key=lambda one: one["type"] == "too_short"):
+            within_a_list = any(isinstance(place, int) for place in wrong["loc"])
+            if wrong["type"] != "missing" or within_a_list:
+                raise UsageError(f"{where}: {explain(wrong)}") from None
+    sources |= dict.fromkeys(_paths(layer), where)
+
+
+def _complete(merged: dict[str, Any]) -> RunConfig:
+    try:
+        return RunConfig.model_validate(merged)
+    except ValidationError as error:
+        first = error.errors()[0]
+    if first["type"] != "missing":
+        raise UsageError(explain(first))
+    field = path_of(first["loc"])
+    kind = "rig" if field.split(".")[0] in RIG_FIELDS else "task"
+    raise UsageError(f"the {kind}'s file ({merged[kind]}) must set {field}; it has no default")
+
+
+def _hard_limits(merged: dict[str, Any]) -> HardLimits:
+    """The limits after the files.
+
+    Raises:
+        UsageError: The rig's file leaves a limit open that has no default.
+    """
+    try:
+        return HardLimits(
+            ArmConfig.model_validate(merged.get("arm", {})),
+            GripperConfig.model_validate(merged.get("gripper", {})),
+        )
+    except ValidationError:
+        _complete(merged)
+        raise
+
+
+def _overlay(below: dict[str, Any], above: dict[str, Any]) -> None:
+    for key, value in above.items():
+        if isinstance(value, dict) and isinstance(below.get(key), dict):
+            _overlay(below[key], value)
+        else:
+            below[key] = value
+
+
+def _paths(layer: Mapping[str, Any], prefix: str = "") -> list[str]:
+    paths: list[str] = []
+    for key, value in layer.items():
+        nested = isinstance(value, dict)
+        paths += _paths(value, f"{prefix}{key}.") if nested else [f"{prefix}{key}"]
+    return paths

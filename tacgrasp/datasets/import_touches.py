@@ -1,0 +1,295 @@
+"""Bring a person's own touches into a data set: files beside a table of what is known of them.
+
+Columns of the table (CSV, UTF-8): ``file`` (a cloud, a height map or a frame, as
+``cltp.sensing.touch_files`` reads them, relative to the folder), and where they are known
+``shape``, ``texture``, ``depth``,
+``position``, ``area`` (words of ``cltp.tactile.states``; depth also as a number of mm),
+``force_n``,
+``object``, ``split`` and ``series`` (presses of one thing in one place share a number; without it
+every row is its own).
+
+What is empty: shape and texture stay unknown. Depth, position and area are measured from the
+heights, noise and all, as ``describe`` does, and so is the force, by an estimate that is fitted to
+a GelSight Mini's gel; all that was measured is named in the contact's ``measured``. Numbers are
+always measured, except a depth or a force that the table gives.
+
+Nothing is written unless every row is good.
+"""
+
+from __future__ import annotations
+
+import csv
+import dataclasses
+import math
+import os
+import shutil
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, TypeVar
+
+from cltp.data.contact import Contact, Split
+from cltp.data.dataset import WORDS, DatasetWriter
+from cltp.errors import TouchError
+from cltp.sensing.touch_files import read_heights
+from cltp.tactile.measure import NO_CONTACT_MM, contact_state
+from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture, depth_word
+from tacgrasp.base.errors import UsageError
+
+COLUMNS = (
+    *("file", "shape", "texture", "depth", "position", "area"),
+    *("force_n", "object", "split", "series"),
+)
+MEASURED = frozenset(
+    {"depth", "position", "area", "cut", "depth_mm", "x_mm", "y_mm", "area_share", "force_n"}
+)
+"""What is measured where the table says nothing."""
+
+SHOWN_ROWS = 20
+LARGEST_FORCE_N = 1000.0
+SHARD_CONTACTS = 256
+RISEN_MM = 0.3
+"""Beside a contact the gel rises by less than it sinks under it. Our choice: drift, tilt and the
+halos of real frames (-0.1 mm) make less without a contact."""
+
+Word = TypeVar("Word", bound=StrEnum)
+
+
+class RowError(Exception):
+    """What is wrong with one row; never leaves this module."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Imported:
+    """What was brought in.
+
+    Attributes:
+        contacts: How many.
+        given, measured, unknown: By slot, and for the force: contacts whose label the table gave,
+            whose was measured, and that have none.
+    """
+
+    contacts: int
+    given: Mapping[str, int]
+    measured: Mapping[str, int]
+    unknown: Mapping[str, int]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Source:
+    """Where touches come from.
+
+    Attributes:
+        folder: Of the files.
+        labels: The table.
+        sensor: Whose field the touches are on.
+        background: For frames: another with nothing touching.
+        calibration: For frames; None is the one that comes along.
+    """
+
+    folder: Path
+    labels: Path
+    sensor: SensorSpec
+    background: Path | None = None
+    calibration: Path | None = None
+
+
+def import_touches(source: Source, out: Path) -> Imported:
+    """Write a new data set of the touches.
+
+    Raises:
+        UsageError: The output exists or can't be written, the table is no table with these columns,
+            or rows are bad; each is named by the table's line and its file.
+    """
+    if out.exists():
+        raise UsageError(f"--out {out} exists already; name a new folder, nothing is added to it")
+    rows = _rows(source.labels)
+    beside = out.with_name(f".{out.name}.{os.getpid()}.part")
+    try:
+        contacts, bad = _written(source, rows, beside)
+        if bad:
+            more = f"; and {len(bad) - SHOWN_ROWS} more" if len(bad) > SHOWN_ROWS else ""
+            raise UsageError(
+                f"{len(bad)} of {len(rows)} rows are bad and nothing was written: "
+                f"{'; '.join(bad[:SHOWN_ROWS])}{more}"
+            )
+        beside.rename(out)
+    except OSError as error:
+        raise UsageError(f"--out {out} can't be written: {error.strerror or error}") from None
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+    return contacts
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    """A line of the table: its number, what it says, whether it has cells without a name."""
+
+    line: int
+    cells: Mapping[str, str]
+    beyond: bool
+
+
+def _rows(labels: Path) -> list[_Row]:
+    try:
+        with labels.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.DictReader(file, strict=True)
+            header = [name.strip().lower() for name in reader.fieldnames or ()]
+            _check_header(labels, header)
+            reader.fieldnames = header
+            rows = [_row(reader.line_num, dict(cells)) for cells in reader]
+    except OSError as error:
+        raise UsageError(f"--labels {labels} can't be read: {error.strerror or error}") from None
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise UsageError(f"--labels {labels} is no table of UTF-8 text (CSV): {error}") from None
+    if not rows:
+        raise UsageError(f"--labels {labels} has a header but no rows")
+    return rows
+
+
+def _row(line: int, cells: dict[str | None, Any]) -> _Row:
+    beyond = cells.pop(None, None) is not None  # where csv puts what the header has no name for
+    said = {str(name): value.strip() for name, value in cells.items() if value and value.strip()}
+    return _Row(line, said, beyond)
+
+
+def _check_header(labels: Path, header: list[str]) -> None:
+    foreign = [name for name in header if name not in COLUMNS]
+    if "file" not in header or foreign or len(set(header)) != len(header):
+        raise UsageError(
+            f"--labels {labels} needs a header with the column file and any of "
+            f"{', '.join(COLUMNS[1:])}, each once; got {', '.join(header) or 'nothing'}"
+        )
+
+
+def _written(source: Source, rows: list[_Row], folder: Path) -> tuple[Imported, list[str]]:
+    bad: list[str] = []
+    counts = {kind: dict.fromkeys((*WORDS, "force_n"), 0) for kind in ("given", "measured", "no")}
+    seen: dict[str, int] = {}
+    about = {
+        "made_by": "tacgrasp data import",
+        "contacts": str(len(rows)),
+        "sensor": source.sensor.name,
+        "labels": source.labels.name,
+    }
+    with DatasetWriter(folder, shard_size=SHARD_CONTACTS, about=about) as writer:
+        for number, row in enumerate(rows):
+            name = row.cells.get("file", "no file")
+            try:
+                path = os.path.normpath(name)
+                if path in seen:
+                    raise RowError(f"the same file as line {seen[path]}")
+                contact = _contact(source, row, number)
+            except (RowError, TouchError) as error:
+                what = str(error).removeprefix(f"{source.folder / name}: ")
+                bad.append(f"{source.labels.name} line {row.line} ({name}): {what}")
+                continue
+            seen[path] = row.line
+            for slot in counts["given"]:
+                counts[_how(contact, slot)][slot] += 1
+            if not bad:
+                writer.add(contact)
+    whole = Imported(
+        contacts=writer.num_written,
+        given=counts["given"],
+        measured=counts["measured"],
+        unknown=counts["no"],
+    )
+    return whole, bad
+
+
+def _how(contact: Contact, slot: str) -> str:
+    if slot in contact.measured:
+        return "measured"
+    return "no" if getattr(contact.state, slot) is None else "given"
+
+
+def _contact(source: Source, row: _Row, number: int) -> Contact:
+    cells = row.cells
+    if row.beyond:
+        raise RowError("more cells than the header has")
+    if "file" not in cells:
+        raise RowError("names no file")
+    heights = read_heights(
+        source.folder / cells["file"],
+        source.sensor,
+        background=source.background,
+        calibration=source.calibration,
+    )
+    lowest, highest = float(heights.min()), float(heights.max())
+    if -lowest > max(highest, RISEN_MM):
+        raise RowError(
+            f"heights from {lowest:.2f} to {highest:+.2f} mm rise more than they sink; expected "
+            "+ into the gel: is the sign turned, or is the untouched gel not at 0?"
+        )
+    series = cells.get("series", str(number))
+    if not series.isdigit() or int(series) >= 2**62:
+        raise RowError(f"series must be a number from 0, got {series!r}")
+    state, measured = _labelled(_measured(heights, source.sensor), cells)
+    return Contact(
+        height_mm=heights,
+        sensor=source.sensor,
+        state=state,
+        object=cells.get("object", "unknown"),
+        series=int(series),
+        split=_word(Split, "split", cells) or Split.TRAIN,
+        measured=measured,
+    )
+
+
+def _measured(heights: object, sensor: SensorSpec) -> ContactState:
+    from cltp.tactile.cloud import cloud_from_heights
+
+    return contact_state(cloud_from_heights(heights, sensor))  # type: ignore[arg-type]
+
+
+def _labelled(state: ContactState, cells: Mapping[str, str]) -> tuple[ContactState, frozenset[str]]:
+    """What the table gives in place of what was measured, and the names of what was measured."""
+    words = dict(_given(cells))
+    said = [name for name in (*WORDS, "force_n") if name in cells]
+    if not state.in_contact:
+        if said:
+            raise RowError(
+                f"labelled ({', '.join(said)}), but nothing touches: the heights stay below "
+                f"{NO_CONTACT_MM} mm; leave its labels empty to import it as no contact"
+            )
+        return state, MEASURED
+    measured = MEASURED - set(words)
+    return dataclasses.replace(state, **words), measured  # type: ignore[arg-type]
+
+
+def _given(cells: Mapping[str, str]) -> Iterator[tuple[str, object]]:
+    """Fields of a state that the table gives."""
+    for slot, kind in (("shape", Shape), ("texture", Texture), ("position", Position)):
+        if slot in cells:
+            yield slot, _word(kind, slot, cells)
+    if "area" in cells:
+        yield "area", _word(Area, "area", cells)
+    if "depth" in cells and cells["depth"][0].isdigit():
+        depth_mm = _number("depth", cells, 10.0)
+        yield from (("depth_mm", depth_mm), ("depth", depth_word(depth_mm)))
+    elif "depth" in cells:
+        yield "depth", _word(Depth, "depth", cells)
+    if "force_n" in cells:
+        yield "force_n", _number("force_n", cells, LARGEST_FORCE_N)
+
+
+def _word(kind: type[Word], name: str, cells: Mapping[str, str]) -> Word | None:
+    if name not in cells:
+        return None
+    try:
+        return kind(cells[name].lower())
+    except ValueError:
+        raise RowError(f"{name} {cells[name]!r} is none of {', '.join(kind)}") from None
+
+
+def _number(name: str, cells: Mapping[str, str], most: float) -> float:
+    try:
+        value = float(cells[name].removesuffix("mm").removesuffix("N"))
+    except ValueError:
+        value = math.nan
+    if not 0 < value <= most:
+        raise RowError(f"{name} must be a number above 0, up to {most:g}; got {cells[name]!r}")
+    return value

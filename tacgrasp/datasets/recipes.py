@@ -1,0 +1,219 @@
+"""What data sets there are to generate, each cut into shards that can be made in any order.
+
+- ``tcl3d``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``);
+- ``starter``: 19 indenters and four bodies at a gripper's forces, 24,000 contacts
+  (``sim.starter.contacts``): what the weights that come along were trained on.
+
+Not here: workers and files (``tacgrasp.datasets.generate``).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import torch
+
+from cltp.data.contact import Contact
+from cltp.tactile.sensors import sensor_named
+from sim.grasp.rig import BENCHMARK_SEED
+from sim.objects.catalogue import THINGS
+from sim.objects.mesh_objects import meshes_in, thing_from_mesh
+from sim.starter.contacts import GROUP_CONTACTS, make_group
+from sim.tcl3d.series import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.torch_device import usable_device
+
+SETS = ("tcl3d", "starter")
+STARTER_CONTACTS = 24_000
+
+STARTER_MAKER, TCL3D_MAKER = "1", "tcl3d 1"
+"""Versions of what is made; counted up when the same seed makes other contacts."""
+
+SHARD_GROUPS = 5
+SHARD_SERIES = 50
+
+
+class Recipe(Protocol):
+    """A data set to make. Sent to worker processes."""
+
+    @property
+    def carded(self) -> bool:
+        """Whether its folder gets a card."""
+        ...
+
+    def about(self) -> dict[str, str]:
+        """What ``dataset.json`` says of it: the same for every part of it."""
+        ...
+
+    def command(self) -> str:
+        """What makes it again."""
+        ...
+
+    def shard_sizes(self) -> list[int]:
+        """How many contacts each shard holds."""
+        ...
+
+    def make(self, shard: int) -> list[Contact]:
+        """The contacts of one shard; they depend on nothing but the recipe and the number."""
+        ...
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Starter:
+    """See the module."""
+
+    contacts: int
+    seed: int
+    sensor_name: str
+
+    @property
+    def carded(self) -> bool:
+        """See ``Recipe``."""
+        return False
+
+    def about(self) -> dict[str, str]:
+        """See ``Recipe``."""
+        return {
+            "made_by": "tacgrasp data generate",
+            "maker": STARTER_MAKER,
+            "seed": str(self.seed),
+            "contacts": str(self.contacts),
+            "sensor": self.sensor_name,
+        }
+
+    def command(self) -> str:
+        """See ``Recipe``."""
+        return (
+            f"tacgrasp data generate --set starter --contacts {self.contacts} --seed {self.seed}"
+            f" --sensor {self.sensor_name}"
+        )
+
+    def shard_sizes(self) -> list[int]:
+        """See ``Recipe``."""
+        return _cut(self.contacts, SHARD_GROUPS * GROUP_CONTACTS)
+
+    def make(self, shard: int) -> list[Contact]:
+        """See ``Recipe``."""
+        count = self.shard_sizes()[shard]
+        first = shard * SHARD_GROUPS
+        groups = range(first, first + math.ceil(count / GROUP_CONTACTS))
+        sensor = sensor_named(self.sensor_name)
+        return [c for group in groups for c in make_group(self.seed, group, sensor)][:count]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tcl3d:
+    """See the module."""
+
+    contacts: int
+    seed: int
+    meshes: tuple[Path, ...] = ()
+    device: str = "cpu"
+
+    @property
+    def carded(self) -> bool:
+        """See ``Recipe``."""
+        return True
+
+    def about(self) -> dict[str, str]:
+        """See ``Recipe``; the device is named since it may move a height by 1 µm."""
+        return {
+            "made_by": "tacgrasp data generate",
+            "set": "tcl3d",
+            "maker": TCL3D_MAKER,
+            "seed": str(self.seed),
+            "contacts": str(sum(self.shard_sizes())),
+            **({"meshes": _names(self.meshes)} if self.meshes else {}),
+            "torch": torch.__version__.split("+")[0],
+            "device": self.device.split(":")[0],
+        }
+
+    def command(self) -> str:
+        """See ``Recipe``."""
+        count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
+        device = "" if self.device == "cpu" else f" --device {self.device}"
+        meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
+        return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{meshes}{device}"
+
+    def shard_sizes(self) -> list[int]:
+        """See ``Recipe``."""
+        sizes = [sum(map(num_loads, shard)) for shard in self._shards()]
+        sizes[-1] -= sum(sizes) - self.contacts
+        per_mesh = [sum(map(num_loads, part)) for part in _parts(mesh_numbers(0))]
+        return [*sizes, *per_mesh * len(self.meshes)]
+
+    def make(self, shard: int) -> list[Contact]:
+        """See ``Recipe``."""
+        own = self._shards()
+        thing, part = None, shard - len(own)
+        if part >= 0:
+            which, part = divmod(part, len(_parts(mesh_numbers(0))))
+            thing, numbers = thing_from_mesh(self.meshes[which]), _parts(mesh_numbers(which))[part]
+        else:
+            numbers = own[shard]
+        series = (make_series(self.seed, number, self.device, thing=thing) for number in numbers)
+        made = [contact for one in series for contact in one]
+        return made[: self.shard_sizes()[shard]]
+
+    def _shards(self) -> list[Sequence[int]]:
+        """Series of the catalogue, by shard; those of meshes follow, each mesh by itself."""
+        return _parts(series_numbers(self.contacts))
+
+
+def recipe(
+    set_name: str,
+    *,
+    contacts: int | None,
+    seed: int,
+    sensor_name: str,
+    meshes: Path | None,
+    device: str,
+) -> Recipe:
+    """A recipe by the flags of ``tacgrasp data generate``.
+
+    Raises:
+        UsageError: There is no such set, or a value makes no sense for it, or the device can't be
+            used here.
+        TouchError: The sensor is not known, or a mesh can't be used.
+    """
+    if set_name not in SETS:
+        raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
+    if (contacts is not None and contacts < 1) or not 0 <= seed < BENCHMARK_SEED:
+        raise UsageError(
+            f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
+            f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
+        )
+    sensor_named(sensor_name)
+    if set_name == "starter":
+        if meshes is not None or device != "cpu":
+            raise UsageError("--meshes and --device belong to --set tcl3d")
+        return Starter(contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name)
+    if sensor_name != "gelsight_mini":
+        raise UsageError(
+            f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
+        )
+    usable_device(device)
+    found = () if meshes is None else tuple(meshes_in(meshes))
+    for path in found:  # all faults before the first contact
+        thing_from_mesh(path)
+    if len({path.stem for path in found} | {t.name for t in THINGS}) < len(found) + len(THINGS):
+        raise UsageError(f"{meshes} has meshes of one name, or that of an object of tcl3d; rename")
+    return Tcl3d(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=found, device=device)
+
+
+def _cut(contacts: int, size: int) -> list[int]:
+    return [min(size, contacts - first) for first in range(0, contacts, size)]
+
+
+def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:
+    return [numbers[i : i + SHARD_SERIES] for i in range(0, len(numbers), SHARD_SERIES)]
+
+
+def _names(meshes: Sequence[Path]) -> str:
+    """Names and checksums: another mesh of the same name is other data."""
+    return " ".join(f"{p.name}:{hashlib.sha256(p.read_bytes()).hexdigest()[:12]}" for p in meshes)

@@ -1,0 +1,250 @@
+"""Force of a gripper over the current of its servos: a measured line, kept in the rig's folder.
+
+A servo that stands still with a set current presses with about (current - friction) × slope; both
+differ from gripper to gripper and with wear, so that a calibration names its gripper and its date,
+and is refused for another gripper and when it is too old.
+
+Not here: moving the gripper for a measurement (``measure_gripper``).
+"""
+
+from __future__ import annotations
+
+import csv
+import datetime
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import yaml
+from pydantic import Field, ValidationError, model_validator
+
+from primitives.errors import RobotError
+from tacgrasp.base.settings import Number, Section
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+
+MIN_READINGS = 3
+MAX_RESIDUAL_SHARE = 0.15
+"""Residual over the largest force, above which a line does not describe the gripper; our choice."""
+
+
+class GripperCalibration(Section):
+    """The line, what it was measured on, and how well it fits.
+
+    Attributes:
+        unit: Which gripper, as its rig's file calls it.
+        model: Of its servos.
+        ids: Of its servos.
+        adapter: Serial number of the USB adapter; empty when it tells none.
+        date: Of the measurement.
+        newtons_per_ma: Slope [N/mA].
+        friction_ma: Current at which it just begins to press [mA].
+        residual_n: Root mean square of what the line leaves over [N].
+        max_force_n: Largest force that was measured; none above it is asked for [N].
+        num_readings: How many were measured.
+        source: With what.
+    """
+
+    unit: str = Field(min_length=1)
+    model: str
+    ids: tuple[int, ...] = Field(min_length=1, max_length=2)
+    adapter: str = ""
+    date: datetime.date
+    newtons_per_ma: Number = Field(gt=0, le=1)
+    friction_ma: Number = Field(ge=-200, le=1000)
+    residual_n: Number = Field(ge=0)
+    max_force_n: Number = Field(gt=0, le=500)
+    num_readings: int = Field(ge=MIN_READINGS, strict=True)
+    source: str = ""
+
+    @model_validator(mode="after")
+    def _the_line_fits(self) -> GripperCalibration:
+        if self.residual_n > MAX_RESIDUAL_SHARE * self.max_force_n:
+            raise ValueError(
+                f"residual_n {self.residual_n:.2f} is more than {100 * MAX_RESIDUAL_SHARE:.0f} % "
+                f"of max_force_n {self.max_force_n:.2f}: the readings are on no line"
+            )
+        return self
+
+    def current_ma(self, force_n: float) -> float:
+        """Current that presses with a force [mA]."""
+        return self.friction_ma + force_n / self.newtons_per_ma
+
+    def force_n(self, current_ma: float) -> float:
+        """Force of a current, 0 below friction [N]."""
+        return max(0.0, (current_ma - self.friction_ma) * self.newtons_per_ma)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Reading:
+    """One force that was read off a scale while a current was set.
+
+    Raises:
+        RobotError: It is not finite, or below 0.
+    """
+
+    current_ma: float
+    force_n: float
+
+    def __post_init__(self) -> None:
+        if not (np.isfinite([self.current_ma, self.force_n]).all() and self.current_ma >= 0):
+            raise RobotError(
+                f"a reading is a current from 0 mA on and a force [N], got {self.current_ma} mA "
+                f"and {self.force_n} N"
+            )
+        if self.force_n < 0:
+            raise RobotError(f"a reading of {self.force_n} N: forces are read from 0 on")
+
+
+def fit_calibration(
+    readings: Sequence[Reading],
+    settings: DynamixelSettings,
+    *,
+    date: datetime.date,
+    adapter: str = "",
+    source: str = "",
+) -> GripperCalibration:
+    """The line through some readings, by least squares over those that press at all.
+
+    Raises:
+        RobotError: Too few readings, or they are on no line.
+    """
+    pressing = [reading for reading in readings if reading.force_n > 0]
+    currents = np.array([reading.current_ma for reading in pressing])
+    forces = np.array([reading.force_n for reading in pressing])
+    if len(pressing) < MIN_READINGS or len(set(currents)) < 2:
+        raise RobotError(
+            f"a line needs {MIN_READINGS} or more readings above 0 N at different currents, got "
+            f"{len(pressing)}; measure at more currents"
+        )
+    slope, start = np.polyfit(currents, forces, 1)
+    if slope <= 0:
+        raise RobotError(
+            f"force falls with current ({slope:.4f} N/mA): the readings are wrong or in another "
+            "order; expected pairs of current [mA] and force [N]"
+        )
+    residual_n = float(np.sqrt(np.mean((forces - (slope * currents + start)) ** 2)))
+    try:
+        return GripperCalibration(
+            unit=settings.unit,
+            model=settings.model,
+            ids=tuple(servo.id for servo in settings.servos),
+            adapter=adapter,
+            date=date,
+            newtons_per_ma=float(slope),
+            friction_ma=float(-start / slope),
+            residual_n=residual_n,
+            max_force_n=float(forces.max()),
+            num_readings=len(pressing),
+            source=source,
+        )
+    except ValidationError as error:
+        raise RobotError(f"these readings make no calibration: {_plain(error)}") from None
+
+
+def read_readings(path: Path) -> Sequence[Reading]:
+    """Readings of a CSV file with the columns current_ma and force_n.
+
+    Raises:
+        RobotError: No such file, or a line that is no reading.
+    """
+    expected = "expected a CSV file with the columns current_ma and force_n"
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            rows = csv.DictReader(file)
+            if not {"current_ma", "force_n"} <= set(rows.fieldnames or ()):
+                raise RobotError(f"{expected}, got {rows.fieldnames}")
+            readings = []
+            for row in rows:
+                try:
+                    values = float(row["current_ma"]), float(row["force_n"])
+                except (TypeError, ValueError):
+                    raise RobotError(f"line {rows.line_num}: {expected}, got {row}") from None
+                readings.append(Reading(current_ma=values[0], force_n=values[1]))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise RobotError(f"{expected}: {error}") from None
+    return readings
+
+
+def save_calibration(path: Path, calibration: GripperCalibration) -> None:
+    """Write it as YAML, whole or not at all.
+
+    Raises:
+        RobotError: It can't be written there.
+    """
+    text = (
+        "# Force of a gripper over the current of its servos; made by: tacgrasp calibrate gripper\n"
+        + yaml.safe_dump(calibration.model_dump(mode="json"), sort_keys=False)
+    )
+    part = path.with_name(path.name + ".part")
+    try:
+        part.write_text(text, encoding="utf-8")
+        part.replace(path)
+    except OSError as error:
+        raise RobotError(f"the calibration can't be written to {path}: {error.strerror}") from None
+
+
+def load_calibration(path: Path) -> GripperCalibration:
+    """Read it.
+
+    Raises:
+        RobotError: There is none, or it is damaged.
+    """
+    mend = "make one with: tacgrasp calibrate gripper"
+    try:
+        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise RobotError(f"no calibration of the gripper at {path}; {mend}") from None
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        why = " ".join(str(error).split())
+        raise RobotError(f"{path} is no calibration of a gripper: {why}; {mend}") from None
+    if not isinstance(values, dict):
+        raise RobotError(f"{path} is no calibration of a gripper: expected fields; {mend}")
+    try:
+        return GripperCalibration(**values)
+    except ValidationError as error:
+        raise RobotError(
+            f"{path} is no calibration of a gripper: {_plain(error)}; {mend}"
+        ) from None
+
+
+def refusal(
+    calibration: GripperCalibration,
+    settings: DynamixelSettings,
+    *,
+    adapter: str,
+    today: datetime.date,
+) -> str:
+    """Why a calibration can't be used for this gripper today; empty when it can."""
+    ids = tuple(servo.id for servo in settings.servos)
+    pairs = (
+        ("unit", calibration.unit, settings.unit),
+        ("model", calibration.model, settings.model),
+        ("ids", calibration.ids, ids),
+        ("adapter", calibration.adapter or adapter, adapter or calibration.adapter),
+    )
+    for name, theirs, ours in pairs:
+        if theirs != ours:
+            return (
+                f"the calibration is of another gripper: its {name} is {theirs}, this one's "
+                f"{ours}; make one with: tacgrasp calibrate gripper"
+            )
+    age = (today - calibration.date).days
+    if age < 0:
+        return (
+            f"the calibration is dated {calibration.date}, after today ({today}): check this "
+            "computer's clock"
+        )
+    if age > settings.max_calibration_age_days:
+        return (
+            f"the calibration is {age} days old (max_calibration_age_days is "
+            f"{settings.max_calibration_age_days}); make a new one with: tacgrasp calibrate gripper"
+        )
+    return ""
+
+
+def _plain(error: ValidationError) -> str:
+    """The first thing that pydantic found, on one line."""
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"])
+    return f"{place}: {first['msg']}" if place else str(first["msg"])

@@ -1,0 +1,76 @@
+"""Settings and calibration of the emulated gripper (``sim.emulators.dynamixel.bus_process``).
+
+The emulator's own line of force over current is written down as a calibration of today: nobody has
+to hold a scale between fingers that do not exist, and only the quantisation of the current is left
+between the force that is asked for and the one that presses.
+"""
+
+from __future__ import annotations
+
+import datetime
+from pathlib import Path
+
+from sim.emulators.dynamixel.fingers import Linkage
+from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, save_calibration
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
+
+UNIT = "emulated"
+MAX_MA = 900.0
+
+
+def emulated_gripper(
+    port: str,
+    folder: Path,
+    *,
+    model: str = "XC330-T288",
+    num_servos: int = 1,
+    baud: int = 1_000_000,
+    linkage: Linkage | None = None,
+) -> DynamixelSettings:
+    """Settings for an emulator at a port; its calibration is written into a folder.
+
+    Args:
+        port: That the emulator announced.
+        folder: Of the rig's file, or a temporary one.
+        model: As the emulator was started with; so are the others.
+        num_servos: 1 or 2.
+        baud: [bit/s].
+        linkage: Default: the emulator's.
+
+    Raises:
+        RobotError: The calibration can't be written.
+    """
+    fingers = linkage or Linkage()
+    settings = DynamixelSettings(
+        port=port,
+        baud=baud,
+        unit=UNIT,
+        model=model,
+        servos=tuple(
+            ServoSettings(
+                id=index + 1,
+                open_ticks=round(fingers.ticks(index, fingers.open_width_m)),
+                closed_ticks=round(fingers.ticks(index, 0.0)),
+            )
+            for index in range(num_servos)
+        ),
+        open_width_mm=1000 * fingers.open_width_m,
+        speed_mm_s=200.0,
+        max_current_ma=MAX_MA,
+    )
+    save_calibration(
+        folder / settings.calibration,
+        GripperCalibration(
+            unit=UNIT,
+            model=model,
+            ids=tuple(servo.id for servo in settings.servos),
+            date=datetime.date.today(),
+            newtons_per_ma=fingers.newtons_per_ma,
+            friction_ma=fingers.friction_ma,
+            residual_n=0.0,
+            max_force_n=fingers.force_n(MAX_MA),
+            num_readings=3,
+            source="the emulator's own line",
+        ),
+    )
+    return settings

@@ -1,0 +1,210 @@
+"""The untouched gel of one unit: averaged, kept with its date, refused when it no longer serves.
+
+A background is a PNG that any viewer shows; unit, date and number of frames are in its text.
+
+Not here: taking the frames (``gelsight_mini``), what a background is for
+(``cltp.sensing.photometric``).
+"""
+
+from __future__ import annotations
+
+import datetime
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from cltp.errors import TouchError
+from cltp.sensing.frames import Frame, check_frame, read_frame
+from cltp.tactile.sensors import SensorSpec
+
+VERSION = 1
+_KEY = "tacgrasp_background"
+
+BLUR_PX = 2.0
+
+UNTOUCHED_LEVELS = 6.0
+"""Change (blurred) that a pixel of an untouched gel stays below. Our choice: 0.7 levels where the
+frames that we have are untouched, 30 under the faintest press."""
+
+UNTOUCHED_SHARE = 0.01
+"""Share of pixels that may change more: dust."""
+
+LIGHT_SHARE = 0.5
+"""From this share on it is the light or the wrong background; below, something at one place."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Background:
+    """The untouched gel.
+
+    Attributes:
+        frame: (rows, columns, 3) uint8.
+        unit: Whose it is; empty when the image doesn't say.
+        taken: When, with its time zone; None when the image doesn't say.
+        num_frames: Averaged; 0 when the image doesn't say.
+    """
+
+    frame: Frame
+    unit: str
+    taken: datetime.datetime | None
+    num_frames: int
+
+    def age_h(self, now: datetime.datetime) -> float | None:
+        """Hours since it was taken; None when that isn't known."""
+        return None if self.taken is None else (now - self.taken).total_seconds() / 3600
+
+
+def averaged(
+    frames: Sequence[Frame], sensor: SensorSpec, unit: str, taken: datetime.datetime
+) -> Background:
+    """One background out of several frames.
+
+    Raises:
+        TouchError: Fewer than two frames, one is no frame of the sensor, or they differ among
+            themselves: something moves, or the light changes.
+    """
+    if len(frames) < 2:
+        raise TouchError(f"a background is averaged from 2 frames or more, got {len(frames)}")
+    stack = np.stack([check_frame(frame, sensor) for frame in frames]).astype(np.float32)
+    half = len(stack) // 2
+    moved = changed(stack[half:].mean(0), stack[:half].mean(0))
+    share = float((moved > UNTOUCHED_LEVELS / 2).mean())
+    if share > UNTOUCHED_SHARE:
+        raise TouchError(
+            f"{share:.0%} of the picture changed while the background was taken; expected a still "
+            "one: let nothing touch the gel, and let the LEDs warm up for a minute"
+        )
+    frame = np.rint(stack.mean(axis=0)).astype(np.uint8)
+    return Background(frame=frame, unit=unit, taken=taken, num_frames=len(frames))
+
+
+def changed(frame: NDArray[np.number], other: NDArray[np.number]) -> NDArray[np.float32]:
+    """How much each pixel differs, (rows, columns), in levels: noise blurred away, worst colour."""
+    change = frame.astype(np.float32) - other.astype(np.float32)
+    blurred = ndimage.gaussian_filter(change, (BLUR_PX, BLUR_PX, 0))
+    return np.asarray(np.abs(blurred).max(axis=2), dtype=np.float32)
+
+
+def mismatch(frame: Frame, background: Frame) -> str:
+    """Why a frame is not the untouched gel of a background; empty when it is."""
+    share = float((changed(frame, background) > UNTOUCHED_LEVELS).mean())
+    if share > LIGHT_SHARE:
+        return (
+            f"stale background: {share:.0%} of the picture differs from it by more than "
+            f"{UNTOUCHED_LEVELS:g} levels although nothing touches; another unit, another gel or "
+            "another light: take a new one: tacgrasp calibrate background"
+        )
+    if share > UNTOUCHED_SHARE:
+        return (
+            f"{share:.0%} of the picture differs from the background by more than "
+            f"{UNTOUCHED_LEVELS:g} levels although nothing should touch: free the gel and clean "
+            "it; if it is free, the background is stale or the gel is damaged: take a new one"
+        )
+    return ""
+
+
+def save_background(path: Path, background: Background) -> None:
+    """Write a background, whole or not at all.
+
+    Raises:
+        TouchError: It has no date, or the file isn't to be a .png.
+        OSError: The file can't be written.
+    """
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    if background.taken is None or path.suffix.lower() != ".png":
+        raise TouchError(f"{path}: a background is kept as a .png, with its date")
+    record = {
+        "version": VERSION,
+        "unit": background.unit,
+        "taken": background.taken.isoformat(timespec="seconds"),
+        "num_frames": background.num_frames,
+    }
+    text = PngInfo()
+    text.add_text(_KEY, json.dumps(record))
+    beside = path.with_name(path.name + ".part")
+    Image.fromarray(background.frame).save(beside, format="PNG", pnginfo=text)
+    beside.replace(path)
+
+
+def load_background(
+    path: Path,
+    sensor: SensorSpec,
+    *,
+    unit: str,
+    max_age_h: float,
+    now: datetime.datetime,
+    dated: bool,
+) -> Background:
+    """Read a background and refuse one that can't serve.
+
+    Args:
+        path: A file of ``save_background``; or, unless ``dated``, any image.
+        sensor: Whose frame it must be.
+        unit: Whose it must be, where it says so.
+        max_age_h: Oldest that is taken, where it says its age [h].
+        now: With its time zone.
+        dated: Whether it must say unit and date: for a camera, not for a recording.
+
+    Raises:
+        TouchError: Missing, no frame of this sensor, another unit's, too old, from the future, or
+            without the record that it must have.
+    """
+    if not path.is_file():
+        raise TouchError(
+            f"no background {path}: free the gel and take one: tacgrasp calibrate background"
+        )
+    frame = read_frame(path, sensor)
+    background = _recorded(path, frame)
+    if background.taken is None:
+        if dated:
+            raise TouchError(
+                f"{path} does not say when and of which unit it was taken; a camera needs a "
+                "background that does: free the gel and take one: tacgrasp calibrate background"
+            )
+        return background
+    if not dated:  # a recording is as old as its own background
+        return background
+    if background.unit != unit:
+        raise TouchError(
+            f"{path} is of unit {background.unit!r}, expected {unit!r}: take one with this unit"
+        )
+    age_h = background.age_h(now)
+    if age_h is None or not -0.1 <= age_h <= max_age_h:
+        raise TouchError(
+            f"{path} was taken {age_h:.0f} h ago, expected 0 to {max_age_h:g} h "
+            "(max_background_age_h): free the gel and take a new one: tacgrasp calibrate "
+            "background; if it is new, set the clock"
+        )
+    return background
+
+
+def _recorded(path: Path, frame: Frame) -> Background:
+    """What the image's text says of it."""
+    from PIL import Image
+
+    with Image.open(path) as image:
+        text = getattr(image, "text", {}).get(_KEY)
+    if text is None:
+        return Background(frame=frame, unit="", taken=None, num_frames=0)
+    try:
+        record = json.loads(text)
+        taken = datetime.datetime.fromisoformat(record["taken"])
+        if record["version"] != VERSION or taken.tzinfo is None:
+            raise ValueError(f"version {record['version']}, {taken}")
+        return Background(
+            frame=frame,
+            unit=str(record["unit"]),
+            taken=taken,
+            num_frames=int(record["num_frames"]),
+        )
+    except (ValueError, KeyError, TypeError) as error:
+        raise TouchError(
+            f"{path}: its record can't be understood ({error}); take a new background"
+        ) from None

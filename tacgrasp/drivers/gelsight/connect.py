@@ -1,0 +1,229 @@
+"""Open and check the GelSight Mini of a rig's file, and take its background.
+
+Not here: reading it (``gelsight_sensor``), calibrating it (``tacgrasp calibrate gelsight-mini``).
+"""
+
+from __future__ import annotations
+
+import datetime
+import time
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from cltp.errors import TouchError
+from cltp.sensing.calibration import Calibration, default_calibration, load_calibration
+from cltp.sensing.frames import Frame
+from cltp.sensing.photometric import Photometer
+from cltp.tactile.cloud import Stamp
+from cltp.tactile.sensors import SensorSpec, sensor_named
+from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.gelsight.background import Background, averaged, load_background
+from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
+from tacgrasp.drivers.gelsight.capture_thread import Captured, FrameThread
+from tacgrasp.drivers.gelsight.sensor import GelSightMini
+from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.stamps import real_stamp
+
+_WARM_UP = 10  # frames until a camera's exposure has settled
+_CHECKS = 20
+
+Opener = Callable[[GelSightSettings, SensorSpec], FrameSource]
+Now = Callable[[], datetime.datetime]
+
+
+def local_now() -> datetime.datetime:
+    """Date and time, with the time zone."""
+    return datetime.datetime.now().astimezone()
+
+
+def connect_gelsight(
+    settings: GelSightSettings,
+    *,
+    rng: np.random.Generator | None = None,
+    stamp: Callable[[], Stamp] = real_stamp,
+    now: Now = local_now,
+    opener: Opener = make_source,
+) -> GelSightMini:
+    """Open the GelSight Mini of a rig's file and wait for its first frame.
+
+    Calibration and background are read and judged first: with a wrong one nothing is opened.
+
+    Raises:
+        TouchError: Calibration or background are missing, another unit's or too old; the camera or
+            recording is missing, can't be opened, or gives no frame.
+    """
+    sensor = _sensor()
+    calibration, background = load_parts(settings, now())
+    photometer = Photometer(calibration.net, background.frame, sensor)
+    gelsight = GelSightMini(
+        settings,
+        partial(opener, settings, sensor),
+        photometer,
+        background.frame,
+        rng=rng,
+        stamp=stamp,
+    )
+    try:
+        gelsight.wait_until_alive()
+    except BaseException:
+        gelsight.disconnect()
+        raise
+    return gelsight
+
+
+def load_parts(
+    settings: GelSightSettings, now: datetime.datetime
+) -> tuple[Calibration, Background]:
+    """Calibration and background of a rig's file.
+
+    Raises:
+        TouchError: Missing, damaged, another unit's, or, for a camera, too old.
+    """
+    sensor = _sensor()
+    if settings.calibration == "shipped":
+        calibration = load_calibration(default_calibration(sensor), sensor)
+    else:
+        calibration = load_calibration(settings.calibration, sensor, unit=settings.unit)
+        age_days = calibration.age_days(now.date())
+        if settings.is_camera and not 0 <= age_days <= settings.max_calibration_age_days:
+            raise TouchError(
+                f"calibration {settings.calibration} is {age_days} days old, expected 0 to "
+                f"{settings.max_calibration_age_days:g} (max_calibration_age_days): calibrate this "
+                "unit anew; if it is new, set the clock"
+            )
+    background = load_background(
+        settings.background,
+        sensor,
+        unit=settings.unit,
+        max_age_h=settings.max_background_age_h,
+        now=now,
+        dated=settings.is_camera,
+    )
+    return calibration, background
+
+
+def take_background(
+    settings: GelSightSettings,
+    *,
+    num_frames: int = 20,
+    stamp: Callable[[], Stamp] = real_stamp,
+    now: Now = local_now,
+    opener: Opener = make_source,
+) -> Background:
+    """Average frames of the gel; nothing may touch it. ``save_background`` keeps the result.
+
+    Raises:
+        TouchError: The source can't be read, or the picture isn't still.
+    """
+    sensor = _sensor()
+    open_source = partial(opener, settings, sensor)
+    if settings.is_camera:
+        frames = _captured(settings, open_source, num_frames, stamp)
+    else:
+        source = open_source()
+        try:
+            frames = [source.next_frame() for _ in range(num_frames)]
+        finally:
+            source.close()
+    return averaged(frames, sensor, settings.unit, now())
+
+
+def _captured(
+    settings: GelSightSettings,
+    open_source: Callable[[], FrameSource],
+    num_frames: int,
+    stamp: Callable[[], Stamp],
+) -> list[Frame]:
+    """Frames of a camera one after another, without its first ones."""
+    thread = FrameThread(open_source, age_s=0.0, pace_s=0.0, stamp=stamp)
+    frames: list[Frame] = []
+    last_s, patience_s = -np.inf, settings.connect_timeout_s
+    try:
+        for number in range(_WARM_UP + num_frames):
+            one = thread.latest.wait_for(partial(_is_after, last_s), patience_s)
+            if one is None or one.problem:
+                why = f"no frame within {patience_s:g} s" if one is None else one.problem
+                raise TouchError(f"{settings.source}: {why}; no background was taken")
+            last_s, patience_s = one.stamp.monotonic_s, settings.read_timeout_s
+            if number >= _WARM_UP:
+                frames.append(one.frame)
+    finally:
+        thread.end(f"{settings.source}: the background was taken")
+    return frames
+
+
+def _is_after(time_s: float, captured: Captured) -> bool:
+    return captured.stamp.monotonic_s > time_s
+
+
+def check(
+    settings: GelSightSettings, *, now: Now = local_now, opener: Opener = make_source
+) -> Sequence[Finding]:
+    """Look at the sensor for ``tacgrasp doctor``; nothing may touch the gel of a camera."""
+    try:
+        calibration, background = load_parts(settings, now())
+    except TouchError as error:
+        advice = "make or name the right file; see docs/hardware.md"
+        return [_finding("calibration and background", False, str(error), advice)]
+    found = [_calibrated(settings, calibration, now()), _background(background, now())]
+    try:
+        sensor = connect_gelsight(settings, now=now, opener=opener)
+    except TouchError as error:
+        advice = "check cable and device; another program may have the camera"
+        return [*found, _finding("found", False, str(error), advice)]
+    try:
+        return [*found, _finding("found", True, settings.source), *_live(sensor, settings)]
+    finally:
+        sensor.disconnect()
+
+
+def _calibrated(
+    settings: GelSightSettings, calibration: Calibration, now: datetime.datetime
+) -> Finding:
+    age = f"{calibration.age_days(now.date())} days old, unit {calibration.unit}"
+    if settings.calibration == "shipped":
+        age += ": not this unit's, so heights are rough; tacgrasp calibrate gelsight-mini"
+    return _finding("calibration", True, age)
+
+
+def _background(background: Background, now: datetime.datetime) -> Finding:
+    age_h = background.age_h(now)
+    age = "no date" if age_h is None else f"{age_h:.1f} h old, {background.num_frames} frames"
+    return _finding("background", True, age)
+
+
+def _live(sensor: GelSightMini, settings: GelSightSettings) -> list[Finding]:
+    times, reads = [], _CHECKS if settings.is_camera or settings.repeat else 1
+    try:
+        for _ in range(reads):
+            start = time.perf_counter()
+            sensor.read()
+            times.append(1e3 * (time.perf_counter() - start))
+        sensor.expect_untouched()
+    except TouchError as error:
+        return [_finding("reads", False, str(error), "put right what it says, then look again")]
+    counts = sensor.counts()
+    lost = counts is not None and counts.dropped > 0.05 * counts.frames + 1
+    line = "" if counts is None else (
+        f"; {counts.frames} frames, {counts.dropped} dropped, {counts.repeated} repeated, every "
+        f"{counts.interval_ms:.0f} ms"
+    )  # fmt: skip
+    p50, p99 = np.percentile(times, [50, 99])
+    return [
+        _finding(
+            "fresh cloud",
+            not lost,
+            f"p50 {p50:.0f}, p99 {p99:.0f} ms{line}",
+            "plug it into a USB port of its own" if lost else "",
+        )
+    ]
+
+
+def _sensor() -> SensorSpec:
+    return sensor_named("gelsight_mini")
+
+
+def _finding(name: str, ok: bool, found: str, advice: str = "") -> Finding:
+    return Finding(device="sensor", name=name, ok=ok, found=found, advice=advice)

@@ -1,0 +1,73 @@
+"""Settings of a UR arm, as a rig's file gives them: address, tool, and the bounds of every motion.
+
+The bounds here are hard: the worker refuses what passes them, whatever a task or a flag asks for.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from tacgrasp.base.settings import Number, Section, Vector
+
+
+class UrSettings(Section):
+    """A UR e-Series arm (or PolyScope X), driven by ur_rtde. Ports are fixed by the controller.
+
+    Attributes:
+        kind: Which driver.
+        host: Address of the controller.
+        payload_kg: Mass of gripper, sensor and what is held [kg].
+        payload_cog_m: Its centre of gravity, seen from the flange [m].
+        tcp_offset_m: Flange to tool centre point [m].
+        tcp_offset_rad: Its rotation vector [rad].
+        workspace_low_m: Corner of the box that the TCP must stay in [m, base frame].
+        workspace_high_m: Its opposite corner [m, base frame].
+        max_speed_m_s: Fastest move [m/s].
+        max_acceleration_m_s2: Largest acceleration of a move [m/s²].
+        max_turn_rad: Largest change of the tool's orientation in one move [rad].
+        stop_deceleration_m_s2: Deceleration of a stop [m/s²]; 10 brings 0.4 m/s to rest in 40 ms.
+        max_contact_force_n: A larger force on the tool in motion is a fault [N]; the force sensor
+            is zeroed at rest when the arm is connected.
+        watchdog_hz: The controller ends the program when it hears nothing for 1 / watchdog_hz.
+            20, not the library's usual 10: with a dead link, 100 ms of waiting and 40 ms of braking
+            from 0.4 m/s would leave nothing of 150 ms.
+        supervision_hz: Rate of data and of supervision [Hz].
+        stale_ms: Data older than this is a fault [ms].
+        min_speed_fraction: Least position of the speed slider, 0 to 1.
+        reach_tolerance_mm: A move that ends farther from its target is a fault [mm].
+        move_margin_s: A move may take this much longer than its trapezoid before it is a fault [s].
+        start_timeout_s: Longest start of the worker [s].
+    """
+
+    kind: Literal["ur"] = "ur"
+    host: str = Field(min_length=1)
+    payload_kg: Number = Field(ge=0, le=20)
+    payload_cog_m: Vector = (0.0, 0.0, 0.0)
+    tcp_offset_m: Vector = (0.0, 0.0, 0.0)
+    tcp_offset_rad: Vector = (0.0, 0.0, 0.0)
+    workspace_low_m: Vector
+    workspace_high_m: Vector
+    max_speed_m_s: Number = Field(default=0.4, gt=0, le=1)
+    max_acceleration_m_s2: Number = Field(default=10.0, gt=0, le=15)
+    max_turn_rad: Number = Field(default=0.5, ge=0, le=3.1)
+    stop_deceleration_m_s2: Number = Field(default=10.0, ge=2, le=30)
+    max_contact_force_n: Number = Field(default=30.0, gt=0, le=150)
+    watchdog_hz: Number = Field(default=20.0, ge=10, le=100)
+    supervision_hz: Number = Field(default=125.0, ge=50, le=500)
+    stale_ms: Number = Field(default=60.0, ge=20, le=500)
+    min_speed_fraction: Number = Field(default=0.05, gt=0, le=1)
+    reach_tolerance_mm: Number = Field(default=0.5, gt=0, le=5)
+    move_margin_s: Number = Field(default=1.0, ge=0.2, le=60)
+    start_timeout_s: Number = Field(default=8.0, ge=1, le=60)
+
+    @model_validator(mode="after")
+    def _box_is_not_empty(self) -> UrSettings:
+        low, high = self.workspace_low_m, self.workspace_high_m
+        if any(a >= b for a, b in zip(low, high, strict=True)):
+            raise ValueError(
+                f"workspace_low_m {list(low)} must be below workspace_high_m {list(high)} "
+                "in x, y and z"
+            )
+        return self

@@ -1,0 +1,67 @@
+"""Where episodes lie: their directory, their names, and what to say when a disk refuses."""
+
+from __future__ import annotations
+
+import errno
+import os
+import re
+from contextlib import suppress
+from datetime import UTC, datetime
+from pathlib import Path
+
+from cltp.tactile.cloud import Stamp
+from tacgrasp.episodes.errors import EpisodeError
+
+
+def record_directory(path: Path) -> Path:
+    """Make sure that episodes can be written to ``path``, creating it when it is missing.
+
+    Raises:
+        EpisodeError: It can't be created, is not a directory, or is read-only.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except (FileExistsError, NotADirectoryError):
+        raise EpisodeError(
+            f"{path} is not a directory; give --record a directory for episodes"
+        ) from None
+    except OSError as error:
+        raise EpisodeError(refused(path, "create", error)) from None
+    if not os.access(path, os.W_OK | os.X_OK):
+        raise EpisodeError(
+            f"{path} is read-only; make it writable or give another directory with --record"
+        )
+    return path
+
+
+def episode_path(directory: Path, task: str, stamp: Stamp, seed: int | None) -> Path:
+    """Name of a new episode: ``<task>-<UTC time>-<seed>.mcap``; without a seed the process's id."""
+    when = datetime.fromtimestamp(stamp.wall_s, tz=UTC)
+    time = f"{when:%Y%m%dT%H%M%S}.{when.microsecond // 1000:03d}Z"
+    safe_task = re.sub(r"[^\w-]+", "-", task).strip("-") or "task"
+    return directory / f"{safe_task}-{time}-{f'p{os.getpid()}' if seed is None else seed}.mcap"
+
+
+def sync_directory(directory: Path) -> None:
+    """Make the file's name durable too, not just its content."""
+    descriptor = os.open(directory, os.O_RDONLY)
+    try:
+        with suppress(OSError):  # some file systems have no such thing for a directory
+            os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def refused(path: Path, doing: str, error: OSError) -> str:
+    """One line for a file operation that the system refused: what, why, and what to do."""
+    why, remedy = {
+        errno.ENOENT: ("its directory does not exist", "create it or give another with --record"),
+        errno.ENOTDIR: ("its parent is not a directory", "give another directory with --record"),
+        errno.EEXIST: ("the file exists", "episodes are never overwritten; give another name"),
+        errno.ENOSPC: ("the disk is full", "free space or record to another disk with --record"),
+        errno.EDQUOT: ("the disk quota is used up", "free space or give another --record"),
+        errno.EFBIG: ("the file would exceed the size limit", "raise it (ulimit -f)"),
+        errno.EROFS: ("the file system is read-only", "give another directory with --record"),
+        errno.EACCES: ("permission denied", "make its directory writable or give another"),
+    }.get(error.errno or 0, (error.strerror or str(error), "check the disk"))
+    return f"can't {doing} {path}: {why}; {remedy}"

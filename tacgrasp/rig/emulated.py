@@ -1,0 +1,143 @@
+"""The emulated rig: starts emulators and connects the real drivers to them.
+
+Everything of ``tacgrasp.rig.hardware`` runs unchanged; only addresses, ports and the gripper's
+calibration, which nobody can measure there, are put into the settings. The truth of the emulated
+world comes through the control channel, for records and people, never for a policy.
+"""
+
+from __future__ import annotations
+
+import datetime
+import tempfile
+from contextlib import ExitStack
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from primitives.errors import RobotError
+from sim.emulators.process.spawn import EmulatorProcess
+from sim.emulators.rig import FINGERS
+from sim.grasp.rig import Truth
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.hardware import HardwareConfig
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.drivers.dynamixel.calibration import (
+    MIN_READINGS,
+    GripperCalibration,
+    save_calibration,
+)
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+from tacgrasp.rig.hardware import HardwareRig, connect
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EmulatedRig(HardwareRig):
+    """A rig of real drivers on emulators.
+
+    Attributes:
+        emulators: Their process.
+    """
+
+    emulators: EmulatorProcess
+
+    def truth(self) -> Truth:
+        """What really happened so far. Never for a policy.
+
+        Raises:
+            RobotError: The emulators do not answer.
+        """
+        return truth_from(self.emulators)
+
+    def disconnect(self) -> None:
+        """Free every device, then end the emulators. Idempotent, never raises."""
+        HardwareRig.disconnect(self)
+        self.emulators.close()
+
+
+def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
+    """Start the emulators of the configured object and seed, and connect to them.
+
+    Raises:
+        RobotError: They did not start, or a driver refuses them.
+        TouchError: The sensor's driver does.
+        UsageError: The rig's file names a device that there is no emulator for.
+    """
+    with tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder, ExitStack() as stack:
+        emulators = stack.enter_context(EmulatorProcess("rig", *_options(config)))
+        found = settings_for(hardware, emulators, Path(folder))
+        first_force_n = float(str(emulators.ready["first_force_n"]))
+        rig = connect(config, found, first_force_n)
+        stack.pop_all()
+    parts = {field.name: getattr(rig, field.name) for field in fields(rig)}
+    return EmulatedRig(**parts, emulators=emulators)
+
+
+def settings_for(
+    hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
+) -> HardwareConfig:
+    """The rig's settings with the addresses of these emulators.
+
+    The gripper's calibration, which is the emulator's own line since nobody can measure it, is
+    written into ``folder``, which has to last until the gripper is connected.
+
+    Raises:
+        UsageError: The sensor is none that there is an emulator for.
+        RobotError: The calibration can't be written.
+    """
+    if hardware.sensor.kind != "taxels":
+        raise UsageError(
+            f"the emulated rig has a sensor of kind taxels, its file names {hardware.sensor.kind}"
+        )
+    ready = emulators.ready
+    calibration = folder / "gripper_calibration.yaml"
+    save_calibration(calibration, emulated_calibration(hardware.gripper))
+    gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
+    return hardware.model_copy(
+        update={
+            "arm": hardware.arm.model_copy(update={"host": str(ready["host"])}),
+            "gripper": hardware.gripper.model_copy(update=gripper),
+            "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
+        }
+    )
+
+
+def emulated_calibration(settings: DynamixelSettings) -> GripperCalibration:
+    """The emulated rig's own line of force over current, as if it had been measured today."""
+    return GripperCalibration(
+        unit=settings.unit,
+        model=settings.model,
+        ids=tuple(servo.id for servo in settings.servos),
+        date=datetime.date.today(),
+        newtons_per_ma=FINGERS.newtons_per_ma,
+        friction_ma=FINGERS.friction_ma,
+        residual_n=0.0,
+        max_force_n=FINGERS.force_n(settings.max_current_ma),
+        num_readings=MIN_READINGS,
+        source="the emulator's own line",
+    )
+
+
+def truth_from(emulators: EmulatorProcess) -> Truth:
+    """The truth behind some emulators.
+
+    Raises:
+        RobotError: They do not answer.
+    """
+    facts = emulators.control.facts("world")
+    x_mm, y_mm = facts["offset_x_mm"], facts["offset_y_mm"]
+    if not (isinstance(x_mm, float) and isinstance(y_mm, float)):
+        raise RobotError(f"the emulators' truth has no place on the pad: {facts}")
+    values: dict[str, Any] = {f.name: facts[f.name] for f in fields(Truth) if f.name in facts}
+    return Truth(offset_mm=(x_mm, y_mm), **values)
+
+
+def _options(config: RunConfig) -> list[str]:
+    options = ["--object", config.object, "--seed", str(config.seed), "--sensor", config.sensor]
+    optional = (
+        ("--object-mesh", config.object_mesh),
+        ("--object-mass-g", config.object_mass_g),
+        ("--first-force-n", config.gripper.first_force_n),
+    )
+    for flag, value in optional:
+        options += [flag, str(value)] if value is not None else []
+    return [*options, "--held"] if config.dry_run else options

@@ -1,0 +1,97 @@
+"""Check a declared success by touch alone: lift, shake, hold, and compare the contact.
+
+Source: our choice; the paper stops at the declaration. The lift's acceleration is the benchmark's.
+Not here: what is true in the simulator (that is recorded beside, never consulted).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.tactile.measure import contact_state
+from cltp.tactile.states import ContactState
+from primitives.devices import Pose
+from primitives.execution import rotated
+from primitives.limits import check_workspace
+from tacgrasp.config.schema import RunConfig, VerifyConfig
+from tacgrasp.episodes.record import Phase
+from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.outcome import Verification
+from tacgrasp.runtime.tick import Turns
+
+UP = np.array([0.0, 0.0, 1.0])
+"""Against gravity, base frame."""
+
+
+def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+    """Lift and shake what is held, wait, and compare; put it back when it did not hold.
+
+    Raises:
+        LimitError: Lift or shake would leave the workspace; nothing has moved then.
+        RobotError: The arm failed or refused.
+        TouchError: The gel can't be read.
+        EpisodeError: The touches can't be recorded.
+    """
+    settings = config.verify
+    start = rig.arm.pose()
+    lifted = _shifted(start, UP * settings.lift_mm / 1000)
+    pad_x = rotated(start.rotvec_rad, np.array(config.pad.x_axis))
+    aside = _shifted(lifted, pad_x * settings.shake_mm / 1000)
+    for pose in (lifted, aside):
+        check_workspace(pose, config.limits())
+    before = contact_state(turns.feel(Phase.VERIFY_BEFORE))
+    shake = [aside, lifted] * settings.shakes if settings.shake_mm > 0 else []
+    _move(rig, lifted, settings, settings.acceleration_m_s2)
+    for pose in shake:
+        _move(rig, pose, settings, settings.shake_acceleration_m_s2)
+    rig.clock.sleep(settings.hold_s)
+    after = contact_state(turns.feel(Phase.VERIFY_AFTER))
+    verification = compare(before, after, settings)
+    if not verification.passed:
+        # down again: what is still held must not fall when released
+        _move(rig, start, settings, settings.acceleration_m_s2)
+    return verification
+
+
+def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -> Verification:
+    """Judge the contact before and after the lift against the task's thresholds."""
+    if not before.in_contact:
+        return Verification(passed=False, message="nothing was felt before the lift")
+    if not after.in_contact:
+        return Verification(passed=False, message="nothing is felt any more after the lift")
+    shift_mm = math.hypot(after.x_mm - before.x_mm, after.y_mm - before.y_mm)
+    area_ratio = after.area_share / before.area_share
+    depth_ratio = after.depth_mm / before.depth_mm
+    wrong = []
+    if shift_mm > settings.max_shift_mm:
+        wrong.append(f"the contact moved {shift_mm:.1f} mm (at most {settings.max_shift_mm:g})")
+    for name, ratio, least in (
+        ("area", area_ratio, settings.min_area_ratio),
+        ("depth", depth_ratio, settings.min_depth_ratio),
+    ):
+        if ratio < least:
+            wrong.append(f"{ratio:.0%} of its {name} is left (at least {least:.0%})")
+    held = f"held through the lift: moved {shift_mm:.1f} mm, {area_ratio:.0%} of the area left"
+    return Verification(
+        passed=not wrong,
+        message="; ".join(wrong) or held,
+        shift_mm=shift_mm,
+        area_ratio=area_ratio,
+        depth_ratio=depth_ratio,
+    )
+
+
+def not_lifted(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+    """The verification of a dry run: nothing may move, so nothing is verified."""
+    return Verification(passed=False, message="dry run: nothing was lifted")
+
+
+def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float) -> None:
+    rig.arm.move_to(pose, speed_m_s=settings.speed_m_s, acceleration_m_s2=acceleration_m_s2)
+
+
+def _shifted(pose: Pose, by_m: NDArray[np.float64]) -> Pose:
+    return Pose(position_m=pose.position_m + by_m, rotvec_rad=pose.rotvec_rad)

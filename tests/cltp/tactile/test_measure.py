@@ -1,0 +1,81 @@
+"""Depth, position, area and force computed from clouds of known shape."""
+
+import numpy as np
+import pytest
+
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.measure import STIFFNESS_N_PER_MM3, contact_state
+from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import Area, Depth, Position, Side
+
+SENSOR = sensor_named("gelsight_mini")
+X = ((np.arange(320) + 0.5) / 320 - 0.5) * SENSOR.width_mm
+Y = (0.5 - (np.arange(240) + 0.5) / 240) * SENSOR.height_mm
+
+
+def bump(x_mm: float, y_mm: float, depth_mm: float, radius_mm: float = 3.0) -> np.ndarray:
+    """A paraboloid of the given depth and foot radius."""
+    square = (X - x_mm) ** 2 + (Y[:, None] - y_mm) ** 2
+    return depth_mm * np.clip(1 - square / radius_mm**2, 0, None)
+
+
+@pytest.mark.parametrize("num_points", [256, 1024, 4096, 20_000])
+@pytest.mark.parametrize("place", [(0.0, 0.0), (5.0, -3.0), (-4.0, 2.5)])
+def test_place_and_depth_of_a_bump_do_not_depend_on_how_it_is_sampled(num_points, place):
+    cloud = cloud_from_heights(bump(*place, 0.5), SENSOR, num_points=num_points)
+    state = contact_state(cloud)
+    assert (state.x_mm, state.y_mm) == pytest.approx(place, abs=0.15)
+    assert state.depth_mm == pytest.approx(0.5, abs=0.05)
+
+
+def test_area_is_the_share_that_lies_deeper_than_a_quarter():
+    state = contact_state(cloud_from_heights(bump(0, 0, 0.5), SENSOR, num_points=4096))
+    share = np.pi * 3.0**2 * 0.75 / SENSOR.area_mm2
+    assert state.area_share == pytest.approx(share, rel=0.08)
+
+
+def test_force_is_the_stiffness_times_the_volume_above_a_fifth():
+    state = contact_state(cloud_from_heights(bump(0, 0, 0.5), SENSOR, num_points=4096))
+    volume = np.pi * 3.0**2 / 2 * 0.5 * 0.8**2  # of a paraboloid's top four fifths
+    assert state.force_n == pytest.approx(STIFFNESS_N_PER_MM3 * volume, rel=0.05)
+
+
+def test_words_follow_the_numbers():
+    state = contact_state(cloud_from_heights(bump(0, -5, 0.7, 2.0), SENSOR))
+    assert state.depth is Depth.DEEP
+    assert state.position is Position.BOTTOM_CENTER
+    assert state.area is Area.SMALL
+    assert state.shape is None and state.texture is None
+
+
+def test_an_untouched_gel_is_no_contact():
+    state = contact_state(cloud_from_heights(np.zeros((240, 320)), SENSOR))
+    assert not state.in_contact
+    assert (state.depth_mm, state.area_share, state.force_n) == (0.0, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("place", "sides"),
+    [
+        ((0, 0), set()),
+        ((9.5, 0), {Side.RIGHT}),
+        ((-9.5, 0), {Side.LEFT}),
+        ((0, 7), {Side.TOP}),
+        ((9.5, -7), {Side.RIGHT, Side.BOTTOM}),
+    ],
+)
+def test_the_sides_that_cut_a_contact_are_named(place, sides):
+    assert contact_state(cloud_from_heights(bump(*place, 0.5), SENSOR)).cut == sides
+
+
+def test_a_second_shallower_bump_does_not_move_the_contact():
+    drift = bump(0, 0, 0.5) + bump(8, 5, 0.3, 1.2)
+    state = contact_state(cloud_from_heights(drift, SENSOR))
+    assert (state.x_mm, state.y_mm) == pytest.approx((0.0, 0.0), abs=0.2)
+
+
+def test_a_cloud_without_points_in_some_places_is_measured_all_the_same():
+    points = cloud_from_heights(bump(2, 1, 0.5), SENSOR).points_mm
+    kept = points[np.random.default_rng(0).random(len(points)) < 0.5]
+    state = contact_state(TactileCloud(points_mm=kept, sensor=SENSOR))
+    assert (state.x_mm, state.y_mm) == pytest.approx((2.0, 1.0), abs=0.4)

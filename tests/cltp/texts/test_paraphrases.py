@@ -1,0 +1,169 @@
+"""Paraphrases, prompts and questions: drawn from a seed alone, true, and read back."""
+
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from cltp import TouchError
+from cltp.data.sampler import CLASSES
+from cltp.tactile.sensors import SENSORS
+from cltp.tactile.states import (
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Side,
+    Texture,
+    position_word,
+)
+from cltp.texts.captions import Slots, slots_of
+from cltp.texts.paraphrases import (
+    NOTHING,
+    PARAPHRASES,
+    PROMPTS,
+    VOCABULARY,
+    paraphrase,
+    prompts,
+    read_paraphrase,
+    text_seed,
+)
+from cltp.texts.question_answers import UNTOUCHED, question_answers
+
+MINI = SENSORS["gelsight_mini"]
+UNTOUCHED_STATE = ContactState(
+    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+)
+STATES = st.builds(
+    ContactState,
+    depth_mm=st.floats(0.05, 2),
+    x_mm=st.floats(-10, 10),
+    y_mm=st.floats(-7, 7),
+    area_share=st.floats(0.001, 1),
+    force_n=st.one_of(st.floats(0.01, 20), st.just(float("nan"))),
+    depth=st.sampled_from(Depth),
+    position=st.sampled_from(Position),
+    area=st.sampled_from(Area),
+    cut=st.frozensets(st.sampled_from(Side)),
+    shape=st.one_of(st.none(), st.sampled_from(Shape)),
+    texture=st.one_of(st.none(), st.sampled_from(Texture)),
+)
+
+
+@given(STATES, st.integers(0, 2**32))
+def test_every_paraphrase_reads_back_exactly_and_is_the_same_again(state, seed):
+    said = paraphrase(state, seed)
+    assert read_paraphrase(said) == slots_of(state)
+    assert paraphrase(state, seed) == said
+    assert " a a" not in said
+    assert " a e" not in said
+
+
+def test_no_two_words_of_a_dimension_are_said_alike_and_all_are_drawn():
+    texts = {
+        paraphrase(
+            ContactState(
+                depth_mm=0.5, x_mm=0, y_mm=0, area_share=0.05, force_n=1, depth=depth,
+                position=Position.CENTERED, area=Area.SMALL, shape=shape, texture=Texture.ROUGH,
+            ),
+            seed,
+        )
+        for shape, depth, seed in itertools.product(Shape, Depth, range(60))
+    }  # fmt: skip
+    assert {read_paraphrase(text).shape for text in texts} == set(Shape)
+    assert len(texts) > 19 * 4 * 30
+    starts = [PARAPHRASES[i].split("{")[0] for i in (1, 3, 5)]
+    assert all(any(text.startswith(start) for text in texts) for start in starts)
+
+
+def test_no_contact_has_wordings_of_its_own():
+    assert {paraphrase(UNTOUCHED_STATE, seed) for seed in range(50)} == set(NOTHING)
+    assert read_paraphrase("Nothing touches the gel.") == Slots()
+
+
+@pytest.mark.parametrize("text", ["", "a cat", "a rough ball is pressed", "a smooth sphere object"])
+def test_other_sentences_are_refused(text):
+    with pytest.raises(TouchError, match="PARAPHRASES"):
+        read_paraphrase(text)
+
+
+def test_a_depth_without_a_position_can_t_be_worded():
+    broken = ContactState(
+        depth_mm=1, x_mm=0, y_mm=0, area_share=0, force_n=0,
+        depth=Depth.DEEP, position=None, area=None,
+    )  # fmt: skip
+    with pytest.raises(TouchError, match="position"):
+        paraphrase(broken, 0)
+
+
+def test_every_class_has_prompts_the_papers_first_and_none_of_two_classes_agree():
+    assert {slot: list(words) for slot, words in VOCABULARY.items()} == CLASSES
+    assert prompts("shape", "sphere")[0] == "This is a sphere."
+    assert prompts("shape", "edge")[0] == "This is an edge."
+    assert prompts("depth", "very deep")[0] == "Contact is very deep."
+    assert prompts("position", "top-left")[0] == "Contact at top-left."
+    every = [text for slot in PROMPTS for word in CLASSES[slot] for text in prompts(slot, word)]
+    assert len(set(every)) == len(every) == 3 * (19 + 5 + 4 + 9 + 5)
+    assert not any(" a a" in text or " a e" in text or "{" in text for text in every)
+
+
+@pytest.mark.parametrize(("slot", "word"), [("colour", "red"), ("shape", "blob")])
+def test_prompts_outside_the_vocabulary_are_refused(slot, word):
+    with pytest.raises(TouchError, match="no prompt"):
+        prompts(slot, word)
+
+
+@given(STATES, st.integers(0, 2**32))
+def test_answers_are_true_and_ask_only_for_what_is_known(state, seed):
+    pairs = question_answers(state, MINI, seed)
+    assert pairs == question_answers(state, MINI, seed)
+    about = {pair.about for pair in pairs}
+    assert ("shape" in about) == (state.shape is not None)
+    assert ("force" in about) == (state.force_n == state.force_n)
+    for pair in pairs:
+        if pair.about not in VOCABULARY:
+            continue
+        word = str(getattr(state, pair.about))
+        asked = [w for w in CLASSES[pair.about] if pair.question.endswith(f" {w}?")]
+        if pair.answer == "Yes.":
+            assert max(asked, key=len) == word
+        else:
+            assert word in pair.answer
+        if pair.answer.startswith("No, "):
+            assert max(asked, key=len) != word
+
+
+def test_yes_and_no_are_about_as_frequent():
+    state = ContactState(
+        depth_mm=0.5, x_mm=0, y_mm=0, area_share=0.05, force_n=1, depth=Depth.MODERATE,
+        position=Position.CENTERED, area=Area.SMALL, shape=Shape.DISC, texture=Texture.ROUGH,
+    )  # fmt: skip
+    closed = [
+        pair.answer
+        for seed in range(100)
+        for pair in question_answers(state, MINI, seed)
+        if pair.about in VOCABULARY and (pair.answer == "Yes." or pair.answer.startswith("No"))
+    ]
+    assert len(closed) == 500
+    assert 200 < closed.count("Yes.") < 300
+
+
+def test_an_untouched_pad_has_one_question():
+    (pair,) = question_answers(UNTOUCHED_STATE, MINI, 0)
+    assert pair.answer == f"No. {UNTOUCHED}"
+
+
+def test_texts_are_seeded_by_what_is_stored_and_loads_of_a_series_differ():
+    first = text_seed(seed=0, series=7, depth_mm=0.25)
+    assert first == text_seed(seed=0, series=7, depth_mm=0.25)
+    assert first != text_seed(seed=0, series=7, depth_mm=0.5)
+    assert first != text_seed(seed=0, series=8, depth_mm=0.25)
+
+
+def test_a_position_is_the_same_for_numbers_of_python_and_numpy():
+    for x, y in itertools.product((-9.0, 0.0, 9.0), (-7.0, 0.0, 7.0)):
+        assert position_word(np.float64(x), np.float64(y), MINI) is position_word(x, y, MINI)
+    assert position_word(9.0, -7.0, MINI) is Position.BOTTOM_RIGHT

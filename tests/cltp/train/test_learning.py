@@ -1,0 +1,485 @@
+import math
+import shutil
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from cltp.checkpoints.tac3d_llm import (
+    WeightsError,
+    load_clip,
+    load_encoder,
+    load_tac3d_llm,
+    save_encoder,
+    size_bytes,
+)
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
+from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder.heads import StateHeads, restored, targets, transformed
+from cltp.encoder.losses import CltpLoss, ContrastiveLoss
+from cltp.encoder.tokenizers import (
+    BearingCurve,
+    bearing_ranks,
+    even_channels,
+    farthest_points,
+    graded,
+    graded_ranks,
+)
+from cltp.errors import TouchError
+from cltp.evaluation.evaluate import batches, ceiling_scores, heads_scores, zero_shot_scores
+from cltp.llm.generation import Talker
+from cltp.tactile.cloud import cloud_from_heights
+from cltp.tactile.encoder_input import cell_centres, encoder_input, lattice_points, scaled
+from cltp.tactile.render import render
+from cltp.tactile.sensors import SENSORS
+from cltp.tactile.states import ContactState, Position, Side
+from cltp.texts.captions import caption
+from cltp.texts.exchange_packing import Exchange
+from cltp.texts.tokenizer import Words
+from cltp.train.alignment import train_cltp
+from cltp.train.clip import train_clip
+from cltp.train.llm import train_llm, train_words
+from cltp.train.prefetch import ahead
+from cltp.train.stage import Schedule, Stage
+from tests.fakes.fake_contacts import fake_contact
+
+MINI = SENSORS["gelsight_mini"]
+TINY = PRESETS["tiny"]
+
+
+def schedule(steps: int, batch_size: int, rate: float = 3e-3) -> Schedule:
+    return Schedule(steps=steps, batch_size=batch_size, learning_rate=rate)
+
+
+class Sayings:
+    """Lessons for tests: the caption, and an action that the prompt and the depth decide."""
+
+    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="Describe the contact.", reply=caption(felt))]
+
+    def mixed(
+        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+    ) -> Sequence[Exchange]:
+        hard = "<decrease_force>" if state.depth_mm > 0.3 else "<none>"
+        soft = "<none>" if state.depth_mm > 0.3 else "<increase_force>"
+        return [
+            *self.captions(felt, rng),
+            Exchange(prompt="Hold it gently.", reply=f"Action: {hard}."),
+            Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
+        ]
+
+
+pytestmark = pytest.mark.usefixtures("one_thread")
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data")
+    with DatasetWriter(folder) as writer:
+        for seed in range(12):
+            writer.add(fake_contact(seed))
+        for seed in range(100, 106):
+            writer.add(fake_contact(seed, split=Split.TEST))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Tiny weights that have learned twelve clean contacts by heart."""
+    folder = tmp_path_factory.mktemp("weights")
+    words = train_words(data_dir, Sayings(), num_contacts=60, size=400)
+    train_clip(data_dir, folder, words, schedule=schedule(6, 12), dim=32)
+    train_cltp(data_dir, folder, config=TINY, schedule=schedule(150, 12), augmentation=CLEAN)
+    train_llm(
+        data_dir,
+        folder,
+        words,
+        Sayings(),
+        schedules=(schedule(40, 12, 5e-3), schedule(30, 12, 5e-3), schedule(130, 12, 5e-3)),
+        dim=48,
+        layers=2,
+        augmentation=CLEAN,
+    )
+    return folder
+
+
+def test_the_contrastive_loss_of_two_orthogonal_pairs_is_known() -> None:
+    loss = ContrastiveLoss()
+    with torch.no_grad():
+        loss.log_scale.fill_(math.log(2.0))
+    pairs = torch.eye(2)
+    expected = math.log(1 + math.exp(-2.0))  # -log(e^2 / (e^2 + e^0)), the same both ways
+    assert loss(3 * pairs, 5 * pairs).item() == pytest.approx(expected, rel=1e-5)
+
+
+def test_the_temperature_cannot_fall_below_a_hundredth() -> None:
+    loss = ContrastiveLoss()
+    with torch.no_grad():
+        loss.log_scale.fill_(50.0)
+    swapped = torch.eye(2).flip(0)
+    assert loss(torch.eye(2), swapped).item() == pytest.approx(100.0, rel=1e-4)
+
+
+def test_without_images_only_language_is_aligned() -> None:
+    features = torch.randn(4, 8)
+    assert set(CltpLoss()(features, features)) == {"t2l"}
+    assert set(CltpLoss()(features, features, features)) == {"t2l", "t2i"}
+
+
+def test_scaling_is_by_constants_of_the_sensor() -> None:
+    points = np.array([[MINI.width_mm / 2, -MINI.width_mm / 4, 0.75]])
+    np.testing.assert_allclose(scaled(points, MINI), [[1.0, -0.5, 0.5]], rtol=1e-6)
+
+
+def test_a_stratified_cloud_is_taken_as_it_is() -> None:
+    cloud = cloud_from_heights(fake_contact(3).height_mm, MINI, rng=np.random.default_rng(0))
+    np.testing.assert_array_equal(lattice_points(cloud), cloud.points_mm)
+
+
+@pytest.mark.parametrize("num_points", [64, 400, 1024, 6400])
+def test_any_cloud_becomes_1024_points_on_the_same_plane(num_points: int) -> None:
+    y = np.linspace(0.3, 0.1, 60)[:, None]
+    tilted = np.broadcast_to(y, (60, 80))
+    cloud = cloud_from_heights(tilted, MINI, rng=np.random.default_rng(1), num_points=num_points)
+    points = lattice_points(cloud)
+    assert points.shape == (1024, 3)
+    centres = cell_centres(MINI)
+    assert np.abs(points[:, 0] - centres[:, 0]).max() <= MINI.width_mm / 64 + 1e-4
+    expected = 0.2 + 0.2 * points[:, 1] / MINI.height_mm
+    inner = np.abs(points[:, 1]) < 0.4 * MINI.height_mm
+    assert np.abs(points[:, 2] - expected)[inner].max() < 0.02
+
+
+def test_the_order_of_a_cloud_does_not_matter() -> None:
+    cloud = cloud_from_heights(fake_contact(3).height_mm, MINI, rng=np.random.default_rng(0))
+    shuffled = np.random.default_rng(1).permutation(1024)
+    other = type(cloud)(points_mm=cloud.points_mm[shuffled], sensor=MINI)
+    np.testing.assert_array_equal(encoder_input(other), encoder_input(cloud))
+
+
+def test_the_lattice_channels_are_height_relief_and_place() -> None:
+    centres = scaled(np.c_[cell_centres(MINI), np.full(1024, 0.15)], MINI)
+    channels = even_channels(torch.from_numpy(centres)[None])
+    assert channels.shape == (1, 4, 32, 32)
+    torch.testing.assert_close(channels[0, 0], torch.full((32, 32), 0.5))  # 5 × 0.15 / 1.5
+    assert channels[0, 1:].abs().max() < 1e-3  # flat, and every point at its cell's centre
+
+
+def test_farthest_points_of_a_square_are_its_corners() -> None:
+    corners = torch.tensor([[0.0, 0, 0], [0, 0.1, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0]])
+    assert set(farthest_points(corners[None], 4)[0].tolist()) == {0, 2, 3, 4}
+
+
+@pytest.mark.parametrize("tokenizer", ["lattice", "fps"])
+def test_both_tokenizers_give_a_token_for_each_group(tokenizer: str) -> None:
+    config = EncoderConfig(tokenizer=tokenizer, dim=24, depth=1, heads=2, stem_dim=8)
+    out = TactileEncoder(config)(torch.rand(2, 1024, 3))
+    assert out.tokens.shape == (2, 65, 24)
+    assert out.pooled.shape == (2, 48)
+    assert out.feature.shape == (2, config.feature_dim)
+
+
+def test_sizes_that_do_not_fit_are_refused() -> None:
+    with pytest.raises(TouchError, match="multiple"):
+        EncoderConfig(dim=30, heads=4)
+    with pytest.raises(TouchError, match="known: lattice, pressed, fine, fps, image"):
+        EncoderConfig(tokenizer="voxels")
+    with pytest.raises(TouchError, match="0 or more"):
+        EncoderConfig(projection=-1)
+    with pytest.raises(TouchError, match="for a lattice, not for fps"):
+        EncoderConfig(tokenizer="fps", bearing=16)
+    with pytest.raises(TouchError, match="has 16, 64, 256 groups, got 32"):
+        EncoderConfig(num_groups=32)
+    with pytest.raises(TouchError, match="image has 64 groups, got 256"):
+        EncoderConfig(tokenizer="image", num_groups=256)
+
+
+def test_the_bearing_curve_knows_heights_and_not_places() -> None:
+    torch.manual_seed(0)
+    curve = BearingCurve(8, 16)
+    points, none = torch.rand(2, 1024, 3), torch.zeros(2, 0, 8)
+    moved = points.clone()
+    moved[0, :, :2] += 0.3
+    moved[1] = points[1, torch.randperm(1024)]
+    torch.testing.assert_close(curve(moved, none), curve(points, none))
+    deeper = points.clone()
+    deeper[0, points[0, :, 2].argmax(), 2] += 0.2
+    for before, after in zip(curve(points, none), curve(deeper, none), strict=True):
+        assert not torch.equal(before[0], after[0])
+        torch.testing.assert_close(before[1], after[1])
+    ranks = bearing_ranks(16, 1024)
+    assert ranks[:8].tolist() == list(range(8))
+    assert (ranks.diff() > 0).all()
+    assert ranks[-1] == 1023
+
+
+def test_graded_heights_fill_steps_one_after_the_other() -> None:
+    found = graded(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
+    expected = [[1, 1, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0, 1, 1, 1, 0.5]]
+    torch.testing.assert_close(found, torch.tensor(expected, dtype=torch.float32))
+    ranks = graded_ranks(64)
+    assert ranks == sorted(set(ranks))
+    assert (ranks[0], ranks[-1]) == (0, 63)
+    assert BearingCurve(8, 64, grades=10).trunk[0].in_features == 64 + 10 * len(ranks)
+
+
+def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
+    with pytest.raises(TouchError, match="60 grades are for a bearing curve"):
+        EncoderConfig(grades=60)
+    plain, told = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
+    assert plain != told
+    assert plain.identity == str(plain) != told.identity
+
+
+def test_numbers_survive_their_transformation() -> None:
+    numbers = torch.tensor([[0.4, -3.0, 5.0, 0.12, 1.7], [0.0, 0.0, 0.0, 0.0, 0.0]])
+    torch.testing.assert_close(restored(transformed(numbers)), numbers, atol=1e-5, rtol=1e-4)
+
+
+def test_a_slot_that_nobody_named_is_not_learned() -> None:
+    state = fake_contact(0).state
+    unnamed = targets([type(state)(**{**_fields(state), "shape": None, "texture": None})])
+    assert unnamed.classes[0, :2].tolist() == [-1, -1]
+    losses = StateHeads(8).losses(torch.randn(1, 8), unnamed)
+    assert losses["shape"].item() == 0.0
+    assert losses["depth"].item() > 0.0
+
+
+def _fields(state: ContactState) -> dict[str, object]:
+    return {name: getattr(state, name) for name in ContactState.__slots__}
+
+
+def test_mirroring_turns_positions_and_cut_sides() -> None:
+    state = type(fake_contact(0).state)(
+        **{
+            **_fields(fake_contact(0).state),
+            "x_mm": 8.0,
+            "y_mm": 6.0,
+            "position": Position.TOP_RIGHT,
+            "cut": frozenset({Side.RIGHT}),
+        }
+    )
+    seen = mirrored(state, MINI, along_x=True, along_y=False)
+    assert (seen.x_mm, seen.y_mm) == (-8.0, 6.0)
+    assert seen.position is Position.TOP_LEFT
+    assert seen.cut == {Side.LEFT}
+    again = mirrored(seen, MINI, along_x=True, along_y=False)
+    assert again == state
+
+
+def test_a_bump_is_lit_from_the_left_and_from_the_top() -> None:
+    y, x = np.mgrid[0:76, 0:102]
+    bump = 0.6 * np.exp(-((x - 50.5) ** 2 + (y - 37.5) ** 2) / 200)
+    red, green, blue = render(bump, MINI)
+    assert red[32, 22] > 0.6 > 0.4 > red[32, 42]  # rising to the right is bright
+    assert green[42, 32] > 0.6 > 0.4 > green[22, 32]  # rising towards the top is bright
+    assert blue.argmax() in (31 * 64 + 31, 31 * 64 + 32, 32 * 64 + 31, 32 * 64 + 32)
+
+
+def test_samples_depend_on_seed_and_step_alone(data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    first = Sampler(data, seed=1).training(5)
+    steps = [next(first) for _ in range(5)]
+    later = next(Sampler(data, seed=1).training(5, first_step=3))
+    np.testing.assert_array_equal(later.points, steps[3].points)
+    assert sorted(np.concatenate([s.index for s in steps])[:12]) == list(range(12))
+    other = next(Sampler(data, seed=2).training(5))
+    assert not np.array_equal(other.points, steps[0].points)
+
+
+def test_clean_samples_are_the_stored_contact(data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    points = Sampler(data, CLEAN).batch(np.array([2]), 0).points[0]
+    heights = data.height_mm(2) - np.median(data.height_mm(2))
+    x_mm, y_mm = points[:, :2].T * (MINI.width_mm / 2)
+    column = ((x_mm / MINI.width_mm + 0.5) * heights.shape[1]).astype(int)
+    row = ((0.5 - y_mm / MINI.height_mm) * heights.shape[0]).astype(int)
+    off = points[:, 2] * MINI.max_depth_mm - heights[row, column]  # within half a pixel
+    assert np.median(np.abs(off)) < 0.005
+
+
+def test_an_error_while_making_a_batch_is_raised_in_its_place() -> None:
+    def items() -> object:
+        yield 1
+        raise TouchError("damaged")
+
+    made = ahead(items())  # type: ignore[arg-type]
+    assert next(made) == 1
+    with pytest.raises(TouchError, match="damaged"):
+        next(made)
+    assert list(ahead([1, 2, 3])) == [1, 2, 3]
+
+
+def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    encoder, heads = load_encoder(trained / "encoder")
+    samples = batches(data, 12, CLEAN)
+    scores = heads_scores(encoder.eval(), heads.eval(), samples)
+    assert min(scores.right.values()) >= 0.9
+    talker = Talker(load_tac3d_llm(trained))
+    states = [s for batch in samples for s in batch.states]
+    points = np.concatenate([batch.points for batch in samples])
+    said = [talker.reply(p, "Describe the contact.") for p in points]
+    assert np.mean([s.text == caption(state) for s, state in zip(said, states, strict=True)]) > 0.7
+    firm = [talker.reply(p, "Hold it firmly.").action for p in points]
+    gentle = [talker.reply(p, "Hold it gently.").action for p in points]
+    deep = [state.depth_mm > 0.3 for state in states]
+    when_firm = ["<none>" if d else "<increase_force>" for d in deep]
+    when_gentle = ["<decrease_force>" if d else "<none>" for d in deep]
+    assert np.mean([a == b for a, b in zip(firm, when_firm, strict=True)]) > 0.8
+    assert np.mean([a == b for a, b in zip(gentle, when_gentle, strict=True)]) > 0.8
+
+
+def test_shuffled_labels_do_not_generalise(data_dir: Path, trained: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "w"
+    (folder / "clip").parent.mkdir(parents=True)
+    (folder / "clip").symlink_to(trained / "clip")
+    train_cltp(
+        data_dir,
+        folder,
+        config=TINY,
+        schedule=schedule(100, 12),
+        augmentation=CLEAN,
+        shuffle_labels=True,
+    )
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    encoder, heads = load_encoder(folder / "encoder")
+    shuffled = heads_scores(encoder.eval(), heads.eval(), batches(data, 12, CLEAN))
+    assert shuffled.right["shape"] < 0.5  # against the true labels
+
+
+def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TEST)
+    samples = batches(data, 6, NOISY)
+    encoder, _ = load_encoder(trained / "encoder")
+    zero = zero_shot_scores(encoder.eval(), load_clip(trained / "clip"), samples)
+    assert zero.count == 6
+    direct = ceiling_scores(data, samples)
+    assert direct.right["depth"] >= 0.5
+    assert direct.right["shape"] == 0.0  # nothing computes a shape directly
+
+
+def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -> None:
+    def stage(folder: Path) -> tuple[Stage, torch.nn.Linear]:
+        torch.manual_seed(0)
+        model = torch.nn.Linear(3, 1)
+        return Stage("s", folder, model, schedule(30, 1), {"seed": 0}), model
+
+    def losses(model: torch.nn.Linear):  # type: ignore[no-untyped-def]
+        def of(step: int) -> dict[str, torch.Tensor]:
+            x = torch.randn(8, 3, generator=torch.Generator().manual_seed(step))
+            return {"loss": ((model(x) - x.sum(1, keepdim=True)) ** 2).mean()}
+
+        return of
+
+    whole, model = stage(tmp_path / "whole")
+    whole.run(losses(model))
+    first, cut = stage(tmp_path / "cut")
+
+    def stopped(step: int) -> dict[str, torch.Tensor]:
+        if step == 13:
+            first.save()
+        if step == 17:
+            raise KeyboardInterrupt
+        return losses(cut)(step)
+
+    with pytest.raises(KeyboardInterrupt):
+        first.run(stopped)
+    second, resumed = stage(tmp_path / "cut")
+    assert second.step == 13
+    second.run(losses(resumed))
+    torch.testing.assert_close(resumed.weight, model.weight, rtol=0, atol=0)
+
+
+def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path) -> None:
+    model = torch.nn.Linear(2, 1)
+    Stage("s", tmp_path, model, schedule(3, 1), {"seed": 0}).save()
+    with pytest.raises(TouchError, match="other data, seed or sizes"):
+        Stage("s", tmp_path, model, schedule(3, 1), {"seed": 1})
+    (tmp_path / "s.checkpoint").write_bytes(b"half")
+    with pytest.raises(TouchError, match="delete it"):
+        Stage("s", tmp_path, model, schedule(3, 1), {"seed": 0})
+
+
+def test_a_loss_that_is_not_finite_stops_the_stage(tmp_path: Path) -> None:
+    model = torch.nn.Linear(2, 1)
+    stage = Stage("s", tmp_path, model, schedule(3, 1), {})
+    with pytest.raises(TouchError, match="learning rate"):
+        stage.run(lambda step: {"loss": model.weight.sum() * float("nan")})
+
+
+def test_a_finished_training_is_not_repeated(trained: Path, data_dir: Path) -> None:
+    before = (trained / "encoder" / "model.safetensors").stat().st_mtime_ns
+    train_cltp(data_dir, trained, config=TINY, schedule=schedule(150, 12), augmentation=CLEAN)
+    assert (trained / "encoder" / "model.safetensors").stat().st_mtime_ns == before
+
+
+def test_loaded_weights_say_the_same(trained: Path) -> None:
+    points = torch.rand(1, 1024, 3)
+    one, two = load_tac3d_llm(trained), load_tac3d_llm(trained)
+    torch.testing.assert_close(one.touch(points), two.touch(points), rtol=0, atol=0)
+
+
+@pytest.mark.parametrize(
+    ("part", "file"),
+    [("encoder", "model.safetensors"), ("projector", "config.json"), ("lm", "tokenizer.json")],
+)
+def test_missing_weights_are_named(trained: Path, tmp_path: Path, part: str, file: str) -> None:
+    shutil.copytree(trained, tmp_path / "w", ignore=shutil.ignore_patterns(".training"))
+    (tmp_path / "w" / part / file).unlink()
+    with pytest.raises(TouchError, match=file):
+        load_tac3d_llm(tmp_path / "w")
+
+
+def test_truncated_and_mismatched_weights_are_refused(trained: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "w"
+    shutil.copytree(trained, folder, ignore=shutil.ignore_patterns(".training"))
+    save_encoder(folder / "encoder", TactileEncoder(EncoderConfig(dim=24, heads=2, depth=1)),
+                 StateHeads(48))  # fmt: skip
+    with pytest.raises(WeightsError, match="joins widths"):
+        load_tac3d_llm(folder)
+    weights = folder / "encoder" / "model.safetensors"
+    weights.write_bytes(weights.read_bytes()[:500])
+    with pytest.raises(WeightsError, match="damaged"):
+        load_tac3d_llm(folder)
+
+
+def test_a_tokenizer_of_another_training_is_refused(trained: Path, tmp_path: Path) -> None:
+    shutil.copytree(trained, tmp_path / "w", ignore=shutil.ignore_patterns(".training"))
+    Words.train(["other words for another model"] * 5, size=300).save(tmp_path / "w" / "lm")
+    with pytest.raises(WeightsError, match="not the one"):
+        load_tac3d_llm(tmp_path / "w")
+
+
+def test_the_shipped_sizes_stay_within_twenty_megabytes(tmp_path: Path) -> None:
+    from cltp.checkpoints.tac3d_llm import save_clip, save_tac3d_llm
+    from cltp.encoder.clip_towers import small_clip
+    from cltp.llm.causal_lm import Language, small_lm
+    from cltp.llm.tac3d_llm import Projector, Tac3dLlm
+
+    words = Words.train(["a few words"] * 3, size=1024)
+    encoder = TactileEncoder(EncoderConfig())
+    save_encoder(tmp_path / "encoder", encoder, StateHeads(2 * encoder.config.dim))
+    save_clip(tmp_path / "clip", small_clip(words), words)
+    language = Language(small_lm(words), words=words)
+    save_tac3d_llm(
+        tmp_path,
+        Tac3dLlm(
+            encoder,
+            StateHeads(2 * encoder.config.dim),
+            Projector(encoder.config.dim, 192),
+            language,
+        ),
+    )
+    assert size_bytes(tmp_path) < 20e6
+
+
+def test_noise_is_drawn_anew_in_every_step(data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    sampler = Sampler(data, Augmentation(mirror=False), seed=0)
+    one, two = (sampler.batch(np.array([0]), step).points[0, :, 2] for step in (0, 1))
+    assert np.abs(one - two).std() > 0.005

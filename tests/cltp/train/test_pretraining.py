@@ -1,0 +1,261 @@
+"""Pre-training: killed and resumed, cached features, curves, workers, and batches that are bad."""
+
+import dataclasses
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import torch
+
+from cltp.checkpoints.tac3d_llm import save_clip
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.sampler import NOISY, Sampler
+from cltp.encoder.clip_towers import Towers, small_clip
+from cltp.encoder.encoder import PRESETS
+from cltp.encoder.heads import targets
+from cltp.errors import TouchError
+from cltp.texts.tokenizer import Words
+from cltp.train.alignment import Recipe, train_cltp
+from cltp.train.clip_feature_cache import FrozenFeatures, rendered
+from cltp.train.curves import CurveFile, plot_curves, read_curves, smoothed
+from cltp.train.distributed import Workers, joined
+from cltp.train.finite_check import check_batch
+from cltp.train.stage import Schedule
+from tests.cltp.train.killed_training import train_a_little
+from tests.fakes.fake_contacts import fake_contact
+from tests.paths import ROOT
+
+HERE = Path(__file__).resolve().parent
+TINY = PRESETS["tiny"]
+
+
+pytestmark = pytest.mark.usefixtures("one_thread")
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data")
+    with DatasetWriter(folder) as writer:
+        for seed in range(12):
+            writer.add(fake_contact(seed))
+        for seed in range(100, 103):
+            writer.add(fake_contact(seed, split=Split.TEST))
+    return folder
+
+
+@pytest.fixture(scope="module")
+def towers_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    torch.manual_seed(5)
+    folder = tmp_path_factory.mktemp("towers") / "clip"
+    words = Words.train(["Contact at top-left. a smooth sphere object, pressed deep"] * 5, 400)
+    save_clip(folder, small_clip(words, dim=32, layers=1), words)
+    return folder
+
+
+def towers_of(folder: Path) -> Towers:
+    from cltp.checkpoints.tac3d_llm import load_clip
+
+    return load_clip(folder)
+
+
+def killed(data: Path, weights: Path, last_step: int) -> int:
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": f"{ROOT}:{HERE}"}
+    script = [sys.executable, str(HERE / "killed_training.py")]
+    arguments = [str(data), str(weights), str(last_step)]
+    return subprocess.run([*script, *arguments], env=environment, timeout=200).returncode
+
+
+def test_a_training_killed_hard_ends_with_the_same_curve_and_weights(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    for name in ("whole", "cut"):
+        shutil.copytree(towers_dir, tmp_path / name / "clip")
+    assert killed(data_dir, tmp_path / "cut", 10) == -signal.SIGKILL
+    for name in ("whole", "cut"):
+        train_a_little(data_dir, tmp_path / name)
+    for part in ("encoder/model.safetensors", ".training/cltp.csv"):
+        whole, cut = ((tmp_path / name / part).read_bytes() for name in ("whole", "cut"))
+        assert whole == cut
+    curves = read_curves(tmp_path / "cut/.training/cltp.csv")
+    assert curves["step"].tolist() == list(range(1, 17))
+    assert {"t2l", "t2i", "prompt_shape", "temperature"} <= set(curves)
+    assert (tmp_path / "cut/.training/cltp.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_without_images_and_heads_language_alone_is_learned(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
+    recipe = Recipe(with_images=False, head_weight=0.0)
+    train_cltp(
+        data_dir, tmp_path, config=TINY, schedule=schedule, recipe=recipe, clip_dir=towers_dir
+    )
+    assert set(read_curves(tmp_path / ".training/cltp.csv")) == {
+        "step",
+        "learning_rate",
+        "t2l",
+        "temperature",
+    }
+
+
+def test_features_are_computed_once_and_read_again(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
+    batch = Sampler(data, seed=3).numbered(8, 0)
+    first = FrozenFeatures(towers, data, tmp_path)
+    images, texts = first.images(batch), first.texts(["Contact is deep."])
+    assert first.computed == 4 * 8 + 1  # all mirror images of eight contacts, and a text
+    first.save()
+    again = FrozenFeatures(towers, data, tmp_path)
+    torch.testing.assert_close(again.images(batch), images, rtol=0, atol=0)
+    torch.testing.assert_close(again.texts(["Contact is deep."]), texts, rtol=0, atol=0)
+    assert again.computed == 0
+    mirrored = dataclasses.replace(batch, mirror=~batch.mirror)
+    other = again.images(mirrored)
+    assert again.computed == 0
+    assert not torch.equal(other, images)
+    pixels = rendered(data, batch)  # mirrored by the sampler, not by us
+    torch.testing.assert_close(towers.images(pixels), images, rtol=0, atol=1e-3)
+
+
+def test_images_of_moved_contacts_are_those_of_where_they_came_to(
+    data_dir: Path, towers_dir: Path
+) -> None:
+    data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
+    stayed, moved = (Sampler(data, seed=3, moved=share).numbered(8, 0) for share in (0.0, 1.0))
+    assert moved.moved.all() and not stayed.moved.any()
+    np.testing.assert_array_equal(moved.index, stayed.index)
+    apart = [
+        (one.x_mm, one.y_mm) != (other.x_mm, other.y_mm)
+        for one, other in zip(moved.states, stayed.states, strict=True)
+    ]
+    assert sum(apart) >= 4  # some can't be moved, and half of these stay
+    assert [s.shape for s in moved.states] == [s.shape for s in stayed.states]
+    features = FrozenFeatures(towers, data)
+    found = features.images(moved)
+    assert features.computed == 0  # nothing of them is kept
+    torch.testing.assert_close(found, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
+    half = dataclasses.replace(moved, moved=np.arange(8) < 4)
+    torch.testing.assert_close(features.images(half)[:4], found[:4], rtol=0, atol=1e-5)
+    torch.testing.assert_close(features.images(half)[4:], features.images(stayed)[4:])
+
+
+def test_moved_contacts_are_another_training(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
+    kwargs = {"config": TINY, "schedule": schedule, "clip_dir": towers_dir}
+    train_cltp(data_dir, tmp_path, recipe=Recipe(moved=0.5), **kwargs)  # type: ignore[arg-type]
+    with pytest.raises(TouchError, match="other data, seed or sizes"):
+        train_cltp(data_dir, tmp_path, recipe=Recipe(), **kwargs)  # type: ignore[arg-type]
+
+
+def test_damaged_features_are_refused(data_dir: Path, towers_dir: Path, tmp_path: Path) -> None:
+    data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
+    features = FrozenFeatures(towers, data, tmp_path)
+    features.images(Sampler(data, seed=3).numbered(8, 0))
+    features.save()
+    (path,) = tmp_path.glob("features-*.safetensors")
+    content = bytearray(path.read_bytes())
+    content[-5] ^= 1
+    path.write_bytes(content)
+    with pytest.raises(TouchError, match="delete the file"):
+        FrozenFeatures(towers, data, tmp_path)
+    path.write_bytes(content[:50])
+    with pytest.raises(TouchError, match="delete the file"):
+        FrozenFeatures(towers, data, tmp_path)
+
+
+def test_other_towers_have_features_of_their_own(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    data, towers = ContactDataset(data_dir, split=Split.TRAIN), towers_of(towers_dir)
+    for _ in range(2):
+        features = FrozenFeatures(towers, data, tmp_path)
+        features.texts(["Contact is deep."])
+        features.save()
+        with torch.no_grad():
+            towers.clip.text_projection.weight.add_(0.1)
+    assert len(list(tmp_path.glob("features-*.safetensors"))) == 2
+
+
+def test_a_batch_that_is_not_finite_names_step_and_contacts(data_dir: Path) -> None:
+    data = ContactDataset(data_dir, split=Split.TRAIN)
+    batch = Sampler(data, NOISY).batch(np.array([3, 7, 9]), 0)
+    wanted = targets(batch.states)
+    check_batch("cltp", 12, data, batch, wanted)
+    points = batch.points.copy()
+    points[1, 5, 2] = np.nan
+    bad = dataclasses.replace(batch, points=points)
+    with pytest.raises(TouchError, match=r"step 12 has points .* contacts 7 in"):
+        check_batch("cltp", 12, data, bad, wanted)
+    wanted.numbers[2, 0] = torch.inf
+    with pytest.raises(TouchError, match=r"labels .* contacts 9 in"):
+        check_batch("cltp", 12, data, batch, wanted)
+
+
+def test_rows_after_the_checkpoint_are_dropped(tmp_path: Path) -> None:
+    path = tmp_path / "c.csv"
+    curve = CurveFile(path, 0)
+    for step in range(1, 6):
+        curve.add(step, 0.1, {"loss": float(step), "temperature": 0.07})
+    curve.flush()
+    with path.open("a") as file:
+        file.write("6,0.1,")  # a row that was cut off
+    curve = CurveFile(path, 3)
+    curve.add(4, 0.1, {"loss": 40.0, "temperature": 0.07})
+    curve.flush()
+    assert read_curves(path)["loss"].tolist() == [1.0, 2.0, 3.0, 40.0]
+    plot_curves(path, tmp_path / "c.png")
+    assert (tmp_path / "c.png").stat().st_size > 1000
+    with pytest.raises(TouchError, match="no curves"):
+        read_curves(tmp_path / "none.csv")
+
+
+def test_smoothing_is_a_mean_over_the_last_values() -> None:
+    np.testing.assert_allclose(smoothed(np.array([2.0, 4.0, 6.0, 8.0]), 2), [2.0, 3.0, 5.0, 7.0])
+
+
+def test_workers_share_a_batch_evenly() -> None:
+    second = Workers(index=1, count=2)
+    assert second.share(8) == 4
+    assert [second.part(step) for step in range(3)] == [1, 3, 5]
+    assert not second.is_first
+    with pytest.raises(TouchError, match="can't be shared by 2"):
+        second.share(7)
+    with pytest.raises(TouchError, match="known: no, bf16"):
+        joined("fp8")
+
+
+@pytest.mark.slow
+def test_two_accelerated_processes_train_together(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(towers_dir, tmp_path / "clip")
+    code = (
+        "import sys; from pathlib import Path; from cltp.encoder.encoder import PRESETS\n"
+        "from cltp.train.alignment import train_cltp; from cltp.train.stage import Schedule\n"
+        "from cltp.train.distributed import joined\n"
+        "s = Schedule(steps=3, batch_size=8, learning_rate=1e-3)\n"
+        "train_cltp(Path(sys.argv[1]), Path(sys.argv[2]), config=PRESETS['tiny'], schedule=s,\n"
+        "           workers=joined('bf16'))\n"
+    )
+    script = tmp_path / "together.py"
+    script.write_text(code)
+    launch = [sys.executable, "-m", "torch.distributed.run", "--standalone", "--nproc-per-node=2"]
+    environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": str(ROOT)}
+    subprocess.run(
+        [*launch, str(script), str(data_dir), str(tmp_path)],
+        env=environment,
+        timeout=300,
+        check=True,
+    )
+    assert read_curves(tmp_path / ".training/cltp.csv")["step"].tolist() == [1, 2, 3]
+    assert (tmp_path / "encoder/model.safetensors").exists()

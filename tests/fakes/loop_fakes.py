@@ -1,0 +1,230 @@
+"""A rig whose devices only keep a log, for the tests of the loop; any call can be made to fail."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axes_mm
+from cltp.tactile.sensors import SensorSpec, sensor_named
+from policies import Decision
+from policies.extraction.extract import extract
+from primitives.devices import GripperState, Pose
+from tacgrasp.config.layers import load
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.episodes import EpisodeEnd, EpisodeError, TickRecord
+from tacgrasp.loop import run_episode
+from tacgrasp.rig.factory import make_executor
+from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.outcome import Observer, Outcome, Verification
+from tacgrasp.runtime.tick import Turns
+
+SENSOR = sensor_named("gelsight_mini")
+START = Pose(position_m=np.array([0.45, -0.10, 0.20]), rotvec_rad=np.array([np.pi, 0.0, 0.0]))
+
+GOOD = "The grasp is stable."
+DOWN = "It is off centre. Move the gripper downward."
+LIGHT = "Too light. Increase the gripping force."
+RESET = "There is no contact. Reset the grasp."
+NOTHING = "The contact is round."
+TWO = "Move the gripper downward and to the left."
+BOTH = "The grasp is stable. Move the gripper downward."
+
+
+def touch() -> TactileCloud:
+    """A firm touch in the middle of the pad."""
+    x, y = np.meshgrid(*grid_axes_mm(SENSOR, 60, 80))
+    heights = np.maximum(0.5 - (x**2 + y**2) / 40, 0)
+    return cloud_from_heights(heights, SENSOR)
+
+
+class FakeClock:
+    """Stands still but for sleeps."""
+
+    def __init__(self) -> None:
+        self.now_s = 100.0
+
+    def monotonic(self) -> float:
+        return self.now_s
+
+    def wall(self) -> float:
+        return 1.8e9 + self.now_s
+
+    def sleep(self, seconds: float) -> None:
+        self.now_s += seconds
+
+    def stamp(self) -> Stamp:
+        return Stamp(monotonic_s=self.monotonic(), wall_s=self.wall())
+
+
+class FakeRig:
+    """Arm, gripper and sensor that log every call; ``before`` may raise in place of one."""
+
+    def __init__(self, before: Callable[[str, int], None] | None = None) -> None:
+        self.calls: list[str] = []
+        self._before = before
+        self.clock = FakeClock()
+        self.start_pose = START
+        self.first_force_n = 1.0
+        self.arm = FakeArm(self.called)
+        self.gripper = FakeGripper(self.called)
+        self.sensor = FakeSensor(self.called)
+
+    def called(self, name: str) -> None:
+        self.calls.append(name)
+        if self._before is not None:
+            self._before(name, len(self.calls) - 1)
+
+    def disconnect(self) -> None:
+        self.calls.append("disconnect")
+
+    @property
+    def moves(self) -> int:
+        return self.calls.count("arm.move_to")
+
+
+class FakeArm:
+    def __init__(self, called: Callable[[str], None]) -> None:
+        self._called, self._pose = called, START
+
+    def pose(self) -> Pose:
+        self._called("arm.pose")
+        return self._pose
+
+    def move_to(
+        self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
+    ) -> Pose:
+        self._called("arm.move_to")
+        self._pose = pose
+        return pose
+
+    def stop(self) -> None:
+        self._called("arm.stop")
+
+    def disconnect(self) -> None:
+        self._called("arm.disconnect")
+
+
+class FakeGripper:
+    def __init__(self, called: Callable[[str], None]) -> None:
+        self._called = called
+        self.now = GripperState(width_m=0.05, force_n=0.0, closed=False)
+
+    def state(self) -> GripperState:
+        self._called("gripper.state")
+        return self.now
+
+    def grip(self, force_n: float) -> GripperState:
+        self._called("gripper.grip")
+        self.now = GripperState(width_m=0.02, force_n=force_n, closed=True)
+        return self.now
+
+    def open_by(self, clear_m: float) -> GripperState:
+        self._called("gripper.open_by")
+        self.now = GripperState(width_m=0.02 + clear_m, force_n=0.0, closed=False)
+        return self.now
+
+    def stop(self) -> None:
+        self._called("gripper.stop")
+
+    def disconnect(self) -> None:
+        self._called("gripper.disconnect")
+
+
+class FakeSensor:
+    def __init__(self, called: Callable[[str], None]) -> None:
+        self._called = called
+
+    @property
+    def spec(self) -> SensorSpec:
+        return SENSOR
+
+    def read(self) -> TactileCloud:
+        self._called("sensor.read")
+        return touch()
+
+    def disconnect(self) -> None:
+        self._called("sensor.disconnect")
+
+
+class Says:
+    """A policy that says these texts in order, the last one for ever; errors are raised."""
+
+    name = "says"
+
+    def __init__(self, *texts: str | Exception) -> None:
+        self._texts, self.asked = texts, 0
+
+    def start(self) -> None:
+        self.asked = 0
+
+    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+        text = self._texts[min(self.asked, len(self._texts) - 1)]
+        self.asked += 1
+        if isinstance(text, Exception):
+            raise text
+        found = extract(text)
+        return Decision(text=text, action=found.action, success=found.success, reason=found.reason)
+
+
+class ListRecorder:
+    """Keeps records in a list; refuses the ``full_at``-th one like a full disk."""
+
+    def __init__(self, full_at: int | None = None) -> None:
+        self.ticks: list[TickRecord] = []
+        self.ends: list[EpisodeEnd] = []
+        self._full_at = full_at
+
+    def write_tick(self, record: TickRecord) -> None:
+        if self._full_at is not None and len(self.ticks) >= self._full_at:
+            raise EpisodeError("the disk is full")
+        self.ticks.append(record)
+
+    def finish(self, end: EpisodeEnd) -> None:
+        if self._full_at is not None and len(self.ticks) >= self._full_at:
+            raise EpisodeError("the file is closed")
+        self.ends.append(end)
+
+
+def holds(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+    return Verification(passed=True, message="held")
+
+
+def slips(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+    return Verification(passed=False, message="slipped")
+
+
+def config(**loop: float) -> RunConfig:
+    """The strawberry's, with bounds of the loop changed."""
+    loaded, _ = load("strawberry")
+    return loaded.model_copy(update={"loop": loaded.loop.model_copy(update=loop)})
+
+
+def play(
+    policy: Says,
+    *,
+    rig: FakeRig | None = None,
+    verify: Callable[[Rig, Turns, RunConfig], Verification] = holds,
+    recorder: ListRecorder | None = None,
+    settings: RunConfig | None = None,
+    observers: Sequence[Observer] = (),
+) -> tuple[Outcome, FakeRig, ListRecorder]:
+    """Run the loop on fakes."""
+    rig = rig or FakeRig()
+    recorder = recorder or ListRecorder()
+    settings = settings or config()
+    outcome = run_episode(
+        rig,
+        make_executor(rig, settings),
+        policy,
+        settings,
+        verify=verify,
+        recorder=recorder,
+        observers=observers,
+    )
+    return outcome, rig, recorder
+
+
+def with_end(settings: RunConfig, *, on_success: str, on_failure: str) -> RunConfig:
+    return settings.model_copy(update={"on_success": on_success, "on_failure": on_failure})

@@ -1,0 +1,170 @@
+"""Extraction: a table of sentences, and properties of any text."""
+
+import string
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from policies.extraction.clauses import word_set
+from policies.extraction.extract import extract
+from primitives import Primitive
+from tests.policies.extraction.sentences import ACTIONS, AMBIGUOUS, NOTHING, SUCCESS, TABLE
+
+JUNK_WORDS = word_set(
+    "contact berry bottom left right upper corner deep pad gel mm force depth area table centre "
+    "finger is at the of with moderate small pressed 0.3 12 N ( ) , ; slight very tiny "
+    "medium large centered middle-left bottom-center cut edge sphere ellipsoid smooth ridged "
+    "object newton light firm soft high low too much deepest tilted slipping gripper grasp normal"
+)
+GRAMMAR_WORDS = word_set(
+    "not stable secure move down up the grasp is if or and but , . ? : ; no force increase reduce "
+    "<none> move_down <move_up> instead of rather than without avoid before after to be more less "
+    "a grip until once was will n't - ( ) it gripper"
+)
+JUNK = st.lists(st.sampled_from(sorted(JUNK_WORDS)), max_size=12).map(" ".join)
+AFFIRMED = st.sampled_from([t for t in SUCCESS if t.startswith(("The grasp is s", "The grip is"))])
+
+
+@pytest.mark.parametrize(("text", "action", "success"), TABLE)
+def test_a_sentence_is_read_as_a_person_would(text, action, success):
+    found = extract(text)
+    assert (found.action, found.success, found.ambiguous) == (action, success, False), found.reason
+
+
+@pytest.mark.parametrize("text", AMBIGUOUS)
+def test_two_different_requests_are_ambiguous_and_neither_action_nor_success(text):
+    found = extract(text)
+    assert found.ambiguous, found.reason
+    assert found.action is None
+    assert not found.success
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Action: <move_up>. Do not move up.",
+        "Increase the force. No, do not increase the force.",
+        "Never move left. Move left.",
+    ],
+)
+def test_a_text_that_asks_for_what_it_forbids_is_ambiguous(text):
+    found = extract(text)
+    assert found.ambiguous, found.reason
+    assert found.action is None
+    assert not found.success
+
+
+def test_the_table_is_as_long_as_a_parser_of_this_weight_needs():
+    assert len(TABLE) + len(AMBIGUOUS) >= 400
+    assert len({text for text, _, _ in TABLE}) == len(TABLE)
+
+
+@given(st.text())
+def test_any_text_is_read_without_an_error(text):
+    found = extract(text)
+    assert not (found.ambiguous and (found.success or found.action is not None))
+    assert found.reason
+
+
+@given(st.lists(st.sampled_from(["\n", *sorted(GRAMMAR_WORDS)]), max_size=25).map(" ".join))
+def test_any_row_of_the_grammars_own_words_is_read_without_an_error(text):
+    found = extract(text)
+    assert not (found.ambiguous and (found.success or found.action is not None))
+
+
+@pytest.mark.parametrize("text", ["", "\x00", "\ud800", "<" * 5000, "not " * 3000, "move " * 3000])
+def test_strange_and_long_texts_declare_and_ask_nothing(text):
+    found = extract(text)
+    assert (found.action, found.success) == (None, False)
+
+
+@given(JUNK)
+def test_words_about_a_contact_never_make_an_action_or_a_success(text):
+    found = extract(text)
+    assert (found.action, found.success) == (None, False)
+
+
+@given(
+    st.sampled_from(list(Primitive)),
+    st.sampled_from(["{}", "Action: {}", "Action: <{}>.", "I choose {}.", "`{}`", "Next, {}!"]),
+    st.data(),
+)
+def test_an_identifier_is_found_in_any_case(primitive, template, data):
+    flips = data.draw(st.lists(st.booleans(), min_size=40, max_size=40))
+    text = template.format(primitive)
+    text = "".join(c.upper() if f else c for c, f in zip(text, flips + [False] * 40, strict=False))
+    assert extract(text).action is primitive
+
+
+@given(st.sampled_from([t for t in TABLE if t[0].isascii()]), st.randoms(use_true_random=False))
+def test_case_changes_nothing(row, random):
+    text, action, success = row
+    swapped = "".join(random.choice((c.lower(), c.upper())) for c in text)
+    found = extract(swapped)
+    assert (found.action, found.success) == (action, success)
+
+
+@given(
+    AFFIRMED,
+    st.sampled_from(
+        [" is not ", " isn't ", " is never ", " is no longer ", " is hardly ", " cannot be called "]
+    ),
+)
+def test_a_negation_takes_success_away(text, negated):
+    assert extract(text).success
+    assert not extract(text.replace(" is ", negated, 1)).success
+
+
+@given(
+    AFFIRMED,
+    st.sampled_from(
+        [" will be ", " should be ", " might be ", " would be ", " was ", " must become "]
+    ),
+)
+def test_another_tense_or_mood_takes_success_away(text, mood):
+    assert not extract(text.replace(" is ", mood, 1)).success
+
+
+@given(AFFIRMED, st.sampled_from(["I doubt that ", "If ", "It is not true that ", "Unless "]))
+def test_a_doubt_in_front_takes_success_away(text, front):
+    assert not extract(front + text[0].lower() + text[1:]).success
+
+
+@given(
+    st.sampled_from([a for a in ACTIONS if a[0].split()[0] in ("move", "Squeeze", "Loosen", "Go")]),
+    st.sampled_from(
+        ["Do not {}", "Don’t {}", "Never {}", "There is no need to {}", "You must not {}"]
+    ),
+)
+def test_a_prohibition_takes_the_action_away(row, prohibition):
+    text, action, _ = row
+    assert extract(text).action is action
+    assert extract(prohibition.format(text[0].lower() + text[1:])).action is None
+
+
+@given(st.sampled_from(NOTHING), st.sampled_from(string.whitespace))
+def test_space_around_a_text_changes_nothing(text, space):
+    found = extract(space * 3 + text + space)
+    assert (found.action, found.success) == (None, False)
+
+
+def test_a_text_that_never_ends_is_not_read():
+    assert extract("The grasp is stable. " * 10).success
+    found = extract("The grasp is stable. " * 1000)
+    assert not found.success
+    assert "21000 characters" in found.reason
+
+
+@pytest.mark.parametrize("action", list(Primitive))
+def test_none_beside_an_action_is_ambiguous(action):
+    assert extract(f"<none> <{action}>").ambiguous
+
+
+def test_the_reason_says_what_was_read():
+    assert extract("Do not move up, move down.").reason == (
+        "asks for move_down; declares no success; 'move up' is negated"
+    )
+    assert extract("The grasp is not secure.").reason == (
+        "asks for no action; no success: 'secure' is denied"
+    )

@@ -1,0 +1,87 @@
+"""Meshes between the fingers: what they become, and which are refused."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+
+from cltp import TouchError
+from sim.grasp.bodies import draw_body
+from sim.grasp.mesh_bodies import body_from_mesh
+from tests.paths import SHARED_DATA
+
+LIKE = draw_body("strawberry", np.random.default_rng(0))
+SHARED = SHARED_DATA / "meshes"
+
+
+def written(mesh: trimesh.Trimesh, folder: Path) -> Path:
+    path = folder / "thing.ply"
+    mesh.export(path)
+    return path
+
+
+def test_a_ball_becomes_a_ball(tmp_path):
+    path = written(trimesh.creation.icosphere(subdivisions=5, radius=15.0), tmp_path)
+    body = body_from_mesh(path, mass_g=None, like=LIKE)
+    gap = body.gap_on(np.array([0.0, 4.0]), np.array([0.0, -4.0]))
+    sagitta = 15 - np.sqrt(15**2 - 16)
+    assert gap[0, 0] == pytest.approx(0.0, abs=0.02)
+    assert gap[0, 1] == pytest.approx(sagitta, abs=0.05)
+    assert gap[1, 0] == pytest.approx(sagitta, abs=0.05)
+    assert body.thickness_mm == pytest.approx(30.0, abs=0.1)
+    assert body.mass_kg == pytest.approx(0.3e-6 * 4 / 3 * np.pi * 15**3, rel=0.02)
+
+
+def test_a_long_box_hangs_along_its_length_and_keeps_a_given_mass(tmp_path):
+    path = written(trimesh.creation.box((80.0, 12.0, 30.0)), tmp_path)
+    body = body_from_mesh(path, mass_g=50.0, like=LIKE)
+    assert body.thickness_mm == pytest.approx(12.0)
+    assert body.mass_kg == 0.05
+    inside = body.gap_on(np.array([-14.0, 14.0]), np.array([20.0, -20.0]))
+    assert inside.max() == pytest.approx(0.0, abs=1e-3)
+    assert body.gap_on(np.array([16.0]), np.array([0.0]))[0, 0] > 1.0
+
+
+def test_an_open_mesh_is_refused(tmp_path):
+    mesh = trimesh.creation.box((20.0, 20.0, 20.0))
+    mesh.update_faces(np.arange(len(mesh.faces)) > 1)
+    with pytest.raises(TouchError, match="open"):
+        body_from_mesh(written(mesh, tmp_path), mass_g=None, like=LIKE)
+
+
+def test_a_mesh_in_metres_is_refused(tmp_path):
+    with pytest.raises(TouchError, match="metres"):
+        body_from_mesh(
+            written(trimesh.creation.icosphere(radius=0.015), tmp_path), mass_g=None, like=LIKE
+        )
+
+
+def test_a_mesh_inside_out_is_refused(tmp_path):
+    mesh = trimesh.creation.icosphere(radius=15.0)
+    mesh.invert()
+    with pytest.raises(TouchError, match="inside out"):
+        body_from_mesh(written(mesh, tmp_path), mass_g=None, like=LIKE)
+
+
+def test_a_mesh_wider_than_the_gripper_is_refused(tmp_path):
+    with pytest.raises(TouchError, match="gripper opens"):
+        body_from_mesh(
+            written(trimesh.creation.box((150.0, 150.0, 150.0)), tmp_path), mass_g=None, like=LIKE
+        )
+
+
+@pytest.mark.parametrize("content", [b"", b"ply\nformat ascii 1.0\nend_header\n", b"not a mesh"])
+def test_an_empty_or_foreign_file_is_refused(tmp_path, content):
+    path = tmp_path / "thing.ply"
+    path.write_bytes(content)
+    with pytest.raises(TouchError, match=r"thing\.ply"):
+        body_from_mesh(path, mass_g=None, like=LIKE)
+
+
+@pytest.mark.skipif(not SHARED.is_dir(), reason=f"{SHARED} is absent")
+@pytest.mark.parametrize("name", ["household/plastic_apple", "household/black_marker"])
+def test_scanned_objects_can_be_held(name):
+    body = body_from_mesh(SHARED / f"{name}.ply", mass_g=None, like=LIKE)
+    middle = body.gap_mm.shape[0] // 2
+    assert body.gap_mm[middle, middle] < 2.0

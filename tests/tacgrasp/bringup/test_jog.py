@@ -1,0 +1,182 @@
+"""Jogging: what each key means, and that every step is held to the limits."""
+
+import io
+import os
+import pty
+import select
+import subprocess
+import sys
+import termios
+import time
+
+import pytest
+from rich.console import Console
+
+from primitives import LimitError
+from primitives.execution import PadAxes
+from primitives.limits import Limits
+from sim.grasp.rig import build
+from tacgrasp.__main__ import main
+from tacgrasp.bringup.jog import (
+    STEPS_MM,
+    Grip,
+    Help,
+    Jogger,
+    Open,
+    Quit,
+    Settings,
+    Step,
+    Stop,
+    Unknown,
+    command_of,
+)
+from tacgrasp.cli.jog import _show
+from tests.fakes.patient_rig import patient_rig
+
+SETTINGS = Settings(force_n=1.0)
+LIMITS = Limits(
+    max_step_mm=2,
+    workspace_low_m=(0.44, -0.2, 0.19),
+    workspace_high_m=(0.46, 0.0, 0.21),
+    max_travel_mm=6,
+    min_force_n=0.1,
+    max_force_n=2,
+    max_speed_m_s=0.4,
+)
+
+
+@pytest.fixture
+def rig():
+    return build("strawberry", 1, start_offset_mm=(0.0, 0.0))
+
+
+@pytest.fixture
+def jogger(rig):
+    axes = PadAxes(x_tcp=rig.pad_x_in_tcp, y_tcp=rig.pad_y_in_tcp)
+    return Jogger(rig, LIMITS, axes, clear_mm=2.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "frame", "direction"),
+    [("w", "pad", (0, 1, 0)), ("a", "pad", (-1, 0, 0)), ("f", "base", (0, 0, -1))],
+)
+def test_a_letter_is_one_step_of_the_chosen_length(key, frame, direction):
+    command, after = command_of(key, SETTINGS)
+    assert command == Step(frame=frame, direction=direction, length_mm=1.0)
+    assert after == SETTINGS
+
+
+def test_brackets_choose_the_step_within_its_range_and_move_nothing():
+    settings = SETTINGS
+    for _ in range(10):
+        command, settings = command_of("]", settings)
+        assert command is None
+    assert settings.step_mm == STEPS_MM[-1]
+    for _ in range(10):
+        _, settings = command_of("[", settings)
+    assert settings.step_mm == STEPS_MM[0]
+
+
+def test_plus_and_minus_change_the_force_of_the_next_grip_and_send_nothing():
+    command, more = command_of("+", SETTINGS)
+    assert command is None
+    assert command_of("g", more)[0] == Grip(force_n=1.25)
+    assert command_of("-", more)[1].force_n == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize(
+    ("key", "kind"), [("o", Open), (" ", Stop), ("?", Help), ("q", Quit), ("\x03", Quit)]
+)
+def test_the_other_keys(key, kind):
+    assert isinstance(command_of(key, SETTINGS)[0], kind)
+
+
+@pytest.mark.parametrize("key", ["", "x", "\x00", "7", "\n"])
+def test_any_other_key_sends_nothing(jogger, rig, key):
+    command, _ = command_of(key, SETTINGS)
+    assert command == Unknown(key=key)
+    before = rig.arm.pose()
+    assert "no command" in jogger.carry_out(command)
+    assert rig.arm.pose() is before
+
+
+def test_a_step_along_the_pad_goes_along_its_axes_in_the_base(jogger, rig):
+    jogger.carry_out(command_of("s", SETTINGS)[0])  # fingertip: down, as the fingers point
+    assert rig.arm.pose().position_m == pytest.approx([0.45, -0.10, 0.199])
+    jogger.carry_out(command_of("d", SETTINGS)[0])
+    assert rig.arm.pose().position_m == pytest.approx([0.451, -0.10, 0.199])
+
+
+def test_a_step_is_shortened_and_a_force_lowered_to_the_limits_and_it_is_said(jogger):
+    long = Step(frame="base", direction=(0, 0, 1), length_mm=5)
+    assert "shortened to max_step_mm 2" in jogger.carry_out(long)
+    assert "lowered to max_force_n 2" in jogger.carry_out(Grip(force_n=9))
+
+
+def test_a_step_out_of_the_box_is_refused_and_nothing_moves(jogger, rig):
+    aside = Step(frame="base", direction=(1, 0, 0), length_mm=2)
+    for _ in range(4):
+        jogger.carry_out(aside)
+    here = rig.arm.pose()
+    with pytest.raises(LimitError, match=r"x = 0.4600 m would leave|x = 0.4620 m would leave"):
+        for _ in range(2):
+            jogger.carry_out(aside)
+            here = rig.arm.pose()
+    assert rig.arm.pose() is here
+
+
+def test_without_a_terminal_characters_are_keys_and_a_line_each_is_printed(monkeypatch, capsys):
+    monkeypatch.setattr("sys.stdin", io.StringIO("gd\n?zq"))
+    assert main(["jog", "--seed", "3"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert sum(line.startswith("closed with ") for line in lines) == 1
+    assert any(line.startswith("at (451.0, -100.0, 200.0) mm | step 1 mm") for line in lines)
+    assert any("'z' is no command" in line for line in lines)
+
+
+def test_a_refused_step_is_said_and_jogging_goes_on(monkeypatch, capsys):
+    monkeypatch.setattr("sys.stdin", io.StringIO("]]" + 40 * "r" + "o"))
+    assert main(["jog"]) == 0
+    printed = capsys.readouterr().out
+    assert "refused: " in printed
+    assert printed.splitlines()[-1].startswith("open at")
+
+
+def test_on_a_narrow_terminal_the_contact_is_one_line_that_is_written_over():
+    printed = io.StringIO()
+    out = Console(file=printed, force_terminal=True, width=40, highlight=False)
+    for _ in range(2):
+        _show(out, "step 1 mm, force 1.00 N | " + 20 * "felt ", "")
+    _show(out, "step 2 mm", "at (451.0, -100.0, 200.0) mm, and more than the width")
+    start, *lines = printed.getvalue().split("\r\x1b[2K")
+    assert start == ""
+    assert lines[0] == lines[1] == "step 1 mm, force 1.00 N | felt felt fel"
+    assert lines[2:] == ["at (451.0, -100.0, 200.0) mm, and more than the width\n", "step 2 mm"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("devices", ["simulated", "emulated"])
+def test_on_a_terminal_single_keys_move_and_the_terminal_is_set_back(devices, tmp_path):
+    rig = "sim" if devices == "simulated" else str(patient_rig(tmp_path))
+    ours, theirs = pty.openpty()
+    before = termios.tcgetattr(theirs)
+    command = [sys.executable, "-m", "tacgrasp", "jog", "--seed", "3", "--rig", rig]
+    child = subprocess.Popen(command, stdin=theirs, stdout=theirs, stderr=theirs)
+    printed = b""
+
+    def until(words: bytes) -> None:
+        nonlocal printed
+        deadline = time.monotonic() + 60
+        while words not in printed and time.monotonic() < deadline:
+            if select.select([ours], [], [], 0.1)[0]:
+                printed += os.read(ours, 65536)
+        assert words in printed, printed
+
+    until(b"step 1 mm")
+    os.write(ours, b"d")
+    until(b"at (451.0, -100.0, 200.0) mm")
+    os.write(ours, b"q")
+    assert child.wait(30) == 0
+    assert termios.tcgetattr(theirs) == before
+    os.close(ours)
+    os.close(theirs)

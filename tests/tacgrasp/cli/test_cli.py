@@ -1,0 +1,304 @@
+"""The command line: exit codes, one clear line for every wrong use, and what --help may load."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tacgrasp.__main__ import COMMANDS, main, usage
+from tacgrasp.base import package_check as siblings
+from tacgrasp.base.errors import UsageError
+from tacgrasp.console import COMPLETED
+from tests.paths import ROOT
+
+SUCCEEDS = "1"
+"""A seed whose grasp succeeds; checked by the tests themselves."""
+
+
+@pytest.fixture(scope="module")
+def episode(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A whole simulated run, recorded."""
+    folder = tmp_path_factory.mktemp("episodes")
+    assert main(["demo", "paper", "--record", str(folder)]) == 0
+    return next(folder.glob("*.mcap"))
+
+
+def complaint(argv: list[str], capsys: pytest.CaptureFixture[str], code: int = 2) -> str:
+    assert main(argv) == code
+    printed = capsys.readouterr()
+    assert COMPLETED not in printed.out
+    assert printed.err.startswith("tacgrasp: ")
+    assert printed.err.count("\n") == 1
+    return printed.err
+
+
+def test_help_names_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--help"]) == 0
+    assert capsys.readouterr().out == usage() + "\n"
+    for word in (*COMMANDS, "0 ", "1 ", "2 ", "3 ", "130 "):
+        assert word in usage()
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "from tacgrasp.__main__ import main; main(['--help'])",
+        "import tacgrasp, primitives, policies, cltp, sim",
+        "import cltp.tactile.cloud, cltp.tactile.states, policies.rules, tacgrasp.loop",
+    ],
+)
+def test_neither_torch_nor_open3d_nor_a_device_sdk_is_loaded(code: str) -> None:
+    heavy = "torch open3d transformers rtde_control rtde_receive dynamixel_sdk serial"
+    check = f"import sys; print([m for m in '{heavy}'.split() if m in sys.modules])"
+    done = subprocess.run(
+        [sys.executable, "-c", f"{code}\n{check}"], cwd=ROOT, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.splitlines()[-1] == "[]"
+
+
+def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
+    assert main([]) == 2
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["grasp"], "unknown command 'grasp'; known: run"),
+        (["run", "--task", "banana"], "unknown task 'banana'"),
+        (["run", "--policy", "gut"], "unknown policy 'gut'; known: rules"),
+        (["run", "--policy", "oracle"], "only `tacgrasp bench strawberry` has it"),
+        (["run", "--sensor", "finger"], "unknown sensor 'finger'"),
+        (["run", "--object", "anvil"], "no object 'anvil'; known: strawberry"),
+        (["run", "--object-mesh", "no.ply"], "no.ply does not exist"),
+        (["demo", "nope"], "unknown demo 'nope'; known: paper"),
+        (["replay"], "EPISODE|PATH"),
+        (["replay", "no.mcap"], "no.mcap does not exist"),
+        (["replay", "no.mcap", "--policy", "rules"], "--policy needs --decide"),
+        (["replay", "no.mcap", "--decide", "--execute"], "one after the other"),
+        (["episodes"], "expects one of ls, info, recover, plot, got nothing"),
+        (["episodes", "rm"], "got 'rm'"),
+        (["episodes", "ls", "nowhere"], "nowhere is not a directory"),
+        (["episodes", "info", "no.mcap"], "no.mcap does not exist"),
+        (["episodes", "recover", "no.mcap"], "no.mcap does not exist"),
+        (["episodes", "plot", "no.mcap"], "no.mcap does not exist"),
+        (["describe", "no.ply"], "no.ply does not exist"),
+        (["describe", "photo.tiff"], "expected a file ending in"),
+        (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
+        (["bench"], "expects one of strawberry, latency, gel, tcl3d, touch"),
+        (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
+        (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
+        (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
+        (["bench", "gel", "--jsn", "x"], "did you mean --json"),
+    ],
+)
+def test_wrong_use_gets_one_line_and_exit_code_2(
+    argv: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    message = complaint(argv, capsys)
+    assert any(part in message for part in expected.split("|")), message
+
+
+def test_a_record_folder_that_is_a_file_is_refused_before_anything_moves(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "taken").write_text("")
+    message = complaint(["run", "--record", str(tmp_path / "taken")], capsys)
+    assert "is not a directory" in message
+
+
+def test_a_read_only_record_folder_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)  # root may write anywhere
+    assert "read-only" in complaint(["run", "--record", str(tmp_path)], capsys)
+
+
+def test_a_full_disk_in_mid_episode_is_a_fault_in_one_line_and_nothing_is_called_successful(
+    tmp_path: Path,
+) -> None:
+    command = f"ulimit -f 24; exec {sys.executable} -m tacgrasp demo paper --record {tmp_path}"
+    done = subprocess.run(["bash", "-c", command], cwd=ROOT, capture_output=True, text=True)
+    assert "end: fault - can't write" in done.stdout, done.stdout + done.stderr
+    assert "Traceback" not in done.stderr
+    assert COMPLETED not in done.stdout
+    assert "the gripper has released" in done.stdout
+
+
+@pytest.mark.parametrize(("content", "expected"), [(b"", "empty"), (b"hello", "not an MCAP")])
+def test_an_episode_that_is_none_is_refused(
+    content: bytes, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "x.mcap"
+    path.write_bytes(content)
+    for command in (["replay"], ["replay", "--decide"], ["episodes", "info"]):
+        assert expected in complaint([*command, str(path)], capsys)
+
+
+def test_a_truncated_episode_is_shown_as_incomplete(
+    episode: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    cut = tmp_path / "cut.mcap"
+    whole = episode.read_bytes()
+    cut.write_bytes(whole[: len(whole) // 2])
+    assert main(["replay", str(cut)]) == 0
+    assert "incomplete: " in capsys.readouterr().out
+
+
+def test_the_paper_demo_prints_a_line_a_turn_the_end_and_the_truth(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["demo", "paper", "--record", str(tmp_path)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert "bottom-center" in lines[0]
+    assert "move_down" in lines[0]
+    assert "decrease_force" in lines[1]
+    assert "stable" in lines[2]
+    assert any(line.startswith("end: success") for line in lines)
+    assert any(line.startswith("truth: ") for line in lines)
+    assert COMPLETED in lines
+
+
+@pytest.mark.parametrize("name", ["gentle", "missed", "slips"])
+def test_a_demo_comes_out_as_told(
+    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["demo", name, "--record", str(tmp_path)]) == 0
+    assert (COMPLETED in capsys.readouterr().out) is (name == "gentle")
+
+
+def test_demos_are_listed_without_a_name(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["demo"]) == 0
+    assert capsys.readouterr().out.startswith("paper ")
+
+
+def test_a_replay_shows_the_same_turns_as_the_run(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", str(episode)]) == 0
+    printed = capsys.readouterr().out
+    assert "move_down" in printed
+    assert "end: success" in printed
+
+
+def test_deciding_again_reproduces_the_episode_exactly(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", "--decide", str(episode)]) == 0
+    assert "3 decisions, 0 differ" in capsys.readouterr().out
+
+
+def test_another_policy_differs_and_says_where(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", "--decide", "--policy", "fixed_force", str(episode)]) == 1
+    printed = capsys.readouterr().out
+    assert "action: 'move_down' then, None now" in printed
+    assert "3 decisions, 3 differ" in printed
+
+
+def test_executing_again_reaches_the_recorded_poses(
+    episode: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["replay", "--execute", str(episode)]) == 0
+    assert "2 actions repeated; at most 0.00 mm" in capsys.readouterr().out
+
+
+def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code = main(["run", "--seed", SUCCEEDS, "--record", str(tmp_path)])
+    printed = capsys.readouterr().out
+    assert code == 0
+    assert printed.rstrip().endswith(COMPLETED)
+    assert len(list(tmp_path.glob("strawberry-*.mcap"))) == 1
+
+
+def test_a_dry_run_decides_and_does_not_call_anything_successful(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["run", "--dry-run", "--record", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out
+    assert "nothing was sent" in printed
+    assert COMPLETED not in printed
+
+
+def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from sim.grasp.rig import SimSensor
+
+    def interrupt(_: SimSensor) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(SimSensor, "read", interrupt)
+    assert main(["run", "--record", str(tmp_path)]) == 130
+    assert "end: operator" in capsys.readouterr().out
+    assert main(["episodes", "info", str(next(tmp_path.glob("*.mcap")))]) == 0
+    assert "operator" in capsys.readouterr().out
+
+
+def test_print_config_says_where_each_value_came_from(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["run", "--task", "egg", "--arm.max-step-mm", "4", "--print-config"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert lines["arm.max_step_mm"].split(maxsplit=1)[1] == "4.0  [flag --arm.max-step-mm]"
+    assert lines["goal.force_n"].endswith("[tasks/egg.yaml]")
+    assert lines["loop.max_asks"].endswith("[default]")
+
+
+def test_a_height_map_is_described_in_words_and_numbers(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    y, x = np.mgrid[7.6:-7.6:240j, -10.1:10.1:320j]
+    np.save(tmp_path / "h.npy", 0.5 * np.exp(-((x - 2) ** 2 + (y + 4) ** 2) / 8))
+    assert main(["describe", str(tmp_path / "h.npy")]) == 0
+    printed = capsys.readouterr().out
+    assert "bottom-center" in printed
+    assert "moderate" in printed
+
+
+def test_an_untouched_gel_is_described_as_such(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save(tmp_path / "h.npy", np.zeros((240, 320)))
+    assert main(["describe", str(tmp_path / "h.npy")]) == 0
+    assert "nothing touches" in capsys.readouterr().out
+
+
+def test_latency_writes_quantiles_of_the_tick_and_of_every_stage(tmp_path: Path) -> None:
+    path = tmp_path / "latency.json"
+    assert main(["bench", "latency", "--ticks", "5", "--json", str(path)]) == 0
+    report = json.loads(path.read_text())
+    assert 0 < report["tick_ms"]["p50"] <= report["tick_ms"]["p99"]
+    assert {"measure", "extract"} <= report["stages_ms"].keys()
+    assert all({"p50", "p99"} == stage.keys() for stage in report["stages_ms"].values())
+
+
+def test_a_sibling_from_elsewhere_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    intruder = tmp_path / "sim" / "__init__.py"
+    intruder.parent.mkdir()
+    intruder.write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, "sim", raising=False)
+    with pytest.raises(UsageError, match=f"'sim' comes from {intruder.parent}"):
+        siblings.check_siblings()
+
+
+def test_a_missing_sibling_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(siblings, "SIBLINGS", ("cltp", "no_such_sibling"))
+    with pytest.raises(UsageError, match="'no_such_sibling' is missing"):
+        siblings.check_siblings()
+
+
+def test_a_bug_is_exit_code_3_with_its_traceback(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tacgrasp.cli.describe.parse", lambda *_, **__: 1 / 0)
+    assert main(["describe", "x.ply"]) == 3
+    assert "ZeroDivisionError" in capsys.readouterr().err

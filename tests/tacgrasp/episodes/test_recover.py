@@ -1,0 +1,294 @@
+import json
+import random
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap.writer import Writer
+
+from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.loop import crash as bench_crash
+from tacgrasp.episodes import EpisodeError, EpisodeWriter, TickRecord, read_episode
+from tacgrasp.episodes.recover import recover
+from tests.fakes.episode_samples import header, record, same, tick
+
+TICKS = [tick(index) for index in range(4)]
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[bytes, list[int]]:
+    """A finished episode of four ticks, and its size after the header and after each tick."""
+    path = tmp_path_factory.mktemp("recorded") / "e.mcap"
+    sizes = record(path, TICKS)
+    return path.read_bytes(), sizes
+
+
+def stock_count(path: Path, topic: str = "/state") -> int:
+    with path.open("rb") as file:
+        return sum(1 for _ in make_reader(file, validate_crcs=True).iter_messages(topics=[topic]))
+
+
+def assert_prefix(read: Sequence[TickRecord], written: Sequence[TickRecord]) -> None:
+    assert len(read) <= len(written)
+    for a, b in zip(read, written, strict=False):
+        assert same(a, b) and a.cloud.points_mm.tobytes() == b.cloud.points_mm.tobytes()
+
+
+def sampled_cuts(size: int, boundaries: Sequence[int]) -> list[int]:
+    """Lengths around each boundary between records of ours, and at random between them."""
+    near = {b + d for b in boundaries for d in (-9, -8, -1, 0, 1, 8, 9)}
+    rng = random.Random(0)
+    drawn = {rng.randrange(boundaries[0], size) for _ in range(120)}
+    return sorted(cut for cut in near | drawn if boundaries[0] <= cut < size)
+
+
+def test_a_file_cut_anywhere_still_gives_every_whole_tick(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    cuts = sampled_cuts(len(data), sizes)
+    assert len(cuts) > 100
+    for cut in cuts:
+        path = tmp_path / "cut.mcap"
+        path.write_bytes(data[:cut])
+        episode = read_episode(path)
+        whole = sum(size <= cut for size in sizes[1:])
+        assert whole <= len(episode.ticks) <= whole + 1  # its index may be all that is missing
+        assert not episode.complete and episode.problem
+        assert_prefix(episode.ticks, TICKS)
+
+
+def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    path = tmp_path / "cut.mcap"
+    for cut in [1, 7, 8, 9, 20, 60, sizes[0] // 2]:
+        path.write_bytes(data[:cut])
+        with pytest.raises(EpisodeError, match=r"cut\.mcap ends .*delete it"):
+            read_episode(path)
+        with pytest.raises(EpisodeError, match=r"cut\.mcap ends .*delete it"):
+            recover(path)
+
+
+@settings(max_examples=150)
+@given(where=st.floats(0, 1, exclude_max=True), flipped=st.integers(1, 255))
+def test_a_flipped_byte_never_changes_what_is_read(
+    recorded: tuple[bytes, list[int]],
+    tmp_path_factory: pytest.TempPathFactory,
+    where: float,
+    flipped: int,
+) -> None:
+    data = bytearray(recorded[0])
+    data[int(where * len(data))] ^= flipped
+    path = tmp_path_factory.mktemp("flip") / "e.mcap"
+    path.write_bytes(data)
+    try:
+        episode = read_episode(path)
+    except EpisodeError as error:
+        assert str(path) in str(error)
+        return
+    assert len(episode.ticks) == len(TICKS) or not episode.complete
+    for read in episode.ticks:
+        assert same(read, TICKS[read.index])
+        assert read.cloud.points_mm.tobytes() == TICKS[read.index].cloud.points_mm.tobytes()
+
+
+def test_a_damaged_chunk_costs_its_own_tick_alone(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    data, sizes = bytearray(recorded[0]), recorded[1]
+    data[(sizes[1] + sizes[2]) // 2] ^= 0xFF  # in the middle of tick 1
+    path = tmp_path / "e.mcap"
+    path.write_bytes(data)
+    episode = read_episode(path)
+    assert [t.index for t in episode.ticks] == [0, 2, 3]
+    assert not episode.complete and "left out" in episode.problem
+    assert recover(path).num_ticks == 3
+    assert read_episode(path).complete and stock_count(path) == 3
+
+
+def test_zeros_after_a_power_cut_are_no_record(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    path = tmp_path / "e.mcap"
+    path.write_bytes(data[: sizes[2]] + bytes(5000))
+    episode = read_episode(path)
+    assert len(episode.ticks) == 2 and "zeros" in episode.problem
+
+
+def test_recovery_makes_a_file_that_the_stock_reader_opens(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    data, sizes = recorded
+    path = tmp_path / "e.mcap"
+    cut = data[: sizes[3] + 100]
+    path.write_bytes(cut)
+    with pytest.raises(McapError):
+        stock_count(path)
+    recovery = recover(path)
+    assert recovery.path == path and recovery.num_ticks == 3
+    assert recovery.original == tmp_path / "e.mcap.broken"
+    assert recovery.original.read_bytes() == cut
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["e.mcap", "e.mcap.broken"]
+    episode = read_episode(path)
+    assert episode.complete and episode.end is None and len(episode.ticks) == 3
+    assert same(episode.header, header())
+    assert_prefix(episode.ticks, TICKS)
+    assert stock_count(path) == stock_count(path, "/touch/cloud") == 3
+    with path.open("rb") as file:
+        names = {m.name: m.metadata for m in make_reader(file).iter_metadata()}
+    assert names["tacgrasp_recovered"]["from"] == "e.mcap"
+
+
+def test_an_end_that_was_recorded_survives_recovery(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    path = tmp_path / "e.mcap"
+    path.write_bytes(recorded[0][:-100])  # in the summary
+    assert recover(path).num_ticks == 4
+    episode = read_episode(path)
+    assert episode.complete and episode.end is not None and episode.end.reason == "success"
+
+
+def test_a_finished_file_is_left_alone(recorded: tuple[bytes, list[int]], tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    path.write_bytes(recorded[0])
+    recovery = recover(path)
+    assert recovery.original is None and "finished already (4 ticks)" in recovery.message
+    assert path.read_bytes() == recorded[0] and len(list(tmp_path.iterdir())) == 1
+
+
+def test_recovery_to_another_place_leaves_the_original(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    path, out = tmp_path / "e.mcap", tmp_path / "out.mcap"
+    path.write_bytes(recorded[0][: recorded[1][1]])
+    assert recover(path, out).num_ticks == 1
+    assert path.read_bytes() == recorded[0][: recorded[1][1]] and stock_count(out) == 1
+    with pytest.raises(EpisodeError, match="never overwritten"):
+        recover(path, out)
+    with pytest.raises(EpisodeError, match=r"can't write .*does not exist"):
+        recover(path, tmp_path / "missing" / "out.mcap")
+
+
+def test_a_second_recovery_keeps_both_originals(
+    recorded: tuple[bytes, list[int]], tmp_path: Path
+) -> None:
+    path = tmp_path / "e.mcap"
+    for _ in range(2):
+        path.write_bytes(recorded[0][:-100])
+        recover(path)
+    names = ["e.mcap", "e.mcap.broken", "e.mcap.broken2"]
+    assert sorted(p.name for p in tmp_path.iterdir()) == names
+
+
+def test_an_episode_that_is_being_recorded_is_not_recovered(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    with EpisodeWriter(path, header()) as writer:
+        writer.write_tick(TICKS[0])
+        assert len(read_episode(path).ticks) == 1  # but it can be read
+        with pytest.raises(EpisodeError, match="still being recorded"):
+            recover(path)
+    assert read_episode(path).complete
+
+
+def write_foreign(path: Path, *, metadata: dict[str, str] | None = None) -> None:
+    with path.open("wb") as file:
+        writer = Writer(file)
+        writer.start()
+        schema = writer.register_schema("x", "jsonschema", b"{}")
+        channel = writer.register_channel("/x", "json", schema)
+        writer.add_message(channel, 0, json.dumps({"a": 1}).encode(), 0)
+        if metadata is not None:
+            writer.add_metadata("tacgrasp_episode", metadata)
+        writer.finish()
+
+
+def test_somebody_elses_mcap_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "foreign.mcap"
+    write_foreign(path)
+    for use in (read_episode, recover):
+        with pytest.raises(EpisodeError, match=r"is an MCAP file but no episode of tacgrasp"):
+            use(path)
+
+
+def test_another_format_version_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    write_foreign(path, metadata={"format": "tacgrasp-episode/9"})
+    with pytest.raises(EpisodeError, match=r"format tacgrasp-episode/9, this tacgrasp reads .*/1"):
+        read_episode(path)
+
+
+def test_our_format_without_our_records_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    write_foreign(path, metadata={"format": "tacgrasp-episode/1"})
+    with pytest.raises(EpisodeError, match=r"can't be understood: no message on /episode"):
+        read_episode(path)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "is empty: .*delete it"),
+        (b"hello, this is text", "is not an MCAP file; expected an episode"),
+        (b"\x89PNG\r\n\x1a\n", "is not an MCAP file"),
+    ],
+)
+def test_a_file_that_is_no_mcap_is_refused(tmp_path: Path, content: bytes, message: str) -> None:
+    path = tmp_path / "e.mcap"
+    path.write_bytes(content)
+    with pytest.raises(EpisodeError, match=message):
+        read_episode(path)
+
+
+def test_a_path_without_a_file_is_named(tmp_path: Path) -> None:
+    with pytest.raises(EpisodeError, match=r"no\.mcap does not exist; `tacgrasp episodes ls`"):
+        read_episode(tmp_path / "no.mcap")
+    with pytest.raises(EpisodeError, match=r"can't read .*directory"):
+        read_episode(tmp_path)
+
+
+def test_a_killed_recording_loses_no_acknowledged_tick(tmp_path: Path) -> None:
+    for number, after_s in enumerate([0.05, 0.15, 0.3]):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        result = bench_crash.kill_once(folder, after_s)
+        assert result.acknowledged > 0
+        assert result.passed, result
+
+
+def test_the_crash_bench_counts_what_one_kill_lost() -> None:
+    good = bench_crash.KillResult(
+        real_run=False, acknowledged=5, recovered=6, mid_write=True, intact=True, stock_reader=True
+    )
+    bad = bench_crash.KillResult(
+        real_run=False, acknowledged=9, recovered=7, mid_write=False, intact=True, stock_reader=True
+    )
+    assert (good.lost, good.passed, bad.lost, bad.passed) == (0, True, 2, False)
+    report = bench_crash.summarise([good, bad])
+    assert report["ticks_lost"] == report["most_lost_by_one_kill"] == 2
+    assert report["passed"] is False and report["struck_mid_write"] == 1
+
+
+def test_the_crash_bench_notices_a_changed_tick(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def record_another(folder: Path, _after_s: float, _real_run: bool) -> list[int]:
+        record(folder / "e.mcap", TICKS)
+        sums = [bench_crash._checksum(t.cloud) for t in TICKS]
+        return [*sums[:-1], sums[-1] ^ 1]
+
+    monkeypatch.setattr(bench_crash, "_record_and_kill", record_another)
+    result = bench_crash.kill_once(tmp_path, 0.0)
+    assert not result.intact and not result.passed
+
+
+def test_the_crash_bench_refuses_no_kills() -> None:
+    with pytest.raises(UsageError, match="at least 1, got 0"):
+        bench_crash.run(0, None)

@@ -1,0 +1,109 @@
+"""An arm is stopped when another device of its rig fails while it moves."""
+
+import threading
+
+import numpy as np
+import pytest
+
+from cltp import TouchError
+from primitives import RobotError
+from primitives.devices import Pose
+from tacgrasp.rig.guard import GuardedArm
+
+HERE = Pose(position_m=np.array([0.4, 0.0, 0.2]), rotvec_rad=np.array([np.pi, 0.0, 0.0]))
+
+
+class SlowArm:
+    """Moves until it is stopped or told that it has arrived."""
+
+    def __init__(self):
+        self.started, self.ended = threading.Event(), threading.Event()
+        self.stops = self.moves = 0
+        self.error = None
+
+    def pose(self):
+        return HERE
+
+    def move_to(self, pose, *, speed_m_s=0.05, acceleration_m_s2=0.5):
+        self.moves += 1
+        self.started.set()
+        assert self.ended.wait(20)
+        if self.error is not None:
+            raise self.error
+        return pose
+
+    def stop(self):
+        self.stops += 1
+        self.error = RobotError("the move was cut short by a stop")
+        self.ended.set()
+
+    def disconnect(self):
+        pass
+
+
+class Device:
+    """Fails when it is told to."""
+
+    def __init__(self):
+        self.error = None
+
+    def look(self):
+        if self.error is not None:
+            raise self.error
+
+
+@pytest.fixture
+def arm():
+    return SlowArm()
+
+
+@pytest.fixture
+def device():
+    return Device()
+
+
+@pytest.fixture
+def guarded(arm, device):
+    guarded = GuardedArm(arm, [device.look])
+    yield guarded
+    guarded.disconnect()
+
+
+@pytest.mark.parametrize("error", [RobotError("no answer"), TouchError("no frame")])
+def test_a_device_that_fails_during_a_move_stops_the_arm_and_is_named(guarded, arm, device, error):
+    def fail():
+        arm.started.wait(20)
+        device.error = error
+
+    threading.Thread(target=fail).start()
+    with pytest.raises(RobotError, match=rf"{error}; the arm was stopped"):
+        guarded.move_to(HERE)
+    assert arm.stops == 1
+
+
+def test_with_a_failed_device_no_move_begins(guarded, arm, device):
+    device.error = TouchError("no frame")
+    with pytest.raises(RobotError, match="no frame; the arm was not moved"):
+        guarded.move_to(HERE)
+    assert arm.moves == arm.stops == 0
+
+
+def test_a_move_with_all_well_arrives_and_nothing_is_stopped(guarded, arm):
+    arm.ended.set()
+    assert guarded.move_to(HERE) is HERE
+    assert arm.stops == 0
+
+
+def test_the_arms_own_fault_is_told_as_it_is(guarded, arm):
+    arm.error = RobotError("protective stop")
+    arm.ended.set()
+    with pytest.raises(RobotError, match=r"^protective stop$"):
+        guarded.move_to(HERE)
+
+
+def test_a_device_that_fails_between_moves_stops_nothing(guarded, arm, device):
+    arm.ended.set()
+    guarded.move_to(HERE)
+    device.error = RobotError("gone")
+    threading.Event().wait(0.05)
+    assert arm.stops == 0

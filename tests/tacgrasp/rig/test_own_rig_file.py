@@ -1,0 +1,271 @@
+"""A rig file of one's own, as on a bench: what it must hold, and one line when it does not fit.
+
+The devices are emulated, but the rig's file says ``hardware`` and names their addresses.
+"""
+
+import copy
+import io
+import re
+
+import numpy as np
+import pytest
+import yaml
+
+from sim.emulators.process.spawn import EmulatorProcess
+from tacgrasp.__main__ import main
+from tacgrasp.drivers.dynamixel.calibration import save_calibration
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+from tacgrasp.episodes import read_episode
+from tacgrasp.rig.emulated import emulated_calibration
+from tests.fakes.patient_rig import fields
+
+pytest.importorskip("rtde_control")
+pytest.importorskip("dynamixel_sdk")
+
+
+@pytest.fixture(scope="module")
+def emulators():
+    with EmulatorProcess("rig", "--seed", "2") as running:
+        yield running
+
+
+@pytest.fixture
+def rig(emulators, tmp_path):
+    """The fields of a rig file that fits these devices; its calibration lies beside it."""
+    rig, ready = fields(), emulators.ready
+    rig["devices"] = "hardware"
+    rig["gripper"]["first_force_n"] = float(ready["first_force_n"])
+    rig["hardware"]["arm"]["host"] = ready["host"]
+    rig["hardware"]["gripper"]["port"] = ready["gripper_port"]
+    rig["hardware"]["sensor"]["port"] = ready["sensor_port"]
+    settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    save_calibration(tmp_path / settings.calibration, emulated_calibration(settings))
+    yield rig
+    for device in ("ur", "dynamixel", "taxels"):
+        emulators.control.clear(device)
+
+
+def where(emulators):
+    arm, hand = (emulators.control.facts(name) for name in ("ur", "dynamixel"))
+    return [arm["tcp_x_m"], arm["tcp_y_m"], arm["tcp_z_m"], hand["width_m"]]
+
+
+def complaint(rig, folder, capsys):
+    """The one line that a run says, and its exit code."""
+    path = folder / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    code = main(["run", "--rig", str(path), "--policy", "rules", "--record", str(folder)])
+    printed = capsys.readouterr()
+    assert printed.err.count("\n") == 1, printed.err
+    assert printed.err.startswith("tacgrasp: ")
+    assert not list(folder.glob("*.mcap"))
+    return code, printed.err
+
+
+def changed(rig, path, value):
+    rig = copy.deepcopy(rig)
+    *sections, field = path.split(".")
+    place = rig
+    for section in sections:
+        place = place[section]
+    if value is None:
+        del place[field]
+    else:
+        place[field] = value
+    return rig
+
+
+BAD_FIELDS = {
+    "misspelt": ("hardware.arm.hosst", "x", "unknown field hardware.arm.hosst; did you mean host"),
+    "misspelt in the sensor": (
+        "hardware.sensor.prt",
+        "x",
+        "hardware.sensor.prt; did you mean port",
+    ),
+    "another kind": (
+        "hardware.sensor.kind",
+        "digit",
+        "hardware.sensor.kind must be one of gelsight",
+    ),
+    "no address": ("hardware.arm.host", None, "must set hardware.arm.host"),
+    "no gripper": ("hardware.gripper", None, "must set hardware.gripper"),
+    "no hardware": ("hardware", None, "devices: hardware needs a section hardware"),
+    "simulated with hardware": ("devices", "sim", "devices: sim takes no section hardware"),
+    "no first force": ("gripper.first_force_n", None, "needs gripper.first_force_n"),
+    "first force above the largest": (
+        "gripper.first_force_n",
+        40.0,
+        "first_force_n 40 must lie in min_force_n 0.1 to max_force_n 12",
+    ),
+    "another sensor's field": (
+        "hardware.sensor.sensor",
+        "digit",
+        "sensor gelsight_mini is not what hardware.sensor is: digit",
+    ),
+    "half a servo": (
+        "hardware.gripper.servos",
+        [{"id": 1, "open_ticks": 2496}],
+        "servos.closed_ticks is missing",
+    ),
+    "no servo": ("hardware.gripper.servos", [], r"servos must have at least 1 item, got \[\]"),
+    "empty address": ("hardware.arm.host", "", "host must have at least 1 character"),
+    "no path": ("hardware.gripper.calibration", 5, "must be the path of a file, got 5"),
+    "not finite": ("hardware.start.position_m", [float("nan"), 0, 0], "finite"),
+    "half a pose": ("hardware.start.rotvec_rad", None, "needs position_m and rotvec_rad"),
+    "slow driver": ("hardware.arm.max_speed_m_s", 0.3, "arm.max_speed_m_s 0.4 is above hardware"),
+    "gentle driver": (
+        "hardware.arm.max_acceleration_m_s2",
+        5,
+        "shake_acceleration_m_s2 10 is above",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FIELDS)
+def test_a_wrong_field_is_named_before_any_device_is_touched(name, rig, tmp_path, capsys):
+    path, value, expected = BAD_FIELDS[name]
+    rig["hardware"]["arm"]["host"] = "127.77.254.254"  # nobody there: it must not matter
+    code, said = complaint(changed(rig, path, value), tmp_path, capsys)
+    assert code == 2
+    assert re.search(expected, said), said
+
+
+BAD_DEVICES = {
+    "nobody at the address": ("hardware.arm.host", "127.77.254.254", "127.77.254.254"),
+    "no name of a host": ("hardware.arm.host", 80 * "x" + ".y", "no UR dashboard at xxxx"),
+    "port missing": ("hardware.gripper.port", "/dev/serial/by-id/none", "no serial port"),
+    "calibration of another unit": ("hardware.gripper.unit", "mine", "of another gripper"),
+    "no calibration": (
+        "hardware.gripper.calibration",
+        "none.yaml",
+        "no calibration of the gripper",
+    ),
+    "force beyond the gripper's": ("gripper.max_force_n", 40.0, "is beyond this gripper"),
+    "start out of the workspace": (
+        "hardware.start.position_m",
+        [0.45, -0.10, 0.41],
+        "z = 0.4100 m would leave the workspace",
+    ),
+    "start too far": ("hardware.start.max_way_mm", 1.0, "more than the 1 mm that it may go"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_DEVICES)
+def test_a_device_that_does_not_fit_is_refused_in_one_line_and_nothing_moves(
+    name, rig, emulators, tmp_path, capsys
+):
+    path, value, expected = BAD_DEVICES[name]
+    if name == "start too far":
+        rig["hardware"]["start"]["position_m"] = [0.45, -0.10, 0.205]
+    before = where(emulators)
+    code, said = complaint(changed(rig, path, value), tmp_path, capsys)
+    assert code == 3
+    assert expected in said
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+BAD_ANSWERS = {
+    "an address that answers with garbage": ("ur", "garbage", "no UR dashboard"),
+    "an address that does not answer": ("ur", "mute", "said nothing"),
+    "a port that another program has": ("dynamixel", "port_taken", "another program"),
+    "servos that do not answer": ("dynamixel", "silence", "answer"),
+    "an array that is unplugged": ("taxels", "unplugged", "no serial port"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_ANSWERS)
+def test_a_device_that_answers_wrongly_is_refused_in_one_line_and_nothing_moves(
+    name, rig, emulators, tmp_path, capsys
+):
+    device, fault, expected = BAD_ANSWERS[name]
+    before = where(emulators)
+    emulators.control.inject(device, fault)
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 3
+    assert expected in said
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+@pytest.fixture
+def played(tmp_path):
+    """Settings of a recording of one touch."""
+    heights = np.zeros((60, 80))
+    heights[20:40, 30:50] = 0.5
+    (tmp_path / "touches").mkdir()
+    np.save(tmp_path / "touches" / "touch_1.npy", heights)
+    return {"kind": "recorded", "path": "touches"}
+
+
+def test_nothing_is_grasped_by_what_was_felt_in_the_past(rig, emulators, played, tmp_path, capsys):
+    before = where(emulators)
+    rig["hardware"]["sensor"] = played
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 2
+    assert "nothing is felt" in said
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_a_recording_is_decided_on_in_a_dry_run(rig, emulators, played, tmp_path, capsys):
+    before = where(emulators)
+    rig["hardware"]["sensor"] = played
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    argv = ["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path), "--dry-run"]
+    assert main(argv) == 0, capsys.readouterr().err
+    (episode,) = tmp_path.glob("*.mcap")
+    assert float(read_episode(episode).ticks[0].cloud.points_mm[:, 2].max()) > 0.4
+    assert where(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
+    rig, emulators, tmp_path, capsys, monkeypatch
+):
+    rig["hardware"]["start"] |= {"position_m": [0.45, -0.10, 0.30], "max_way_mm": 10}
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    before = where(emulators)
+    monkeypatch.setattr("sys.stdin", io.StringIO("r"))
+    assert main(["jog", "--rig", str(path)]) == 0, capsys.readouterr().err
+    assert "at (450.0, -100.0, 201.0) mm" in capsys.readouterr().out
+    after = where(emulators)
+    assert after[2] - before[2] == pytest.approx(0.001, abs=2e-5)
+    monkeypatch.setattr("sys.stdin", io.StringIO("f"))
+    assert main(["jog", "--rig", str(path)]) == 0
+
+
+def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):
+    rig["hardware"]["gripper"]["port"] = emulators.ready["sensor_port"]
+    rig["hardware"]["sensor"] |= {"port": emulators.ready["gripper_port"], "connect_timeout_s": 1}
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 3
+    assert "taxel array" in said
+
+
+def test_a_calibration_out_of_date_is_refused(rig, emulators, tmp_path, capsys):
+    path = tmp_path / "gripper_calibration.yaml"
+    path.write_text(re.sub(r"date: \S+", "date: '2020-01-31'", path.read_text()))
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 3
+    assert "days old" in said
+
+
+def test_the_environment_can_not_change_what_is_bolted_to_the_bench(
+    rig, tmp_path, capsys, monkeypatch
+):
+    monkeypatch.setenv("TACGRASP_HARDWARE__ARM__HOST", "127.0.0.9")
+    code, said = complaint(rig, tmp_path, capsys)
+    assert code == 2
+    assert "hardware is set in the rig's file alone" in said
+
+
+@pytest.mark.slow
+def test_a_run_on_a_rig_file_of_ones_own_ends_with_a_verified_grasp(rig, tmp_path, capsys):
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    code = main(["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path)])
+    printed = capsys.readouterr().out
+    assert code == 0, printed
+    assert "truth:" not in printed  # nobody knows it on a bench
+    (episode,) = tmp_path.glob("strawberry-*.mcap")
+    assert main(["replay", str(episode), "--execute"]) == 2
+    assert "was recorded on real devices" in capsys.readouterr().err

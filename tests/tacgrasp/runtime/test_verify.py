@@ -1,0 +1,58 @@
+"""The comparison of a contact before and after the lift."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from cltp.tactile.states import Area, ContactState, Depth, Position
+from tacgrasp.config.schema import VerifyConfig
+from tacgrasp.runtime.verify import compare
+
+SETTINGS = VerifyConfig(max_shift_mm=1.0, min_area_ratio=0.6, min_depth_ratio=0.6)
+HELD = ContactState(
+    depth_mm=0.5,
+    x_mm=0.0,
+    y_mm=0.0,
+    area_share=0.1,
+    force_n=1.0,
+    depth=Depth.MODERATE,
+    position=Position.CENTERED,
+    area=Area.MEDIUM,
+)
+NOTHING = replace(HELD, depth_mm=0.0, area_share=0.0, depth=None, position=None, area=None)
+
+
+def test_an_unchanged_contact_passes() -> None:
+    verification = compare(HELD, HELD, SETTINGS)
+    assert verification.passed
+    assert (verification.shift_mm, verification.area_ratio) == (0.0, 1.0)
+
+
+def test_the_shift_is_the_distance_on_the_pad() -> None:
+    verification = compare(HELD, replace(HELD, x_mm=0.3, y_mm=-0.4), SETTINGS)
+    assert verification.shift_mm == pytest.approx(0.5)
+    assert verification.passed
+
+
+@pytest.mark.parametrize(
+    ("after", "said"),
+    [
+        (replace(HELD, x_mm=0.8, y_mm=0.8), "moved 1.1 mm"),
+        (replace(HELD, area_share=0.05), "50% of its area"),
+        (replace(HELD, depth_mm=0.25), "50% of its depth"),
+        (NOTHING, "nothing is felt any more"),
+    ],
+)
+def test_a_contact_that_changed_does_not_pass_and_says_why(after: ContactState, said: str) -> None:
+    verification = compare(HELD, after, SETTINGS)
+    assert not verification.passed
+    assert said in verification.message
+
+
+def test_nothing_felt_before_the_lift_does_not_pass() -> None:
+    verification = compare(NOTHING, HELD, SETTINGS)
+    assert not verification.passed
+    assert math.isnan(verification.shift_mm)

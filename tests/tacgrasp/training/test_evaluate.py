@@ -1,0 +1,229 @@
+"""What evaluation asks and how it judges: pairs, paraphrases, answers, figures."""
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cltp.data.dataset import ContactDataset
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import ContactState, Side
+from policies import Decision
+from policies.teacher import teacher
+from primitives import Primitive
+from tacgrasp.__main__ import main
+from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
+from tacgrasp.lessons.exchanges import caption_exchange, numbers
+from tacgrasp.lessons.instruction_pairs import (
+    MOVES,
+    NONE,
+    QUOTAS,
+    answer_for,
+    answer_of,
+    choose_pairs,
+    choose_paraphrases,
+    counts,
+    share,
+)
+from tacgrasp.lessons.instructions import LEVELS, task_goals
+from tacgrasp.lessons.questions import QUESTIONS, answer
+from tacgrasp.training.evaluate import _decided
+from tests.fakes.tiny_weights import make_data, make_weights, state
+
+NOTHING = ContactState(
+    depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_share=0.0, force_n=0.0, depth=None, position=None,
+    area=None,
+)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_data(tmp_path_factory.mktemp("data"))
+
+
+@pytest.fixture(scope="module")
+def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_weights(tmp_path_factory.mktemp("weights"))
+
+
+def test_the_quotas_are_all_of_the_pairs_and_balance_four_kinds_of_answer() -> None:
+    assert sum(QUOTAS.values()) == pytest.approx(1)
+    of = {a: sum(s for kind, s in QUOTAS.items() if a in kind) / 2 for a in (*MOVES, NONE)}
+    assert sum(of[move] for move in MOVES) == pytest.approx(0.2)
+    assert of[NONE] == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("clear", [True, False])
+def test_the_two_instructions_of_a_pair_ask_for_different_answers_on_one_contact(
+    data_dir: Path, clear: bool
+) -> None:
+    data = ContactDataset(data_dir)
+    pairs = choose_pairs(data, 20, clear=clear)
+    assert len(pairs) >= 10
+    for one, other in pairs:
+        assert one.index == other.index
+        assert one.answer != other.answer
+        assert one.instruction.text != other.instruction.text
+        for case in (one, other):
+            advice = teacher(data.state(case.index), case.instruction.goal)
+            assert answer_of(advice) == case.answer
+    assert choose_pairs(data, 20, clear=clear) == pairs
+    assert choose_pairs(data, 20, clear=clear, seed=1) != pairs
+
+
+def test_pairs_keep_to_their_quotas_and_use_a_contact_once(data_dir: Path) -> None:
+    pairs = choose_pairs(ContactDataset(data_dir), 20, clear=False)
+    kinds = [frozenset({a.answer, b.answer}) for a, b in pairs]
+    assert all(kinds.count(kind) <= round(20 * share_) for kind, share_ in QUOTAS.items())
+    assert len({one.index for one, _ in pairs}) == len(pairs)
+
+
+def test_an_answer_that_noise_decides_is_not_clear() -> None:
+    goal = task_goals()["strawberry"]
+    middle = math.sqrt(goal.force_n.low * goal.force_n.high)
+    centred = state(0.0, 0.0, 0.3, middle)
+    at_the_limit = state(0.0, 0.0, 0.3, 0.99 * goal.force_n.high)
+    assert answer_for(centred, goal, clear=True) == NONE
+    assert answer_for(at_the_limit, goal, clear=False) == NONE
+    assert answer_for(at_the_limit, goal, clear=True) is None
+    barely_off = state(goal.x_mm.high + 0.1, 0.0, 0.3, middle)
+    assert answer_for(barely_off, goal, clear=False) == "move_right"
+    assert answer_for(barely_off, goal, clear=True) is None
+
+
+def test_paraphrases_are_all_used_half_of_them_naming_an_object(data_dir: Path) -> None:
+    data = ContactDataset(data_dir)
+    cases = choose_paraphrases(data, 3, clear=False)
+    assert len(cases) == 32 * 3
+    assert sum(names for _, names in cases) == len(cases) / 2
+    for case, _ in cases:
+        answers = {answer_for(data.state(case.index), task_goals()[v], clear=False) for v in LEVELS}
+        assert len(answers) > 1
+    assert max(counts([case for case, _ in cases]).values()) < 0.6 * len(cases)
+
+
+@pytest.mark.parametrize("slot", QUESTIONS)
+@pytest.mark.parametrize("of", [state(1.0, -4.0, 0.95, 2.0), NOTHING])
+def test_the_answers_that_are_taught_are_judged_right(slot: str, of: ContactState) -> None:
+    assert answers_right(slot, answer(slot, of), of)
+
+
+@pytest.mark.parametrize(
+    ("slot", "text"),
+    [
+        ("depth", "Pressed deep, 0.95 mm."),  # it is very deep
+        ("depth", "Pressed very deep or slight."),
+        ("position", "In bottom-left, x +1.0, y -4.0."),
+        ("shape", "A cuboid."),
+        ("shape", "I can't tell."),
+        ("force", "About 2.60 N."),
+        ("force", "Firmly."),
+        ("cut", "Cut left."),
+        ("cut", ""),
+        ("area", "Nothing touches the pad."),
+    ],
+)
+def test_wrong_answers_are_judged_wrong(slot: str, text: str) -> None:
+    assert not answers_right(slot, text, state(1.0, -4.0, 0.95, 2.0))
+
+
+def test_cut_sides_are_judged_as_a_whole() -> None:
+    whole = state(1.0, -4.0, 0.95, 2.0)
+    values = {name: getattr(whole, name) for name in ContactState.__slots__}
+    cut = ContactState(**{**values, "cut": frozenset({Side.LEFT, Side.TOP})})
+    assert answers_right("cut", "Cut left top.", cut)
+    assert not answers_right("cut", "Cut left.", cut)
+    assert not answers_right("cut", "Not cut.", cut)
+
+
+def test_the_numbers_of_a_description_are_read_back() -> None:
+    of = state(1.0, -4.0, 0.95, 2.0)
+    said = caption_exchange(of, np.random.default_rng(0)).reply
+    assert numbers_said(said) == pytest.approx([0.95, 1.0, -4.0, 0.12, 2.0])
+    assert numbers_said(numbers(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
+    assert numbers_said("a smooth sphere object") is None
+
+
+def test_nothing_has_no_share() -> None:
+    assert math.isnan(share(np.array([], dtype=bool)))
+    assert share(np.array([True, False])) == 0.5
+
+
+def test_eval_prints_every_table_and_writes_json_and_card(
+    weights: Path, data_dir: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    figures = tmp_path / "eval.json"
+    argv = ["eval", "--weights", str(weights), "--data", str(data_dir), "--json", str(figures)]
+    argv += ["--blind", str(weights), "--captions", "4", "--answers", "1", "--pairs", "4"]
+    assert main([*argv, "--per-wording", "1", "--card"]) == 0
+    printed = capsys.readouterr()
+    for title in ("captions:", "numbers:", "answers:", "instruction pairs", "paraphrases", "CLIP"):
+        assert title in printed.out
+    assert "captions 4/4" in printed.err  # progress, in plain lines where there is no terminal
+    found = json.loads(figures.read_text())
+    assert found["captions"]["contacts"] == 4
+    assert found["captions"]["ceiling"]["shape"] is None
+    assert found["captions"]["ceiling"]["depth"] >= 0.5
+    assert set(found["numbers"]["llm"]) == {
+        "depth_mm",
+        "position_mm",
+        "area_percent",
+        "force_percent",
+    }
+    for kind in ("clear", "any"):
+        pairs = found["instruction_pairs"][kind]
+        assert set(pairs["right"]) == {"llm", "rules", "blind"}
+        assert pairs["right"]["llm"] == 0.0  # it was never trained: it holds
+        assert found["paraphrases"][kind]["cases"] == 32
+    card = (weights / "README.md").read_text()
+    assert card.startswith("# Tac3D-LLM, small\n\nfacts\n\n## Scores\n")
+    assert "| captions, ceiling, depth | " in card
+    assert "old" not in card
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["--weights", "nowhere"], "weights are missing: nowhere/encoder/config.json"),
+        (["--data", "nowhere"], "nowhere is no data set of contacts"),
+        (["--pairs", "0"], "must be at least 1"),
+        (["--json", "no/where.json"], "can't be written"),
+        (["--blind", "nowhere"], "weights are missing: nowhere"),
+    ],
+)
+def test_wrong_use_of_eval_is_told_in_one_line(
+    argv: list[str],
+    expected: str,
+    weights: Path,
+    data_dir: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["eval", "--weights", str(weights), "--data", str(data_dir), *argv]) == 2
+    said = capsys.readouterr().err
+    assert expected in said
+    assert said.count("\n") == 1
+
+
+def test_no_case_remembers_the_one_before() -> None:
+    class Remembering:
+        name = "remembering"
+
+        def __init__(self) -> None:
+            self.asked = 0
+
+        def start(self) -> None:
+            self.asked = 0
+
+        def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+            self.asked += 1
+            text = f"<{Primitive.RESET}>"
+            action = Primitive.RESET if self.asked == 1 else None
+            return Decision(text=text, action=action, success=False, reason="")
+
+    policy = Remembering()
+    cloud = cloud_from_heights(np.zeros((75, 100)), sensor_named("gelsight_mini"))
+    answers = [_decided(policy, cloud, "Pick it up.") for _ in range(3)]
+    assert answers == [Primitive.RESET.value] * 3
