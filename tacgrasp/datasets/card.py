@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from cltp.atomic_write import write_atomically
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLASSES
-from tacgrasp.base.atomic_write import write_whole
 
 CARD = "README.md"
 
@@ -43,7 +43,7 @@ def write_card(folder: Path, command: str) -> None:
         TouchError: It is no data set, or not all of it.
         OSError: The card can't be written.
     """
-    write_whole(folder / CARD, card(ContactDataset(folder), command))
+    write_atomically(folder / CARD, card(ContactDataset(folder), command))
 
 
 def card(data: ContactDataset, command: str) -> str:

@@ -17,6 +17,7 @@ from pathlib import Path
 
 import torch
 
+from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
 from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig
 from cltp.evaluation.splits import LEARNING
@@ -28,7 +29,6 @@ from cltp.train.clip import train_clip
 from cltp.train.distributed import Workers
 from cltp.train.llm import train_words
 from cltp.train.stage import Report, Schedule, silent
-from tacgrasp.base.atomic_write import write_whole
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.exchanges import TouchLessons
 
@@ -242,4 +242,4 @@ def _write_about(
         before = {}
     if {**before, "device": device, "command": command} == content and "device" in before:
         content["device"] = before["device"]
-    write_whole(folder / ABOUT, json.dumps(content, indent=2) + "\n")
+    write_atomically(folder / ABOUT, json.dumps(content, indent=2) + "\n")

@@ -15,10 +15,10 @@ import torch
 from rich.console import Console
 from rich.table import Table
 
+from cltp.atomic_write import write_atomically
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.zero_shot import nearest_contacts, nearest_texts
-from tacgrasp.base.atomic_write import write_whole
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import stored
 from tacgrasp.pretraining.evaluate import captions_of
@@ -202,7 +202,7 @@ def write_page(folder: Path, answers: Sequence[Answer], path: Path) -> None:
             )
         parts.append("</div>")
     try:
-        write_whole(path, "\n".join(parts) + "\n")
+        write_atomically(path, "\n".join(parts) + "\n")
     except OSError as error:
         raise UsageError(f"the page can't be written to {path}: {error.strerror}") from None
 

@@ -18,6 +18,7 @@ from pathlib import Path
 import torch
 from transformers.utils.logging import disable_progress_bar
 
+from cltp.atomic_write import write_atomically
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
     load_encoder,
@@ -31,7 +32,6 @@ from cltp.train.alignment import train_cltp
 from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
-from tacgrasp.base.atomic_write import write_whole
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.lessons.exchanges import TouchLessons
@@ -144,7 +144,7 @@ def take_pretrained(methods: Path, out: Path) -> None:
         shutil.rmtree(part, ignore_errors=True)
     shutil.copytree(found.folder / "encoder", beside)
     shutil.copytree(methods / "clip", out / "clip")
-    write_whole(beside / PRETRAINED, about)
+    write_atomically(beside / PRETRAINED, about)
     beside.rename(out / "encoder")
 
 

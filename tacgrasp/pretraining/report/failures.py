@@ -18,13 +18,13 @@ import torch
 from PIL import Image
 from torch import Tensor
 
+from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLASSES
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
 from cltp.tactile.picture import picture
 from cltp.tactile.sensors import sensor_named
-from tacgrasp.base.atomic_write import write_whole
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.store import Result
 
@@ -225,7 +225,7 @@ def save_failures(folder: Path, result: Result, found: Failures) -> Path:
     content = {"format": FORMAT, "version": VERSION, **asdict(found)}
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        write_whole(path, json.dumps(content) + "\n")
+        write_atomically(path, json.dumps(content) + "\n")
     except OSError as error:
         raise UsageError(f"failures can't be written to {path}: {error.strerror}") from None
     return path

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from tacgrasp.base.atomic_write import write_whole
+from cltp.atomic_write import write_atomically
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.ablations import load_tries
 from tacgrasp.pretraining.report.failure_sections import failure_sections
@@ -55,7 +55,7 @@ def report(
             for plot in section.plots:
                 (plots / f"{plot.name}.png").write_bytes(plot.png)
         for file, text in pages.items():
-            write_whole(out / file, text)
+            write_atomically(out / file, text)
     except OSError as error:
         raise UsageError(f"the report can't be written to {out}: {error.strerror}") from None
     return [out / file for file in pages]

@@ -13,10 +13,10 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+from cltp.atomic_write import write_atomically
 from cltp.data.sampler import CLASSES
 from cltp.encoder.encoder import DEFAULT_PRESETS
 from cltp.errors import TouchError
-from tacgrasp.base.atomic_write import write_whole
 from tacgrasp.base.errors import UsageError
 
 FORMAT, VERSION = "tacgrasp-result", 1
@@ -113,7 +113,7 @@ def save(folder: Path, result: Result) -> Path:
     content = {"format": FORMAT, "version": VERSION, **asdict(result)}
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        write_whole(path, json.dumps(content, indent=1) + "\n")
+        write_atomically(path, json.dumps(content, indent=1) + "\n")
     except OSError as error:
         raise UsageError(f"the result {path} can't be written: {error.strerror}") from None
     return path
