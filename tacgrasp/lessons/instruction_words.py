@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Level:
+class Firmness:
     """How people speak of one level of firmness.
 
     Attributes:
@@ -42,7 +42,7 @@ class Level:
     ends: tuple[str, ...]
 
 
-_BURSTS = Level(
+_BURSTS = Firmness(
     objects=(
         "cherry tomato", "tomato", "small tomato", "raspberry", "blackberry", "grape", "blueberry",
         "currant", "soap bubble", "water drop", "rose petal", "poppy",
@@ -88,7 +88,7 @@ _BURSTS = Level(
     ),
 )  # fmt: skip
 
-_BRUISES = Level(
+_BRUISES = Firmness(
     objects=(
         "strawberry", "berry", "ripe strawberry", "apricot", "fig", "ripe fruit", "peach", "plum",
         "fruit", "soft berry", "pastry", "marshmallow",
@@ -131,7 +131,7 @@ _BRUISES = Level(
     ),
 )  # fmt: skip
 
-_CRACKS = Level(
+_CRACKS = Firmness(
     objects=(
         "egg", "raw egg", "hen's egg", "light bulb", "wine glass", "eggshell", "glass", "teacup",
         "porcelain cup", "glass bottle", "vase", "fresh egg",
@@ -185,7 +185,7 @@ _CRACKS = Level(
     ),
 )  # fmt: skip
 
-_SLIPS = Level(
+_SLIPS = Firmness(
     objects=(
         "peg", "metal peg", "bolt", "steel rod", "screwdriver", "hammer", "wrench", "metal bar",
         "steel pin", "screw", "drill bit", "iron bar",
@@ -233,7 +233,7 @@ _SLIPS = Level(
     ),
 )  # fmt: skip
 
-LEVELS: dict[str, Level] = {
+LEVELS: dict[str, Firmness] = {
     "cherry_tomato": _BURSTS,
     "strawberry": _BRUISES,
     "egg": _CRACKS,

@@ -21,7 +21,7 @@ from cltp.tactile.states import ContactState
 from policies.goal import Band, Goal
 from tacgrasp.config.schema import GoalConfig
 from tacgrasp.lessons import instruction_words as wordings
-from tacgrasp.lessons.instruction_words import Level
+from tacgrasp.lessons.instruction_words import Firmness
 
 LEVELS = tuple(wordings.LEVELS)
 """Gentle to firm."""
@@ -111,7 +111,7 @@ def in_words(level: str, rng: np.random.Generator) -> Instruction:
     return Instruction(text=_dressed(form(words, rng), rng), goal=task_goals()[level])
 
 
-def _asked(words: Level, rng: np.random.Generator) -> str:
+def _asked(words: Firmness, rng: np.random.Generator) -> str:
     """'Pick up the egg securely, it must not crack'."""
     named = rng.random() < 0.5
     thing = _thing(words, rng, named=named)
@@ -127,7 +127,7 @@ def _asked(words: Level, rng: np.random.Generator) -> str:
     return text + (_joint(rng) + because if because else "")
 
 
-def _of_the_grip(words: Level, rng: np.random.Generator) -> str:
+def _of_the_grip(words: Firmness, rng: np.random.Generator) -> str:
     """'A firm grip on the bolt', 'Use little force', 'Be gentle with this'."""
     thing = _thing(words, rng, named=rng.random() < 0.4)
     grip = f"{_one(words.grips, rng)} {_one(wordings.GRIPS, rng)}"
@@ -153,7 +153,7 @@ def _of_the_grip(words: Level, rng: np.random.Generator) -> str:
     return text + (_joint(rng) + _because(words, rng) if rng.random() < 0.45 else "")
 
 
-def _of_the_object(words: Level, rng: np.random.Generator) -> str:
+def _of_the_object(words: Firmness, rng: np.random.Generator) -> str:
     """'The egg cracks, so hold it securely', 'It must not slip'."""
     thing = _thing(words, rng, named=rng.random() < 0.5)
     about = _one(
@@ -186,7 +186,7 @@ _FORMS = (_asked, _of_the_grip, _of_the_object)
 _FORM_SHARES = (0.5, 0.27, 0.23)
 
 
-def _because(words: Level, rng: np.random.Generator) -> str:
+def _because(words: Firmness, rng: np.random.Generator) -> str:
     """A reason, as a clause that stands behind another."""
     it = _one(("it", "it", "this", "this one"), rng)
     return _one(
@@ -205,7 +205,7 @@ def _because(words: Level, rng: np.random.Generator) -> str:
     )
 
 
-def _thing(words: Level, rng: np.random.Generator, *, named: bool) -> str:
+def _thing(words: Firmness, rng: np.random.Generator, *, named: bool) -> str:
     if not named:
         return _one(wordings.THINGS, rng)
     return f"{_one(('the', 'the', 'the', 'this', 'that'), rng)} {_one(words.objects, rng)}"

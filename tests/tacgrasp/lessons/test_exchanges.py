@@ -22,7 +22,7 @@ from policies.teacher import teacher
 from tacgrasp.lessons.exchanges import BLIND, TouchLessons, advice_reply, meaning_exchange
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instruction_words import LEVELS as LEVEL_WORDS
-from tacgrasp.lessons.instruction_words import Level
+from tacgrasp.lessons.instruction_words import Firmness
 from tacgrasp.lessons.instructions import (
     LEVELS,
     draw_instruction,
@@ -135,7 +135,7 @@ def test_every_form_of_a_wording_tells_the_level() -> None:
 
 
 def test_no_words_tell_two_levels() -> None:
-    for field in dataclasses.fields(Level):
+    for field in dataclasses.fields(Firmness):
         parts = [part for words in LEVEL_WORDS.values() for part in getattr(words, field.name)]
         assert len(parts) == len(set(parts)), field.name
 
