@@ -198,7 +198,9 @@ class TactileEncoder(nn.Module):
             self.bearing = BearingCurve(
                 dim, config.bearing, grades=config.grades, sampling=config.sampling
             )
-        self.blocks = nn.ModuleList(Block(dim, config.heads) for _ in range(config.depth))
+        self.blocks = nn.ModuleList(
+            TransformerBlock(dim, config.heads) for _ in range(config.depth)
+        )
         self.norm = nn.LayerNorm(dim)
         self.feature = _projection(2 * dim, config)
 
@@ -246,7 +248,7 @@ def _projection(pooled_dim: int, config: EncoderConfig) -> nn.Module:
     )
 
 
-class Block(nn.Module):
+class TransformerBlock(nn.Module):
     """A pre-norm transformer layer."""
 
     def __init__(self, dim: int, heads: int) -> None:

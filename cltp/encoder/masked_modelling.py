@@ -17,7 +17,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder.encoder import Block, TactileEncoder
+from cltp.encoder.encoder import TactileEncoder, TransformerBlock
 from cltp.encoder.tokenizers import FpsTokenizer
 from cltp.errors import TouchError
 from cltp.tactile.encoder_input import LATTICE
@@ -133,7 +133,9 @@ class PointMae(nn.Module):
         self.encoder = encoder
         self.missing = nn.Parameter(torch.randn(1, 1, dim) * 0.02)
         self.place = _place(dim)
-        self.decoder = nn.ModuleList(Block(dim, encoder.config.heads) for _ in range(layers))
+        self.decoder = nn.ModuleList(
+            TransformerBlock(dim, encoder.config.heads) for _ in range(layers)
+        )
         self.norm = nn.LayerNorm(dim)
         self.points = nn.Linear(dim, 3 * group_size)
 
@@ -176,7 +178,7 @@ class ShapeWords(nn.Module):
     def __init__(self, dim: int, group_size: int, vocabulary: int = 512) -> None:
         super().__init__()
         self.local = FpsTokenizer(dim, dim // 2, 64, group_size)
-        self.before, self.after = Block(dim, 4), Block(dim, 4)
+        self.before, self.after = TransformerBlock(dim, 4), TransformerBlock(dim, 4)
         self.say = nn.Linear(dim, vocabulary)
         self.codes = nn.Parameter(torch.randn(vocabulary, dim) * 0.02)
         self.place = _place(dim)

@@ -25,7 +25,7 @@ from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.heads import NUMBERS
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
-from cltp.train.stage import Report, silent
+from cltp.train.stage import ProgressReport, silent
 from cltp.train.text_targets import class_numbers
 
 BLOCK = 2048
@@ -63,7 +63,7 @@ def observe(
     limit: int | None = None,
     seed: int = 0,
     cache: Path | None = None,
-    report: Report = silent,
+    report: ProgressReport = silent,
 ) -> Observed:
     """Encode contacts.
 

@@ -25,7 +25,7 @@ from cltp.data.sampler import CLASSES
 from cltp.encoder.heads import NUMBERS, restored, transformed
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
-from cltp.train.stage import Report, Schedule, silent
+from cltp.train.stage import ProgressReport, Schedule, silent
 
 SCHEDULE = Schedule(steps=1500, batch_size=256, learning_rate=1e-3)
 COVERAGE = 0.9
@@ -88,7 +88,7 @@ def _fit(
     schedule: Schedule,
     name: str,
     seed: int,
-    report: Report,
+    report: ProgressReport,
 ) -> None:
     """AdamW with the schedule of the stages, over rows drawn from ``count``."""
     rng = torch.Generator().manual_seed(seed)
@@ -127,7 +127,7 @@ class ClassProbes:
         *,
         schedule: Schedule = SCHEDULE,
         seed: int = 0,
-        report: Report = silent,
+        report: ProgressReport = silent,
     ) -> None:
         if not seen.pooled.isfinite().all():
             rows = (~seen.pooled.isfinite().all(dim=1)).nonzero()[:8, 0]
@@ -215,7 +215,7 @@ class NumberProbe:
         *,
         schedule: Schedule = SCHEDULE,
         seed: int = 0,
-        report: Report = silent,
+        report: ProgressReport = silent,
     ) -> None:
         touching = seen.classes[:, _DEPTH] >= 0
         every = things.unique()
@@ -266,7 +266,7 @@ class NumberProbe:
 
 
 def _number_member(
-    seen: Observed, rows: Tensor, schedule: Schedule, seed: int, name: str, report: Report
+    seen: Observed, rows: Tensor, schedule: Schedule, seed: int, name: str, report: ProgressReport
 ) -> _Scaled:
     """One reader of numbers, which has learned from some rows."""
     torch.manual_seed(seed)

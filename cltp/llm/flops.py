@@ -12,7 +12,7 @@ from typing import Any
 import torch
 from torch import Tensor, nn
 
-from cltp.encoder.encoder import Block, TactileEncoder
+from cltp.encoder.encoder import TactileEncoder, TransformerBlock
 from cltp.llm.reading_tokens import NUM_READINGS
 from cltp.llm.tac3d_llm import Projector
 from cltp.tactile.cloud import NUM_POINTS
@@ -29,11 +29,11 @@ def encoder_operations(encoder: TactileEncoder) -> int:
             total += 2 * out.numel() * layer.in_channels * size[0] * size[1]
         elif isinstance(layer, nn.Linear):
             total += 2 * out.numel() * layer.in_features
-        elif isinstance(layer, Block):
+        elif isinstance(layer, TransformerBlock):
             _, length, dim = out.shape
             total += 4 * length * length * dim
 
-    counted = (nn.Conv2d, nn.Linear, Block)
+    counted = (nn.Conv2d, nn.Linear, TransformerBlock)
     hooks = [m.register_forward_hook(count) for m in encoder.modules() if isinstance(m, counted)]
     try:
         with torch.no_grad():

@@ -28,7 +28,7 @@ from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import ahead
-from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.stage import ProgressReport, Schedule, Stage, silent
 from cltp.train.text_targets import drawn_prompts, say, true_of
 
 SCHEDULE = Schedule(steps=5000, batch_size=64, learning_rate=2e-3)
@@ -90,7 +90,7 @@ def train_cltp(
     clip_dir: Path | None = None,
     shuffle_labels: bool = False,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/encoder``.

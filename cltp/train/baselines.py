@@ -39,7 +39,7 @@ from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import ahead
-from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.stage import ProgressReport, Schedule, Stage, silent
 
 METHODS = ("point_mae", "point_bert", "tvl", "unitouch", "random")
 
@@ -59,7 +59,7 @@ def train_baseline(
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/encoder``.
@@ -121,7 +121,7 @@ class _Work:
         schedule: Schedule,
         augmentation: Augmentation | None,
         seed: int,
-        report: Report,
+        report: ProgressReport,
         workers: Workers,
         config: EncoderConfig,
     ) -> None:

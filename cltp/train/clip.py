@@ -29,7 +29,7 @@ from cltp.train.clip_feature_cache import rendered
 from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.prefetch import ahead
-from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.stage import ProgressReport, Schedule, Stage, silent
 from cltp.train.text_targets import Sayings, drawn_prompts, fits, say, true_of
 
 SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
@@ -86,7 +86,7 @@ def train_clip(
     prompt_weight: float = 1.0,
     read_weight: float = 1.0,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/clip``.

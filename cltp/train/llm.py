@@ -35,7 +35,7 @@ from cltp.tactile.states import ContactState
 from cltp.texts.exchange_packing import Exchange, Packed, pack
 from cltp.texts.tokenizer import Words
 from cltp.train.prefetch import ahead
-from cltp.train.stage import Report, Schedule, Stage, device, silent
+from cltp.train.stage import ProgressReport, Schedule, Stage, device, silent
 
 TEXT = Schedule(steps=300, batch_size=24, learning_rate=2e-3)
 PROJECTOR = Schedule(steps=200, batch_size=32, learning_rate=2e-3)
@@ -90,7 +90,7 @@ def train_llm(
     layers: int = 4,
     augmentation: Augmentation | None = None,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
 ) -> Path:
     """Train, or go on training, and write ``out_dir/projector`` and ``out_dir/lm``.
 
@@ -162,7 +162,7 @@ class _Learner:
         del stage
         return nn.ModuleList([self.model.projector, self.model.lm])
 
-    def run(self, stage: Stage, name: str, report: Report) -> None:
+    def run(self, stage: Stage, name: str, report: ProgressReport) -> None:
         self.model.train()
         batches = ahead(self._batches(name, stage))
 

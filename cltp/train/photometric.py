@@ -12,8 +12,7 @@ Not here: the file (``cltp.sensing.calibration``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +33,7 @@ from cltp.sensing.ball_presses import (
 from cltp.sensing.frames import Frame, check_frame
 from cltp.sensing.photometric import GradientNet, Photometer, colour_change, place_inputs
 from cltp.tactile.sensors import SensorSpec
+from cltp.torch_threads import torch_threads
 
 HIDDEN = 32
 MIN_PRESSES = 5
@@ -44,12 +44,12 @@ _NEAR_SAMPLES, _FAR_SAMPLES = 3000, 1500  # pixels a frame; the far ones keep th
 _BATCH = 4096
 _RATE = 1e-2
 
-Report = Callable[[int, int], None]
+StepReport = Callable[[int, int], None]
 """Told the step and how many there are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trained:
+class TrainedPhotometric:
     """What calibrating gives.
 
     Attributes:
@@ -74,8 +74,8 @@ def train_gradients(
     profiles: ProfileTable | None = None,
     seed: int = 0,
     steps: tuple[int, int, int] = (600, 300, 700),
-    report: Report = lambda step, steps: None,
-) -> Trained:
+    report: StepReport = lambda step, steps: None,
+) -> TrainedPhotometric:
     """Train the network on presses of a ball.
 
     Args:
@@ -130,7 +130,9 @@ def train_gradients(
     inputs, targets = _samples(changes, presses, shape, sensor, rng, far=0)
     with torch.no_grad():
         residual = math.sqrt(float((model(inputs) - targets).square().mean()))
-    return Trained(net=model.numpy(), presses=tuple(presses), rejected=rejected, residual=residual)
+    return TrainedPhotometric(
+        net=model.numpy(), presses=tuple(presses), rejected=rejected, residual=residual
+    )
 
 
 def _find_all(
@@ -213,22 +215,7 @@ def _samples(
     return torch.from_numpy(np.concatenate(inputs)), torch.from_numpy(np.concatenate(targets))
 
 
-@contextmanager
-def one_thread() -> Iterator[None]:
-    """Let torch compute on one thread; also a decorator.
-
-    For work too small to share: on a busy machine threads that wait for each other have taken
-    five times as long.
-    """
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(threads)
-
-
-@one_thread()
+@torch_threads()
 def _train(
     model: _Net,
     inputs: Tensor,

@@ -20,7 +20,7 @@ from rich.progress import (
 
 
 class Bar:
-    """A ``Report`` that draws bars, one for each stage; a context manager.
+    """A ``ProgressReport`` that draws bars, one for each stage; a context manager.
 
     Args:
         stream: Where to; a plain line every ``line_s`` seconds when it is no terminal.
@@ -61,7 +61,7 @@ class Bar:
             self._bars.stop()
 
     def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-        """As ``cltp.train.stage.Report``."""
+        """As ``cltp.train.stage.ProgressReport``."""
         text = " ".join(f"{name} {value:.3g}" for name, value in scores.items())
         if self._bars is not None:
             if stage not in self._tasks:

@@ -25,7 +25,7 @@ from cltp.train.curves import CurveFile
 from cltp.train.distributed import Workers
 
 
-class Report(Protocol):
+class ProgressReport(Protocol):
     """Told how a stage gets on."""
 
     def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
@@ -131,7 +131,7 @@ class Stage:
         return self.step >= self.schedule.steps
 
     def run(
-        self, losses: Callable[[int], Mapping[str, Tensor]], report: Report = silent
+        self, losses: Callable[[int], Mapping[str, Tensor]], report: ProgressReport = silent
     ) -> dict[str, float]:
         """Do the remaining steps.
 

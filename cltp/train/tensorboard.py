@@ -22,7 +22,7 @@ def _stock_writer(folder: Path, step: int) -> Any:
 
 
 class Board:
-    """A ``Report`` that writes event files, one folder a stage; a context manager.
+    """A ``ProgressReport`` that writes event files, one folder a stage; a context manager.
 
     Args:
         folder: Where to.
@@ -53,7 +53,7 @@ class Board:
         self._writers.clear()
 
     def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-        """As ``cltp.train.stage.Report``."""
+        """As ``cltp.train.stage.ProgressReport``."""
         if stage not in self._writers:
             self._writers[stage] = self._open(self._folder / stage.replace(" ", "-"), step)
         for name, value in scores.items():

@@ -6,7 +6,7 @@ import numpy as np
 import torch
 
 from cltp.sensing.ball_presses import ProfileTable
-from cltp.train.photometric import one_thread
+from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, Press, gel_of
 
 PITCH_MM = 0.1
@@ -14,7 +14,7 @@ _HALF = 120  # elements: 12 mm on each side, more than three thicknesses of the 
 DEPTHS_MM = np.linspace(0.1, 1.4, 14)
 
 
-@one_thread()
+@torch_threads()
 def ball_profiles(sensor_name: str, diameter_mm: float) -> ProfileTable:
     """Solve presses of a rigid ball of ``diameter_mm`` [mm] at ``DEPTHS_MM``, or to its equator.
 

@@ -22,7 +22,7 @@ from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Shape, Texture
 from cltp.texts.captions import caption, numeric_caption
-from cltp.train.photometric import one_thread
+from cltp.torch_threads import torch_threads
 from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import Press, gel_of
@@ -97,7 +97,7 @@ class Request:
     device: str = "cpu"
 
 
-@one_thread()  # fields this small only make threads wait for each other
+@torch_threads()  # fields this small only make threads wait for each other
 def press(request: Request) -> Pressed:
     """Press a thing to a depth.
 

@@ -27,7 +27,7 @@ UNKNOWN = "shipped"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trained:
+class TrainedMethod:
     """A method's folder, and how it came about.
 
     Attributes:
@@ -68,7 +68,7 @@ class Trained:
         return load_clip(shared if shared.exists() else self.folder / "clip")
 
 
-def stored(method: str, out: Path) -> Trained:
+def stored(method: str, out: Path) -> TrainedMethod:
     """What a method learned, on whatever data.
 
     Args:
@@ -86,7 +86,7 @@ def stored(method: str, out: Path) -> Trained:
     try:
         about = json.loads(path.read_text(encoding="utf-8"))
         budget = Budget(steps=int(about["steps"]), batch_size=int(about["batch_size"]))
-        return Trained(
+        return TrainedMethod(
             folder=folder,
             variant=_variant(about["preset"], about["recipe"], also="also" in about),
             budget=budget if budget.steps else None,
@@ -96,7 +96,7 @@ def stored(method: str, out: Path) -> Trained:
         )
     except FileNotFoundError:
         if folder == out and (folder / "clip").exists():
-            return Trained(folder=folder, variant=UNKNOWN, budget=None)
+            return TrainedMethod(folder=folder, variant=UNKNOWN, budget=None)
         raise UsageError(
             f"{method} was not trained in {out}: no {path}; "
             f"do `tacgrasp train {method.replace('_', '-')} --out {out}` first"
@@ -105,7 +105,7 @@ def stored(method: str, out: Path) -> Trained:
         raise TouchError(f"{path} can't be read; train again: {error}") from error
 
 
-def checkpoint_of_others(method: str, folder: Path) -> Trained:
+def checkpoint_of_others(method: str, folder: Path) -> TrainedMethod:
     """An image encoder that others trained, tried as a vision-based method.
 
     Raises:
@@ -116,10 +116,10 @@ def checkpoint_of_others(method: str, folder: Path) -> Trained:
     if not folder.is_dir():
         raise UsageError(f"--checkpoint {folder} is no directory")
     variant = f"checkpoint {folder.resolve().name}"
-    return Trained(folder=folder, variant=variant, budget=None, by_others=True)
+    return TrainedMethod(folder=folder, variant=variant, budget=None, by_others=True)
 
 
-def trained(method: str, out: Path, data: str) -> Trained:
+def trained(method: str, out: Path, data: str) -> TrainedMethod:
     """What a method learned on the data that it will be tried on.
 
     Args:

@@ -23,9 +23,9 @@ from cltp.evaluation.probes import ClassProbes, Judged, NumberProbe, judge, numb
 from cltp.evaluation.splits import LEARNING
 from cltp.evaluation.zero_shot import PROMPTINGS, Prompts, retrieve
 from cltp.texts.captions import caption
-from cltp.train.stage import Report
+from cltp.train.stage import ProgressReport
 from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.checkpoints import Trained, checkpoint_of_others, trained
+from tacgrasp.pretraining.checkpoints import TrainedMethod, checkpoint_of_others, trained
 from tacgrasp.pretraining.evaluation_run import Place, keep
 from tacgrasp.pretraining.geometric_baseline import ceiling, heights_alone
 from tacgrasp.pretraining.methods import METHODS
@@ -37,7 +37,7 @@ ALIGNED = ("cltp_no_image", "cltp")
 """Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
 
 
-def trainable(place: Place, methods: Sequence[str]) -> dict[str, Trained]:
+def trainable(place: Place, methods: Sequence[str]) -> dict[str, TrainedMethod]:
     """The methods asked for, or all that were trained; see ``tacgrasp.pretraining.checkpoints``.
 
     Raises:
@@ -116,7 +116,7 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
 
 
 def _numbers(
-    place: Place, encoder: FrozenEncoder, learned: Observed, method: str, how: Trained
+    place: Place, encoder: FrozenEncoder, learned: Observed, method: str, how: TrainedMethod
 ) -> list[Result]:
     """Regression and its intervals, calibrated on the validation split with the trial's noise."""
     names = ContactDataset(place.data, split=Split.TRAIN).column("object")
@@ -186,7 +186,7 @@ def _there(place: Place, methods: Sequence[str]) -> list[str]:
     return [method for method in methods if method in trainable(place, ())]
 
 
-def _named(report: Report, method: str) -> Report:
+def _named(report: ProgressReport, method: str) -> ProgressReport:
     def told(stage: str, step: int, steps: int, scores: object) -> None:
         report(f"{method} {stage}", step, steps, {})
 

@@ -22,7 +22,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
 from cltp.train.text_targets import class_numbers
 from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.checkpoints import Trained, stored
+from tacgrasp.pretraining.checkpoints import TrainedMethod, stored
 from tacgrasp.pretraining.evaluate import ALIGNED, trainable
 from tacgrasp.pretraining.evaluation_run import Place, as_result
 from tacgrasp.pretraining.geometric_baseline import MEASURED, of_slots
@@ -118,11 +118,11 @@ def _ceiling(
     """What direct computation from the same points gives; shape and texture are not computed."""
     said = class_numbers([contact_state(cloud) for cloud in clouds])
     judged = of_slots(judge(said, torch.tensor([row.classes for row in real.rows])), MEASURED)
-    how = Trained(folder=place.weights, variant="measured", budget=None, data=data)
+    how = TrainedMethod(folder=place.weights, variant="measured", budget=None, data=data)
     return _stored(place, table, "ceiling", how, judged)
 
 
-def _stored(place: Place, table: str, method: str, how: Trained, judged: Judged) -> Result:
+def _stored(place: Place, table: str, method: str, how: TrainedMethod, judged: Judged) -> Result:
     result = as_result(place, table, method, how, TRIAL, judged, how.data or "")
     if how.data is not None:
         save(place.results, result)

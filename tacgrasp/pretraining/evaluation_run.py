@@ -13,8 +13,8 @@ from cltp.data.sampler import CLASSES, Augmentation
 from cltp.evaluation.features import Observed, observe
 from cltp.evaluation.probes import Judged
 from cltp.evaluation.splits import Trial, trials_of
-from cltp.train.stage import Report, silent
-from tacgrasp.pretraining.checkpoints import Trained
+from cltp.train.stage import ProgressReport, silent
+from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.report.store import Result, percent, read, save
 
 
@@ -42,7 +42,7 @@ class Place:
     checkpoint: Path | None = None
     seed: int = 0
     command: str = ""
-    report: Report = silent
+    report: ProgressReport = silent
 
     @property
     def checksum(self) -> str:
@@ -75,7 +75,7 @@ class Place:
         )
 
 
-def kept(place: Place, table: str, method: str, how: Trained, trial: Trial) -> Result | None:
+def kept(place: Place, table: str, method: str, how: TrainedMethod, trial: Trial) -> Result | None:
     """The same measurement where it was stored before: of what never learns and never changes.
 
     Raises:
@@ -92,7 +92,7 @@ def kept(place: Place, table: str, method: str, how: Trained, trial: Trial) -> R
 
 
 def keep(
-    place: Place, table: str, method: str, how: Trained, trial: Trial, judged: Judged
+    place: Place, table: str, method: str, how: TrainedMethod, trial: Trial, judged: Judged
 ) -> Result:
     """A result, written at once: what is interrupted loses nothing that was measured."""
     result = as_result(place, table, method, how, trial.name, judged, place.checksum)
@@ -102,7 +102,7 @@ def keep(
 
 
 def as_result(
-    place: Place, table: str, method: str, how: Trained, trial: str, judged: Judged, data: str
+    place: Place, table: str, method: str, how: TrainedMethod, trial: str, judged: Judged, data: str
 ) -> Result:
     """What was judged, as a row of a table, with all that it depends on; not yet written."""
     return Result(

@@ -18,7 +18,7 @@ from cltp.evaluation.heights_alone import HeightsAlone
 from cltp.evaluation.probes import ClassProbes, Judged, judge
 from cltp.evaluation.splits import LEARNING
 from cltp.evaluation.zero_shot import measured
-from tacgrasp.pretraining.checkpoints import Trained
+from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.evaluation_run import Place, keep, kept
 from tacgrasp.pretraining.report.store import Result
 
@@ -32,7 +32,7 @@ def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
     What is stored of the same contacts is not computed again.
     """
     found = []
-    how = Trained(folder=place.weights, variant="measured", budget=None)
+    how = TrainedMethod(folder=place.weights, variant="measured", budget=None)
     for trial in place.trying():
         there = [kept(place, table, "ceiling", how, trial) for table in tables]
         if None not in there:
@@ -56,7 +56,7 @@ def heights_alone(place: Place, views: int) -> list[Result]:
         TouchError: The data can't be used.
     """
     encoder = HeightsAlone()
-    how = Trained(folder=place.weights, variant="heights alone", budget=None)
+    how = TrainedMethod(folder=place.weights, variant="heights alone", budget=None)
     there = [kept(place, "probe", "ceiling", how, trial) for trial in place.trying()]
     if None not in there:
         return [result for result in there if result is not None]

@@ -28,7 +28,7 @@ from cltp.train.clip import SCHEDULE as CLIP_SCHEDULE
 from cltp.train.clip import train_clip
 from cltp.train.distributed import Workers
 from cltp.train.llm import train_words
-from cltp.train.stage import Report, Schedule, silent
+from cltp.train.stage import ProgressReport, Schedule, silent
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.exchanges import TouchLessons
 
@@ -110,7 +110,7 @@ def pretrain_clip(
     wish: Wish,
     *,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
     """Align the small CLIP that every method shares; ``wish.steps`` is its own budget here.
@@ -143,7 +143,7 @@ def pretrain(
     folder: Path | None = None,
     seed: int = 0,
     command: str,
-    report: Report = silent,
+    report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
     """Train one method behind the towers in ``out/clip``.

@@ -18,7 +18,7 @@ from transformers.utils.logging import disable_progress_bar
 from cltp.data.dataset import ContactDataset
 from cltp.train.distributed import joined
 from cltp.train.progress import Bar
-from cltp.train.stage import Report
+from cltp.train.stage import ProgressReport
 from cltp.train.tensorboard import Board
 from tacgrasp.pretraining.evaluate import probe, retrieval, zero_shot
 from tacgrasp.pretraining.evaluation_run import Place
@@ -104,7 +104,7 @@ def carry_out(stage: str, order: Order) -> None:
             _train("cltp_no_image" if not order.with_images else method, order, shown)
 
 
-def _both(one: Report, other: Report) -> Report:
+def _both(one: ProgressReport, other: ProgressReport) -> ProgressReport:
     def told(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
         one(stage, step, steps, scores)
         other(stage, step, steps, scores)
@@ -112,13 +112,13 @@ def _both(one: Report, other: Report) -> Report:
     return told
 
 
-def _clip(order: Order, bar: Report) -> None:
+def _clip(order: Order, bar: ProgressReport) -> None:
     workers = joined(order.precision)
     wish = order.wish(order.clip_steps, None)
     pretrain_clip(order.out, order.data, wish, seed=order.seed, report=bar, workers=workers)
 
 
-def _train(method: str, order: Order, bar: Report) -> None:
+def _train(method: str, order: Order, bar: ProgressReport) -> None:
     def named(stage: str, step: int, steps: int, scores: object) -> None:
         told = scores if isinstance(scores, dict) else {}
         bar(stage if stage.startswith(method) else f"{method} {stage}", step, steps, told)
@@ -135,7 +135,7 @@ def _train(method: str, order: Order, bar: Report) -> None:
     )
 
 
-def _place(order: Order, bar: Report, number: int = 0) -> Place:
+def _place(order: Order, bar: ProgressReport, number: int = 0) -> Place:
     return Place(
         weights=order.out,
         data=order.data,
@@ -146,7 +146,7 @@ def _place(order: Order, bar: Report, number: int = 0) -> Place:
     )
 
 
-def _measure(order: Order, bar: Report) -> None:
+def _measure(order: Order, bar: ProgressReport) -> None:
     zero_shot(_place(order, bar))
     retrieval(_place(order, bar))
     probe(_place(order, bar))

@@ -39,7 +39,7 @@ from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import sensor_named
-from cltp.train.stage import Report, silent
+from cltp.train.stage import ProgressReport, silent
 from policies import Policy, PolicyError
 from policies.teacher import teacher
 from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
@@ -85,7 +85,7 @@ def evaluate(
     blind: Path | None = None,
     sizes: Sizes | None = None,
     seed: int = 0,
-    report: Report = silent,
+    report: ProgressReport = silent,
 ) -> dict[str, Any]:
     """Measure everything.
 
@@ -151,7 +151,7 @@ def evaluate(
 class _Counted:
     """Reports every reply of a talker."""
 
-    def __init__(self, talker: Talker, stage: str, total: int, report: Report) -> None:
+    def __init__(self, talker: Talker, stage: str, total: int, report: ProgressReport) -> None:
         self._talker, self._stage, self._total, self._report = talker, stage, total, report
         self._done = 0
 
@@ -162,7 +162,7 @@ class _Counted:
         return reply
 
 
-def _captions(talker: Talker, samples: Sequence[Batch], report: Report) -> Scores:
+def _captions(talker: Talker, samples: Sequence[Batch], report: ProgressReport) -> Scores:
     total = sum(len(batch.states) for batch in samples)
     counted = _Counted(talker, "captions", total, report)
     return caption_scores(counted, samples, read_numbers=numbers_said)
@@ -173,7 +173,7 @@ def _answers(
     samples: Sequence[Batch],
     wordings: Mapping[str, Sequence[str]],
     stage: str,
-    report: Report,
+    report: ProgressReport,
 ) -> dict[str, float | None]:
     total = sum(len(batch.states) for batch in samples) * len(wordings)
     counted = _Counted(talker, stage, total, report)
@@ -202,7 +202,7 @@ class _Deciders:
         return unscaled(batch.points[0], sensor_named(self._data.column("sensor")[index]))
 
     def right(
-        self, cases: Sequence[Case], stage: str, report: Report
+        self, cases: Sequence[Case], stage: str, report: ProgressReport
     ) -> dict[str, NDArray[np.bool_]]:
         """By decider, whether each case is answered rightly."""
         right: dict[str, list[bool]] = {name: [] for name in self.answers}
@@ -227,7 +227,12 @@ def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | Non
 
 
 def _pairs(
-    deciders: _Deciders, data: ContactDataset, num: int, kind: str, seed: int, report: Report
+    deciders: _Deciders,
+    data: ContactDataset,
+    num: int,
+    kind: str,
+    seed: int,
+    report: ProgressReport,
 ) -> dict[str, Any]:
     pairs = choose_pairs(data, num, clear=kind == "clear", seed=seed)
     cases = [case for pair in pairs for case in pair]
@@ -248,7 +253,7 @@ def _paraphrases(
     per_wording: int,
     kind: str,
     seed: int,
-    report: Report,
+    report: ProgressReport,
 ) -> dict[str, Any]:
     chosen = choose_paraphrases(data, per_wording, clear=kind == "clear", seed=seed)
     cases = [case for case, _ in chosen]

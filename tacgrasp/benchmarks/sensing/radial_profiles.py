@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
-from cltp.train.photometric import one_thread
+from cltp.torch_threads import torch_threads
 from sim.gel.layer import GEL_MATERIALS, ElasticLayer, GelMaterial, Press
 
 FloatArray = NDArray[np.float64]
@@ -131,7 +131,7 @@ def gel(material: GelMaterial) -> Simulator:
     return surfaces
 
 
-@one_thread()
+@torch_threads()
 def _pressed(layer: ElasticLayer, gap: torch.Tensor, depth: float, start: Press | None) -> Press:
     return layer.press_to_depth(gap, torch.tensor(depth), start=start, tol=1e-3)
 

@@ -10,10 +10,10 @@ import torch
 
 from cltp.encoder.encoder import PRESETS
 from cltp.train.alignment import Recipe, train_cltp
-from cltp.train.stage import Report, Schedule, Stage, silent
+from cltp.train.stage import ProgressReport, Schedule, Stage, silent
 
 
-def train_a_little(data: Path, weights: Path, report: Report = silent) -> None:
+def train_a_little(data: Path, weights: Path, report: ProgressReport = silent) -> None:
     """The training that is killed, or not."""
     schedule = Schedule(steps=16, batch_size=6, learning_rate=1e-3)
     recipe = Recipe(texts="mixed", several=True, prompt_weight=0.5)
