@@ -14,14 +14,14 @@ from tacgrasp.cli.flags import parse, subcommand
 
 HELP = {
     "ur": "A UR controller: dashboard, script and RTDE ports on a loopback address.",
-    "dynamixel": "A Dynamixel bus on a serial port, with fingers on a spring.",
+    "dynamixel": "A DynamixelFlags bus on a serial port, with fingers on a spring.",
     "taxels": "A serial taxel array with a ball pressed into it.",
     "rig": "All three around one object, for a rig file of your own.",
 }
 
 
 @dataclass(frozen=True)
-class Ur:
+class UrFlags:
     """Emulate a UR controller.
 
     Attributes:
@@ -34,8 +34,8 @@ class Ur:
 
 
 @dataclass(frozen=True)
-class Dynamixel:
-    """Emulate a Dynamixel bus.
+class DynamixelFlags:
+    """Emulate a DynamixelFlags bus.
 
     Attributes:
         model: Of the servos.
@@ -49,7 +49,7 @@ class Dynamixel:
 
 
 @dataclass(frozen=True)
-class Taxels:
+class TaxelFlags:
     """Emulate a serial taxel array.
 
     Attributes:
@@ -64,7 +64,7 @@ class Taxels:
 
 
 @dataclass(frozen=True)
-class EmulatedRig:
+class EmulatedRigFlags:
     """Emulate arm, gripper and sensor around one object.
 
     Attributes:
@@ -81,10 +81,10 @@ class EmulatedRig:
 
 
 KINDS: Mapping[str, type] = {
-    "ur": Ur,
-    "dynamixel": Dynamixel,
-    "taxels": Taxels,
-    "rig": EmulatedRig,
+    "ur": UrFlags,
+    "dynamixel": DynamixelFlags,
+    "taxels": TaxelFlags,
+    "rig": EmulatedRigFlags,
 }
 
 

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 from sim.emulators.dynamixel import control_table as at
 from sim.emulators.dynamixel.control_table import BAUDS, MODELS
-from sim.emulators.dynamixel.faults import Faults
+from sim.emulators.dynamixel.faults import BusFaults
 from sim.emulators.dynamixel.fingers import Fingers, GripLoad, Linkage, SpringLoad
 from sim.emulators.dynamixel.packets import (
     ALERT,
@@ -25,12 +25,12 @@ from sim.emulators.dynamixel.packets import (
     PING,
     SYNC_READ,
     SYNC_WRITE,
-    Instruction,
-    Reader,
+    PacketInstruction,
+    PacketReader,
     fast_sync_status,
     status,
 )
-from sim.emulators.dynamixel.servo import Servo
+from sim.emulators.dynamixel.servo import EmulatedServo
 from sim.emulators.dynamixel.wire import Wire
 from sim.emulators.process.control import ControlServer, Facts
 from sim.emulators.process.lifetime import announce_and_wait
@@ -78,7 +78,7 @@ class DynamixelEmulator:
         options, linkage = options or ServoOptions(), linkage or Linkage()
         self._clock, self._lock = clock, threading.RLock()
         self._servos = [
-            Servo(
+            EmulatedServo(
                 MODELS[options.model],
                 servo_id,
                 baud=options.baud,
@@ -89,8 +89,8 @@ class DynamixelEmulator:
         ]
         self._fingers = Fingers(self._servos, linkage, load or SpringLoad(), self._lock, clock())
         self._fingers.step(clock())
-        self._wire, self._reader = Wire(), Reader()
-        self._faults = Faults(self._servos, self._wire, clock)
+        self._wire, self._reader = Wire(), PacketReader()
+        self._faults = BusFaults(self._servos, self._wire, clock)
         self._late: list[tuple[float, bytes]] = []
         self._instructions = 0
         self._ended = threading.Event()
@@ -184,7 +184,7 @@ class DynamixelEmulator:
                 else:
                     self._wire.write(sent)
 
-    def _answers(self, instruction: Instruction) -> list[bytes]:
+    def _answers(self, instruction: PacketInstruction) -> list[bytes]:
         code, parameters = instruction.code, instruction.parameters
         addressed = [servo for servo in self._servos if servo.id == instruction.servo_id]
         if instruction.servo_id != BROADCAST:
@@ -201,19 +201,19 @@ class DynamixelEmulator:
             self._sync_write(parameters)
         return []
 
-    def _carried_out(self, servo: Servo, code: int, parameters: bytes) -> bytes:
+    def _carried_out(self, servo: EmulatedServo, code: int, parameters: bytes) -> bytes:
         error, data, written = servo.execute(code, parameters)
         if written:
             self._fingers.written(written)
             self._fingers.step(self._clock())
         return self._status(servo, error, data)
 
-    def _status(self, servo: Servo, error: int, data: bytes = b"") -> bytes:
+    def _status(self, servo: EmulatedServo, error: int, data: bytes = b"") -> bytes:
         if self._faults.silenced(servo.id):
             return b""
         return status(servo.id, self._with_alert(servo, error), data)
 
-    def _with_alert(self, servo: Servo, error: int) -> int:
+    def _with_alert(self, servo: EmulatedServo, error: int) -> int:
         return error | (ALERT if servo.table[at.HARDWARE_ERROR] else 0)
 
     def _sync_read(self, code: int, parameters: bytes) -> list[bytes]:

@@ -29,7 +29,7 @@ VELOCITY_TICKS_S = 0.229 / 60 * 4096
 _SIZE = 147
 
 
-class Area(Enum):
+class RegisterAccess(Enum):
     """What may be written when."""
 
     READ_ONLY = "read only"
@@ -39,15 +39,15 @@ class Area(Enum):
 
 @dataclass(frozen=True, slots=True)
 class Register:
-    """Size [bytes], area, smallest and largest value that can be written (signed when below 0)."""
+    """Size [bytes], access, smallest and largest value to be written (signed when below 0)."""
 
     size: int
-    area: Area
+    access: RegisterAccess
     low: int = 0
     high: int = 2**32 - 1
 
 
-_R, _E, _W = Area.READ_ONLY, Area.EEPROM, Area.RAM
+_R, _E, _W = RegisterAccess.READ_ONLY, RegisterAccess.EEPROM, RegisterAccess.RAM
 _REGISTERS: dict[int, Register] = {
     MODEL: Register(2, _R),
     2: Register(4, _R),
@@ -104,7 +104,7 @@ _REGISTERS: dict[int, Register] = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Model:
+class EmulatedServoModel:
     """A servo as it leaves the factory.
 
     Attributes:
@@ -132,7 +132,7 @@ class Model:
 
 
 MODELS = {
-    "XC330-T288": Model(
+    "XC330-T288": EmulatedServoModel(
         number=1220,
         firmware=46,
         current_limit=910,
@@ -143,7 +143,7 @@ MODELS = {
         shutdown=0x35,
         watchdog_stops=False,
     ),
-    "XM430-W350": Model(
+    "XM430-W350": EmulatedServoModel(
         number=1020,
         firmware=45,
         current_limit=1193,
@@ -154,7 +154,7 @@ MODELS = {
         shutdown=0x34,
         watchdog_stops=True,
     ),
-    "XM540-W270": Model(
+    "XM540-W270": EmulatedServoModel(
         number=1120,
         firmware=45,
         current_limit=2047,
@@ -165,7 +165,7 @@ MODELS = {
         shutdown=0x34,
         watchdog_stops=True,
     ),
-    "XL430-W250": Model(
+    "XL430-W250": EmulatedServoModel(
         number=1060,
         firmware=45,
         current_limit=None,
@@ -179,16 +179,18 @@ MODELS = {
 }
 
 
-class Table:
+class ControlTable:
     """The memory of one servo: registers by their address."""
 
-    def __init__(self, model: Model, servo_id: int, baud: int, mode: int) -> None:
+    def __init__(self, model: EmulatedServoModel, servo_id: int, baud: int, mode: int) -> None:
         self._registers = dict(_REGISTERS)
         self._memory = bytearray(_SIZE)
         if model.current_limit is None:
             del self._registers[CURRENT_LIMIT], self._registers[GOAL_CURRENT]
         else:
-            self._registers[CURRENT_LIMIT] = Register(2, Area.EEPROM, 0, model.current_limit)
+            self._registers[CURRENT_LIMIT] = Register(
+                2, RegisterAccess.EEPROM, 0, model.current_limit
+            )
         low_v, high_v = model.volt_limits
         start = {
             MODEL: model.number,
@@ -265,9 +267,9 @@ class Table:
 
     def _refusal(self, address: int, value: int) -> int:
         register = self._registers[address]
-        if register.area is Area.READ_ONLY:
+        if register.access is RegisterAccess.READ_ONLY:
             return NO_ACCESS
-        if register.area is Area.EEPROM and self[TORQUE]:
+        if register.access is RegisterAccess.EEPROM and self[TORQUE]:
             return NO_ACCESS
         tripped = self[WATCHDOG] == 0xFF
         if tripped and address in (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from sim.emulators.dynamixel import control_table as at
-from sim.emulators.dynamixel.servo import Servo
+from sim.emulators.dynamixel.servo import EmulatedServo
 from sim.emulators.dynamixel.wire import Wire
 
 VOLTAGE_BIT, HEAT_BIT, ENCODER_BIT, OVERLOAD_BIT = 0x01, 0x04, 0x08, 0x20
@@ -28,21 +28,23 @@ FAULTS = {
 """What can be injected, and its details with their defaults."""
 
 
-class Faults:
+class BusFaults:
     """The faults of one bus. Not thread-safe: the caller's lock guards it.
 
     Attributes:
         active: Names of what was injected since the last ``clear``.
     """
 
-    def __init__(self, servos: Sequence[Servo], wire: Wire, clock: Callable[[], float]) -> None:
+    def __init__(
+        self, servos: Sequence[EmulatedServo], wire: Wire, clock: Callable[[], float]
+    ) -> None:
         self._servos, self._wire, self._clock = servos, wire, clock
         self._injected_s: float | None = None
         self.active: set[str] = set()
         self._silent: set[int] = set()
         self._spoil: list[tuple[str, float]] = []
         self._garbage = False
-        self._before: list[tuple[Servo, int, int]] = []
+        self._before: list[tuple[EmulatedServo, int, int]] = []
 
     def inject(self, fault: str, details: Mapping[str, float | str]) -> None:
         """Let a fault happen.
@@ -107,7 +109,9 @@ class Faults:
             return 0.0, reply[:-1] + bytes([reply[-1] ^ 0x5A])
         return 0.0, reply[: len(reply) // 2]
 
-    def _change(self, fault: str, values: Mapping[str, float], servos: Sequence[Servo]) -> None:
+    def _change(
+        self, fault: str, values: Mapping[str, float], servos: Sequence[EmulatedServo]
+    ) -> None:
         self._garbage = self._garbage or bool(values.get("garbage", 0))
         for servo in servos:
             if fault == "wrong_baud":
@@ -126,7 +130,7 @@ class Faults:
                     raise ValueError("register needs an address and a value")
                 self._set(servo, int(values["address"]), int(values["value"]))
 
-    def _set(self, servo: Servo, address: int, value: int) -> None:
+    def _set(self, servo: EmulatedServo, address: int, value: int) -> None:
         if address not in servo.table:
             raise ValueError(f"no register at address {address}")
         self._before.append((servo, address, servo.table[address]))

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from sim.emulators.dynamixel import control_table as at
-from sim.emulators.dynamixel.servo import Servo
+from sim.emulators.dynamixel.servo import EmulatedServo
 
 _log = logging.getLogger(__name__)
 
@@ -121,7 +121,7 @@ class Fingers:
 
     def __init__(
         self,
-        servos: Sequence[Servo],
+        servos: Sequence[EmulatedServo],
         linkage: Linkage,
         load: GripLoad,
         lock: threading.RLock,
@@ -194,7 +194,7 @@ class Fingers:
     def _goal_m(self) -> float:
         return self._mean(lambda servo: float(servo.table[at.GOAL_POSITION]))
 
-    def _mean(self, ticks_of: Callable[[Servo], float]) -> float:
+    def _mean(self, ticks_of: Callable[[EmulatedServo], float]) -> float:
         widths = [self._linkage.width_m(i, ticks_of(s)) for i, s in enumerate(self._servos)]
         return sum(widths) / len(widths)
 

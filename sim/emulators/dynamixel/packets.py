@@ -78,7 +78,7 @@ def fast_sync_status(parts: list[tuple[int, int, bytes]]) -> bytes:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Instruction:
+class PacketInstruction:
     """An instruction packet as it came; ``intact`` is False when its CRC is wrong."""
 
     servo_id: int
@@ -87,13 +87,13 @@ class Instruction:
     intact: bool = True
 
 
-class Reader:
+class PacketReader:
     """Cuts a stream of bytes into instruction packets; rubbish between them is skipped."""
 
     def __init__(self) -> None:
         self._left = b""
 
-    def feed(self, data: bytes) -> list[Instruction]:
+    def feed(self, data: bytes) -> list[PacketInstruction]:
         """The packets that are complete with these bytes."""
         self._left += data
         found = []
@@ -102,7 +102,7 @@ class Reader:
                 found.append(packet)
         return found
 
-    def _next(self) -> Instruction | None:
+    def _next(self) -> PacketInstruction | None:
         while True:
             start = self._left.find(_HEADER)
             if start < 0:
@@ -119,7 +119,7 @@ class Reader:
                 return None
             whole, self._left = self._left[: 7 + length], self._left[7 + length :]
             body = whole[7:-2].replace(_HEADER + b"\xfd", _HEADER)
-            return Instruction(
+            return PacketInstruction(
                 servo_id=whole[4],
                 code=body[0],
                 parameters=body[1:],

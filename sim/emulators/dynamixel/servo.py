@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 
 from sim.emulators.dynamixel import control_table as at
-from sim.emulators.dynamixel.control_table import Model, Table
+from sim.emulators.dynamixel.control_table import ControlTable, EmulatedServoModel
 from sim.emulators.dynamixel.packets import NO_ACCESS, NO_INSTRUCTION, OK, PING, READ, REBOOT, WRITE
 
 NO_LOAD_TICKS_S = 4800.0
@@ -23,7 +23,7 @@ _CURRENT_RISE_S = 0.010
 _ARRIVED_TICKS = 0.3
 
 
-class Servo:
+class EmulatedServo:
     """A servo on the bus.
 
     Attributes:
@@ -37,10 +37,10 @@ class Servo:
     """
 
     def __init__(
-        self, model: Model, servo_id: int, *, baud: int, mode: int, friction_ma: float
+        self, model: EmulatedServoModel, servo_id: int, *, baud: int, mode: int, friction_ma: float
     ) -> None:
         self.model, self.closing = model, 1
-        self.table = Table(model, servo_id, baud, mode)
+        self.table = ControlTable(model, servo_id, baud, mode)
         self.position, self.current_ma = 0.0, 0.0
         self.waits = False
         self.stop: float | None = None

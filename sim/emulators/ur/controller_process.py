@@ -23,7 +23,7 @@ from sim.emulators.process.lifetime import announce_and_wait
 from sim.emulators.process.real_time import ask_for_real_time
 from sim.emulators.ur.child import RemoteWorld
 from sim.emulators.ur.controller import ROBOT_STOP, SAFEGUARD, Controller
-from sim.emulators.ur.robot import Stretch
+from sim.emulators.ur.robot import MotionSegment
 from sim.emulators.ur.server import PORTS, Server
 from sim.emulators.ur.sessions import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT
 
@@ -80,7 +80,9 @@ class UrEmulator:
         self.host = host
         self._clock, self._listener, self._version = clock, listener, version
         self._injected_s: float | None = None
-        self._ended: queue.SimpleQueue[tuple[Stretch, threading.Event] | None] = queue.SimpleQueue()
+        self._ended: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
+            queue.SimpleQueue()
+        )
         self._world: threading.Thread | None = None
         if listener is not None:
             self._world = threading.Thread(target=self._tell_world, daemon=True)
@@ -203,7 +205,7 @@ class UrEmulator:
 
     # -- world -----------------------------------------------------------------------------------
 
-    def _report(self, stretch: Stretch) -> Callable[[], bool]:
+    def _report(self, stretch: MotionSegment) -> Callable[[], bool]:
         followed = threading.Event()
         self._ended.put((stretch, followed))
         return followed.is_set

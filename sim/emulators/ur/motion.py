@@ -20,7 +20,7 @@ AT_REST.setflags(write=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
+class ToolState:
     """Where the tool centre point is and how it moves.
 
     Attributes:
@@ -42,7 +42,7 @@ class Motion(Protocol):
         """When it ends [s]; infinite for one that goes on until it is ended."""
         ...
 
-    def at(self, t_s: float) -> Place:
+    def at(self, t_s: float) -> ToolState:
         """The place at a time since the beginning [s]."""
         ...
 
@@ -51,10 +51,10 @@ class Motion(Protocol):
 class Rest:
     """Standing still."""
 
-    place: Place
+    place: ToolState
     duration_s: float = math.inf
 
-    def at(self, t_s: float) -> Place:
+    def at(self, t_s: float) -> ToolState:
         """Always the same place."""
         return self.place
 
@@ -63,7 +63,7 @@ class Line:
     """A straight line from rest to rest with a trapezoidal speed."""
 
     def __init__(
-        self, start: Place, position_m: Floats, turn: Floats, speed: float, acceleration: float
+        self, start: ToolState, position_m: Floats, turn: Floats, speed: float, acceleration: float
     ) -> None:
         """Plan it; speed [m/s] and acceleration [m/s²], in rad where only the tool turns.
 
@@ -83,10 +83,10 @@ class Line:
         self._ramp_s = self._top / acceleration
         self.duration_s = self._length / self._top + self._ramp_s if self._length > 0 else 0.0
 
-    def at(self, t_s: float) -> Place:
+    def at(self, t_s: float) -> ToolState:
         """The place at ``t_s`` [s]."""
         if t_s >= self.duration_s:
-            return Place(position_m=self._position_m, turn=self._turn, twist=AT_REST)
+            return ToolState(position_m=self._position_m, turn=self._turn, twist=AT_REST)
         left_s = self.duration_s - t_s
         if t_s < self._ramp_s:
             way, speed = 0.5 * self._acceleration * t_s**2, self._acceleration * t_s
@@ -101,13 +101,15 @@ class Line:
         if float(np.abs(self._by_rad).max()) > 1e-9:
             turn = matrix(share * self._by_rad) @ turn
         twist = np.concatenate([self._by_m, self._by_rad]) * (speed / self._length)
-        return Place(position_m=self._start.position_m + share * self._by_m, turn=turn, twist=twist)
+        return ToolState(
+            position_m=self._start.position_m + share * self._by_m, turn=turn, twist=twist
+        )
 
 
 class Ramp:
     """A change of speed at a constant rate, then that speed for ever: ``speedl`` and every stop."""
 
-    def __init__(self, start: Place, twist: Floats, seconds: float, until_s: float) -> None:
+    def __init__(self, start: ToolState, twist: Floats, seconds: float, until_s: float) -> None:
         """Go over from the present speed to ``twist`` (6,) within ``seconds``; end at ``until_s``.
 
         Raises:
@@ -118,7 +120,7 @@ class Ramp:
         self._start, self._twist, self._seconds = start, twist, seconds
         self.duration_s = until_s
 
-    def at(self, t_s: float) -> Place:
+    def at(self, t_s: float) -> ToolState:
         """The place at ``t_s`` [s]."""
         within = min(t_s, self._seconds)
         share = within / self._seconds if self._seconds > 0 else 1.0
@@ -127,15 +129,15 @@ class Ramp:
         turn = self._start.turn
         if float(np.abs(way[3:]).max()) > 1e-12:
             turn = matrix(way[3:]) @ turn
-        return Place(position_m=self._start.position_m + way[:3], turn=turn, twist=twist)
+        return ToolState(position_m=self._start.position_m + way[:3], turn=turn, twist=twist)
 
 
-def stop_in(start: Place, seconds: float) -> Ramp:
+def stop_in(start: ToolState, seconds: float) -> Ramp:
     """Come to rest within a time [s], on the present course."""
     return Ramp(start, AT_REST, seconds, seconds)
 
 
-def stop_at(start: Place, deceleration: float) -> Ramp:
+def stop_at(start: ToolState, deceleration: float) -> Ramp:
     """Come to rest with a deceleration [m/s²] (of the turning [rad/s²] where only that is)."""
     speed = math.sqrt(float(start.twist[:3] @ start.twist[:3]))
     if speed == 0:
@@ -143,30 +145,32 @@ def stop_at(start: Place, deceleration: float) -> Ramp:
     return stop_in(start, speed / deceleration)
 
 
-def run_at(start: Place, twist: Floats, acceleration: float, until_s: float) -> Ramp:
+def run_at(start: ToolState, twist: Floats, acceleration: float, until_s: float) -> Ramp:
     """Go over to a speed (6,) with an acceleration [m/s²]; end at ``until_s`` [s]."""
     change = twist - start.twist
     size = math.sqrt(float(change[:3] @ change[:3])) or math.sqrt(float(change[3:] @ change[3:]))
     return Ramp(start, twist, size / acceleration, until_s)
 
 
-class Servo:
+class ServoMotion:
     """Approach a goal exponentially, as ``servoj`` does by its look-ahead."""
 
     duration_s = math.inf
 
-    def __init__(self, start: Place, position_m: Floats, turn: Floats, lookahead_s: float) -> None:
+    def __init__(
+        self, start: ToolState, position_m: Floats, turn: Floats, lookahead_s: float
+    ) -> None:
         self._start, self._position_m, self._turn = start, position_m, turn
         self._tau_s = max(0.01, lookahead_s)
         self._by = np.concatenate([
             position_m - start.position_m, rotvec(turn @ start.turn.T)
         ])  # fmt: skip
 
-    def at(self, t_s: float) -> Place:
+    def at(self, t_s: float) -> ToolState:
         """The place at ``t_s`` [s]."""
         left = math.exp(-t_s / self._tau_s)
         way = (1.0 - left) * self._by
-        return Place(
+        return ToolState(
             position_m=self._start.position_m + way[:3],
             turn=matrix(way[3:]) @ self._start.turn,
             twist=self._by * (left / self._tau_s),

@@ -23,7 +23,7 @@ from sim.emulators.ur.kinematics import (
     matrix,
     rotvec,
 )
-from sim.emulators.ur.motion import AT_REST, Motion, Place, Rest, stop_at, stop_in
+from sim.emulators.ur.motion import AT_REST, Motion, Rest, ToolState, stop_at, stop_in
 
 STILL_M_S = 1e-3
 """Below this speed the tool counts as stopped."""
@@ -33,7 +33,7 @@ FORCE_BIAS_N = (0.8, -0.5, 2.0, 0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Stretch:
+class MotionSegment:
     """A way of the tool from rest to rest.
 
     Attributes:
@@ -48,7 +48,7 @@ class Stretch:
     acceleration_m_s2: float
 
 
-Report = Callable[[Stretch], Callable[[], bool]]
+Report = Callable[[MotionSegment], Callable[[], bool]]
 """Takes a stretch that has ended; what it returns says whether the world has followed."""
 
 
@@ -69,7 +69,7 @@ class Robot:
             ValueError: No posture brings it there.
         """
         self.tcp_offset = np.array(tcp_offset, dtype=np.float64)
-        self.place = Place(position_m=np.array(tcp[:3]), turn=matrix(tcp[3:]), twist=AT_REST)
+        self.place = ToolState(position_m=np.array(tcp[:3]), turn=matrix(tcp[3:]), twist=AT_REST)
         self.contact = np.zeros(6)
         self.speed_fraction = 1.0
         self._bias = np.array(FORCE_BIAS_N)
@@ -77,7 +77,7 @@ class Robot:
         self._report = report
         self._motion: Motion = Rest(self.place)
         self._since_s, self._now_s, self._stopping = 0.0, now_s, False
-        self._left: tuple[Place, float, float] | None = None
+        self._left: tuple[ToolState, float, float] | None = None
         self._followed: Callable[[], bool] = lambda: True
         self._q = joints_of(self._flange(), READY_Q)
         self._q_of = self.place
@@ -149,11 +149,11 @@ class Robot:
         self._watched_from_s, self.stopped_after_s = now_s, None
         self._watched_speed = self.speed_m_s if self.speed_m_s >= STILL_M_S else 0.0
 
-    def _placed(self, t_s: float, scale: float) -> Place:
+    def _placed(self, t_s: float, scale: float) -> ToolState:
         place = self._motion.at(t_s)
         if scale == 1.0:
             return place
-        return Place(position_m=place.position_m, turn=place.turn, twist=place.twist * scale)
+        return ToolState(position_m=place.position_m, turn=place.turn, twist=place.twist * scale)
 
     def _crossing(self, low_s: float, high_s: float, scale: float) -> float:
         """When between two of the motion's times its speed fell below ``STILL_M_S``."""
@@ -167,14 +167,16 @@ class Robot:
         return high_s
 
     def _arrive(self) -> None:
-        self.place = Place(position_m=self.place.position_m, turn=self.place.turn, twist=AT_REST)
+        self.place = ToolState(
+            position_m=self.place.position_m, turn=self.place.turn, twist=AT_REST
+        )
         self._motion = Rest(self.place)
         if self._left is None:
             return
         start, speed_m_s, acceleration = self._left
         self._left = None
         if self._report is not None:
-            stretch = Stretch(
+            stretch = MotionSegment(
                 by_base_m=self.place.position_m - start.position_m,
                 rotvec_rad=rotvec(self.place.turn @ start.turn.T),
                 speed_m_s=speed_m_s,
@@ -193,7 +195,7 @@ class Robot:
         flange = self._flange()
         self.tcp_offset = np.array(offset, dtype=np.float64)
         tip = flange @ as_frame(self.tcp_offset)
-        self.place = Place(position_m=tip[:3, 3], turn=tip[:3, :3], twist=AT_REST)
+        self.place = ToolState(position_m=tip[:3, 3], turn=tip[:3, :3], twist=AT_REST)
         self._q_of = self.place
         self._motion = Rest(self.place)
 

@@ -16,7 +16,7 @@ from collections.abc import Callable, MutableMapping
 import numpy as np
 
 from sim.emulators.ur.kinematics import Floats, as_frame, base_from_flange, jacobian, matrix
-from sim.emulators.ur.motion import Line, Servo, run_at
+from sim.emulators.ur.motion import Line, ServoMotion, run_at
 from sim.emulators.ur.robot import Robot
 
 READY, DONE = 1, 2
@@ -133,7 +133,9 @@ class Program:
             lookahead_s = self._in["input_double_register_9"]
             self._keep(
                 "servo",
-                lambda: self._robot.begin(Servo(self._robot.place, position, turn, lookahead_s)),
+                lambda: self._robot.begin(
+                    ServoMotion(self._robot.place, position, turn, lookahead_s)
+                ),
             )
         else:
             chosen = [int(self._in[f"input_int_register_{i}"]) for i in range(2, 8)]

@@ -12,7 +12,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 
-class Phase(StrEnum):
+class InjectionPhase(StrEnum):
     """When a fault happens, and what must come of it."""
 
     START = "start"  # before connecting: refused within 2 s, nothing moves
@@ -37,25 +37,37 @@ class FaultCase:
     name: str
     device: str
     fault: str
-    phase: Phase
+    phase: InjectionPhase
     told: tuple[str, ...]
     details: Mapping[str, float | str] = field(default_factory=lambda: MappingProxyType({}))
 
 
 def _start(name: str, device: str, fault: str, *told: str, **details: float | str) -> FaultCase:
     return FaultCase(
-        name=name, device=device, fault=fault, phase=Phase.START, told=told, details=details
+        name=name,
+        device=device,
+        fault=fault,
+        phase=InjectionPhase.START,
+        told=told,
+        details=details,
     )
 
 
 def _motion(name: str, device: str, fault: str, *told: str, **details: float | str) -> FaultCase:
     return FaultCase(
-        name=name, device=device, fault=fault, phase=Phase.MOTION, told=told, details=details
+        name=name,
+        device=device,
+        fault=fault,
+        phase=InjectionPhase.MOTION,
+        told=told,
+        details=details,
     )
 
 
 def _transient(name: str, device: str, fault: str, *told: str) -> FaultCase:
-    return FaultCase(name=name, device=device, fault=fault, phase=Phase.TRANSIENT, told=told)
+    return FaultCase(
+        name=name, device=device, fault=fault, phase=InjectionPhase.TRANSIENT, told=told
+    )
 
 
 STALE_BACKGROUND = "sensor: stale background"

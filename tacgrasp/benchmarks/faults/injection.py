@@ -24,7 +24,7 @@ from cltp.tactile.sensors import sensor_named
 from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.emulators.process.spawn import EmulatorProcess
-from tacgrasp.benchmarks.faults.cases import STALE_BACKGROUND, FaultCase, Phase
+from tacgrasp.benchmarks.faults.cases import STALE_BACKGROUND, FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.threads import Move, RecordedEpisode, bounded
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
 from tacgrasp.config.schema import RunConfig
@@ -50,7 +50,7 @@ _INTO_S = (0.17, 0.30)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trial:
+class InjectionResult:
     """What one injected fault came to.
 
     Attributes:
@@ -92,16 +92,16 @@ class FaultBench:
         """Remove what was recorded."""
         self._folder.cleanup()
 
-    def trial(self, case: FaultCase, *, in_episode: bool) -> Trial:
+    def trial(self, case: FaultCase, *, in_episode: bool) -> InjectionResult:
         """Inject one fault; every fault is gone afterwards."""
         if case.name == STALE_BACKGROUND:
             return self._stale_background(case)
         if in_episode:
             return self._in_episode(case)
         try:
-            if case.phase is Phase.START:
+            if case.phase is InjectionPhase.START:
                 return self._at_start(case)
-            if case.phase is Phase.MOTION:
+            if case.phase is InjectionPhase.MOTION:
                 return self._in_motion(case)
             return self._passing(case)
         finally:
@@ -110,14 +110,14 @@ class FaultBench:
 
     # -- start -----------------------------------------------------------------------------------
 
-    def _at_start(self, case: FaultCase) -> Trial:
+    def _at_start(self, case: FaultCase) -> InjectionResult:
         before = self._where()
         self._inject(case)
         began_s = time.monotonic()
         told, hung = bounded(lambda: self._connect_one(case.device))
         took_s, told = time.monotonic() - began_s, self._plain(told)
         moved = bool(np.abs(np.subtract(self._where(), before)).max() > 1e-6)
-        return Trial(
+        return InjectionResult(
             detected=_says(case, told) and took_s < REFUSED_S,
             told=told,
             noticed_ms=1e3 * took_s,
@@ -140,7 +140,7 @@ class FaultBench:
 
             connect_sensor(self._hardware.sensor, self._config).disconnect()
 
-    def _stale_background(self, case: FaultCase) -> Trial:
+    def _stale_background(self, case: FaultCase) -> InjectionResult:
         from tacgrasp.drivers.gelsight.background import Background, save_background
         from tacgrasp.drivers.gelsight.connect import connect_gelsight
         from tacgrasp.drivers.gelsight.settings import GelSightSettings
@@ -154,11 +154,11 @@ class FaultBench:
         told, hung = bounded(lambda: connect_gelsight(settings).disconnect())
         took_s, told = time.monotonic() - began_s, self._plain(told)
         detected = _says(case, told) and took_s < REFUSED_S
-        return Trial(detected=detected, told=told, noticed_ms=1e3 * took_s, hung=hung)
+        return InjectionResult(detected=detected, told=told, noticed_ms=1e3 * took_s, hung=hung)
 
     # -- motion ----------------------------------------------------------------------------------
 
-    def _in_motion(self, case: FaultCase) -> Trial:
+    def _in_motion(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
             rig = self._connected(stack)
             move = Move(rig, self._across(rig))
@@ -167,7 +167,7 @@ class FaultBench:
             hung = not move.wait(HUNG_S)
             stop_ms = self._stop_ms()
             invented = False if hung else self._invents(rig, case)
-        return Trial(
+        return InjectionResult(
             detected=_says(case, move.told),
             told=self._plain(move.told),
             noticed_ms=1e3 * (move.ended_s - injected_s),
@@ -177,7 +177,7 @@ class FaultBench:
             invented=invented,
         )
 
-    def _passing(self, case: FaultCase) -> Trial:
+    def _passing(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
             rig = self._connected(stack)
             target = self._across(rig)
@@ -197,7 +197,7 @@ class FaultBench:
         arrived = move.reached is not None and bool(
             np.allclose(move.reached.position_m, target.position_m, atol=1e-3)
         )
-        return Trial(
+        return InjectionResult(
             detected=not error
             and after != before
             and _says(case, after)
@@ -209,7 +209,7 @@ class FaultBench:
             invented=invented,
         )
 
-    def _in_episode(self, case: FaultCase) -> Trial:
+    def _in_episode(self, case: FaultCase) -> InjectionResult:
         """The fault happens at the first motion of a recorded episode, in a world of its own."""
         with EmulatorProcess("rig", "--seed", str(self._config.seed)) as emulators:
             own = FaultBench(self._config, self._named, emulators)
@@ -218,7 +218,7 @@ class FaultBench:
             finally:
                 own.close()
 
-    def _episode(self, case: FaultCase) -> Trial:
+    def _episode(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
             rig = self._connected(stack)
             record = {"record": Path(self._folder.name), "policy": "rules"}
@@ -226,11 +226,11 @@ class FaultBench:
             moving = self._wait_for_motion(episode)
             injected_s = self._inject(case)
             hung = not episode.wait(60.0)
-            stop_ms = self._stop_ms() if case.phase is Phase.MOTION and moving else None
+            stop_ms = self._stop_ms() if case.phase is InjectionPhase.MOTION and moving else None
             counted = rig.survived()
-        passing = case.phase is Phase.TRANSIENT
+        passing = case.phase is InjectionPhase.TRANSIENT
         told = self._plain(counted if passing else episode.message)
-        return Trial(
+        return InjectionResult(
             detected=_says(case, told),
             told=told,
             noticed_ms=1e3 * (episode.ended_s - injected_s),

@@ -12,7 +12,7 @@ from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.faults.cases import FaultCase, Phase
+from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
 from tacgrasp.benchmarks.faults.table import FaultRow, markdown_of, row_of, table_of
 from tacgrasp.config.layers import load
@@ -63,7 +63,7 @@ def run(
 def _row(bench: FaultBench, case: FaultCase, repeats: int, advance: Callable[[], None]) -> FaultRow:
     trials = []
     for repeat in range(repeats):
-        in_episode = repeat == repeats - 1 and case.phase is not Phase.START
+        in_episode = repeat == repeats - 1 and case.phase is not InjectionPhase.START
         trials.append(bench.trial(case, in_episode=in_episode))
         advance()
     return row_of(case, trials)

@@ -8,8 +8,13 @@ from statistics import median
 
 from rich.table import Table
 
-from tacgrasp.benchmarks.faults.cases import FaultCase, Phase
-from tacgrasp.benchmarks.faults.injection import RECOVERED_MS, REFUSED_S, STOPPED_MS, Trial
+from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
+from tacgrasp.benchmarks.faults.injection import (
+    RECOVERED_MS,
+    REFUSED_S,
+    STOPPED_MS,
+    InjectionResult,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,13 +61,13 @@ class FaultRow:
         return self.detected == self.injected and clean and in_time and whole
 
 
-def row_of(case: FaultCase, trials: Sequence[Trial]) -> FaultRow:
+def row_of(case: FaultCase, trials: Sequence[InjectionResult]) -> FaultRow:
     """Sum up the repeats of one fault."""
     stops = [t.stop_ms for t in trials if t.stop_ms is not None]
     bare = [t for t in trials if not t.episode]  # an episode is noticed only when it has ended
     noticed = [t.noticed_ms for t in (bare or trials)]
     wrong = {t.episode for t in trials if t.episode} - {"intact"}
-    whole = "none begun" if case.phase is Phase.START else "intact"
+    whole = "none begun" if case.phase is InjectionPhase.START else "intact"
     return FaultRow(
         name=case.name,
         phase=case.phase.value,
@@ -130,9 +135,9 @@ def markdown_of(rows: Sequence[FaultRow], command: str) -> str:
 
 
 def _did(row: FaultRow) -> str:
-    if row.phase == Phase.START:
+    if row.phase == InjectionPhase.START:
         return "nothing moved."
-    if row.phase == Phase.TRANSIENT:
+    if row.phase == InjectionPhase.TRANSIENT:
         return "the arm moved on and arrived."
     return "the arm came to rest."
 

@@ -17,7 +17,7 @@ from tacgrasp.benchmarks.faults.cases import CASES, Phase
 from tacgrasp.benchmarks.faults.injection import Trial
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of
 from tacgrasp.benchmarks.loop.rigs import End, Pair
-from tacgrasp.cli.emulate import HELP, KINDS, EmulatedRig, Ur, options_of
+from tacgrasp.cli.emulate import HELP, KINDS, EmulatedRigFlags, UrFlags, options_of
 from tests.fakes.patient_rig import fields, patient_rig
 from tests.paths import ROOT
 
@@ -66,8 +66,8 @@ def test_every_kind_of_emulator_is_explained():
 
 
 def test_flags_become_the_emulators_own_options():
-    assert options_of(Ur()) == ["--host", "127.0.0.2", "--version", "5.12"]
-    options = options_of(EmulatedRig(seed=3))
+    assert options_of(UrFlags()) == ["--host", "127.0.0.2", "--version", "5.12"]
+    options = options_of(EmulatedRigFlags(seed=3))
     assert options == ["--object", "strawberry", "--seed", "3", "--sensor", "gelsight_mini"]
 
 

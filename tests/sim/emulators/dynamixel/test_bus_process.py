@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from sim.emulators.dynamixel import control_table as at
 from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
 from sim.emulators.dynamixel.fingers import Linkage, SpringLoad
-from sim.emulators.dynamixel.packets import Reader, crc16, packet, status
+from sim.emulators.dynamixel.packets import PacketReader, crc16, packet, status
 from sim.emulators.process.spawn import EmulatorProcess
 
 sdk = pytest.importorskip("dynamixel_sdk")
@@ -108,14 +108,14 @@ def test_the_crc_is_the_sdk_s():
 
 @given(st.integers(0, 252), st.binary(max_size=40), st.binary(max_size=20))
 def test_what_is_packed_is_read_again_whatever_stands_before_it(servo, body, rubbish):
-    reader = Reader()
+    reader = PacketReader()
     found = reader.feed(rubbish.replace(b"\xff", b"\x00") + packet(servo, b"\x02" + body))
     assert [(p.servo_id, p.code, p.parameters, p.intact) for p in found] == [(servo, 2, body, True)]
 
 
 @given(st.lists(st.integers(1, 30), max_size=10))
 def test_a_packet_may_come_in_any_pieces(sizes):
-    whole, reader, found = packet(3, b"\x02\xff\xff\xfd\x01") * 3, Reader(), []
+    whole, reader, found = packet(3, b"\x02\xff\xff\xfd\x01") * 3, PacketReader(), []
     for size in [*sizes, len(whole)]:
         found += reader.feed(whole[:size])
         whole = whole[size:]
@@ -124,11 +124,11 @@ def test_a_packet_may_come_in_any_pieces(sizes):
 
 @given(st.binary(max_size=60))
 def test_rubbish_raises_nothing(data):
-    Reader().feed(data)
+    PacketReader().feed(data)
 
 
 def test_a_status_packet_of_another_servo_is_no_instruction():
-    assert Reader().feed(status(1, 0, b"abc")) == []
+    assert PacketReader().feed(status(1, 0, b"abc")) == []
 
 
 # instructions

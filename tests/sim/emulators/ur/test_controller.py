@@ -25,7 +25,7 @@ from sim.emulators.ur.kinematics import (
     matrix,
     rotvec,
 )
-from sim.emulators.ur.motion import AT_REST, Line, Place, run_at, stop_at
+from sim.emulators.ur.motion import AT_REST, Line, ToolState, run_at, stop_at
 from sim.emulators.ur.robot import Robot
 
 START = np.array(START_TCP)
@@ -76,7 +76,7 @@ def moved_line(machine, clock, *, asynchronous=True, up_m=0.1, speed=0.4, accele
 
 
 def place(position=(0.0, 0.0, 0.0), twist=AT_REST):
-    return Place(position_m=np.array(position), turn=np.eye(3), twist=np.array(twist))
+    return ToolState(position_m=np.array(position), turn=np.eye(3), twist=np.array(twist))
 
 
 def test_a_line_takes_the_time_of_its_trapezoid_and_ends_at_its_target():
