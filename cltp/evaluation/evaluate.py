@@ -11,17 +11,26 @@ import torch
 from numpy.typing import NDArray
 
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES, NOISY, Augmentation, Batch, Sampler
+from cltp.data.sampler import NOISY, Augmentation, Batch, Sampler
 from cltp.encoder.clip_towers import Towers
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.heads import NUMBERS, StateHeads, restored
+from cltp.encoder.heads import StateHeads, restored
 from cltp.errors import TouchError
 from cltp.llm.generation import Reply
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.render import render
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture
+from cltp.tactile.states import (
+    CLASSES,
+    NUMBERS,
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Texture,
+)
 from cltp.texts.captions import Slots, caption, parse_caption, slots_of
 
 ZERO_SHOT: Mapping[str, str] = {
@@ -60,7 +69,7 @@ class Scores:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Retrieval:
+class RetrievalScores:
     """How well two towers find each other's contacts.
 
     Attributes:
@@ -139,7 +148,9 @@ def unscaled(points: NDArray[np.float32], sensor: SensorSpec) -> TactileCloud:
     return TactileCloud(points_mm=points * scale, sensor=sensor)
 
 
-def retrieval_scores(towers: Towers, data: ContactDataset, samples: Sequence[Batch]) -> Retrieval:
+def retrieval_scores(
+    towers: Towers, data: ContactDataset, samples: Sequence[Batch]
+) -> RetrievalScores:
     """How often an image of the clean gel finds its caption among all of a batch, and back.
 
     Contacts with the same caption count as one. Source: the usual measure of CLIP.
@@ -161,7 +172,7 @@ def retrieval_scores(towers: Towers, data: ContactDataset, samples: Sequence[Bat
             ]
         )
     to_text, to_image, chance, among = np.mean(found, axis=0)
-    return Retrieval(
+    return RetrievalScores(
         image_to_text=float(to_text),
         text_to_image=float(to_image),
         chance=float(chance),

@@ -22,9 +22,9 @@ from torch import Tensor
 from cltp.checkpoints.frozen import FrozenEncoder, noisy_frames
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
-from cltp.encoder.heads import NUMBERS
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import NUMBERS
 from cltp.train.stage import ProgressReport, silent
 from cltp.train.text_targets import class_numbers
 
@@ -40,7 +40,7 @@ class Observed:
         pooled: Shape (N, 2 C), float32.
         feature: Shape (N, F), float32: aligned, where the method aligns.
         classes: Shape (N, 5), in the order of ``CLASSES``; -1 where nobody named one.
-        numbers: Shape (N, 5), ``cltp.encoder.heads.NUMBERS``.
+        numbers: Shape (N, 5), ``cltp.tactile.states.NUMBERS``.
         index: Shape (N,), the contacts in their split.
     """
 

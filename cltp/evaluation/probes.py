@@ -21,10 +21,10 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.data.sampler import CLASSES
-from cltp.encoder.heads import NUMBERS, restored, transformed
+from cltp.encoder.heads import restored, transformed
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
+from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.train.stage import ProgressReport, Schedule, silent
 
 SCHEDULE = Schedule(steps=1500, batch_size=256, learning_rate=1e-3)
@@ -177,7 +177,7 @@ class Interval:
 
 
 @dataclass(frozen=True, slots=True)
-class Stretch:
+class IntervalScale:
     """How intervals are stretched to hold their share.
 
     Attributes:
@@ -239,7 +239,7 @@ class NumberProbe:
         return means.mean(dim=0), (spreads.square().mean(dim=0) + DISAGREEMENT * apart).sqrt()
 
     @torch.no_grad()
-    def calibrate(self, seen: Observed, coverage: float = COVERAGE) -> Stretch:
+    def calibrate(self, seen: Observed, coverage: float = COVERAGE) -> IntervalScale:
         """How far intervals must reach, from contacts that were not learned from.
 
         Args:
@@ -254,10 +254,10 @@ class NumberProbe:
         away = (value[:, 1:3] - numbers[:, 1:3]).norm(dim=1) / spread[:, 1:3].norm(dim=1)
         # The finite-sample correction of conformal prediction: one more than the share asks for.
         rank = min(len(off), math.ceil((len(off) + 1) * coverage))
-        return Stretch(off.sort(dim=0).values[rank - 1], float(away.sort().values[rank - 1]))
+        return IntervalScale(off.sort(dim=0).values[rank - 1], float(away.sort().values[rank - 1]))
 
     @torch.no_grad()
-    def said(self, seen: Observed, stretch: Stretch) -> Interval:
+    def said(self, seen: Observed, stretch: IntervalScale) -> Interval:
         """Numbers with their intervals."""
         mean, spread = self._spoken(seen.pooled)
         reach = spread * stretch.each

@@ -17,7 +17,7 @@ from cltp.errors import TouchError
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trial:
+class EvaluationSplit:
     """One test set.
 
     Attributes:
@@ -33,42 +33,48 @@ class Trial:
     about: str
 
 
-TRIALS = (
-    Trial(
+EVALUATION_SPLITS = (
+    EvaluationSplit(
         name="contact",
         split=Split.TEST,
         noise=CLEAN,
         about="unseen contacts of seen objects, no sensor noise",
     ),
-    Trial(name="object", split=Split.OBJECT, noise=CLEAN, about="unseen objects, no sensor noise"),
-    Trial(
+    EvaluationSplit(
+        name="object", split=Split.OBJECT, noise=CLEAN, about="unseen objects, no sensor noise"
+    ),
+    EvaluationSplit(
         name="physics",
         split=Split.PHYSICS,
         noise=NOISY,
         about="unseen gels; drift, tilt, depth scale ±15 %, fine noise",
     ),
-    Trial(
+    EvaluationSplit(
         name="contact_noisy",
         split=Split.TEST,
         noise=NOISY,
         about="contact; drift, tilt, depth scale ±15 %, fine noise",
     ),
-    Trial(
+    EvaluationSplit(
         name="object_noisy",
         split=Split.OBJECT,
         noise=NOISY,
         about="object; drift, tilt, depth scale ±15 %, fine noise",
     ),
-    Trial(name="gelstereo", split=Split.GELSTEREO, noise=NOISY, about="a sparse cloud of markers"),
-    Trial(name="gelsight", split=Split.GELSIGHT, noise=NOISY, about="GelSight-like hand presses"),
+    EvaluationSplit(
+        name="gelstereo", split=Split.GELSTEREO, noise=NOISY, about="a sparse cloud of markers"
+    ),
+    EvaluationSplit(
+        name="gelsight", split=Split.GELSIGHT, noise=NOISY, about="GelSight-like hand presses"
+    ),
 )
 
 LEARNING = Augmentation(clean=0.5)
 """How contacts are read where methods learn to be tried: half of them without noise."""
 
 
-def trials_of(data_dir: Path, names: tuple[str, ...] = ()) -> list[Trial]:
-    """The trials that a data set has contacts for, in the order of ``TRIALS``.
+def evaluation_splits(data_dir: Path, names: tuple[str, ...] = ()) -> list[EvaluationSplit]:
+    """The trials that a data set has contacts for, in the order of ``EVALUATION_SPLITS``.
 
     Args:
         data_dir: A data set of contacts.
@@ -78,7 +84,7 @@ def trials_of(data_dir: Path, names: tuple[str, ...] = ()) -> list[Trial]:
         TouchError: An unknown name, or one that the data has no contacts for.
     """
     there = set(ContactDataset(data_dir).column("split"))
-    found = [trial for trial in TRIALS if trial.split.value in there]
+    found = [trial for trial in EVALUATION_SPLITS if trial.split.value in there]
     known = [trial.name for trial in found]
     for name in names:
         if name not in known:

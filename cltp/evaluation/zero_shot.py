@@ -15,12 +15,13 @@ import torch.nn.functional as F
 from torch import Tensor
 
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES, Augmentation, Sampler
+from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import Towers
 from cltp.evaluation.evaluate import unscaled
 from cltp.evaluation.features import BLOCK, Observed, chosen_rows, read_block
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import CLASSES
 from cltp.texts.paraphrases import prompts
 from cltp.train.text_targets import class_numbers
 

@@ -14,7 +14,7 @@ from tacgrasp.cli.flags import parse, subcommand, writable
 
 
 @dataclass(frozen=True)
-class Eval:
+class EvalFlags:
     """Measure captions, numbers, answers, instructions and alignment on the test split.
 
     Pre-trained encoders: tacgrasp eval zero-shot, probe, retrieval, report.
@@ -54,7 +54,7 @@ def main(argv: Sequence[str]) -> int:
         if name is not None:
             COMMANDS[name](rest)
         return 0
-    flags = parse(Eval, argv, prog="tacgrasp eval")
+    flags = parse(EvalFlags, argv, prog="tacgrasp eval")
     if min(flags.captions, flags.answers, flags.pairs, flags.per_wording) < 1 or flags.seed < 0:
         raise UsageError("every number of eval must be at least 1, --seed at least 0")
     json_path = writable(flags.json)

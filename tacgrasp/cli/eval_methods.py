@@ -12,14 +12,14 @@ from tacgrasp.cli.flags import parse, writable
 
 if TYPE_CHECKING:
     from tacgrasp.pretraining.evaluate_real import RealSet
-    from tacgrasp.pretraining.evaluation_run import Place
+    from tacgrasp.pretraining.evaluation_run import EvaluationRun
     from tacgrasp.pretraining.report.store import Result
 
 METHODS_DIR = Path("runs/methods")
 
 
 @dataclass(frozen=True)
-class Common:
+class CommonFlags:
     """Where things lie.
 
     Attributes:
@@ -48,7 +48,7 @@ class Common:
 
 
 @dataclass(frozen=True)
-class Real(Common):
+class RealFlags(CommonFlags):
     """Where real touches lie.
 
     Attributes:
@@ -68,7 +68,7 @@ class Real(Common):
 
 
 @dataclass(frozen=True)
-class ZeroShot(Real):
+class ZeroShotFlags(RealFlags):
     """Name contacts by the nearest prompt (table 1), of a data set or of real touches.
 
     Attributes:
@@ -79,7 +79,7 @@ class ZeroShot(Real):
 
 
 @dataclass(frozen=True)
-class Probe(Real):
+class ProbeFlags(RealFlags):
     """Train MLPs on frozen encoders and measure them (table 2, appendix A), and CLTP's numbers.
 
     With --real they are tried on real touches.
@@ -97,7 +97,7 @@ class Probe(Real):
 
 
 @dataclass(frozen=True)
-class Retrieval(Common):
+class RetrievalFlags(CommonFlags):
     """Find contacts by text and texts by contact; without either, measure all against all.
 
     Attributes:
@@ -114,7 +114,7 @@ class Retrieval(Common):
 
 
 @dataclass(frozen=True)
-class Report:
+class ReportFlags:
     """Write one HTML and one Markdown page from stored results; trains and measures nothing.
 
     Attributes:
@@ -132,7 +132,7 @@ class Report:
 
 def zero_shot(argv: Sequence[str]) -> None:
     """Name contacts by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
-    flags = parse(ZeroShot, argv, prog="tacgrasp eval zero-shot")
+    flags = parse(ZeroShotFlags, argv, prog="tacgrasp eval zero-shot")
     json_path = _checked(flags)
     from tacgrasp.pretraining import evaluate as trying
     from tacgrasp.pretraining.report.print_results import show
@@ -152,7 +152,7 @@ def zero_shot(argv: Sequence[str]) -> None:
 
 def probe(argv: Sequence[str]) -> None:
     """MLPs on frozen encoders (table 2, appendix A), and CLTP's numbers with their intervals."""
-    flags = parse(Probe, argv, prog="tacgrasp eval probe")
+    flags = parse(ProbeFlags, argv, prog="tacgrasp eval probe")
     json_path = _checked(flags)
     if min(flags.seeds, flags.views) < 1:
         raise UsageError("--seeds and --views must be at least 1")
@@ -178,7 +178,7 @@ def probe(argv: Sequence[str]) -> None:
 
 def retrieval(argv: Sequence[str]) -> None:
     """Contacts by text (--text), texts by contact (--contact N), or all against all."""
-    flags = parse(Retrieval, argv, prog="tacgrasp eval retrieval")
+    flags = parse(RetrievalFlags, argv, prog="tacgrasp eval retrieval")
     json_path = _checked(flags)
     from rich.console import Console
 
@@ -207,7 +207,7 @@ def retrieval(argv: Sequence[str]) -> None:
 
 def report(argv: Sequence[str]) -> None:
     """One HTML and one Markdown page of all tables beside the paper's, from stored results."""
-    flags = parse(Report, argv, prog="tacgrasp eval report")
+    flags = parse(ReportFlags, argv, prog="tacgrasp eval report")
     json_path = writable(flags.json)
     from tacgrasp.pretraining.report import report as pretraining_report
     from tacgrasp.pretraining.report.print_results import write_figures
@@ -231,7 +231,7 @@ COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
 }
 
 
-def _checked(flags: Common) -> Path | None:
+def _checked(flags: CommonFlags) -> Path | None:
     if (flags.limit is not None and flags.limit < 1) or flags.seed < 0:
         raise UsageError("--limit must be at least 1, --seed at least 0")
     if flags.threads is not None and flags.threads < 1:
@@ -243,7 +243,7 @@ def _names(given: str) -> list[str]:
     return [name.strip().replace("-", "_") for name in given.split(",") if name.strip()]
 
 
-def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
+def _place(flags: CommonFlags, command: str, argv: Sequence[str]) -> EvaluationRun:
     import os
 
     import torch
@@ -251,26 +251,26 @@ def _place(flags: Common, command: str, argv: Sequence[str]) -> Place:
 
     from cltp.train.progress import Bar
     from tacgrasp.policy_factory import default_weights
-    from tacgrasp.pretraining.evaluation_run import Place
+    from tacgrasp.pretraining.evaluation_run import EvaluationRun
 
-    come_along = isinstance(flags, ZeroShot) and flags.real is not None
+    come_along = isinstance(flags, ZeroShotFlags) and flags.real is not None
     usual = default_weights() if come_along else METHODS_DIR
     disable_progress_bar()  # of reading weights, over in milliseconds
     torch.set_num_threads(flags.threads or os.cpu_count() or 1)
-    return Place(
+    return EvaluationRun(
         weights=flags.weights or usual,
         data=flags.data,
         results=flags.results,
         trials=tuple(_names(flags.trials)),
         limit=flags.limit,
-        checkpoint=flags.checkpoint if isinstance(flags, Probe) else None,
+        checkpoint=flags.checkpoint if isinstance(flags, ProbeFlags) else None,
         seed=flags.seed,
         command=" ".join(["tacgrasp eval", command, *argv]),
         report=Bar(line_s=10.0),
     )
 
 
-def _real_set(flags: Real) -> RealSet:
+def _real_set(flags: RealFlags) -> RealSet:
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.pretraining.evaluate_real import RealSet
     from tacgrasp.pretraining.real_touches import BACKGROUND, read_labels

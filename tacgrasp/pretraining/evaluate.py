@@ -26,7 +26,7 @@ from cltp.texts.captions import caption
 from cltp.train.stage import ProgressReport
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import TrainedMethod, checkpoint_of_others, trained
-from tacgrasp.pretraining.evaluation_run import Place, keep
+from tacgrasp.pretraining.evaluation_run import EvaluationRun, keep
 from tacgrasp.pretraining.geometric_baseline import ceiling, heights_alone
 from tacgrasp.pretraining.methods import METHODS
 from tacgrasp.pretraining.report.failures import TRIALS as FAILURE_TRIALS
@@ -37,7 +37,7 @@ ALIGNED = ("cltp_no_image", "cltp")
 """Methods that speak of all dimensions, so that zero-shot prompts mean something to them."""
 
 
-def trainable(place: Place, methods: Sequence[str]) -> dict[str, TrainedMethod]:
+def trainable(place: EvaluationRun, methods: Sequence[str]) -> dict[str, TrainedMethod]:
     """The methods asked for, or all that were trained; see ``tacgrasp.pretraining.checkpoints``.
 
     Raises:
@@ -62,7 +62,7 @@ def trainable(place: Place, methods: Sequence[str]) -> dict[str, TrainedMethod]:
     return found
 
 
-def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
+def zero_shot(place: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
     """Table 1: classes by the nearest prompt, with one prompt a class and with several.
 
     Raises:
@@ -88,7 +88,7 @@ def zero_shot(place: Place, methods: Sequence[str] = ()) -> list[Result]:
     return found + ceiling(place, ("zero_shot",))
 
 
-def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[Result]:
+def probe(place: EvaluationRun, methods: Sequence[str] = (), *, views: int = 2) -> list[Result]:
     """Table 2 and appendix A: MLPs on frozen features, and for CLTP numbers with intervals.
 
     Args:
@@ -116,7 +116,7 @@ def probe(place: Place, methods: Sequence[str] = (), *, views: int = 2) -> list[
 
 
 def _numbers(
-    place: Place, encoder: FrozenEncoder, learned: Observed, method: str, how: TrainedMethod
+    place: EvaluationRun, encoder: FrozenEncoder, learned: Observed, method: str, how: TrainedMethod
 ) -> list[Result]:
     """Regression and its intervals, calibrated on the validation split with the trial's noise."""
     names = ContactDataset(place.data, split=Split.TRAIN).column("object")
@@ -139,7 +139,7 @@ def _numbers(
     return found
 
 
-def retrieval(place: Place, methods: Sequence[str] = ()) -> list[Result]:
+def retrieval(place: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
     """How often contacts and captions find each other, all of a split against all.
 
     Raises:
@@ -171,7 +171,7 @@ def captions_of(data: ContactDataset, seen: Observed) -> list[str]:
 
 
 def _keep_failures(
-    place: Place, result: Result, seen: Observed, sure: Sequence[Tensor], measure: str
+    place: EvaluationRun, result: Result, seen: Observed, sure: Sequence[Tensor], measure: str
 ) -> None:
     """Keep what CLTP named wrongly, with pictures, in the trials of the paper's tables."""
     if result.method != "cltp" or result.trial not in FAILURE_TRIALS:
@@ -181,7 +181,7 @@ def _keep_failures(
     save_failures(place.results, result, collect(result, data, seen, sure, measure))
 
 
-def _there(place: Place, methods: Sequence[str]) -> list[str]:
+def _there(place: EvaluationRun, methods: Sequence[str]) -> list[str]:
     """Those of some methods that were trained."""
     return [method for method in methods if method in trainable(place, ())]
 

@@ -24,7 +24,7 @@ from cltp.train.text_targets import class_numbers
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import TrainedMethod, stored
 from tacgrasp.pretraining.evaluate import ALIGNED, trainable
-from tacgrasp.pretraining.evaluation_run import Place, as_result
+from tacgrasp.pretraining.evaluation_run import EvaluationRun, as_result
 from tacgrasp.pretraining.geometric_baseline import MEASURED, of_slots
 from tacgrasp.pretraining.real_touches import (
     Labelled,
@@ -56,7 +56,7 @@ class RealSet:
 
 
 def zero_shot_real(
-    place: Place, methods: Sequence[str], real: RealSet, *, prompting: str = "single"
+    place: EvaluationRun, methods: Sequence[str], real: RealSet, *, prompting: str = "single"
 ) -> list[Result]:
     """Name real touches by the nearest prompt; ``cltp`` when no method is named.
 
@@ -83,7 +83,7 @@ def zero_shot_real(
 
 
 def probe_real(
-    place: Place, methods: Sequence[str], real: RealSet, *, views: int = 2
+    place: EvaluationRun, methods: Sequence[str], real: RealSet, *, views: int = 2
 ) -> list[Result]:
     """Name real touches by probes that learned from the training contacts of the data set.
 
@@ -113,7 +113,11 @@ def _file(real: RealSet, methods: Sequence[str], method: str) -> Path:
 
 
 def _ceiling(
-    place: Place, table: str, data: str | None, real: RealSet, clouds: Sequence[TactileCloud]
+    place: EvaluationRun,
+    table: str,
+    data: str | None,
+    real: RealSet,
+    clouds: Sequence[TactileCloud],
 ) -> Result:
     """What direct computation from the same points gives; shape and texture are not computed."""
     said = class_numbers([contact_state(cloud) for cloud in clouds])
@@ -122,7 +126,9 @@ def _ceiling(
     return _stored(place, table, "ceiling", how, judged)
 
 
-def _stored(place: Place, table: str, method: str, how: TrainedMethod, judged: Judged) -> Result:
+def _stored(
+    place: EvaluationRun, table: str, method: str, how: TrainedMethod, judged: Judged
+) -> Result:
     result = as_result(place, table, method, how, TRIAL, judged, how.data or "")
     if how.data is not None:
         save(place.results, result)

@@ -9,17 +9,18 @@ from pathlib import Path
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES, Augmentation
+from cltp.data.sampler import Augmentation
 from cltp.evaluation.features import Observed, observe
 from cltp.evaluation.probes import Judged
-from cltp.evaluation.splits import Trial, trials_of
+from cltp.evaluation.splits import EvaluationSplit, evaluation_splits
+from cltp.tactile.states import CLASSES
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.report.store import Result, percent, read, save
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Place:
+class EvaluationRun:
     """Where things lie, and what is tried.
 
     Attributes:
@@ -49,9 +50,9 @@ class Place:
         """Of the data."""
         return ContactDataset(self.data).checksum()
 
-    def trying(self) -> list[Trial]:
+    def trying(self) -> list[EvaluationSplit]:
         """The trials."""
-        return trials_of(self.data, self.trials)
+        return evaluation_splits(self.data, self.trials)
 
     def seen(
         self,
@@ -75,7 +76,9 @@ class Place:
         )
 
 
-def kept(place: Place, table: str, method: str, how: TrainedMethod, trial: Trial) -> Result | None:
+def kept(
+    place: EvaluationRun, table: str, method: str, how: TrainedMethod, trial: EvaluationSplit
+) -> Result | None:
     """The same measurement where it was stored before: of what never learns and never changes.
 
     Raises:
@@ -92,7 +95,12 @@ def kept(place: Place, table: str, method: str, how: TrainedMethod, trial: Trial
 
 
 def keep(
-    place: Place, table: str, method: str, how: TrainedMethod, trial: Trial, judged: Judged
+    place: EvaluationRun,
+    table: str,
+    method: str,
+    how: TrainedMethod,
+    trial: EvaluationSplit,
+    judged: Judged,
 ) -> Result:
     """A result, written at once: what is interrupted loses nothing that was measured."""
     result = as_result(place, table, method, how, trial.name, judged, place.checksum)
@@ -102,7 +110,13 @@ def keep(
 
 
 def as_result(
-    place: Place, table: str, method: str, how: TrainedMethod, trial: str, judged: Judged, data: str
+    place: EvaluationRun,
+    table: str,
+    method: str,
+    how: TrainedMethod,
+    trial: str,
+    judged: Judged,
+    data: str,
 ) -> Result:
     """What was judged, as a row of a table, with all that it depends on; not yet written."""
     return Result(

@@ -19,14 +19,13 @@ from cltp.evaluation.probes import ClassProbes, Judged, judge
 from cltp.evaluation.splits import LEARNING
 from cltp.evaluation.zero_shot import measured
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.evaluation_run import Place, keep, kept
+from tacgrasp.pretraining.evaluation_run import EvaluationRun, keep, kept
 from tacgrasp.pretraining.report.store import Result
 
-MEASURED = ("depth", "position", "area")
 READ_OFF = ("depth", "area")
 
 
-def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
+def ceiling(place: EvaluationRun, tables: Sequence[str]) -> list[Result]:
     """What direct computation gives, as a row of tables. Shape and texture are not computed.
 
     What is stored of the same contacts is not computed again.
@@ -40,12 +39,12 @@ def ceiling(place: Place, tables: Sequence[str]) -> list[Result]:
             continue
         data = ContactDataset(place.data, split=trial.split)
         said, truth = measured(data, trial.noise, limit=place.limit, seed=place.seed)
-        judged = of_slots(judge(said, truth), MEASURED)
+        judged = of_slots(judge(said, truth), MEASURABLE)
         found += [keep(place, table, "ceiling", how, trial, judged) for table in tables]
     return found
 
 
-def heights_alone(place: Place, views: int) -> list[Result]:
+def heights_alone(place: EvaluationRun, views: int) -> list[Result]:
     """What probes read off heights in falling order, as a row of table 2; once, as ``ceiling``.
 
     Args:

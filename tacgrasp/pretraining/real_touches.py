@@ -19,8 +19,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.checkpoints.frozen import FrozenEncoder
-from cltp.data.sampler import CLASSES, sampled
-from cltp.encoder.heads import NUMBERS
+from cltp.data.sampler import sampled
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
 from cltp.evaluation.probes import Judged, judge
@@ -31,6 +30,7 @@ from cltp.tactile.encoder_input import encoder_input, scaled
 from cltp.tactile.point_layout import EVEN, Sampling
 from cltp.tactile.render import render
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.train.text_targets import NOTHING
 from tacgrasp.base.errors import UsageError
 

@@ -22,7 +22,7 @@ from cltp.evaluation.zero_shot import nearest_contacts, nearest_texts
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import stored
 from tacgrasp.pretraining.evaluate import captions_of
-from tacgrasp.pretraining.evaluation_run import Place
+from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.failures import small_picture
 
 _BAR = 24
@@ -49,13 +49,13 @@ class Likeness:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
+class RetrievalMatches:
     """What was found for one question.
 
     Attributes:
         asked: The text, or the caption of the contact.
         contact: Its number, where a contact was asked for.
-        rank: Place of the contact's own caption among all; None where a text was asked for.
+        rank: EvaluationRun of the contact's own caption among all; None where a text was asked for.
         among: How many contacts or texts there are.
         split: Whose contacts.
         about: For people: what the trial is.
@@ -72,8 +72,13 @@ class Answer:
 
 
 def find(
-    place: Place, *, text: str | None, contact: int | None, count: int = 5, method: str = "cltp"
-) -> Answer:
+    place: EvaluationRun,
+    *,
+    text: str | None,
+    contact: int | None,
+    count: int = 5,
+    method: str = "cltp",
+) -> RetrievalMatches:
     """The contacts most similar to a text, or the texts most similar to a contact.
 
     Raises:
@@ -100,7 +105,7 @@ def find(
             )
             for row, cosine in nearest_contacts(towers, seen, text, count)
         ]
-        return Answer(
+        return RetrievalMatches(
             asked=text,
             contact=None,
             rank=None,
@@ -117,7 +122,7 @@ def find(
     row, texts = int(rows[0, 0]), sorted(set(captions))
     every = nearest_texts(towers, seen.feature[row], texts, len(texts))
     rank = next(n for n, (said, _) in enumerate(every, start=1) if said == captions[row])
-    return Answer(
+    return RetrievalMatches(
         asked=captions[row],
         contact=contact,
         rank=rank,
@@ -131,7 +136,7 @@ def find(
     )
 
 
-def show_answer(answer: Answer, to: Console) -> None:
+def show_answer(answer: RetrievalMatches, to: Console) -> None:
     """Print what was found, nearest first; a bar as long as the cosine."""
     to.print(_heading(answer), markup=False, highlight=False)
     table = Table(box=None, pad_edge=False)
@@ -150,7 +155,7 @@ def show_answer(answer: Answer, to: Console) -> None:
     to.print(table, markup=False)
 
 
-def _heading(answer: Answer) -> str:
+def _heading(answer: RetrievalMatches) -> str:
     if answer.contact is None:
         return f"“{answer.asked}”: the nearest of {answer.among} contacts ({answer.about})"
     return (
@@ -167,7 +172,7 @@ _STYLE = (
 )
 
 
-def write_page(folder: Path, answers: Sequence[Answer], path: Path) -> None:
+def write_page(folder: Path, answers: Sequence[RetrievalMatches], path: Path) -> None:
     """Write what was found as one HTML page that needs nothing else.
 
     Args:

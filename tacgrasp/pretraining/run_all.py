@@ -21,7 +21,7 @@ from cltp.train.progress import Bar
 from cltp.train.stage import ProgressReport
 from cltp.train.tensorboard import Board
 from tacgrasp.pretraining.evaluate import probe, retrieval, zero_shot
-from tacgrasp.pretraining.evaluation_run import Place
+from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.methods import METHODS, Wish, pretrain, pretrain_clip
 from tacgrasp.pretraining.report.report import report
 
@@ -135,8 +135,8 @@ def _train(method: str, order: Order, bar: ProgressReport) -> None:
     )
 
 
-def _place(order: Order, bar: ProgressReport, number: int = 0) -> Place:
-    return Place(
+def _place(order: Order, bar: ProgressReport, number: int = 0) -> EvaluationRun:
+    return EvaluationRun(
         weights=order.out,
         data=order.data,
         results=order.results,

@@ -11,7 +11,7 @@ import csv
 from dataclasses import dataclass
 from pathlib import Path
 
-from cltp.data.sampler import CLASSES
+from cltp.tactile.states import CLASSES
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.store import TABLES
 

@@ -20,11 +20,11 @@ from torch import Tensor
 
 from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
 from cltp.tactile.picture import picture
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import CLASSES
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.store import Result
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Table:
+class PageTable:
     """Cells in rows.
 
     Attributes:
@@ -26,7 +26,7 @@ class Table:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Plot:
+class PagePlot:
     """A drawing.
 
     Attributes:
@@ -41,7 +41,7 @@ class Plot:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Card:
+class PageCard:
     """A contact with its picture.
 
     Attributes:
@@ -54,7 +54,7 @@ class Card:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Cards:
+class PageCardGroup:
     """Contacts that belong together.
 
     Attributes:
@@ -64,12 +64,12 @@ class Cards:
     """
 
     title: str
-    cards: list[Card]
+    cards: list[PageCard]
     is_open: bool = True
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Section:
+class PageSection:
     """A part of a report.
 
     Attributes:
@@ -84,14 +84,14 @@ class Section:
 
     title: str
     text: list[str] = field(default_factory=list)
-    table: Table | None = None
+    table: PageTable | None = None
     note: str = ""
-    plots: list[Plot] = field(default_factory=list)
-    cards: list[Cards] = field(default_factory=list)
+    plots: list[PagePlot] = field(default_factory=list)
+    cards: list[PageCardGroup] = field(default_factory=list)
     code: list[str] = field(default_factory=list)
 
 
-def markdown(title: str, sections: Sequence[Section], *, plots: str, page: str) -> str:
+def markdown(title: str, sections: Sequence[PageSection], *, plots: str, page: str) -> str:
     """The page.
 
     Args:
@@ -116,7 +116,7 @@ def markdown(title: str, sections: Sequence[Section], *, plots: str, page: str) 
     return "\n".join(lines) + "\n"
 
 
-def _markdown_table(table: Table) -> Iterator[str]:
+def _markdown_table(table: PageTable) -> Iterator[str]:
     yield f"| {' | '.join(table.head)} |"
     yield f"|{'---|' * len(table.head)}"
     for row in table.rows:
@@ -134,7 +134,7 @@ _STYLE = (
 )
 
 
-def page(title: str, sections: Sequence[Section]) -> str:
+def page(title: str, sections: Sequence[PageSection]) -> str:
     """The same as one HTML page."""
     parts = [
         "<!doctype html><html lang=en><meta charset=utf-8>"
@@ -161,12 +161,12 @@ def _row(kind: str, cells: Sequence[str]) -> str:
     return "<tr>" + "".join(f"<{kind}>{html.escape(c)}</{kind}>" for c in cells) + "</tr>"
 
 
-def _drawn(plot: Plot) -> str:
+def _drawn(plot: PagePlot) -> str:
     data = base64.b64encode(plot.png).decode()
     return f'<p><img alt="{html.escape(plot.about)}" src="data:image/png;base64,{data}"></p>'
 
 
-def _pictured(group: Cards) -> str:
+def _pictured(group: PageCardGroup) -> str:
     figures = "".join(
         f'<figure><img alt="" src="data:image/webp;base64,{card.webp}">'
         f"<figcaption>{'<br>'.join(html.escape(line) for line in card.lines)}</figcaption></figure>"

@@ -8,15 +8,15 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from cltp.data.sampler import CLASSES
-from tacgrasp.pretraining.report.pages import Plot
+from cltp.tactile.states import CLASSES
+from tacgrasp.pretraining.report.pages import PagePlot
 from tacgrasp.pretraining.report.paper_numbers import PAPER
 from tacgrasp.pretraining.report.store import METHODS, Result, grouped, mean
 
 TRIALS = ("contact", "object", "physics", "real")
 
 
-def bars(found: Sequence[Result]) -> Iterator[Plot]:
+def bars(found: Sequence[Result]) -> Iterator[PagePlot]:
     """Every method, dimension by dimension, with the paper's as lines."""
     for table, title in (("zero_shot", "zero-shot"), ("probe", "frozen encoder and MLP")):
         for trial in TRIALS:
@@ -29,7 +29,9 @@ def bars(found: Sequence[Result]) -> Iterator[Plot]:
                 yield _bars(rows, table, trial, title)
 
 
-def _bars(rows: dict[tuple[str, str], list[Result]], table: str, trial: str, title: str) -> Plot:
+def _bars(
+    rows: dict[tuple[str, str], list[Result]], table: str, trial: str, title: str
+) -> PagePlot:
     figure = Figure(figsize=(11, 3.6), layout="constrained")
     axes = figure.subplots()
     width = 0.8 / len(rows)
@@ -46,7 +48,7 @@ def _bars(rows: dict[tuple[str, str], list[Result]], table: str, trial: str, tit
     return _plot(figure, f"{table}-{trial}", f"{title}, {trial}, every method")
 
 
-def confusions(found: Sequence[Result]) -> Iterator[Plot]:
+def confusions(found: Sequence[Result]) -> Iterator[PagePlot]:
     """Truth against what was said, for CLTP by prompts and by probes, of the first seed."""
     for (table, method, variant, trial), rows in grouped(found).items():
         if method != "cltp" or table not in ("zero_shot", "probe") or trial not in TRIALS:
@@ -71,11 +73,11 @@ def confusions(found: Sequence[Result]) -> Iterator[Plot]:
         yield _plot(figure, f"confusion-{table}-{variant}-{trial}", f"{named}, confusion matrices")
 
 
-def curves(weights: Path) -> list[Plot]:
+def curves(weights: Path) -> list[PagePlot]:
     """Losses and temperatures, as trainings drew them into ``METHOD/.training``."""
     found = [*weights.glob(".training/*.png"), *weights.glob("*/.training/*.png")]
     return [
-        Plot(
+        PagePlot(
             name=f"curve-{path.parents[1].name}-{path.stem}",
             about=f"{path.parents[1].name}, {path.stem}: losses and temperature",
             png=path.read_bytes(),
@@ -84,7 +86,9 @@ def curves(weights: Path) -> list[Plot]:
     ]
 
 
-def _plot(figure: Figure, name: str, about: str) -> Plot:
+def _plot(figure: Figure, name: str, about: str) -> PagePlot:
     drawn = io.BytesIO()
     figure.savefig(drawn, format="png", dpi=90)
-    return Plot(name=name.replace("/", "_").replace("+", "-"), about=about, png=drawn.getvalue())
+    return PagePlot(
+        name=name.replace("/", "_").replace("+", "-"), about=about, png=drawn.getvalue()
+    )

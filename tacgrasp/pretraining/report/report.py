@@ -13,7 +13,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.ablations import load_tries
 from tacgrasp.pretraining.report.failure_sections import failure_sections
 from tacgrasp.pretraining.report.failures import load_failures
-from tacgrasp.pretraining.report.pages import Section, markdown, page
+from tacgrasp.pretraining.report.pages import PageSection, markdown, page
 from tacgrasp.pretraining.report.plots import bars, confusions, curves
 from tacgrasp.pretraining.report.store import METHODS, Result, grouped, load
 from tacgrasp.pretraining.report.tables import (
@@ -61,24 +61,24 @@ def report(
     return [out / file for file in pages]
 
 
-def _sections(results: Path, weights: Path | None) -> list[Section]:
+def _sections(results: Path, weights: Path | None) -> list[PageSection]:
     found = load(results)
     tries = tries_section(load_tries(results))
     sections = [
-        Section(title="", text=_facts(found)),
+        PageSection(title="", text=_facts(found)),
         *paper_tables(found),
         *shortfalls(found),
         order_of_methods(found),
         *([tries] if tries is not None else []),
         *detail_tables(found),
         *failure_sections(found, load_failures(results, found[0].data)),
-        Section(title="Plots", plots=[*bars(found), *confusions(found)]),
+        PageSection(title="Plots", plots=[*bars(found), *confusions(found)]),
     ]
     drawn = curves(weights) if weights is not None else []
     if drawn:
-        sections.append(Section(title="Curves", plots=drawn))
+        sections.append(PageSection(title="Curves", plots=drawn))
     commands = sorted({result.command for result in found if result.command})
-    return [*sections, Section(title="Commands", code=commands)]
+    return [*sections, PageSection(title="Commands", code=commands)]
 
 
 def _facts(found: Sequence[Result]) -> list[str]:

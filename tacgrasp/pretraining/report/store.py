@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from cltp.atomic_write import write_atomically
-from cltp.data.sampler import CLASSES
 from cltp.encoder.encoder import DEFAULT_PRESETS
 from cltp.errors import TouchError
+from cltp.tactile.states import CLASSES
 from tacgrasp.base.errors import UsageError
 
 FORMAT, VERSION = "tacgrasp-result", 1

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from cltp.data.sampler import CLASSES
-from cltp.evaluation.splits import TRIALS
+from cltp.evaluation.splits import EVALUATION_SPLITS
+from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.ablations import Try
-from tacgrasp.pretraining.report.pages import Section, Table
+from tacgrasp.pretraining.report.pages import PageSection, PageTable
 from tacgrasp.pretraining.report.paper_numbers import PAPER, PAPER_TABLES
 from tacgrasp.pretraining.report.store import METHODS, Budget, Result, grouped, mean, spread
 from tacgrasp.pretraining.report.targets import Goal, best_of_others, goals, orders
@@ -37,7 +37,7 @@ UNITS = {
 _DIMENSIONS = " / ".join(CLASSES)
 
 
-def paper_tables(found: Sequence[Result]) -> Iterator[Section]:
+def paper_tables(found: Sequence[Result]) -> Iterator[PageSection]:
     """The paper's three tables: our rows, and the paper's below each."""
     for title, (table, _, methods) in PAPER_TABLES.items():
         rows, of_table = [], [r for r in found if r.table == table and r.method in methods]
@@ -46,10 +46,10 @@ def paper_tables(found: Sequence[Result]) -> Iterator[Section]:
             if any((table, method, trial) in PAPER for trial in COLUMNS):
                 cells = [_joined(PAPER.get((table, method, trial))) for trial in COLUMNS]
                 rows.append([f"– the paper's {METHODS[method]}", *cells, ""])
-        yield Section(
+        yield PageSection(
             title=title,
             text=[f"{_DIMENSIONS}, % right; – where nothing was measured. {budgets(of_table)}"],
-            table=Table(head=["", *COLUMNS, "encoder"], rows=rows),
+            table=PageTable(head=["", *COLUMNS, "encoder"], rows=rows),
             note="The paper's real-world row stands in the column physics. Ceiling: computed "
             "directly from the same 1024 points, which gives no shape and texture; 'heights "
             "alone': what probes read off their heights in falling order, without places.",
@@ -99,9 +99,9 @@ def budget(of: Budget | None) -> str:
     return "–" if of is None else f"{of.steps} × {of.batch_size}"
 
 
-def detail_tables(found: Sequence[Result]) -> Iterator[Section]:
+def detail_tables(found: Sequence[Result]) -> Iterator[PageSection]:
     """Every table and trial by itself, with the spread over seeds."""
-    about = {trial.name: trial.about for trial in TRIALS}
+    about = {trial.name: trial.about for trial in EVALUATION_SPLITS}
     for table in TITLES:
         for trial in [*about, "real"]:
             rows = [r for r in found if r.table == table and r.trial == trial]
@@ -109,7 +109,7 @@ def detail_tables(found: Sequence[Result]) -> Iterator[Section]:
                 yield _detail(table, trial, about.get(trial, "real touches"), rows)
 
 
-def _detail(table: str, trial: str, about: str, rows: Sequence[Result]) -> Section:
+def _detail(table: str, trial: str, about: str, rows: Sequence[Result]) -> PageSection:
     columns = list(rows[0].values)
     has_paper = any((table, method, trial) in PAPER for method in METHODS)
     head = ["", *(UNITS.get(c, c.replace("_", " ")) for c in columns)]
@@ -127,8 +127,8 @@ def _detail(table: str, trial: str, about: str, rows: Sequence[Result]) -> Secti
     note = f"{trial}: {about}; {rows[0].contacts} contacts. ± is half of the range over seeds."
     if has_paper and trial == "physics":
         note += " The paper's columns are its real-world ones."
-    return Section(
-        title=f"{TITLES[table]} – {trial}", table=Table(head=head, rows=lines), note=note
+    return PageSection(
+        title=f"{TITLES[table]} – {trial}", table=PageTable(head=head, rows=lines), note=note
     )
 
 
@@ -142,7 +142,7 @@ def _cell(values: Sequence[float | None]) -> str:
     return f"{middle:.{digits}f}{half}"
 
 
-def shortfalls(found: Sequence[Result]) -> Iterator[Section]:
+def shortfalls(found: Sequence[Result]) -> Iterator[PageSection]:
     """Every figure below what is asked of it, or below the paper's, and by how much."""
     every = goals(found)
     for title, chosen in (
@@ -160,7 +160,9 @@ def shortfalls(found: Sequence[Result]) -> Iterator[Section]:
         head = ["", "trial", "figure", "asked", "ours", "missed by", "ceiling"]
         head += ["best of other encoders", "asked because"]
         rows = [_missed(goal, best_of_others(found, goal)) for goal in missed]
-        yield Section(title=title, text=[text], table=Table(head=head, rows=rows) if rows else None)
+        yield PageSection(
+            title=title, text=[text], table=PageTable(head=head, rows=rows) if rows else None
+        )
 
 
 def _missed(goal: Goal, other: tuple[float, str] | None) -> list[str]:
@@ -177,7 +179,7 @@ def _missed(goal: Goal, other: tuple[float, str] | None) -> list[str]:
     return [who, goal.trial, quantity, asked, ours, missed, ceiling, best, goal.why]
 
 
-def order_of_methods(found: Sequence[Result]) -> Section:
+def order_of_methods(found: Sequence[Result]) -> PageSection:
     """Whether methods stand in the paper's order, dimension by dimension."""
     rows = []
     for order in orders(found):
@@ -190,14 +192,14 @@ def order_of_methods(found: Sequence[Result]) -> Section:
     if not rows:
         text = "No column has all of the paper's methods yet."
     head = ["", "", "order", "ours", "the paper's"]
-    return Section(
+    return PageSection(
         title="Order of methods",
         text=[text],
-        table=Table(head=head, rows=rows) if rows else None,
+        table=PageTable(head=head, rows=rows) if rows else None,
     )
 
 
-def tries_section(tries: Sequence[Try]) -> Section | None:
+def tries_section(tries: Sequence[Try]) -> PageSection | None:
     """What was tried, with a figure for each; nothing without tries."""
     if not tries:
         return None
@@ -206,9 +208,9 @@ def tries_section(tries: Sequence[Try]) -> Section | None:
         figures = ["–" if v is None else f"{v:.1f}" for v in each.right.values()]
         where = f"{each.table.replace('_', '-')}, {each.trial}"
         rows.append([each.tried, each.about, where, *figures, each.note])
-    return Section(
+    return PageSection(
         title="What was tried",
-        table=Table(head=["", "about", "measured", *CLASSES, "what came of it"], rows=rows),
+        table=PageTable(head=["", "about", "measured", *CLASSES, "what came of it"], rows=rows),
         note="% right.",
         code=sorted({each.command for each in tries if each.command}),
     )

@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from cltp.data.sampler import CLASSES
+from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.paper_numbers import (
     COVERED,
     LARGEST,
@@ -134,7 +134,7 @@ def _goals(
 def _of_numbers(told: Figures) -> Iterator[Goal]:
     limits = {key: (-math.inf, high, "at most") for key, high in LARGEST.items()}
     for trial, (low, high) in COVERED.items():
-        for quantity in ("depth", "position", "area", "force"):
+        for quantity in (*MEASURABLE, "force"):
             limits[trial, f"coverage_{quantity}"] = (low, high, "90 % intervals")
     for (trial, quantity), (low, high, why) in limits.items():
         yield Goal(

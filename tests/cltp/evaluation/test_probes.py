@@ -10,17 +10,17 @@ import torch
 from cltp.checkpoints.frozen import frozen
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset, DatasetWriter
-from cltp.data.sampler import CLASSES, CLEAN, NOISY
+from cltp.data.sampler import CLEAN, NOISY
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
-from cltp.encoder.heads import NUMBERS
 from cltp.errors import TouchError
 from cltp.evaluation import probes
 from cltp.evaluation.features import Observed, observe
 from cltp.evaluation.heights_alone import HeightsAlone
 from cltp.evaluation.probes import ClassProbes, NumberProbe, judge, number_scores
-from cltp.evaluation.splits import TRIALS, trials_of
+from cltp.evaluation.splits import EVALUATION_SPLITS, evaluation_splits
 from cltp.evaluation.zero_shot import Prompts, measured, nearest_contacts, nearest_texts, retrieve
+from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.captions import caption
 from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
@@ -60,10 +60,10 @@ def told(size: int, seed: int, *, numbers_alone: bool = False) -> Observed:
 
 
 def test_a_data_set_has_the_trials_of_its_splits(data_dir: Path) -> None:
-    assert [trial.name for trial in trials_of(data_dir)] == ["contact", "contact_noisy"]
-    assert {trial.name for trial in TRIALS} >= {"contact", "object", "physics"}
+    assert [trial.name for trial in evaluation_splits(data_dir)] == ["contact", "contact_noisy"]
+    assert {trial.name for trial in EVALUATION_SPLITS} >= {"contact", "object", "physics"}
     with pytest.raises(TouchError, match="it has contact, contact_noisy"):
-        trials_of(data_dir, ("object",))
+        evaluation_splits(data_dir, ("object",))
 
 
 def test_an_encoder_sees_a_contact_once(data_dir: Path, tmp_path: Path) -> None:

@@ -15,11 +15,11 @@ import torch
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset, DatasetWriter
-from cltp.data.sampler import CLASSES
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.evaluation.probes import SCHEDULE
+from cltp.tactile.states import CLASSES
 from cltp.train.stage import Schedule
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining import evaluate as trying

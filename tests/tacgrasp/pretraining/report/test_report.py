@@ -9,9 +9,9 @@ import torch
 
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES
 from cltp.errors import TouchError
 from cltp.evaluation.features import Observed
+from cltp.tactile.states import CLASSES
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.report.ablations import COLUMNS, FILE, load_tries
 from tacgrasp.pretraining.report.failures import FOLDER, collect, load_failures, save_failures
