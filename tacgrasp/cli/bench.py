@@ -139,34 +139,6 @@ class BallCaptions:
     json: Path | None = None
 
 
-@dataclass(frozen=True)
-class Crash:
-    """Kill recordings at random moments and count what is lost.
-
-    Attributes:
-        kills: How many.
-        json: File for the figures.
-    """
-
-    kills: int = 50
-    json: Path | None = None
-
-
-@dataclass(frozen=True)
-class Generate:
-    """Kill the generation of a data set at random moments and compare the bytes.
-
-    Attributes:
-        kills: How many.
-        contacts: In the data set.
-        json: File for the figures.
-    """
-
-    kills: int = 10
-    contacts: int = 600
-    json: Path | None = None
-
-
 def main(argv: Sequence[str]) -> int:
     """Dispatch to the benchmarks; 0 when what was measured is as it must be."""
     benches: dict[str, Callable[[Sequence[str]], bool | None]] = {
@@ -177,8 +149,6 @@ def main(argv: Sequence[str]) -> int:
         "touch": _touch,
         "balls": _balls,
         "ball-captions": _ball_captions,
-        "crash": _crash,
-        "generate": _generate,
         "faults": bench_rigs.faults,
         "drivers": bench_rigs.drivers,
         "encoder": bench_encoders.encoder,
@@ -293,19 +263,3 @@ def _ball_captions(argv: Sequence[str]) -> None:
         folds=flags.folds,
         json_path=writable(flags.json),
     )
-
-
-def _crash(argv: Sequence[str]) -> None:
-    """Kill recordings at random moments and count what is lost."""
-    flags = parse(Crash, argv, prog="tacgrasp bench crash")
-    from tacgrasp.benchmarks.loop import crash as bench_crash
-
-    bench_crash.run(flags.kills, writable(flags.json))
-
-
-def _generate(argv: Sequence[str]) -> bool:
-    """Kill the generation of a data set at random moments and compare the bytes."""
-    flags = parse(Generate, argv, prog="tacgrasp bench generate")
-    from tacgrasp.benchmarks.learning import generate as bench_generate
-
-    return bench_generate.run(flags.kills, flags.contacts, writable(flags.json))

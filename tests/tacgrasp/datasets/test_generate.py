@@ -16,7 +16,6 @@ from rich.console import Console
 from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.learning import generate as bench_generate
 from tacgrasp.datasets import generate as made
 from tacgrasp.datasets import recipes
 from tests.paths import ROOT
@@ -239,8 +238,3 @@ def test_a_full_disk_is_an_error_that_leaves_no_shard(tmp_path, monkeypatch, sha
 def test_a_folder_without_meshes_is_refused(tmp_path):
     with pytest.raises(TouchError, match="has no mesh"):
         tcl3d(tmp_path / "data", meshes=tmp_path)
-
-
-@pytest.mark.slow
-def test_killed_at_random_and_in_parts_the_bytes_are_the_same():
-    assert bench_generate.run(3, 250, console=Console(file=io.StringIO()))

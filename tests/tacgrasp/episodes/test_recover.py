@@ -10,9 +10,7 @@ from mcap.exceptions import McapError
 from mcap.reader import make_reader
 from mcap.writer import Writer
 
-from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.loop import crash as bench_crash
-from tacgrasp.episodes import EpisodeError, EpisodeWriter, TickRecord, read_episode
+from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepRecord, read_episode
 from tacgrasp.episodes.recover import recover
 from tests.fakes.episode_samples import header, record, same, tick
 
@@ -32,7 +30,7 @@ def stock_count(path: Path, topic: str = "/state") -> int:
         return sum(1 for _ in make_reader(file, validate_crcs=True).iter_messages(topics=[topic]))
 
 
-def assert_prefix(read: Sequence[TickRecord], written: Sequence[TickRecord]) -> None:
+def assert_prefix(read: Sequence[StepRecord], written: Sequence[StepRecord]) -> None:
     assert len(read) <= len(written)
     for a, b in zip(read, written, strict=False):
         assert same(a, b) and a.cloud.points_mm.tobytes() == b.cloud.points_mm.tobytes()
@@ -57,9 +55,9 @@ def test_a_file_cut_anywhere_still_gives_every_whole_tick(
         path.write_bytes(data[:cut])
         episode = read_episode(path)
         whole = sum(size <= cut for size in sizes[1:])
-        assert whole <= len(episode.ticks) <= whole + 1  # its index may be all that is missing
+        assert whole <= len(episode.steps) <= whole + 1  # its index may be all that is missing
         assert not episode.complete and episode.problem
-        assert_prefix(episode.ticks, TICKS)
+        assert_prefix(episode.steps, TICKS)
 
 
 def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
@@ -92,8 +90,8 @@ def test_a_flipped_byte_never_changes_what_is_read(
     except EpisodeError as error:
         assert str(path) in str(error)
         return
-    assert len(episode.ticks) == len(TICKS) or not episode.complete
-    for read in episode.ticks:
+    assert len(episode.steps) == len(TICKS) or not episode.complete
+    for read in episode.steps:
         assert same(read, TICKS[read.index])
         assert read.cloud.points_mm.tobytes() == TICKS[read.index].cloud.points_mm.tobytes()
 
@@ -106,7 +104,7 @@ def test_a_damaged_chunk_costs_its_own_tick_alone(
     path = tmp_path / "e.mcap"
     path.write_bytes(data)
     episode = read_episode(path)
-    assert [t.index for t in episode.ticks] == [0, 2, 3]
+    assert [t.index for t in episode.steps] == [0, 2, 3]
     assert not episode.complete and "left out" in episode.problem
     assert recover(path).num_ticks == 3
     assert read_episode(path).complete and stock_count(path) == 3
@@ -119,7 +117,7 @@ def test_zeros_after_a_power_cut_are_no_record(
     path = tmp_path / "e.mcap"
     path.write_bytes(data[: sizes[2]] + bytes(5000))
     episode = read_episode(path)
-    assert len(episode.ticks) == 2 and "zeros" in episode.problem
+    assert len(episode.steps) == 2 and "zeros" in episode.problem
 
 
 def test_recovery_makes_a_file_that_the_stock_reader_opens(
@@ -137,9 +135,9 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
     assert recovery.original.read_bytes() == cut
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.mcap", "e.mcap.broken"]
     episode = read_episode(path)
-    assert episode.complete and episode.end is None and len(episode.ticks) == 3
+    assert episode.complete and episode.end is None and len(episode.steps) == 3
     assert same(episode.header, header())
-    assert_prefix(episode.ticks, TICKS)
+    assert_prefix(episode.steps, TICKS)
     assert stock_count(path) == stock_count(path, "/touch/cloud") == 3
     with path.open("rb") as file:
         names = {m.name: m.metadata for m in make_reader(file).iter_metadata()}
@@ -191,7 +189,7 @@ def test_a_second_recovery_keeps_both_originals(
 def test_an_episode_that_is_being_recorded_is_not_recovered(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
-        writer.write_tick(TICKS[0])
+        writer.write_step(TICKS[0])
         assert len(read_episode(path).ticks) == 1  # but it can be read
         with pytest.raises(EpisodeError, match="still being recorded"):
             recover(path)
@@ -252,43 +250,3 @@ def test_a_path_without_a_file_is_named(tmp_path: Path) -> None:
         read_episode(tmp_path / "no.mcap")
     with pytest.raises(EpisodeError, match=r"can't read .*directory"):
         read_episode(tmp_path)
-
-
-def test_a_killed_recording_loses_no_acknowledged_tick(tmp_path: Path) -> None:
-    for number, after_s in enumerate([0.05, 0.15, 0.3]):
-        folder = tmp_path / str(number)
-        folder.mkdir()
-        result = bench_crash.kill_once(folder, after_s)
-        assert result.acknowledged > 0
-        assert result.passed, result
-
-
-def test_the_crash_bench_counts_what_one_kill_lost() -> None:
-    good = bench_crash.KillResult(
-        real_run=False, acknowledged=5, recovered=6, mid_write=True, intact=True, stock_reader=True
-    )
-    bad = bench_crash.KillResult(
-        real_run=False, acknowledged=9, recovered=7, mid_write=False, intact=True, stock_reader=True
-    )
-    assert (good.lost, good.passed, bad.lost, bad.passed) == (0, True, 2, False)
-    report = bench_crash.summarise([good, bad])
-    assert report["ticks_lost"] == report["most_lost_by_one_kill"] == 2
-    assert report["passed"] is False and report["struck_mid_write"] == 1
-
-
-def test_the_crash_bench_notices_a_changed_tick(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def record_another(folder: Path, _after_s: float, _real_run: bool) -> list[int]:
-        record(folder / "e.mcap", TICKS)
-        sums = [bench_crash._checksum(t.cloud) for t in TICKS]
-        return [*sums[:-1], sums[-1] ^ 1]
-
-    monkeypatch.setattr(bench_crash, "_record_and_kill", record_another)
-    result = bench_crash.kill_once(tmp_path, 0.0)
-    assert not result.intact and not result.passed
-
-
-def test_the_crash_bench_refuses_no_kills() -> None:
-    with pytest.raises(UsageError, match="at least 1, got 0"):
-        bench_crash.run(0, None)
