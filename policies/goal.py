@@ -32,13 +32,13 @@ class Goal:
     Attributes:
         force_n: Normal force that the touch suggests [N].
         depth_mm: Largest indentation of the gel [mm]; its upper end guards against bruises.
-        area_share: Share of the field in contact, 0 to 1.
+        area_fraction: Share of the field in contact, 0 to 1.
         x_mm: Position of the contact along the pad's x [mm].
         y_mm: Along the pad's y [mm].
     """
 
     force_n: Band
     depth_mm: Band
-    area_share: Band
+    area_fraction: Band
     x_mm: Band
     y_mm: Band

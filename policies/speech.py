@@ -170,7 +170,7 @@ def describe(state: ContactState, rng: np.random.Generator | None = None) -> str
         depth_mm=f"{state.depth_mm:.2f}",
         x=f"{state.x_mm:+.1f}",
         y=f"{state.y_mm:+.1f}",
-        share=f"{100 * state.area_share:.0f}",
+        share=f"{100 * state.area_fraction:.0f}",
         force=f"{state.force_n:.1f}",
     )
 

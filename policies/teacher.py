@@ -84,12 +84,12 @@ def teacher(state: ContactState, goal: Goal) -> Advice:
     """
     if not state.in_contact:
         return _advise(Primitive.RESET, Why.NO_CONTACT)
-    if state.cut and state.area_share < SLIVER_SHARE:
+    if state.cut and state.area_fraction < SLIVER_SHARE:
         return _advise(Primitive.RESET, Why.OVER_THE_EDGE)
     quantities = (
         (state.force_n, goal.force_n),
         (state.depth_mm, goal.depth_mm),
-        (state.area_share, goal.area_share),
+        (state.area_fraction, goal.area_fraction),
     )
     if any(value > band.high for value, band in quantities):
         return _advise(Primitive.DECREASE_FORCE, Why.TOO_FIRM)

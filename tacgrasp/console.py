@@ -10,13 +10,13 @@ from rich.text import Text
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
-from tacgrasp.episodes.record import Phase, TickRecord, Truth
+from tacgrasp.episodes.record import StepPhase, StepRecord, Truth
 from tacgrasp.runtime.outcome import EndReason, Outcome
 
 COMPLETED = "Grasp completed successfully"
 """What Algorithm 1 returns; printed for a verified grasp only."""
 
-_LABELS = {Phase.VERIFY_BEFORE: "before the lift", Phase.VERIFY_AFTER: "after lift and hold"}
+_LABELS = {StepPhase.VERIFY_BEFORE: "before the lift", StepPhase.VERIFY_AFTER: "after lift and hold"}
 
 
 def console() -> Console:
@@ -31,7 +31,7 @@ class LineView:
         self._to = to
         self._began_s = began_s
 
-    def __call__(self, record: TickRecord) -> None:
+    def __call__(self, record: StepRecord) -> None:
         """Print one turn; the first one starts the time."""
         if self._began_s is None:
             self._began_s = record.stamp.monotonic_s
@@ -39,7 +39,7 @@ class LineView:
         self._to.print(turn_line(record, contact_state(record.cloud), since_s))
 
 
-def turn_line(record: TickRecord, state: ContactState, since_s: float) -> Text:
+def turn_line(record: StepRecord, state: ContactState, since_s: float) -> Text:
     """One turn: number, time, contact, D_t, action, force, and what it took."""
     line = Text(f"{record.index:3d} {since_s:6.1f} s  ")
     line.append(contact_words(state), style="cyan")
@@ -66,7 +66,7 @@ def contact_words(state: ContactState) -> str:
     cut = f", cut at the {' and '.join(sorted(state.cut))}" if state.cut else ""
     return (
         f"({state.x_mm:+.1f}, {state.y_mm:+.1f}) mm, {state.depth_mm:.2f} mm deep, "
-        f"{state.area_share:.0%}, {state.force_n:.1f} N{cut}"
+        f"{state.area_fraction:.0%}, {state.force_n:.1f} N{cut}"
     )
 
 
@@ -75,7 +75,7 @@ def end_lines(outcome: Outcome) -> list[Text]:
     lines = [
         Text(f"end: {outcome.reason} - {outcome.message}", style="bold"),
         Text(
-            f"{outcome.steps} actions in {outcome.turns} turns, {outcome.duration_s:.1f} s; "
+            f"{outcome.num_actions} actions in {outcome.num_steps} turns, {outcome.duration_s:.1f} s; "
             f"{outcome.safe_state}"
         ),
     ]
@@ -97,5 +97,5 @@ def truth_words(truth: Truth) -> str:
     return ", ".join(said)
 
 
-def _noted(record: TickRecord) -> str:
+def _noted(record: StepRecord) -> str:
     return f" | {record.note}" if record.note else ""

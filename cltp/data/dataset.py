@@ -15,7 +15,6 @@ from __future__ import annotations
 import hashlib
 import io
 import json
-import os
 import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -27,10 +26,11 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
+from cltp.atomic_write import write_atomically
 from cltp.data.contact import Contact, Gel, Split, checksum, pack_heights, unpack_heights
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Side, Texture
+from cltp.tactile.states import DIMENSIONS, NUMBERS, ContactState, Side
 
 FORMAT = "tacgrasp-contacts"
 VERSION = 1
@@ -75,6 +75,9 @@ IMPORTED = pa.schema([("measured", pa.string())])
 
 OPTIONAL = pa.unify_schemas([SIMULATED, IMPORTED])
 
+NUMBER_COLUMNS = {name: "area_share" if name == "area_fraction" else name for name in NUMBERS}
+"""The column of each of ``NUMBERS``."""
+
 
 class DatasetWriter:
     """Appends contacts to a folder, a shard at a time. A context manager.
@@ -115,7 +118,7 @@ class DatasetWriter:
         else:
             header = {"format": FORMAT, "version": VERSION, "about": dict(about or {})}
             text = json.dumps(header, indent=2) + "\n"
-            _write_beside(self._folder / "dataset.json", text.encode())
+            write_atomically(self._folder / "dataset.json", text)
 
     def add(self, contact: Contact) -> None:
         """Append one contact; it is safe on disk once its shard is full or the writer is closed."""
@@ -136,13 +139,13 @@ class DatasetWriter:
             for contact, offset, data in zip(self._contacts, offsets[:-1], packed, strict=True)
         ]
         blob = b"".join(packed)
-        _write_beside(stem.with_suffix(".heights"), blob)
+        write_atomically(stem.with_suffix(".heights"), blob)
         digest = hashlib.sha256(blob).hexdigest()
         schema = _schema_of(self._contacts)
         table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
         index = io.BytesIO()
         pq.write_table(table, index, compression="zstd")
-        _write_beside(stem.with_suffix(".parquet"), index.getvalue())
+        write_atomically(stem.with_suffix(".parquet"), index.getvalue())
         self.num_written += len(rows)
         self._contacts.clear()
 
@@ -168,16 +171,6 @@ def _schema_of(contacts: list[Contact]) -> pa.Schema:
     return pa.unify_schemas(parts)
 
 
-def _write_beside(path: Path, data: bytes) -> None:
-    """Write a file that is whole whenever it is there, after a loss of power too."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.part")
-    with beside.open("wb") as file:
-        file.write(data)
-        file.flush()
-        os.fsync(file.fileno())
-    beside.replace(path)
-
-
 def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
     state, gel = contact.state, contact.gel
     return {
@@ -191,8 +184,8 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         "series": contact.series,
         "split": contact.split.value,
         "seed": contact.seed,
-        **{name: getattr(state, name) for name in NUMBERS},
-        **{name: getattr(state, name) for name in WORDS},
+        **{column: getattr(state, name) for name, column in NUMBER_COLUMNS.items()},
+        **{name: getattr(state, name) for name in DIMENSIONS},
         "cut": " ".join(sorted(state.cut)),
         "gel_thickness_mm": gel and gel.thickness_mm,
         "gel_young_mpa": gel and gel.young_mpa,
@@ -202,16 +195,6 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         "peak_kpa": contact.peak_kpa,
         "measured": " ".join(sorted(contact.measured)) or None,
     }
-
-
-NUMBERS = ("depth_mm", "x_mm", "y_mm", "area_share", "force_n")
-WORDS: dict[str, type] = {
-    "depth": Depth,
-    "position": Position,
-    "area": Area,
-    "shape": Shape,
-    "texture": Texture,
-}
 
 
 def _read_header(folder: Path) -> dict[str, Any]:
@@ -318,9 +301,12 @@ class ContactDataset:
     def state(self, index: int) -> ContactState:
         """The labels of a contact."""
         row = {name: values[index] for name, values in self._columns.items()}
-        numbers: dict[str, Any] = {name: float(row[name]) for name in NUMBERS}
+        numbers: dict[str, Any] = {
+            name: float(row[column]) for name, column in NUMBER_COLUMNS.items()
+        }
         words: dict[str, Any] = {
-            name: None if row[name] is None else kind(row[name]) for name, kind in WORDS.items()
+            name: None if row[name] is None else classes(row[name])
+            for name, classes in DIMENSIONS.items()
         }
         return ContactState(
             **numbers,

@@ -103,7 +103,7 @@ class _Pressed:
     @classmethod
     def of(cls, heights: FloatArray, state: ContactState, sensor: SensorSpec) -> _Pressed:
         """The highest pixels, as many as the stored area says; at least one."""
-        count = max(1, round(state.area_share * heights.size))
+        count = max(1, round(state.area_fraction * heights.size))
         highest = np.argpartition(heights.ravel(), -count)[-count:]
         x, y = np.meshgrid(*grid_axes_mm(sensor, *heights.shape))
         level = float(heights.ravel()[highest].min())
@@ -256,7 +256,7 @@ def _relabelled(
         depth_mm=min(state.depth_mm, float(moved.max())),
         x_mm=x_mm,
         y_mm=y_mm,
-        area_share=state.area_share * float(stays.mean()),
+        area_fraction=state.area_fraction * float(stays.mean()),
         force_n=state.force_n * float(pressed.load[stays].sum() / pressed.load.sum()),
         cut=_cut(moved > pressed.level_mm, sensor),
     )
@@ -267,7 +267,7 @@ def _with(state: ContactState, sensor: SensorSpec, **changes: object) -> Contact
     new = dataclasses.replace(state, **changes)  # type: ignore[arg-type]
     position = position_word(new.x_mm, new.y_mm, sensor)
     depth = state.depth if new.depth_mm == state.depth_mm else depth_word(new.depth_mm)
-    area = state.area if new.area_share == state.area_share else area_word(new.area_share)
+    area = state.area if new.area_fraction == state.area_fraction else area_word(new.area_fraction)
     return dataclasses.replace(new, position=position, depth=depth, area=area)
 
 

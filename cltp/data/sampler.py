@@ -19,25 +19,7 @@ from cltp.tactile.markers import densified, marker_cloud
 from cltp.tactile.point_layout import EVEN, Sampling
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.states import (
-    Area,
-    ContactState,
-    Depth,
-    Position,
-    Shape,
-    Side,
-    Texture,
-    position_word,
-)
-
-CLASSES: dict[str, list[str]] = {
-    "shape": [s.value for s in Shape],
-    "texture": [s.value for s in Texture],
-    "depth": [s.value for s in Depth],
-    "position": [s.value for s in Position],
-    "area": [s.value for s in Area],
-}
-"""The five slots of a contact state and their classes, in the order of a classifier's outputs."""
+from cltp.tactile.states import ContactState, Side, position_word
 
 MIRROR = {
     Side.LEFT: Side.RIGHT,

@@ -15,10 +15,8 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.data.sampler import CLASSES
-from cltp.tactile.states import ContactState, Side
+from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 
-NUMBERS = ("depth_mm", "x_mm", "y_mm", "area_share", "force_n")
 SMALLEST_FORCE_N = 0.05
 """Forces are learned as logarithms, softened here: below this, errors count in newtons."""
 
@@ -82,7 +80,7 @@ def felt(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
     """
     read = restored(numbers.detach().float().cpu())
     read[:, NUMBERS.index("depth_mm")].clamp_(min=0)
-    read[:, NUMBERS.index("area_share")].clamp_(max=1)
+    read[:, NUMBERS.index("area_fraction")].clamp_(max=1)
     return [
         replace(state, **dict(zip(NUMBERS, row, strict=True))) if state.in_contact else state
         for state, row in zip(states, read.tolist(), strict=True)

@@ -16,15 +16,14 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.data.sampler import CLASSES
-from cltp.encoder.heads import NUMBERS, HeadsOutput, restored
-from cltp.tactile.states import Side
+from cltp.encoder.heads import HeadsOutput, restored
+from cltp.tactile.states import CLASSES, NUMBERS, Side
 
 LAST_DIGIT = {
     "depth_mm": 0.01,
     "x_mm": 0.1,
     "y_mm": 0.1,
-    "area_share": 0.001,
+    "area_fraction": 0.001,
     "force_n": 0.01,
 }
 """The last digit of each number as it is spoken, in its unit."""

@@ -7,6 +7,7 @@ is in ``cltp.tactile.measure``, how it is worded in ``cltp.texts.captions``. Loa
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -89,8 +90,28 @@ class Side(StrEnum):
     RIGHT = "right"
 
 
+DIMENSIONS: Mapping[str, type[StrEnum]] = {
+    "shape": Shape,
+    "texture": Texture,
+    "depth": Depth,
+    "position": Position,
+    "area": Area,
+}
+"""The five dimensions of a contact state and their classes. Trained weights depend on the order."""
+
+CLASSES: Mapping[str, list[str]] = {
+    name: [word.value for word in words] for name, words in DIMENSIONS.items()
+}
+"""The classes of each dimension as plain text, in the order of a classifier's outputs."""
+
+MEASURABLE = ("depth", "position", "area")
+"""Dimensions that a cloud alone gives (``cltp.tactile.measure``); the others need an encoder."""
+
+NUMBERS = ("depth_mm", "x_mm", "y_mm", "area_fraction", "force_n")
+"""Numbers of a contact state that heads and probes read. Trained weights depend on the order."""
+
 DEPTH_LIMITS_MM = (0.3, 0.6, 0.9)
-AREA_LIMITS_SHARE = (0.03, 0.08, 0.15, 0.30)
+AREA_LIMITS = (0.03, 0.08, 0.15, 0.30)
 
 
 def depth_word(depth_mm: float) -> Depth:
@@ -100,7 +121,7 @@ def depth_word(depth_mm: float) -> Depth:
 
 def area_word(share: float) -> Area:
     """Class of a share of the field, 0 to 1."""
-    return list(Area)[sum(share >= limit for limit in AREA_LIMITS_SHARE)]
+    return list(Area)[sum(share >= limit for limit in AREA_LIMITS)]
 
 
 def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
@@ -118,7 +139,7 @@ class ContactState:
         depth_mm: Largest indentation [mm]; 0 without contact.
         x_mm, y_mm: Where the contact is [mm, gel frame]: its deepest point, and for flat contacts
             the centre of what is pressed; 0, 0 without contact.
-        area_share: Share of the field in contact, 0 to 1.
+        area_fraction: Share of the field in contact, 0 to 1.
         force_n: Normal force that the gel's shape suggests [N]; an estimate.
         depth, position, area: Their classes; None without contact.
         cut: Sides of the pad that the contact runs over.
@@ -128,7 +149,7 @@ class ContactState:
     depth_mm: float
     x_mm: float
     y_mm: float
-    area_share: float
+    area_fraction: float
     force_n: float
     depth: Depth | None
     position: Position | None

@@ -73,7 +73,7 @@ def numeric_caption(state: ContactState, sensor: SensorSpec) -> str:
     """
     if not state.in_contact:
         return NO_CONTACT
-    area_mm2 = state.area_share * sensor.area_mm2
+    area_mm2 = state.area_fraction * sensor.area_mm2
     return (
         f"pressed {state.depth_mm:.2f} mm at x {state.x_mm:+.1f} mm, y {state.y_mm:+.1f} mm, "
         f"with {area_mm2:.1f} mm² contact area and {state.force_n:.2f} N."

@@ -13,11 +13,19 @@ import re
 import struct
 import zlib
 from collections.abc import Mapping
-from enum import StrEnum
 from typing import Any
 
 from cltp.errors import TouchError
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture
+from cltp.tactile.states import (
+    DIMENSIONS,
+    MEASURABLE,
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Texture,
+)
 from cltp.texts.captions import Slots
 
 PROMPTS: Mapping[str, tuple[str, ...]] = {
@@ -51,14 +59,6 @@ PROMPTS: Mapping[str, tuple[str, ...]] = {
 [Shape]', 'Contact is [Depth]', 'Contact at [Position]', 'etc.'), the others are for ensembles.
 ``{a}`` is the word with its article."""
 
-VOCABULARY: Mapping[str, type[StrEnum]] = {
-    "shape": Shape,
-    "texture": Texture,
-    "depth": Depth,
-    "position": Position,
-    "area": Area,
-}
-
 
 def prompts(slot: str, word: str) -> list[str]:
     """The prompts for one class of a dimension, the paper's first.
@@ -66,7 +66,7 @@ def prompts(slot: str, word: str) -> list[str]:
     Raises:
         TouchError: There is no such dimension, or no such class in it.
     """
-    if slot not in PROMPTS or word not in list(VOCABULARY[slot]):
+    if slot not in PROMPTS or word not in list(DIMENSIONS[slot]):
         raise TouchError(
             f"no prompt for {slot!r} {word!r}; dimensions are {', '.join(PROMPTS)}, their words "
             "those of cltp.tactile.states"
@@ -215,7 +215,7 @@ def _reading(template: str) -> re.Pattern[str]:
     pattern = re.escape(template)
     thing = rf"an? (?:(?P<texture>{_said('texture')}) )?(?:(?P<shape>{_said('shape')})|object)"
     pattern = pattern.replace(re.escape("{thing}"), thing)
-    for slot in ("depth", "position", "area"):
+    for slot in MEASURABLE:
         pattern = pattern.replace(re.escape(f"{{{slot}}}"), rf"(?P<{slot}>{_said(slot)})")
     return re.compile(re.sub(r"(?<=\\ )a(?=\\ \(\?P)", "an?", re.sub(r"^a(?=\\ )", "an?", pattern)))
 

@@ -11,8 +11,8 @@ import math
 from dataclasses import dataclass
 
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import ContactState
-from cltp.texts.paraphrases import VOCABULARY, drawn, with_article
+from cltp.tactile.states import DIMENSIONS, ContactState
+from cltp.texts.paraphrases import drawn, with_article
 from cltp.texts.tolerances import Tolerances, tolerances
 
 
@@ -96,7 +96,7 @@ def question_answers(
 
 
 def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> dict[str, str]:
-    area_mm2 = state.area_share * sensor.area_mm2
+    area_mm2 = state.area_fraction * sensor.area_mm2
     return {
         "shape": f"It is {with_article(str(state.shape))}.",
         "texture": f"It is {state.texture}.",
@@ -113,7 +113,7 @@ def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> 
 def _yes_or_no(slot: str, word: str, seed: int) -> QuestionAnswer:
     asked = word
     if drawn(seed, f"{slot}?", 2):
-        others = [other for other in VOCABULARY[slot] if other != word]
+        others = [other for other in DIMENSIONS[slot] if other != word]
         asked = others[drawn(seed, f"{slot} other", len(others))]
     said = with_article(word) if slot == "shape" else word
     return QuestionAnswer(

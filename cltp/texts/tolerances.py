@@ -61,7 +61,7 @@ def tolerances(state: ContactState, sensor: SensorSpec, level: float = 1.0) -> T
         return Tolerances(depth_mm=0.0, place_mm=0.0, area_mm2=0.0, force_n=0.0)
     depth = max(state.depth_mm, 1e-3)
     drift, scale = level * DRIFT_MM, level * DEPTH_SCALE / math.sqrt(3)  # uniform within ±
-    area_mm2 = state.area_share * sensor.area_mm2
+    area_mm2 = state.area_fraction * sensor.area_mm2
     lengths = DRIFT_LENGTH_MM[0] * DRIFT_LENGTH_MM[1]
     slope = math.hypot(drift * math.sqrt(2 / lengths), level * TILT)
     sampling = sensor.width_mm / LATTICE / math.sqrt(12)
@@ -82,7 +82,7 @@ def toleranced_caption(state: ContactState, sensor: SensorSpec, level: float = 1
     if not state.in_contact:
         return NO_CONTACT
     within = tolerances(state, sensor, level)
-    area_mm2 = state.area_share * sensor.area_mm2
+    area_mm2 = state.area_fraction * sensor.area_mm2
     text = (
         f"pressed {state.depth_mm:.2f} ± {within.depth_mm:.2f} mm at x {state.x_mm:+.1f}, "
         f"y {state.y_mm:+.1f} ± {within.place_mm:.1f} mm, with {area_mm2:.1f} ± "

@@ -19,10 +19,11 @@ from torch import Tensor, nn
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES, Augmentation, Sampler
+from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
+from cltp.tactile.states import CLASSES
 from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers

@@ -21,9 +21,10 @@ from transformers import CLIPModel
 from cltp.checkpoints.tac3d_llm import save_clip
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES, Augmentation, Batch, Sampler
+from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
 from cltp.encoder.losses import CltpLoss
+from cltp.tactile.states import CLASSES
 from cltp.texts.tokenizer import Words
 from cltp.train.clip_feature_cache import rendered
 from cltp.train.curves import plot_curves

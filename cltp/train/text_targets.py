@@ -16,9 +16,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from cltp.data.sampler import CLASSES
 from cltp.encoder.all_gather import gathered
-from cltp.tactile.states import ContactState
+from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.captions import caption, slots_of
 from cltp.texts.paraphrases import prompts
 

@@ -30,7 +30,7 @@ from cltp.tactile.states import (
     depth_word,
     position_word,
 )
-from sim.tcl3d.masks import share_of
+from sim.tcl3d.masks import covered_fraction
 
 CLOSING_MM = 1.4
 """Gaps in contact narrower than this are closed. Our choice: just below the longest period (1.5 mm)
@@ -47,11 +47,11 @@ def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
         pressure: Shape (B, H, W), any unit.
         pitch_mm: Of the grid [mm].
     """
-    reach = max(1, round(CLOSING_MM / pitch_mm / 2))
-    size = 2 * reach + 1
+    radius = max(1, round(CLOSING_MM / pitch_mm / 2))
+    size = 2 * radius + 1
     # What lies beyond the border is like the border: a contact that is cut does not end there.
-    beyond = ((2 * reach,) * 2,) * 2
-    masks = (np.pad(one, beyond, mode="edge") for one in (pressure > 0).numpy())
+    padding = ((2 * radius,) * 2,) * 2
+    masks = (np.pad(one, padding, mode="edge") for one in (pressure > 0).numpy())
     return np.stack([_all_in(_any_in(mask, size), size) for mask in masks])
 
 
@@ -99,16 +99,16 @@ def label(
     total = load.sum()
     x_mm = float(load.sum(axis=0) @ x / total)
     y_mm = float(load.sum(axis=1) @ y / total)
-    depth_mm, share = float(height_mm.max()), share_of(touching)
+    depth_mm, area_fraction = float(height_mm.max()), covered_fraction(touching)
     return ContactState(
         depth_mm=depth_mm,
         x_mm=x_mm,
         y_mm=y_mm,
-        area_share=share,
+        area_fraction=area_fraction,
         force_n=force_n,
         depth=depth_word(depth_mm),
         position=position_word(x_mm, y_mm, sensor),
-        area=area_word(share),
+        area=area_word(area_fraction),
         cut=_cut(touching, sensor.width_mm / columns),
         shape=shape,
         texture=texture,
@@ -122,5 +122,5 @@ def _cut(touching: NDArray[np.bool_], pitch_mm: float) -> frozenset[Side]:
         Side.LEFT: touching[:, 0],
         Side.RIGHT: touching[:, -1],
     }
-    least = round(CUT_MM / pitch_mm)
-    return frozenset(side for side, border in borders.items() if border.sum() >= least)
+    min_points = round(CUT_MM / pitch_mm)
+    return frozenset(side for side, border in borders.items() if border.sum() >= min_points)

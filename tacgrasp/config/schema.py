@@ -14,14 +14,14 @@ from pydantic import Field, model_validator
 
 from policies.goal import Band, Goal
 from primitives.limits import Limits
-from tacgrasp.base.settings import Interval, Number, Section, Vector
+from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
 from tacgrasp.config.hardware import HardwareConfig, with_box
 from tacgrasp.drivers.ur.settings import UrSettings
 
 AtTheEnd = Literal["hold", "release"]
 
 
-class GoalConfig(Section):
+class GoalConfig(SettingsBase):
     """What a good grasp is; each band is [low, high].
 
     Attributes:
@@ -57,13 +57,13 @@ class GoalConfig(Section):
         return Goal(
             force_n=band(self.force_n),
             depth_mm=band(self.depth_mm),
-            area_share=band(self.area_share),
+            area_fraction=band(self.area_share),
             x_mm=band(self.x_mm),
             y_mm=band(self.y_mm),
         )
 
 
-class PrimitivesConfig(Section):
+class PrimitivesConfig(SettingsBase):
     """Sizes of the seven primitives.
 
     Attributes:
@@ -75,7 +75,7 @@ class PrimitivesConfig(Section):
     move_step_mm: Number = Field(default=3.0, ge=0.1, le=20)
 
 
-class LoopConfig(Section):
+class LoopConfig(SettingsBase):
     """Bounds of the loop; each has its named end.
 
     Attributes:
@@ -93,7 +93,7 @@ class LoopConfig(Section):
     wait_s: Number = Field(default=0.1, ge=0, le=10)
 
 
-class VerifyConfig(Section):
+class VerifyConfig(SettingsBase):
     """How a declared success is checked, by touch alone.
 
     Attributes:
@@ -121,7 +121,7 @@ class VerifyConfig(Section):
     min_depth_ratio: Number = Field(default=0.6, ge=0, le=1)
 
 
-class ArmConfig(Section):
+class ArmConfig(SettingsBase):
     """Limits of the arm that every command is held to.
 
     Attributes:
@@ -149,7 +149,7 @@ class ArmConfig(Section):
         return self
 
 
-class GripperConfig(Section):
+class GripperConfig(SettingsBase):
     """Limits of the gripper.
 
     Attributes:
@@ -177,7 +177,7 @@ class GripperConfig(Section):
         return self
 
 
-class PadConfig(Section):
+class PadConfig(SettingsBase):
     """How the pad sits on the TCP: perpendicular unit vectors in the TCP's frame.
 
     Attributes:
@@ -199,7 +199,7 @@ class PadConfig(Section):
         return self
 
 
-class RunConfig(Section):
+class RunConfig(SettingsBase):
     """Everything that a run is configured by.
 
     Attributes:

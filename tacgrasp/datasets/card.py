@@ -15,7 +15,7 @@ import numpy as np
 from cltp.atomic_write import write_atomically
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLASSES
+from cltp.tactile.states import CLASSES
 
 CARD = "README.md"
 

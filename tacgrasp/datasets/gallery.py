@@ -20,12 +20,11 @@ from PIL import Image
 from cltp.data.dataset import ContactDataset
 from cltp.tactile.picture import depth_picture, picture
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.states import ContactState
+from cltp.tactile.states import DIMENSIONS, ContactState
 from cltp.texts.contact_texts import ContactTexts, texts_of
 from tacgrasp.datasets.contact_sheet import unsure_of
 from tacgrasp.datasets.stats import LEAST_SHARE, NOBODY_SAYS, DataStats, stats
 
-DIMENSIONS = ("shape", "texture", "depth", "position", "area")
 _WEBP_QUALITY = 82
 _POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 

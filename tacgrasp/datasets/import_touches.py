@@ -30,21 +30,29 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from cltp.data.contact import Contact, Split
-from cltp.data.dataset import WORDS, DatasetWriter
+from cltp.data.dataset import NUMBER_COLUMNS, DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensing.touch_files import read_heights
 from cltp.tactile.measure import NO_CONTACT_MM, contact_state
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture, depth_word
+from cltp.tactile.states import (
+    DIMENSIONS,
+    MEASURABLE,
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Texture,
+    depth_word,
+)
 from tacgrasp.base.errors import UsageError
 
 COLUMNS = (
-    *("file", "shape", "texture", "depth", "position", "area"),
+    *("file", *DIMENSIONS),
     *("force_n", "object", "split", "series"),
 )
-MEASURED = frozenset(
-    {"depth", "position", "area", "cut", "depth_mm", "x_mm", "y_mm", "area_share", "force_n"}
-)
+MEASURED = frozenset({*MEASURABLE, "cut", *NUMBER_COLUMNS.values()})
 """What is measured where the table says nothing."""
 
 SHOWN_ROWS = 20
@@ -166,7 +174,9 @@ def _check_header(labels: Path, header: list[str]) -> None:
 
 def _written(source: Source, rows: list[_Row], folder: Path) -> tuple[Imported, list[str]]:
     bad: list[str] = []
-    counts = {kind: dict.fromkeys((*WORDS, "force_n"), 0) for kind in ("given", "measured", "no")}
+    counts = {
+        kind: dict.fromkeys((*DIMENSIONS, "force_n"), 0) for kind in ("given", "measured", "no")
+    }
     seen: dict[str, int] = {}
     about = {
         "made_by": "tacgrasp data import",
@@ -248,7 +258,7 @@ def _measured(heights: object, sensor: SensorSpec) -> ContactState:
 def _labelled(state: ContactState, cells: Mapping[str, str]) -> tuple[ContactState, frozenset[str]]:
     """What the table gives in place of what was measured, and the names of what was measured."""
     words = dict(_given(cells))
-    said = [name for name in (*WORDS, "force_n") if name in cells]
+    said = [name for name in (*DIMENSIONS, "force_n") if name in cells]
     if not state.in_contact:
         if said:
             raise RowError(

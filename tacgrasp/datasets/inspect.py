@@ -7,8 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.data.dataset import NUMBERS, WORDS, ContactDataset
+from cltp.data.dataset import NUMBER_COLUMNS, ContactDataset
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import DIMENSIONS
 from cltp.texts.contact_texts import texts_of
 from tacgrasp.datasets.contact_sheet import unsure_of
 
@@ -42,7 +43,7 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
     )
     yield (
         f"numbers   {state.depth_mm:.3f} mm deep at ({state.x_mm:+.2f}, {state.y_mm:+.2f}) mm, "
-        f"{state.area_share:.2%} of the field, {state.force_n:.3f} N"
+        f"{state.area_fraction:.2%} of the field, {state.force_n:.3f} N"
     )
     yield f"ambiguous {' '.join(unsure_of(data, index)) or 'no'}"
     yield from _others(data, index)
@@ -75,7 +76,7 @@ def _named(word: str | None) -> str:
     return "(unknown)" if word is None else str(word)
 
 
-_LABELS = frozenset({*NUMBERS, *WORDS, "cut", "unsure"})
+_LABELS = frozenset({*NUMBER_COLUMNS.values(), *DIMENSIONS, "cut", "unsure"})
 _ORIGIN = frozenset({"sensor", "object", "series", "split", "seed"})
 _BYTES = frozenset({"offset", "size", "crc32", "rows", "columns"})
 

@@ -26,13 +26,13 @@ from cltp.torch_threads import torch_threads
 from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import Press, gel_of
-from sim.objects.catalogue import thing_named
-from sim.objects.ray_casting import feel
-from sim.starter.probes import Probe
+from sim.objects.catalogue import object_named
+from sim.objects.ray_casting import cast_pad_rays
+from sim.starter.probes import ProbeShape
+from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import in_contact, label
 from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
-from sim.tcl3d.touch import Touch
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
 
@@ -130,10 +130,10 @@ def _read(solved: Press, request: Request, sensor: SensorSpec, laid: _Laid) -> P
     closed = in_contact(pressure, pitch_mm)[0]
     shape = laid.shape
     if shape is None:
-        touch = Touch(
+        touch = ContactGeometry(
             gap_mm=np.minimum(laid.gap_mm, NO_BODY_MM),  # as where data sets are made: never inf
             cells=laid.cells,
-            table=thing_named(request.object).cells,
+            cell_table=object_named(request.object).cells,
             touching=pressure[0].numpy() > 0,
             closed=closed,
             depth_mm=float(height_mm.max()),
@@ -221,7 +221,7 @@ def _laid(request: Request, sensor: SensorSpec) -> _Laid:
     if ":" not in request.object:
         return _object(request, sensor, u, v)
     try:
-        probe = Probe.named(request.object)
+        probe = ProbeShape.named(request.object)
     except ValueError as error:
         raise UsageError(f"--object: {error}") from None
     behind = probe.behind_mm(u, v)
@@ -248,13 +248,13 @@ def _object(
 ) -> _Laid:
     """An object of the catalogue, its bare surface, in a pose that the seed draws."""
     try:
-        thing = thing_named(request.object)
+        thing = object_named(request.object)
     except ValueError as error:
         raise UsageError(f"--object: {error}; or a probe such as ball:9.5") from None
     rng = np.random.default_rng(request.seed)
     for _ in range(_POSES):
         pose = draw_pose(thing, rng, sensor, request.depth_mm)
-        felt = feel(thing, pose.object_from_pad, pose.point, x, y)
+        felt = cast_pad_rays(thing, pose.object_from_pad, pose.point, x, y)
         if felt is not None:
             there = felt.gap_mm < NO_BODY_MM
             cells = np.full(there.shape, -1, dtype=np.int64)
@@ -279,7 +279,7 @@ def run(request: Request, out: Path | None) -> None:
         UsageError: As ``press``, or ``out`` can't be written.
     """
     done = press(request)
-    area_mm2 = done.state.area_share * done.sensor.area_mm2
+    area_mm2 = done.state.area_fraction * done.sensor.area_mm2
     pixels = int((done.pressure_kpa > 0).sum())
     touching = pixels / done.pressure_kpa.size * done.sensor.area_mm2
     rows, columns = done.height_mm.shape

@@ -13,7 +13,8 @@ from rich.console import Console, Group
 from rich.table import Table
 from rich.text import Text
 
-from cltp.data.dataset import NUMBERS, WORDS, ContactDataset
+from cltp.data.dataset import NUMBER_COLUMNS, ContactDataset
+from cltp.tactile.states import DIMENSIONS
 
 QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
 NOBODY_SAYS = "(unknown)"
@@ -78,13 +79,13 @@ def stats(folder: Path) -> DataStats:
     return DataStats(
         contacts=len(data),
         series=len(np.unique(data.column("series"))),
-        classes={slot: _classes(data.column(slot), kind) for slot, kind in WORDS.items()},
+        classes={slot: _classes(data.column(slot), kind) for slot, kind in DIMENSIONS.items()},
         splits=_counts(data.column("split")),
         objects=_counts(data.column("object")),
         sensors=_counts(data.column("sensor")),
         cut=int(sum(bool(sides) for sides in data.column("cut"))),
         ambiguous=_unsure(data),
-        quantiles={name: _quantiles(data.column(name)) for name in NUMBERS},
+        quantiles={name: _quantiles(data.column(name)) for name in NUMBER_COLUMNS.values()},
         about=data.about,
         checksum=data.checksum(),
     )
@@ -151,7 +152,7 @@ def _unsure(data: ContactDataset) -> dict[str, int] | None:
         return None
     slots = [str(mark or "").split() for mark in marks]
     return {
-        **{name: sum(name in each for each in slots) for name in WORDS},
+        **{name: sum(name in each for each in slots) for name in DIMENSIONS},
         "any": sum(bool(each) for each in slots),
     }
 

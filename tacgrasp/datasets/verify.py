@@ -19,12 +19,12 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from cltp.data.contact import Split
-from cltp.data.dataset import WORDS, ContactDataset
+from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.markers import marker_cloud
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
+from cltp.tactile.states import DIMENSIONS, ContactState, Side, area_word, depth_word, position_word
 from cltp.texts.captions import caption, parse_caption, slots_of
 from cltp.texts.contact_texts import texts_of
 from cltp.texts.paraphrases import read_paraphrase
@@ -165,7 +165,7 @@ def _places(data: ContactDataset) -> tuple[list[str], list[int]]:
 
 def _contact(data: ContactDataset, index: int) -> Iterator[str]:
     """What is wrong with one contact."""
-    row = {name: data.column(name)[index] for name in ("sensor", "cut", "series", *WORDS)}
+    row = {name: data.column(name)[index] for name in ("sensor", "cut", "series", *DIMENSIONS)}
     outside = list(_outside_vocabulary(row))
     yield from outside
     try:
@@ -200,7 +200,7 @@ def _expected(state: ContactState, sensor: SensorSpec) -> dict[str, list[StrEnum
     off = (0.0, -ROUNDING, ROUNDING)
     return {
         "depth": [depth_word(state.depth_mm * (1 + by)) for by in off],
-        "area": [area_word(state.area_share * (1 + by)) for by in off],
+        "area": [area_word(state.area_fraction * (1 + by)) for by in off],
         "position": [
             position_word(state.x_mm + by * sensor.width_mm, state.y_mm + up, sensor)
             for by in off
@@ -210,8 +210,8 @@ def _expected(state: ContactState, sensor: SensorSpec) -> dict[str, list[StrEnum
 
 
 def _outside_vocabulary(row: dict[str, Any]) -> Iterator[str]:
-    for slot, kind in WORDS.items():
-        words = [str(word) for word in kind]  # type: ignore[attr-defined]
+    for slot, kind in DIMENSIONS.items():
+        words = [str(word) for word in kind]
         if row[slot] is not None and row[slot] not in words:
             yield f"{slot} {row[slot]!r} is none of {', '.join(words)}"
     unknown = set(str(row["cut"] or "").split()) - {str(side) for side in Side}

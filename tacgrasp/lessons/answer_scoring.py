@@ -9,8 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 
-from cltp.data.sampler import CLASSES
-from cltp.tactile.states import ContactState, Side
+from cltp.tactile.states import CLASSES, ContactState, Side
 from tacgrasp.lessons.questions import NOTHING
 
 FORCE_TOLERANCE = 0.25
@@ -26,7 +25,7 @@ _NUMBERS = re.compile(
 
 
 def numbers_said(text: str) -> Sequence[float] | None:
-    """``cltp.encoder.heads.NUMBERS`` of a description: depth, x, y [mm], area [share], force [N].
+    """``cltp.tactile.states.NUMBERS`` of a description: depth, x, y [mm], area [share], force [N].
 
     None when the text has none; zeros for the place and area of no contact.
     """

@@ -197,7 +197,7 @@ def _around(state: ContactState) -> Iterator[ContactState]:
             state,
             force_n=state.force_n * factor,
             depth_mm=state.depth_mm * math.sqrt(factor),
-            area_share=min(1.0, state.area_share * math.sqrt(factor)),
+            area_fraction=min(1.0, state.area_fraction * math.sqrt(factor)),
         )
     for along, step in (("x_mm", MARGIN_MM), ("y_mm", MARGIN_MM)):
         for sign in (-1, 1):

@@ -77,7 +77,7 @@ def goal_of_force(low_n: float, high_n: float) -> Goal:
     return Goal(
         force_n=Band(low=low_n, high=high_n),
         depth_mm=band("depth_mm"),
-        area_share=band("area_share"),
+        area_fraction=band("area_fraction"),
         x_mm=band("x_mm"),
         y_mm=band("y_mm"),
     )

@@ -142,7 +142,7 @@ def answer(slot: str, state: ContactState) -> str:
 
 def percent(state: ContactState) -> str:
     """Share of the field in contact [%], to two figures or so."""
-    share = 100 * state.area_share
+    share = 100 * state.area_fraction
     return f"{share:.1f}" if share < 9.95 else f"{share:.0f}"
 
 

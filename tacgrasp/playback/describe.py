@@ -36,8 +36,8 @@ def describe(cloud: TactileCloud) -> list[str]:
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",
         f"depth     {state.depth} ({state.depth_mm:.2f} mm)",
-        f"area      {state.area} ({state.area_share:.1%}, "
-        f"{state.area_share * sensor.area_mm2:.0f} mm²)",
+        f"area      {state.area} ({state.area_fraction:.1%}, "
+        f"{state.area_fraction * sensor.area_mm2:.0f} mm²)",
         f"force     about {state.force_n:.2f} N (an estimate from the gel's shape)",
         f"cut       {', '.join(sorted(state.cut)) or 'no'}",
         f"caption   {caption(state)}",

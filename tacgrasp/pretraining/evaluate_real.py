@@ -20,12 +20,13 @@ from cltp.evaluation.zero_shot import Prompts
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import MEASURABLE
 from cltp.train.text_targets import class_numbers
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import TrainedMethod, stored
 from tacgrasp.pretraining.evaluate import ALIGNED, trainable
 from tacgrasp.pretraining.evaluation_run import EvaluationRun, as_result
-from tacgrasp.pretraining.geometric_baseline import MEASURED, of_slots
+from tacgrasp.pretraining.geometric_baseline import of_slots
 from tacgrasp.pretraining.real_touches import (
     Labelled,
     observed,
@@ -121,7 +122,7 @@ def _ceiling(
 ) -> Result:
     """What direct computation from the same points gives; shape and texture are not computed."""
     said = class_numbers([contact_state(cloud) for cloud in clouds])
-    judged = of_slots(judge(said, torch.tensor([row.classes for row in real.rows])), MEASURED)
+    judged = of_slots(judge(said, torch.tensor([row.classes for row in real.rows])), MEASURABLE)
     how = TrainedMethod(folder=place.weights, variant="measured", budget=None, data=data)
     return _stored(place, table, "ceiling", how, judged)
 

@@ -18,6 +18,7 @@ from cltp.evaluation.heights_alone import HeightsAlone
 from cltp.evaluation.probes import ClassProbes, Judged, judge
 from cltp.evaluation.splits import LEARNING
 from cltp.evaluation.zero_shot import measured
+from cltp.tactile.states import MEASURABLE
 from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.evaluation_run import EvaluationRun, keep, kept
 from tacgrasp.pretraining.report.store import Result

@@ -17,10 +17,10 @@ from primitives.devices import Pose
 from primitives.execution import rotated
 from primitives.limits import check_workspace
 from tacgrasp.config.schema import RunConfig, VerifyConfig
-from tacgrasp.episodes.record import Phase
+from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Verification
-from tacgrasp.runtime.tick import Turns
+from tacgrasp.runtime.steps import Turns
 
 UP = np.array([0.0, 0.0, 1.0])
 """Against gravity, base frame."""
@@ -42,13 +42,13 @@ def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification
     aside = _shifted(lifted, pad_x * settings.shake_mm / 1000)
     for pose in (lifted, aside):
         check_workspace(pose, config.limits())
-    before = contact_state(turns.feel(Phase.VERIFY_BEFORE))
+    before = contact_state(turns.feel(StepPhase.VERIFY_BEFORE))
     shake = [aside, lifted] * settings.shakes if settings.shake_mm > 0 else []
     _move(rig, lifted, settings, settings.acceleration_m_s2)
     for pose in shake:
         _move(rig, pose, settings, settings.shake_acceleration_m_s2)
     rig.clock.sleep(settings.hold_s)
-    after = contact_state(turns.feel(Phase.VERIFY_AFTER))
+    after = contact_state(turns.feel(StepPhase.VERIFY_AFTER))
     verification = compare(before, after, settings)
     if not verification.passed:
         # down again: what is still held must not fall when released
@@ -63,7 +63,7 @@ def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -
     if not after.in_contact:
         return Verification(passed=False, message="nothing is felt any more after the lift")
     shift_mm = math.hypot(after.x_mm - before.x_mm, after.y_mm - before.y_mm)
-    area_ratio = after.area_share / before.area_share
+    area_ratio = after.area_fraction / before.area_fraction
     depth_ratio = after.depth_mm / before.depth_mm
     wrong = []
     if shift_mm > settings.max_shift_mm:

@@ -39,6 +39,7 @@ from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Policy, PolicyError
 from policies.teacher import teacher
@@ -56,9 +57,6 @@ from tacgrasp.lessons.instruction_pairs import (
 )
 from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS
 from tacgrasp.policy_factory import load_llm
-
-MEASURED = ("depth", "position", "area")
-"""Slots that are computed directly; shape and texture are not."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -282,7 +280,7 @@ def _by(right: NDArray[np.bool_], cases: Sequence[Case]) -> dict[str, float | No
 
 
 def _slots(scores: Scores, who: str) -> dict[str, float | None]:
-    measured = MEASURED if who == "ceiling" else tuple(scores.right)
+    measured = MEASURABLE if who == "ceiling" else tuple(scores.right)
     return _plain({s: value if s in measured else np.nan for s, value in scores.right.items()})
 
 
@@ -293,7 +291,7 @@ def _errors(scores: Scores) -> dict[str, float | None]:
         {
             "depth_mm": errors["depth_mm"],
             "position_mm": errors["position_mm"],
-            "area_percent": 100 * errors["area_share"],
+            "area_percent": 100 * errors["area_fraction"],
             "force_percent": 100 * errors["force_share"],
         }
     )

@@ -12,9 +12,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from cltp.data.sampler import CLASSES
+from cltp.tactile.states import CLASSES, MEASURABLE
 from tacgrasp.base.errors import UsageError
-from tacgrasp.training.evaluate import MEASURED
 
 CARD = "README.md"
 HEADING = "## Scores"
@@ -30,7 +29,7 @@ def show(found: Mapping[str, Any], to: Console) -> None:
     slots.add_row("zero-shot", *(_percent(found["zero_shot"][slot]) for slot in CLASSES))
     to.print(slots)
     to.print(
-        f"ceiling: computed directly from the same 1024 points ({', '.join(MEASURED)}); "
+        f"ceiling: computed directly from the same 1024 points ({', '.join(MEASURABLE)}); "
         "zero-shot: CLTP, nearest prompt"
     )
     errors = Table(title="numbers: median error")

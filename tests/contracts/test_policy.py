@@ -17,7 +17,7 @@ from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract
 GOAL = Goal(
     force_n=Band(low=0.5, high=2.5),
     depth_mm=Band(low=0.1, high=0.6),
-    area_share=Band(low=0.01, high=0.6),
+    area_fraction=Band(low=0.01, high=0.6),
     x_mm=Band(low=-2.5, high=2.5),
     y_mm=Band(low=-2.5, high=2.5),
 )
@@ -37,7 +37,7 @@ def by_eye(cloud) -> ContactState:
         depth_mm=depth,
         x_mm=x,
         y_mm=y,
-        area_share=share,
+        area_fraction=share,
         force_n=3 * depth,
         depth=depth_word(depth) if touching else None,
         position=position_word(x, y, sensor_named("gelsight_mini")) if touching else None,

@@ -121,7 +121,7 @@ def fake_contact(
         depth_mm=peak,
         x_mm=x_mm,
         y_mm=y_mm,
-        area_share=share,
+        area_fraction=share,
         force_n=float(pressed.sum() * 0.04 * 0.15),
         depth=depth_word(peak),
         position=position_word(x_mm, y_mm, MINI),

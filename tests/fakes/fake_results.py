@@ -1,6 +1,6 @@
 """Rows of tables with nothing measured behind them."""
 
-from cltp.data.sampler import CLASSES
+from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.store import USUAL, Budget, Result
 
 

@@ -41,7 +41,7 @@ def state(x_mm: float, y_mm: float, depth_mm: float, force_n: float) -> ContactS
         depth_mm=depth_mm,
         x_mm=x_mm,
         y_mm=y_mm,
-        area_share=0.12,
+        area_fraction=0.12,
         force_n=force_n,
         depth=depth_word(depth_mm),
         position=position_word(x_mm, y_mm, MINI),

@@ -18,12 +18,12 @@ from primitives.primitive import PAD_DIRECTION
 GOAL = Goal(
     force_n=Band(low=1.0, high=2.0),
     depth_mm=Band(low=0.1, high=0.6),
-    area_share=Band(low=0.05, high=0.6),
+    area_fraction=Band(low=0.05, high=0.6),
     x_mm=Band(low=-2.5, high=2.5),
     y_mm=Band(low=-2.0, high=2.0),
 )
 NOTHING = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
 
 
@@ -32,7 +32,7 @@ def touch(*, x=0.0, y=0.0, depth=0.3, share=0.1, force=1.5, cut=()) -> ContactSt
         depth_mm=depth,
         x_mm=x,
         y_mm=y,
-        area_share=share,
+        area_fraction=share,
         force_n=force,
         depth=depth_word(depth),
         position=position_word(x, y, sensor_named("gelsight_mini")),
@@ -134,7 +134,7 @@ def test_success_means_every_band_and_an_action_means_no_success(state):
     inside = (
         state.force_n in GOAL.force_n
         and state.depth_mm in GOAL.depth_mm
-        and state.area_share in GOAL.area_share
+        and state.area_fraction in GOAL.area_fraction
         and state.x_mm in GOAL.x_mm
         and state.y_mm in GOAL.y_mm
     )

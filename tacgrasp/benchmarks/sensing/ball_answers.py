@@ -14,7 +14,6 @@ import torch
 from numpy.typing import NDArray
 
 from cltp.checkpoints.tac3d_llm import load_encoder
-from cltp.data.sampler import CLASSES
 from cltp.encoder.heads import restored
 from cltp.errors import TouchError
 from cltp.sensing.ball_presses import BallPress, ProfileTable, fit_press
@@ -22,7 +21,7 @@ from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import Depth, Shape
+from cltp.tactile.states import CLASSES, Depth, Shape
 from cltp.texts.captions import parse_caption
 from policies import PolicyError
 from tacgrasp.lessons.answer_scoring import numbers_said

@@ -124,7 +124,7 @@ def _figures(felt: list[Felt]) -> dict[str, float]:
     firm = [one for one in seen if one.force_n >= FIRM_N]
     force = np.array([np.log(one.state.force_n / one.force_n) for one in firm])
     depth = np.array([one.state.depth_mm - one.depth_mm for one in seen])
-    area = np.array([np.log(one.state.area_share / one.area_share) for one in firm])
+    area = np.array([np.log(one.state.area_fraction / one.area_share) for one in firm])
     inside = [one for one in firm if one.whole]
     x, y = (
         np.array([abs(place(one) - one.offset_mm[axis]) for one in inside])

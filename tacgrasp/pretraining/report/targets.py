@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from cltp.tactile.states import CLASSES
+from cltp.tactile.states import CLASSES, MEASURABLE
 from tacgrasp.pretraining.report.paper_numbers import (
     COVERED,
     LARGEST,

@@ -67,7 +67,7 @@ def test_a_contact_without_touch_and_with_a_gel_survives(tmp_path: Path) -> None
         depth_mm=0.0,
         x_mm=0.0,
         y_mm=0.0,
-        area_share=0.0,
+        area_fraction=0.0,
         force_n=0.0,
         depth=None,
         position=None,

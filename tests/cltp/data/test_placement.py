@@ -20,7 +20,7 @@ from cltp.data.sampler import mirrored
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
-    AREA_LIMITS_SHARE,
+    AREA_LIMITS,
     DEPTH_LIMITS_MM,
     ContactState,
     Shape,
@@ -75,12 +75,12 @@ def test_the_label_of_a_moved_contact_is_that_of_the_body_pressed_there(x, y, t,
     assert found.depth_mm == pytest.approx(truth.depth_mm, abs=0.01)
     assert found.x_mm == pytest.approx(truth.x_mm, abs=0.1)
     assert found.y_mm == pytest.approx(truth.y_mm, abs=0.1)
-    assert found.area_share == pytest.approx(truth.area_share, abs=0.003)
+    assert found.area_fraction == pytest.approx(truth.area_fraction, abs=0.003)
     assert found.force_n == pytest.approx(truth.force_n, rel=0.05, abs=1.0)
     assert (found.shape, found.texture) == (state.shape, state.texture)
     if not near_a_limit(found.depth_mm, DEPTH_LIMITS_MM, 0.02):
         assert found.depth is truth.depth
-    if not near_a_limit(found.area_share, AREA_LIMITS_SHARE, 0.005):
+    if not near_a_limit(found.area_fraction, AREA_LIMITS, 0.005):
         assert found.area is truth.area
     thirds_x, thirds_y = MINI.width_mm / 6, MINI.height_mm / 6
     if not near_a_limit(abs(found.x_mm), [thirds_x], 0.15) and not near_a_limit(
@@ -96,7 +96,7 @@ def test_what_stays_on_the_pad_keeps_depth_area_and_force_exactly(x, y, t, dx, d
     heights, state = pressed(x, y, t)
     found = move(heights, state, MINI, Placement(x_mm=dx, y_mm=dy)).state
     assert (found.x_mm, found.y_mm) == (state.x_mm + dx, state.y_mm + dy)
-    for name in ("depth_mm", "area_share", "force_n", "depth", "area", "cut"):
+    for name in ("depth_mm", "area_fraction", "force_n", "depth", "area", "cut"):
         assert getattr(found, name) == getattr(state, name)
 
 
@@ -104,14 +104,14 @@ def test_what_stays_on_the_pad_keeps_depth_area_and_force_exactly(x, y, t, dx, d
 @given(st.floats(-11, 11), st.floats(-8, 8), turns)
 def test_half_a_turn_is_a_mirror_along_both_axes_for_every_contact(x, y, t):
     heights, state = pressed(x, y, t)
-    assume(state.area_share > 0.005)
+    assume(state.area_fraction > 0.005)
     moved = move(heights, state, MINI, HALF_TURN)
     np.testing.assert_allclose(moved.height_mm, heights[::-1, ::-1], atol=1e-5)
     twin = mirrored(state, MINI, along_x=True, along_y=True)
     assert moved.state.cut == twin.cut
     assert moved.state.x_mm == pytest.approx(twin.x_mm)
     assert moved.state.y_mm == pytest.approx(twin.y_mm)
-    assert moved.state.area_share == twin.area_share
+    assert moved.state.area_fraction == twin.area_fraction
 
 
 def test_no_move_changes_nothing():
@@ -129,7 +129,7 @@ def test_a_cut_contact_can_t_be_moved_inwards_but_further_out():
     with pytest.raises(TouchError, match="never measured"):
         move(heights, state, MINI, Placement(turn_rad=0.5))
     further = move(heights, state, MINI, Placement(x_mm=1.0)).state
-    assert further.area_share < state.area_share
+    assert further.area_fraction < state.area_fraction
     assert further.cut == {Side.RIGHT}
 
 
@@ -141,7 +141,7 @@ def test_a_contact_that_would_leave_the_pad_altogether_is_refused():
 
 def test_an_untouched_gel_stays_untouched():
     nothing = ContactState(
-        depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+        depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
     )
     moved = move(np.zeros((ROWS, COLUMNS)), nothing, MINI, Placement(x_mm=3.0, turn_rad=1.0))
     assert moved.state == nothing
@@ -154,7 +154,7 @@ def test_drawn_moves_are_always_possible_and_leave_enough(x, y, t, seed):
     heights, state = pressed(x, y, t)
     to = draw_placement(heights, state, MINI, np.random.default_rng(seed))
     found = move(heights, state, MINI, to).state
-    assert found.area_share >= (LEAST_LEFT - 0.05) * state.area_share
+    assert found.area_fraction >= (LEAST_LEFT - 0.05) * state.area_fraction
     assert to == draw_placement(heights, state, MINI, np.random.default_rng(seed))
 
 
@@ -175,7 +175,7 @@ def test_random_points_lie_on_the_surface_and_are_never_centred_or_scaled():
     np.testing.assert_allclose(deepest, [4.0, 2.0, 0.7], atol=0.3)
     assert np.abs(cloud.points_mm[:, :2].mean(axis=0)).max() < 0.3
     share = (cloud.points_mm[:, 2] > 0).mean()
-    assert share == pytest.approx(state.area_share, abs=0.015)
+    assert share == pytest.approx(state.area_fraction, abs=0.015)
     other = random_cloud(heights, MINI, np.random.default_rng(1), 4000)
     assert not np.array_equal(cloud.points_mm, other.points_mm)
 

@@ -3,13 +3,12 @@ import math
 import pytest
 import torch
 
-from cltp.data.sampler import CLASSES
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import NUMBERS, HeadsOutput, StateHeads, felt, transformed
+from cltp.encoder.heads import HeadsOutput, StateHeads, felt, transformed
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import LAST_DIGIT, NUM_READINGS, ReadingTokens
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape
+from cltp.tactile.states import CLASSES, NUMBERS, Area, ContactState, Depth, Position, Shape
 from cltp.texts.tokenizer import Words
 
 SPOKEN = torch.tensor([[0.47, -3.2, 1.9, 0.123, 1.58]])
@@ -67,11 +66,11 @@ def test_what_the_heads_read_reaches_the_language_model() -> None:
 
 def test_felt_states_keep_their_words_and_take_the_numbers_that_were_read() -> None:
     true = ContactState(
-        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_share=0.1, force_n=1.0, depth=Depth.MODERATE,
+        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
         position=Position.CENTERED, area=Area.MEDIUM, shape=Shape.SPHERE,
     )  # fmt: skip
     nothing = ContactState(
-        depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_share=0.0, force_n=0.0, depth=None, position=None,
+        depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
         area=None,
     )  # fmt: skip
     said, still = felt([true, nothing], transformed(SPOKEN.expand(2, -1)))
@@ -83,8 +82,8 @@ def test_felt_states_keep_their_words_and_take_the_numbers_that_were_read() -> N
 
 def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
     true = ContactState(
-        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_share=0.1, force_n=1.0, depth=Depth.MODERATE,
+        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
         position=Position.CENTERED, area=Area.MEDIUM,
     )  # fmt: skip
     (said,) = felt([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
-    assert (said.depth_mm, said.area_share, said.force_n) == (0.0, 1.0, 0.0)
+    assert (said.depth_mm, said.area_fraction, said.force_n) == (0.0, 1.0, 0.0)

@@ -31,7 +31,7 @@ def test_place_and_depth_of_a_bump_do_not_depend_on_how_it_is_sampled(num_points
 def test_area_is_the_share_that_lies_deeper_than_a_quarter():
     state = contact_state(cloud_from_heights(bump(0, 0, 0.5), SENSOR, num_points=4096))
     share = np.pi * 3.0**2 * 0.75 / SENSOR.area_mm2
-    assert state.area_share == pytest.approx(share, rel=0.08)
+    assert state.area_fraction == pytest.approx(share, rel=0.08)
 
 
 def test_force_is_the_stiffness_times_the_volume_above_a_fifth():
@@ -51,7 +51,7 @@ def test_words_follow_the_numbers():
 def test_an_untouched_gel_is_no_contact():
     state = contact_state(cloud_from_heights(np.zeros((240, 320)), SENSOR))
     assert not state.in_contact
-    assert (state.depth_mm, state.area_share, state.force_n) == (0.0, 0.0, 0.0)
+    assert (state.depth_mm, state.area_fraction, state.force_n) == (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -10,7 +10,7 @@ from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Text
 from cltp.texts.captions import NO_CONTACT, Slots, caption, numeric_caption, parse_caption, slots_of
 
 NOTHING = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
 
 
@@ -25,7 +25,7 @@ def state(
         depth_mm=0.75,
         x_mm=1.0,
         y_mm=-5.25,
-        area_share=0.05,
+        area_fraction=0.05,
         force_n=1.234,
         depth=depth,
         position=position,
@@ -89,7 +89,7 @@ def test_a_text_outside_the_template_is_refused_with_the_template(text):
 
 def test_a_state_with_depth_but_no_position_is_refused():
     broken = ContactState(
-        depth_mm=1, x_mm=0, y_mm=0, area_share=0, force_n=0,
+        depth_mm=1, x_mm=0, y_mm=0, area_fraction=0, force_n=0,
         depth=Depth.DEEP, position=None, area=None,
     )  # fmt: skip
     with pytest.raises(TouchError, match="position"):

@@ -8,9 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cltp import TouchError
-from cltp.data.sampler import CLASSES
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
+    CLASSES,
+    DIMENSIONS,
     Area,
     ContactState,
     Depth,
@@ -25,7 +26,6 @@ from cltp.texts.paraphrases import (
     NOTHING,
     PARAPHRASES,
     PROMPTS,
-    VOCABULARY,
     paraphrase,
     prompts,
     read_paraphrase,
@@ -35,14 +35,14 @@ from cltp.texts.question_answers import UNTOUCHED, question_answers
 
 MINI = SENSORS["gelsight_mini"]
 UNTOUCHED_STATE = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
 STATES = st.builds(
     ContactState,
     depth_mm=st.floats(0.05, 2),
     x_mm=st.floats(-10, 10),
     y_mm=st.floats(-7, 7),
-    area_share=st.floats(0.001, 1),
+    area_fraction=st.floats(0.001, 1),
     force_n=st.one_of(st.floats(0.01, 20), st.just(float("nan"))),
     depth=st.sampled_from(Depth),
     position=st.sampled_from(Position),
@@ -66,7 +66,7 @@ def test_no_two_words_of_a_dimension_are_said_alike_and_all_are_drawn():
     texts = {
         paraphrase(
             ContactState(
-                depth_mm=0.5, x_mm=0, y_mm=0, area_share=0.05, force_n=1, depth=depth,
+                depth_mm=0.5, x_mm=0, y_mm=0, area_fraction=0.05, force_n=1, depth=depth,
                 position=Position.CENTERED, area=Area.SMALL, shape=shape, texture=Texture.ROUGH,
             ),
             seed,
@@ -92,7 +92,7 @@ def test_other_sentences_are_refused(text):
 
 def test_a_depth_without_a_position_can_t_be_worded():
     broken = ContactState(
-        depth_mm=1, x_mm=0, y_mm=0, area_share=0, force_n=0,
+        depth_mm=1, x_mm=0, y_mm=0, area_fraction=0, force_n=0,
         depth=Depth.DEEP, position=None, area=None,
     )  # fmt: skip
     with pytest.raises(TouchError, match="position"):
@@ -100,7 +100,9 @@ def test_a_depth_without_a_position_can_t_be_worded():
 
 
 def test_every_class_has_prompts_the_papers_first_and_none_of_two_classes_agree():
-    assert {slot: list(words) for slot, words in VOCABULARY.items()} == CLASSES
+    sizes = {"shape": 19, "texture": 5, "depth": 4, "position": 9, "area": 5}
+    assert list(PROMPTS) == list(CLASSES)
+    assert {name: len(words) for name, words in CLASSES.items()} == sizes
     assert prompts("shape", "sphere")[0] == "This is a sphere."
     assert prompts("shape", "edge")[0] == "This is an edge."
     assert prompts("depth", "very deep")[0] == "Contact is very deep."
@@ -124,7 +126,7 @@ def test_answers_are_true_and_ask_only_for_what_is_known(state, seed):
     assert ("shape" in about) == (state.shape is not None)
     assert ("force" in about) == (state.force_n == state.force_n)
     for pair in pairs:
-        if pair.about not in VOCABULARY:
+        if pair.about not in DIMENSIONS:
             continue
         word = str(getattr(state, pair.about))
         asked = [w for w in CLASSES[pair.about] if pair.question.endswith(f" {w}?")]
@@ -138,14 +140,14 @@ def test_answers_are_true_and_ask_only_for_what_is_known(state, seed):
 
 def test_yes_and_no_are_about_as_frequent():
     state = ContactState(
-        depth_mm=0.5, x_mm=0, y_mm=0, area_share=0.05, force_n=1, depth=Depth.MODERATE,
+        depth_mm=0.5, x_mm=0, y_mm=0, area_fraction=0.05, force_n=1, depth=Depth.MODERATE,
         position=Position.CENTERED, area=Area.SMALL, shape=Shape.DISC, texture=Texture.ROUGH,
     )  # fmt: skip
     closed = [
         pair.answer
         for seed in range(100)
         for pair in question_answers(state, MINI, seed)
-        if pair.about in VOCABULARY and (pair.answer == "Yes." or pair.answer.startswith("No"))
+        if pair.about in DIMENSIONS and (pair.answer == "Yes." or pair.answer.startswith("No"))
     ]
     assert len(closed) == 500
     assert 200 < closed.count("Yes.") < 300

@@ -23,7 +23,7 @@ def cap_state(depth_mm=0.5, radius_mm=3.0, force_n=2.0):
         depth_mm=depth_mm,
         x_mm=1.0,
         y_mm=-2.0,
-        area_share=share,
+        area_fraction=share,
         force_n=force_n,
         depth=depth_word(depth_mm),
         position=position_word(1.0, -2.0, MINI),
@@ -32,7 +32,7 @@ def cap_state(depth_mm=0.5, radius_mm=3.0, force_n=2.0):
 
 
 NOTHING = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
 
 
@@ -78,7 +78,7 @@ def test_tolerances_are_finite_grow_with_noise_and_never_pass_area_or_force(dept
     less, more = tolerances(state, MINI, 0.5), tolerances(state, MINI, 1.0)
     for name in ("depth_mm", "place_mm", "area_mm2", "force_n"):
         assert 0 < getattr(less, name) <= getattr(more, name) < math.inf
-    assert more.area_mm2 <= state.area_share * MINI.area_mm2 + 1e-9
+    assert more.area_mm2 <= state.area_fraction * MINI.area_mm2 + 1e-9
     assert more.force_n <= state.force_n
 
 

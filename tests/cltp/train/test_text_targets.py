@@ -8,10 +8,9 @@ import pytest
 import torch
 from tokenizers import Tokenizer, models, pre_tokenizers, trainers
 
-from cltp.data.sampler import CLASSES
 from cltp.encoder.clip_towers import load_towers, small_clip, text_features
 from cltp.errors import TouchError
-from cltp.tactile.states import ContactState
+from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.captions import caption
 from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
@@ -21,7 +20,7 @@ from tests.fakes.fake_contacts import fake_contact
 
 STATES = [fake_contact(seed).state for seed in range(12)]
 EMPTY = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_share=0, force_n=0, depth=None, position=None, area=None
+    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
 
 

@@ -52,7 +52,7 @@ def test_a_pressed_rectangle_is_labelled_as_a_ruler_would():
     state = labelled(pressure)
     assert state.depth_mm == pytest.approx(0.4)
     assert state.depth is Depth.MODERATE
-    assert state.area_share == pytest.approx(0.04)
+    assert state.area_fraction == pytest.approx(0.04)
     assert state.area is Area.SMALL
     assert state.x_mm == pytest.approx(30 * PITCH)  # columns 70-89: centre 80, field's 50
     assert state.y_mm == pytest.approx(25 * PITCH)  # rows 5-19: centre 12.5, field's 37.5
@@ -115,8 +115,8 @@ def test_labels_agree_with_the_heights_and_forces_that_were_asked_for(contacts):
             assert state.depth_mm == pytest.approx(contact.height_mm.max(), abs=1e-6)
             assert state.depth_mm < DEEPEST_MM * 1.01
             assert state.depth is depth_word(state.depth_mm)
-            assert state.area is area_word(state.area_share)
-            assert 0 < state.area_share <= 1
+            assert state.area is area_word(state.area_fraction)
+            assert 0 < state.area_fraction <= 1
             if series.modulus_mpa is None:
                 kinds.add("rigid")
                 assert state.depth_mm == pytest.approx(load, abs=0.005)

@@ -42,7 +42,7 @@ def contact(
     depth_mm: float = 0.4,
     x_mm: float = 0.0,
     y_mm: float = 0.0,
-    area_share: float = 0.12,
+    area_fraction: float = 0.12,
     force_n: float = 1.5,
     cut: frozenset[Side] = frozenset(),
 ) -> ContactState:
@@ -50,18 +50,18 @@ def contact(
         depth_mm=depth_mm,
         x_mm=x_mm,
         y_mm=y_mm,
-        area_share=area_share,
+        area_fraction=area_fraction,
         force_n=force_n,
         depth=depth_word(depth_mm),
         position=position_word(x_mm, y_mm, MINI),
-        area=area_word(area_share),
+        area=area_word(area_fraction),
         cut=cut,
         **SMOOTH_BALL,
     )
 
 
 NOTHING = ContactState(
-    depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_share=0.0, force_n=0.0, depth=None, position=None,
+    depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
     area=None,
 )  # fmt: skip
 
@@ -72,7 +72,7 @@ NOTHING = ContactState(
         depth_mm=st.floats(0.05, 1.4),
         x_mm=st.floats(-9, 9),
         y_mm=st.floats(-7, 7),
-        area_share=st.floats(0.001, 0.9),
+        area_fraction=st.floats(0.001, 0.9),
         force_n=st.floats(0.02, 12),
         cut=st.frozensets(st.sampled_from(list(Side))),
     )
@@ -109,7 +109,7 @@ def test_a_goal_at_a_task_is_that_task() -> None:
     for goal in task_goals().values():
         between = goal_of_force(goal.force_n.low, goal.force_n.high)
         assert between.depth_mm.high == pytest.approx(goal.depth_mm.high)
-        assert between.area_share.high == pytest.approx(goal.area_share.high)
+        assert between.area_fraction.high == pytest.approx(goal.area_fraction.high)
 
 
 def test_instructions_in_newtons_mean_what_they_say() -> None:

@@ -16,13 +16,13 @@ HELD = ContactState(
     depth_mm=0.5,
     x_mm=0.0,
     y_mm=0.0,
-    area_share=0.1,
+    area_fraction=0.1,
     force_n=1.0,
     depth=Depth.MODERATE,
     position=Position.CENTERED,
     area=Area.MEDIUM,
 )
-NOTHING = replace(HELD, depth_mm=0.0, area_share=0.0, depth=None, position=None, area=None)
+NOTHING = replace(HELD, depth_mm=0.0, area_fraction=0.0, depth=None, position=None, area=None)
 
 
 def test_an_unchanged_contact_passes() -> None:
@@ -41,7 +41,7 @@ def test_the_shift_is_the_distance_on_the_pad() -> None:
     ("after", "said"),
     [
         (replace(HELD, x_mm=0.8, y_mm=0.8), "moved 1.1 mm"),
-        (replace(HELD, area_share=0.05), "50% of its area"),
+        (replace(HELD, area_fraction=0.05), "50% of its area"),
         (replace(HELD, depth_mm=0.25), "50% of its depth"),
         (NOTHING, "nothing is felt any more"),
     ],

@@ -34,7 +34,7 @@ from tacgrasp.training.evaluate import _decided
 from tests.fakes.tiny_weights import make_data, make_weights, state
 
 NOTHING = ContactState(
-    depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_share=0.0, force_n=0.0, depth=None, position=None,
+    depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
     area=None,
 )  # fmt: skip
 
