@@ -16,6 +16,7 @@ from pathlib import Path
 from safetensors import SafetensorError, safe_open
 from safetensors.numpy import save_file
 
+from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.sensing.photometric import GradientNet
 from cltp.tactile.sensors import SensorSpec
@@ -94,13 +95,9 @@ def save_calibration(path: Path, calibration: Calibration) -> None:
         OSError: The file can't be written.
     """
     record = {f.name: getattr(calibration, f.name) for f in fields(calibration) if f.name != "net"}
-    beside = path.with_name(path.name + ".part")
-    save_file(
-        asdict(calibration.net),
-        beside,
-        metadata={_KEY: json.dumps({"version": VERSION, **record}, sort_keys=True)},
-    )
-    beside.replace(path)
+    metadata = {_KEY: json.dumps({"version": VERSION, **record}, sort_keys=True)}
+    with replacing(path) as part:
+        save_file(asdict(calibration.net), part, metadata=metadata)
 
 
 def load_calibration(path: Path, sensor: SensorSpec, unit: str | None = None) -> Calibration:

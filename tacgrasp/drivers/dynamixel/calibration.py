@@ -19,8 +19,9 @@ import numpy as np
 import yaml
 from pydantic import Field, ValidationError, model_validator
 
+from cltp.atomic_write import write_atomically
 from primitives.errors import RobotError
-from tacgrasp.base.settings import Number, Section
+from tacgrasp.base.settings import Number, SettingsBase
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
 MIN_READINGS = 3
@@ -28,7 +29,7 @@ MAX_RESIDUAL_SHARE = 0.15
 """Residual over the largest force, above which a line does not describe the gripper; our choice."""
 
 
-class GripperCalibration(Section):
+class GripperCalibration(SettingsBase):
     """The line, what it was measured on, and how well it fits.
 
     Attributes:
@@ -176,10 +177,8 @@ def save_calibration(path: Path, calibration: GripperCalibration) -> None:
         "# Force of a gripper over the current of its servos; made by: tacgrasp calibrate gripper\n"
         + yaml.safe_dump(calibration.model_dump(mode="json"), sort_keys=False)
     )
-    part = path.with_name(path.name + ".part")
     try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
+        write_atomically(path, text)
     except OSError as error:
         raise RobotError(f"the calibration can't be written to {path}: {error.strerror}") from None
 

@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.sensing.frames import Frame, check_frame, read_frame
 from cltp.tactile.sensors import SensorSpec
@@ -59,7 +60,7 @@ class Background:
         return None if self.taken is None else (now - self.taken).total_seconds() / 3600
 
 
-def averaged(
+def average_frames(
     frames: Sequence[Frame], sensor: SensorSpec, unit: str, taken: datetime.datetime
 ) -> Background:
     """One background out of several frames.
@@ -128,9 +129,8 @@ def save_background(path: Path, background: Background) -> None:
     }
     text = PngInfo()
     text.add_text(_KEY, json.dumps(record))
-    beside = path.with_name(path.name + ".part")
-    Image.fromarray(background.frame).save(beside, format="PNG", pnginfo=text)
-    beside.replace(path)
+    with replacing(path) as part:
+        Image.fromarray(background.frame).save(part, format="PNG", pnginfo=text)
 
 
 def load_background(
