@@ -14,7 +14,7 @@ from tacgrasp.cli.flags import parse, subcommand
 
 
 @dataclass(frozen=True)
-class GelsightMini:
+class CalibrateGelsightFlags:
     """Learn a GelSight Mini's heights from presses of a ball of known diameter.
 
     Press a steel ball at 20 or more places all over the gel, one frame each, and take one frame
@@ -59,7 +59,7 @@ def main(argv: Sequence[str]) -> int:
 
 def _gelsight_mini(argv: Sequence[str]) -> None:
     """Photometric: colours to heights, from presses of a ball."""
-    flags = parse(GelsightMini, argv, prog="tacgrasp calibrate gelsight-mini")
+    flags = parse(CalibrateGelsightFlags, argv, prog="tacgrasp calibrate gelsight-mini")
     if not 1.0 <= flags.diameter_mm <= 100.0:
         raise UsageError(f"--diameter-mm must be 1 to 100, got {flags.diameter_mm}")
     if not flags.out.parent.is_dir():
@@ -110,4 +110,4 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
     to.print(f"frames    {len(trained.presses)} of {len(balls.frames)}")
     to.print(f"presses   {depths[0]:.2f} to {depths[-1]:.2f} mm deep")
     to.print(f"residual  {trained.residual:.3f} mm per mm, slopes around the ball")
-    to.print(f"written   {flags.out}; check it with: tacgrasp bench balls --dir {flags.balls}")
+    to.print(f"written   {flags.out}; check it with: tacgrasp bench balls --data {flags.balls}")

@@ -29,7 +29,6 @@ from cltp.train.progress import Bar
 from tacgrasp.bringup.ball_profiles import ball_profiles
 from tacgrasp.drivers.gelsight.frame_folder import BallFrames, read_ball_frames
 
-FOLDER = Path(__file__).parents[3].parent / "shared/data/gelsight_mini_balls"
 PROFILE = "profile_6.31mm.csv"
 DIAMETER_LIMIT_PERCENT = 4.0
 TIME_LIMIT_MS = 25.0

@@ -32,7 +32,6 @@ from tacgrasp.benchmarks.sensing.radial_profiles import (
     taxim,
 )
 
-PROFILES = Path(__file__).parents[3].parent / "shared/data/gelsight_mini_balls"
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
 
 
@@ -122,9 +121,9 @@ def dimitriadis() -> list[Figure]:
 
 
 def volume() -> list[Figure]:
-    """Share of the sunk volume that does not rise again, nu = 0.4999."""
+    """Percentage of the sunk volume that does not rise again, nu = 0.4999."""
     material = GelMaterial(thickness_mm=2.0, young_mpa=0.145, poisson=0.4999)
-    press = _square(material, 121, 0.4).press_to_force(_ball(4.0, 121, 121, 0.4), torch.tensor(1.0))
+    press = _square(material, 241, 0.4).press_to_force(_ball(4.0, 241, 241, 0.4), torch.tensor(1.0))
     sunk = press.height_mm.clamp(min=0).sum().item()
     return [
         Figure(
@@ -132,19 +131,19 @@ def volume() -> list[Figure]:
             what="Volume lost",
             value=100 * press.height_mm.sum().item() / sunk,
             unit="%",
-            note="nu 0.4999, field 24 thicknesses wide",
+            note="nu 0.4999, sensing area 48 thicknesses wide",
         )
     ]
 
 
-def profiles(folder: Path = PROFILES) -> list[Figure]:
+def profiles(folder: Path | None) -> list[Figure]:
     """Real balls: the gel fitted on one of them, the preset, TACTO and Taxim on all.
 
     Source: ``tacgrasp.benchmarks.sensing.radial_profiles`` has the protocol.
     """
-    known = read_profiles(folder)
+    known = [] if folder is None else read_profiles(folder)
     if not known:
-        note = f"no profile_*mm.csv in {folder}"
+        note = "give --data DIR" if folder is None else f"no profile_*mm.csv in {folder}"
         return [
             Figure(
                 key="profile_rmse_mm", what="Real ball's profile", value=None, unit="mm", note=note
@@ -306,19 +305,23 @@ def _cost() -> list[Figure]:
     ]
 
 
-def measure() -> list[Figure]:
+def measure(data: Path | None) -> list[Figure]:
     """All figures, in the order of the table."""
-    parts = (hertz, dimitriadis, volume, profiles, discretisation, cost)
-    return [figure for part in parts for figure in part()]
+    before = hertz() + dimitriadis() + volume()
+    return before + profiles(data) + discretisation() + cost()
 
 
-def run(json_path: Path | None) -> None:
+def run(data: Path | None, json_path: Path | None) -> None:
     """Measure, print a table, and write the figures to ``json_path`` if given.
+
+    Args:
+        data: Folder with profiles of real presses; without it they are not compared.
+        json_path: File for the figures.
 
     Raises:
         OSError: The file cannot be written.
     """
-    figures = measure()
+    figures = measure(data)
     table = Table("what", "value", "unit", "note", title="Elastic-layer gel")
     for figure in figures:
         value = "not measured" if figure.value is None else f"{figure.value:.4g}"

@@ -68,7 +68,7 @@ def test_every_press_is_measured_named_and_counted(folder, calibration, tmp_path
     report = tmp_path / "captions.json"
     weights = make_weights(tmp_path / "weights")
     assert main(
-        ["bench", "ball-captions", "--dir", str(folder), "--weights", str(weights),
+        ["bench", "ball-captions", "--data", str(folder), "--weights", str(weights),
          "--calibration", str(calibration), "--json", str(report)]
     ) == 0  # fmt: skip
     figures = json.loads(report.read_text())
@@ -85,9 +85,11 @@ def test_every_press_is_measured_named_and_counted(folder, calibration, tmp_path
 
 
 def test_folds_and_a_calibration_exclude_each_other(capsys):
-    assert main(["bench", "ball-captions", "--folds", "3", "--calibration", "x"]) == 2
+    assert (
+        main(["bench", "ball-captions", "--data", "x", "--folds", "3", "--calibration", "x"]) == 2
+    )
     assert "give either" in capsys.readouterr().err
-    assert main(["bench", "ball-captions", "--folds", "1"]) == 2
+    assert main(["bench", "ball-captions", "--data", "x", "--folds", "1"]) == 2
 
 
 def test_shares_and_orders_are_those_of_the_presses():

@@ -156,8 +156,9 @@ def test_folders_that_hold_no_presses_are_refused(folder, tmp_path):
             ["calibrate", "gelsight-mini", "--balls", "x", "--diameter-mm", "6", "--date", "now"],
             "--date must be like",
         ),
-        (["bench", "balls", "--folds", "1"], "at least 2"),
-        (["bench", "balls", "--dir", "none"], "is no folder"),
+        (["bench", "balls", "--data", "x", "--folds", "1"], "at least 2"),
+        (["bench", "balls"], "--data"),
+        (["bench", "balls", "--data", "none"], "is no folder"),
     ],
 )
 def test_wrong_use_is_one_clear_line(argv, message, capsys, tmp_path, monkeypatch):

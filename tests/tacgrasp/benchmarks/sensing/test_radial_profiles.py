@@ -6,7 +6,6 @@ import pytest
 from cltp.errors import TouchError
 from sim.gel.layer import GelMaterial, gel_of
 from tacgrasp.benchmarks.sensing import radial_profiles
-from tacgrasp.benchmarks.sensing.gel import PROFILES
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     Profile,
     fit,
@@ -16,6 +15,7 @@ from tacgrasp.benchmarks.sensing.radial_profiles import (
     tacto,
     taxim,
 )
+from tests.paths import SHARED_DATA
 
 R_MM = (np.arange(28) + 0.5) * 0.2
 
@@ -82,6 +82,9 @@ def test_tacto_s_gel_does_not_move_beside_the_ball_and_taxim_s_only_sinks():
     assert blurred.min() >= 0
     assert 0.02 < blurred[(r > 2.2) & (r < 2.4)].mean() < 0.3
     assert blurred.max() == pytest.approx(0.8, abs=0.02)
+
+
+PROFILES = SHARED_DATA / "gelsight_mini_balls"
 
 
 @pytest.mark.slow
