@@ -52,12 +52,12 @@ class _Active:
     conjugate: Tensor
     compliance: Spectrum
 
-    def keep(self, rest: Tensor) -> None:
+    def retain(self, mask: Tensor) -> None:
         """Drop every contact whose ``rest`` is False."""
-        self.index, self.pressure, self.gap = self.index[rest], self.pressure[rest], self.gap[rest]
-        self.target, self.direction = self.target[rest], self.direction[rest]
-        self.norm, self.conjugate = self.norm[rest], self.conjugate[rest]
-        self.compliance = self.compliance.select(rest)
+        self.index, self.pressure, self.gap = self.index[mask], self.pressure[mask], self.gap[mask]
+        self.target, self.direction = self.target[mask], self.direction[mask]
+        self.norm, self.conjugate = self.norm[mask], self.conjugate[mask]
+        self.compliance = self.compliance.select(mask)
 
     def displacement(self, pressure: Tensor) -> Tensor:
         """Displacement under ``pressure``, both flat."""
@@ -85,15 +85,15 @@ class _Residual:
     norm: Tensor
     mean: Tensor
 
-    def keep(self, rest: Tensor) -> _Residual:
+    def retain(self, mask: Tensor) -> _Residual:
         """The residual of those contacts whose ``rest`` is True."""
         return _Residual(
-            gap=self.gap[rest],
-            contact=self.contact[rest],
-            count=self.count[rest],
-            level=self.level[rest],
-            norm=self.norm[rest],
-            mean=self.mean[rest],
+            gap=self.gap[mask],
+            contact=self.contact[mask],
+            count=self.count[mask],
+            level=self.level[mask],
+            norm=self.norm[mask],
+            mean=self.mean[mask],
         )
 
 
@@ -136,7 +136,7 @@ def solve(
     iterations = torch.zeros(batch, dtype=torch.int64, device=flat.device)
     converged = torch.ones(batch, dtype=torch.bool, device=flat.device)
     loaded = (target > 0) & (lowest < NO_BODY_MM) & (by_force | (target > lowest))
-    act = _Active(
+    active = _Active(
         index=torch.arange(batch, device=flat.device),
         pressure=start_mpa.flatten(1),
         gap=flat,
@@ -147,25 +147,25 @@ def solve(
         compliance=compliance,
     )
     if not bool(loaded.all()):
-        act.keep(loaded)
+        active.retain(loaded)
     for step in range(max_iterations + 1):
-        if act.index.numel() == 0:
+        if active.index.numel() == 0:
             break
-        left = _residual(act, by_force=by_force)
-        done = left.norm <= left.count * (tol * left.mean) ** 2
+        residual = _residual(active, by_force=by_force)
+        done = residual.norm <= residual.count * (tol * residual.mean) ** 2
         if step == max_iterations:
-            converged[act.index] = done
+            converged[active.index] = done
             done = torch.ones_like(done)
         if bool(done.any()):
-            ended = act.index[done]
-            pressure[ended], approach[ended] = act.pressure[done], left.level[done]
+            ended = active.index[done]
+            pressure[ended], approach[ended] = active.pressure[done], residual.level[done]
             iterations[ended] = step
-            rest = ~done
-            act.keep(rest)
-            left = left.keep(rest)
-            if act.index.numel() == 0:
+            mask = ~done
+            active.retain(mask)
+            residual = residual.retain(mask)
+            if active.index.numel() == 0:
                 break
-        _advance(act, left, by_force=by_force, stiffness=stiffness)
+        _advance(active, residual, by_force=by_force, stiffness=stiffness)
     return Solution(
         pressure_mpa=pressure.view_as(gap_mm),
         approach_mm=approach,
@@ -174,14 +174,14 @@ def solve(
     )
 
 
-def _residual(act: _Active, *, by_force: bool) -> _Residual:
-    displacement = act.displacement(act.pressure)
-    pressed = act.pressure > 0
+def _residual(active: _Active, *, by_force: bool) -> _Residual:
+    displacement = active.displacement(active.pressure)
+    pressed = active.pressure > 0
     contact = pressed.to(displacement.dtype)
     count = contact.sum(1).clamp(min=1)
     mean = _dot(displacement, contact) / count
-    gap = displacement.add_(act.gap)
-    level = _dot(gap, contact) / count if by_force else act.target
+    gap = displacement.add_(active.gap)
+    level = _dot(gap, contact) / count if by_force else active.target
     gap -= level[:, None]
     gap = torch.where(pressed, gap, gap.clamp(max=0))
     return _Residual(
@@ -189,24 +189,24 @@ def _residual(act: _Active, *, by_force: bool) -> _Residual:
     )
 
 
-def _advance(act: _Active, left: _Residual, *, by_force: bool, stiffness: float) -> None:
+def _advance(active: _Active, residual: _Residual, *, by_force: bool, stiffness: float) -> None:
     """One conjugate-gradient step, in place: direction, step length, projection, force."""
-    gap_in = left.gap * left.contact
+    gap_in = residual.gap * residual.contact
     norm = _dot(gap_in, gap_in)
-    beta = act.conjugate * norm / act.norm.clamp(min=1e-30)
-    act.direction = torch.addcmul(gap_in, act.direction * left.contact, beta[:, None])
-    act.norm = norm
-    response = act.displacement(act.direction)
-    curvature = _dot(response, act.direction)
+    beta = active.conjugate * norm / active.norm.clamp(min=1e-30)
+    active.direction = torch.addcmul(gap_in, active.direction * residual.contact, beta[:, None])
+    active.norm = norm
+    response = active.displacement(active.direction)
+    curvature = _dot(response, active.direction)
     if by_force:
-        mean = _dot(response, left.contact) / left.count
-        curvature -= mean * act.direction.sum(1)
-    ratio = _dot(gap_in, act.direction) / curvature.clamp(min=1e-30)
+        mean = _dot(response, residual.contact) / residual.count
+        curvature -= mean * active.direction.sum(1)
+    ratio = _dot(gap_in, active.direction) / curvature.clamp(min=1e-30)
     length = torch.where(curvature > 0, ratio, stiffness)[:, None]
-    overlap = left.gap - gap_in
-    pressure = act.pressure.addcmul(act.direction, length, value=-1.0).clamp_(min=0)
+    overlap = residual.gap - gap_in
+    pressure = active.pressure.addcmul(active.direction, length, value=-1.0).clamp_(min=0)
     pressure = pressure.addcmul_(overlap, length, value=-1.0)
-    act.conjugate = (overlap.amin(1) >= 0).to(norm.dtype)
+    active.conjugate = (overlap.amin(1) >= 0).to(norm.dtype)
     if by_force:
-        pressure *= (act.target / pressure.sum(1).clamp(min=1e-30))[:, None]
-    act.pressure = pressure
+        pressure *= (active.target / pressure.sum(1).clamp(min=1e-30))[:, None]
+    active.pressure = pressure

@@ -22,6 +22,8 @@ from sim.gel.compliance import GelMaterial, Spectrum, layer_compliance, spectrum
 from sim.gel.contact_solver import Solution, solve
 from sim.gel.gap import NO_BODY_MM
 
+_DEEPEST_GUESS_MM = 1e3  # where the search for a first guess begins at most
+
 # GelSight Mini: thickness and Poisson's ratio fitted to real presses of a 6.31 mm ball, modulus
 # as Tacchi uses for its elastomer (shared notes). DIGIT: not published, assumed alike. GelStereo:
 # modulus and Poisson's ratio as in TacFlex by its makers (github.com/Zhang-Chaofan/TacFlex),
@@ -42,8 +44,8 @@ def gel_of(sensor_name: str) -> GelMaterial:
     try:
         return GEL_MATERIALS[sensor_name]
     except KeyError:
-        known = ", ".join(sorted(GEL_MATERIALS))
-        raise ValueError(f"no gel known for sensor {sensor_name!r}; known: {known}") from None
+        names = ", ".join(sorted(GEL_MATERIALS))
+        raise ValueError(f"no gel known for sensor {sensor_name!r}; known: {names}") from None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,19 +136,22 @@ class ElasticLayer:
         )
 
     @cached_property
-    def _gel(self) -> Spectrum:
+    def _gel_spectrum(self) -> Spectrum:
         """Made when first used: ``sim.gel.fine.fine`` needs it of few of its grids."""
         return self._spectrum(self.material)
 
     @cached_property
-    def _both(self) -> Spectrum:
+    def _combined_spectrum(self) -> Spectrum:
         """Gel and body in series."""
         if self._modulus is None:
-            return self._gel
+            return self._gel_spectrum
         inverse = 1.0 / self._modulus
         if inverse.ndim == 1:
             inverse = inverse[:, None, None]
-        return replace(self._gel, values=self._gel.values + inverse * self._spectrum(None).values)
+        return replace(
+            self._gel_spectrum,
+            values=self._gel_spectrum.values + inverse * self._spectrum(None).values,
+        )
 
     def surface(self, pressure_kpa: Tensor) -> Tensor:
         """Displacement of the gel's surface, positive into the gel.
@@ -157,7 +162,7 @@ class ElasticLayer:
         Returns:
             (B, H, W) [mm].
         """
-        return self._gel.apply(self._field(pressure_kpa, "pressure_kpa") * 1e-3)
+        return self._gel_spectrum.apply(self._as_grid(pressure_kpa, "pressure_kpa") * 1e-3)
 
     def press_to_force(
         self,
@@ -185,7 +190,7 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap, force = self.checked(gap_mm, force_n, by_force=True, mask=mask)
+        gap, force = self.check_inputs(gap_mm, force_n, by_force=True, mask=mask)
         target = force / self.pitch_mm**2
         guess = self.first_pressure(start, gap, self._springs_depth(gap, target))
         total = guess.flatten(1).sum(1).clamp(min=1e-30)
@@ -224,7 +229,7 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap, depth = self.checked(gap_mm, depth_mm, by_force=False, mask=mask)
+        gap, depth = self.check_inputs(gap_mm, depth_mm, by_force=False, mask=mask)
         solution = solve(
             self._compliance(gap.shape[0]),
             gap,
@@ -237,7 +242,7 @@ class ElasticLayer:
         )
         return self._press(solution)
 
-    def checked(
+    def check_inputs(
         self, gap_mm: Tensor, load: Tensor | float, *, by_force: bool, mask: Tensor | None = None
     ) -> tuple[Tensor, Tensor]:
         """Gaps and loads of a press, checked, of this gel's dtype and on its device.
@@ -254,8 +259,8 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value makes no sense.
         """
-        gap = self._body(gap_mm, mask)
-        loads = self._per_element(load, gap.shape[0], "force_n" if by_force else "depth_mm")
+        gap = self._checked_gap(gap_mm, mask)
+        loads = self._per_contact(load, gap.shape[0], "force_n" if by_force else "depth_mm")
         if by_force and not bool(((loads >= 0) & torch.isfinite(loads)).all()):
             raise ValueError(f"force_n must be finite and >= 0 N, got {loads.tolist()}")
         if not bool(torch.isfinite(loads).all()):
@@ -266,7 +271,7 @@ class ElasticLayer:
         pressure = solution.pressure_mpa
         return Press(
             pressure_kpa=pressure * 1e3,
-            height_mm=self._gel.apply(pressure),
+            height_mm=self._gel_spectrum.apply(pressure),
             force_n=pressure.flatten(1).sum(1) * self.pitch_mm**2,
             depth_mm=solution.approach_mm,
             iterations=solution.iterations,
@@ -274,15 +279,15 @@ class ElasticLayer:
         )
 
     def _compliance(self, batch: int) -> Spectrum:
-        values = self._both.values
+        values = self._combined_spectrum.values
         if values.ndim == 3 and values.shape[0] != batch:
             raise ValueError(
                 f"body_modulus_mpa was given for {values.shape[0]} bodies, "
                 f"but {batch} are pressed; give as many of both"
             )
-        return self._both
+        return self._combined_spectrum
 
-    def _field(self, value: Tensor, name: str) -> Tensor:
+    def _as_grid(self, value: Tensor, name: str) -> Tensor:
         field = torch.as_tensor(value, dtype=self.dtype, device=self.device)
         if field.ndim != 3 or tuple(field.shape[1:]) != (self.rows, self.columns):
             raise ValueError(
@@ -290,15 +295,15 @@ class ElasticLayer:
             )
         return field
 
-    def _per_element(self, value: Tensor | float, batch: int, name: str) -> Tensor:
+    def _per_contact(self, value: Tensor | float, batch: int, name: str) -> Tensor:
         values = torch.as_tensor(value, dtype=self.dtype, device=self.device)
         if values.ndim > 1 or values.numel() not in (1, batch):
             raise ValueError(f"{name} must be one number or ({batch},), got {tuple(values.shape)}")
         return values.reshape(-1).expand(batch)
 
-    def _body(self, gap_mm: Tensor, mask: Tensor | None) -> Tensor:
+    def _checked_gap(self, gap_mm: Tensor, mask: Tensor | None) -> Tensor:
         """Checked gap, ``NO_BODY_MM`` where no pressure can act."""
-        gap = self._field(gap_mm, "gap_mm")
+        gap = self._as_grid(gap_mm, "gap_mm")
         batch = len(gap)
         if gap.stride(0) == 0:  # one body, expanded
             gap = gap[:1]
@@ -326,11 +331,11 @@ class ElasticLayer:
         """
         flat = gap.flatten(1)
         carried = target / self.stiffness
-        depth = (flat.amin(1) + carried).clamp(max=NO_BODY_MM)
+        depth = (flat.amin(1) + carried).clamp(max=_DEEPEST_GUESS_MM)
         for _ in range(6):
-            sunk = (depth[:, None] - flat).clamp_(min=0)
-            pressed = (sunk > 0).sum(1).clamp(min=1)
-            depth = depth - (sunk.sum(1) - carried).clamp(min=0) / pressed
+            overlap = (depth[:, None] - flat).clamp_(min=0)
+            pressed = (overlap > 0).sum(1).clamp(min=1)
+            depth = depth - (overlap.sum(1) - carried).clamp(min=0) / pressed
         return depth
 
     def first_pressure(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
@@ -348,9 +353,9 @@ class ElasticLayer:
         springs = ((limit - gap) * self.stiffness).clamp_(min=0)
         if start is None:
             return springs
-        given = start.pressure_kpa if isinstance(start, Press) else start
-        warm = (self._field(given, "start") * 1e-3).clamp(min=0) * (gap < NO_BODY_MM)
-        if warm.shape != gap.shape:
-            raise ValueError(f"start has {warm.shape[0]} presses, gap_mm has {gap.shape[0]}")
-        pressed = (warm > 0).flatten(1).any(1)
-        return torch.where(pressed[:, None, None], warm, springs)
+        start_kpa = start.pressure_kpa if isinstance(start, Press) else start
+        start_mpa = (self._as_grid(start_kpa, "start") * 1e-3).clamp(min=0) * (gap < NO_BODY_MM)
+        if start_mpa.shape != gap.shape:
+            raise ValueError(f"start has {start_mpa.shape[0]} presses, gap_mm has {gap.shape[0]}")
+        pressed = (start_mpa > 0).flatten(1).any(1)
+        return torch.where(pressed[:, None, None], start_mpa, springs)

@@ -97,7 +97,7 @@ class Body:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ranges:
+class PropertyRanges:
     """What an object's properties are drawn from. Sources beside each preset."""
 
     mass_g: Range
@@ -113,8 +113,8 @@ class Ranges:
 # silicone was found nowhere: an assumption. Bruise force 2.0-3.2 N: an assumption of the order of
 # the 1.1-2.7 N that punctures (by cultivar).
 # Tomato, egg, peg: assumptions of the same kind, chosen to need rising force.
-OBJECTS: dict[str, Ranges] = {
-    "strawberry": Ranges(
+OBJECTS: dict[str, PropertyRanges] = {
+    "strawberry": PropertyRanges(
         mass_g=Range(low=7, high=40),
         young_mpa=Range(low=0.133, high=0.30, log=True),
         poisson=0.35,
@@ -122,7 +122,7 @@ OBJECTS: dict[str, Ranges] = {
         bruise_n=Range(low=2.0, high=3.2),
         first_force_n=Range(low=0.3, high=3.0, log=True),
     ),
-    "cherry_tomato": Ranges(
+    "cherry_tomato": PropertyRanges(
         mass_g=Range(low=8, high=18),
         young_mpa=Range(low=0.25, high=0.6, log=True),
         poisson=0.45,
@@ -130,7 +130,7 @@ OBJECTS: dict[str, Ranges] = {
         bruise_n=Range(low=1.4, high=2.4),
         first_force_n=Range(low=0.2, high=1.5, log=True),
     ),
-    "egg": Ranges(
+    "egg": PropertyRanges(
         mass_g=Range(low=45, high=65),
         young_mpa=Range(low=50, high=100, log=True),
         poisson=0.3,
@@ -138,7 +138,7 @@ OBJECTS: dict[str, Ranges] = {
         bruise_n=Range(low=7, high=12),
         first_force_n=Range(low=0.8, high=5.0, log=True),
     ),
-    "peg": Ranges(
+    "peg": PropertyRanges(
         mass_g=Range(low=60, high=140),
         young_mpa=Range(low=2e4, high=2e5, log=True),
         poisson=0.3,

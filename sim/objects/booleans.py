@@ -37,9 +37,9 @@ class Blend:
         return max(part.reach_mm for part in self.parts)
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Of the steepest part."""
-        return max(part.steep for part in self.parts)
+        return max(part.max_slope for part in self.parts)
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
@@ -55,11 +55,11 @@ class Blend:
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        away = torch.stack([part.distance(points) for part in self.parts])
-        own = torch.stack([part.cell(points) for part in self.parts])
+        distances = torch.stack([part.distance(points) for part in self.parts])
+        cells = torch.stack([part.cell(points) for part in self.parts])
         counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])
         first = counts.cumsum(0).to(points.device).view(-1, *[1] * (points.ndim - 1))
-        return (own + first).gather(0, away.argmin(0)[None])[0]
+        return (cells + first).gather(0, distances.argmin(0)[None])[0]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,9 +80,9 @@ class Hollow:
         return self.solid.reach_mm
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Of the steeper one."""
-        return max(self.solid.steep, self.without.steep)
+        return max(self.solid.max_slope, self.without.max_slope)
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
@@ -113,11 +113,11 @@ class Around:
         return self.solid.reach_mm
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Of the solid."""
-        return self.solid.steep
+        return self.solid.max_slope
 
-    def _folded(self, points: Tensor) -> tuple[Tensor, Tensor]:
+    def _fold(self, points: Tensor) -> tuple[Tensor, Tensor]:
         step = 2 * math.pi / self.count
         copy = torch.round(torch.atan2(points[..., 1], points[..., 0]) / step)
         cos, sin = torch.cos(copy * step), torch.sin(copy * step)
@@ -127,9 +127,9 @@ class Around:
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        return self.solid.distance(self._folded(points)[0])
+        return self.solid.distance(self._fold(points)[0])
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        folded, copy = self._folded(points)
+        folded, copy = self._fold(points)
         return self.solid.cell(folded) + copy * len(self.solid.cells)

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from sim.objects.catalogue_large import LARGE
 from sim.objects.catalogue_small import SMALL
-from sim.objects.object import Thing
+from sim.objects.object import SolidObject
 
-THINGS: tuple[Thing, ...] = (*SMALL, *LARGE)
+CATALOGUE: tuple[SolidObject, ...] = (*SMALL, *LARGE)
 
 UNSEEN: frozenset[str] = frozenset(
     {
@@ -34,20 +34,20 @@ UNSEEN: frozenset[str] = frozenset(
 """Objects that no training contact shows: 16 of all kinds and textures. Our choice."""
 
 
-def thing_named(name: str) -> Thing:
+def object_named(name: str) -> SolidObject:
     """Return the object called ``name``.
 
     Raises:
         ValueError: No object has this name; the message lists those that exist.
     """
-    for thing in THINGS:
-        if thing.name == name:
-            return thing
-    known = ", ".join(sorted(thing.name for thing in THINGS))
-    raise ValueError(f"unknown object {name!r}; known: {known}")
+    for obj in CATALOGUE:
+        if obj.name == name:
+            return obj
+    names = ", ".join(sorted(obj.name for obj in CATALOGUE))
+    raise ValueError(f"unknown object {name!r}; known: {names}")
 
 
-if len({thing.name for thing in THINGS}) != len(THINGS):
+if len({obj.name for obj in CATALOGUE}) != len(CATALOGUE):
     raise RuntimeError("two objects of the catalogue have one name")
-if not {thing.name for thing in THINGS} >= UNSEEN:
+if not {obj.name for obj in CATALOGUE} >= UNSEEN:
     raise RuntimeError("an unseen object is not in the catalogue")

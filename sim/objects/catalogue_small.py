@@ -7,7 +7,7 @@ as an end, in more than one size, and every texture on several.
 from __future__ import annotations
 
 from cltp.tactile.states import Shape
-from sim.objects.object import Family, Hold, Part, Thing
+from sim.objects.object import Family, Mount, Part, SolidObject
 from sim.objects.placing import moved
 from sim.objects.primitives import (
     bars,
@@ -37,12 +37,12 @@ from sim.objects.primitives import (
 from sim.objects.skins import SMOOTH, Skin, bumpy, ridged, rough, woven
 from sim.objects.solids import Hoop, Solid
 
-_LEVEL = (Hold(most_tilt_deg=1.0),)
-_LEANING = (Hold(most_tilt_deg=15.0),)
+_LEVEL = (Mount(most_tilt_deg=1.0),)
+_LEANING = (Mount(most_tilt_deg=15.0),)
 
 
-def _peg(name: str, features: str, solid: Solid, skin: Skin = SMOOTH) -> Thing:
-    return Thing(name, Family.PEG, features, (Part(solid, skin),), _LEVEL, 0.62)
+def _peg(name: str, features: str, solid: Solid, skin: Skin = SMOOTH) -> SolidObject:
+    return SolidObject(name, Family.PEG, features, (Part(solid, skin),), _LEVEL, 0.62)
 
 
 def _indenter(
@@ -50,17 +50,17 @@ def _indenter(
     features: str,
     solid: Solid,
     skin: Skin = SMOOTH,
-    holds: tuple[Hold, ...] = _LEVEL,
-) -> Thing:
-    return Thing(name, Family.INDENTER, features, (Part(solid, skin),), holds, 0.88)
+    mounts: tuple[Mount, ...] = _LEVEL,
+) -> SolidObject:
+    return SolidObject(name, Family.INDENTER, features, (Part(solid, skin),), mounts, 0.88)
 
 
-def _shanked(name: str, features: str, pattern: Solid, diameter: float) -> Thing:
+def _shanked(name: str, features: str, pattern: Solid, diameter: float) -> SolidObject:
     """A pattern on a shank that it just fits."""
     return _indenter(name, features, on_base(pattern, diameter))
 
 
-PEGS: tuple[Thing, ...] = (
+PEGS: tuple[SolidObject, ...] = (
     _peg("peg_round_4", "round, flat end", rod(4, 18)),
     _peg("peg_round_7", "round, flat end", rod(7, 22), rough(0.05, 0.45)),
     _peg("peg_round_11", "round, flat end", rod(11, 24), woven(0.12, 1.0)),
@@ -107,9 +107,9 @@ PEGS: tuple[Thing, ...] = (
     _peg("peg_pipe", "thin-walled tube", tube(8, 5.8, 22)),
 )
 
-INDENTERS: tuple[Thing, ...] = (
-    _indenter("ball_5", "ball end", rounded(2.5, 16, 5), holds=_LEANING),
-    _indenter("ball_9", "ball end", rounded(4.5, 18, 9), rough(0.04, 0.4), holds=_LEANING),
+INDENTERS: tuple[SolidObject, ...] = (
+    _indenter("ball_5", "ball end", rounded(2.5, 16, 5), mounts=_LEANING),
+    _indenter("ball_9", "ball end", rounded(4.5, 18, 9), rough(0.04, 0.4), mounts=_LEANING),
     _indenter(
         "ball_16_studded", "ball end, studded", rounded(8, 18, 15.5), bumpy(0.12, 1.4), _LEANING
     ),
@@ -119,29 +119,29 @@ INDENTERS: tuple[Thing, ...] = (
         "ellipsoid end",
         moved(oval(12, 6.5, 9), z=-4.5),
         ridged(0.08, 0.7),
-        holds=_LEANING,
+        mounts=_LEANING,
     ),
     _indenter(
         "egg_tip_17x9", "ellipsoid end", moved(oval(17, 9.4, 9), z=-4.5), woven(0.1, 0.8), _LEANING
     ),
     _indenter("egg_tip_26x16", "ellipsoid end", moved(oval(28, 15, 16), z=-8), rough(0.04, 0.4)),
-    _indenter("cone_30", "cone, half-angle 30°", cone(30, 18), holds=_LEANING),
-    _indenter("cone_50", "cone, half-angle 50°", cone(50, 14), holds=_LEANING),
-    _indenter("pyramid_4_40", "four-sided pyramid", pyramid(4, 40, 16), holds=_LEANING),
-    _indenter("pyramid_6_52", "six-sided pyramid", pyramid(6, 52, 14), holds=_LEANING),
+    _indenter("cone_30", "cone, half-angle 30°", cone(30, 18), mounts=_LEANING),
+    _indenter("cone_50", "cone, half-angle 50°", cone(50, 14), mounts=_LEANING),
+    _indenter("pyramid_4_40", "four-sided pyramid", pyramid(4, 40, 16), mounts=_LEANING),
+    _indenter("pyramid_6_52", "six-sided pyramid", pyramid(6, 52, 14), mounts=_LEANING),
     _indenter("chisel_70", "wedge, 70°, on its edge", roof(70, 10, 13)),
     _indenter("chisel_100", "wedge, 100°, on its edge", roof(100, 8, 22, 6)),
     _indenter(
         "cube_corner",
         "cube on its corner",
         moved(on_corner(9.0), z=-7.35),
-        holds=(Hold(most_tilt_deg=10.0),),
+        mounts=(Mount(most_tilt_deg=10.0),),
     ),
     _indenter(
         "three_faces",
         "blunt corner of three faces",
         pyramid(3, 48, 14),
-        holds=(Hold(most_tilt_deg=8.0),),
+        mounts=(Mount(most_tilt_deg=8.0),),
     ),
     _indenter("blade_10", "blade, 1 mm wide", flat_bar(10, 1.0)),
     _indenter("blade_16", "blade, 1.4 mm wide", flat_bar(16, 1.4)),
@@ -169,4 +169,4 @@ INDENTERS: tuple[Thing, ...] = (
     ),
 )
 
-SMALL: tuple[Thing, ...] = (*PEGS, *INDENTERS)
+SMALL: tuple[SolidObject, ...] = (*PEGS, *INDENTERS)

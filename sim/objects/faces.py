@@ -104,8 +104,8 @@ class Flats:
     def behind(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of ``points`` (..., 3), the planes first."""
         each = (-1, *[1] * (points.ndim - 1))
-        ways = constant((*self.normals, self.offsets), points.dtype, points.device)
-        a, b, c, offset = (way.view(each) for way in ways.unbind(0))
+        components = constant((*self.normals, self.offsets), points.dtype, points.device)
+        a, b, c, offset = (component.view(each) for component in components.unbind(0))
         x, y, z = points.unbind(-1)
         return (x * a).add_(y * b).add_(z * c).sub_(offset)
 

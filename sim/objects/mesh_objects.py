@@ -23,7 +23,7 @@ from cltp.errors import TouchError
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell, Form
 from sim.objects.meshes import SUFFIXES, checked_mesh
-from sim.objects.object import Family, Part, Thing
+from sim.objects.object import Family, Part, SolidObject
 from sim.objects.ray_casting import FloatArray
 
 IntArray = NDArray[np.int64]
@@ -35,7 +35,7 @@ is still round."""
 SMALL_MM = 50.0
 """Largest extent of a small object. Source: the paper, section 3.1."""
 
-_EVERY = 37
+_INSIDE_CHECK_STRIDE = 37
 _LEVEL_DEG = 2.0  # spread of normals of a flat region
 _TIP_MM = 0.6  # faces this near to a tip belong to it
 _TIP_DEFECT = 1.2  # angle that is missing around the vertex of a tip [rad]
@@ -49,14 +49,14 @@ def meshes_in(folder: Path) -> list[Path]:
     """
     if not folder.is_dir():
         raise TouchError(f"{folder} is no folder; --meshes expects one with PLY, OBJ or STL files")
-    found = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
-    if not found:
+    paths = sorted(path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES)
+    if not paths:
         raise TouchError(f"{folder} has no mesh; expected files that end in {', '.join(SUFFIXES)}")
-    return found
+    return paths
 
 
 @lru_cache(maxsize=4)
-def thing_from_mesh(path: Path) -> Thing:
+def object_from_mesh(path: Path) -> SolidObject:
     """An object of the shape of a mesh, smooth and rigid, about its bounding box's middle.
 
     Raises:
@@ -66,7 +66,7 @@ def thing_from_mesh(path: Path) -> Thing:
     vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2
     surface = _Surface(vertices, faces)
     large = float(np.ptp(vertices, axis=0).max()) >= SMALL_MM
-    return MeshThing(
+    return MeshObject(
         name=path.stem,
         family=Family.HOUSEHOLD if large else Family.PEG,
         features=f"mesh of {len(faces):,} faces",
@@ -89,31 +89,33 @@ class _Surface:
         )
         self._region, self.cells = _regions(vertices, faces)
         self.reach_mm = float(np.linalg.norm(vertices, axis=1).max())
-        self.steep = 1.0
+        self.max_slope = 1.0
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``sim.objects.solids.Solid``."""
-        away = self._scene.compute_signed_distance(self._points(points)).numpy()
-        return torch.from_numpy(away.reshape(points.shape[:-1])).to(points)
+        distances = self._scene.compute_signed_distance(self._points(points)).numpy()
+        return torch.from_numpy(distances.reshape(points.shape[:-1])).to(points)
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``sim.objects.solids.Solid``."""
-        nearest = self._scene.compute_closest_points(self._points(points))
-        face = nearest["primitive_ids"].numpy().astype(np.int64)
+        closest = self._scene.compute_closest_points(self._points(points))
+        face = closest["primitive_ids"].numpy().astype(np.int64)
         return torch.from_numpy(self._region[face].reshape(points.shape[:-1])).to(points.device)
 
     def rays(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
         """See ``sim.objects.ray_casting.Castable.surface``."""
         starts = origins.detach().cpu().numpy().astype(np.float32)
-        ways = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
-        rays = self._tensor(np.concatenate([starts, ways], axis=1))
-        far = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
-        far[far > far_mm] = np.inf
-        some = np.ascontiguousarray(starts[::_EVERY])  # a part that is in the way is no needle
-        inside = self._scene.compute_signed_distance(self._tensor(some)).numpy() < 0
+        edges = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
+        rays = self._tensor(np.concatenate([starts, edges], axis=1))
+        distances = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
+        distances[distances > far_mm] = np.inf
+        samples = np.ascontiguousarray(
+            starts[::_INSIDE_CHECK_STRIDE]
+        )  # a part that is in the way is no needle
+        inside = self._scene.compute_signed_distance(self._tensor(samples)).numpy() < 0
         if inside.any():
-            far[:] = np.nan
-        return torch.from_numpy(far).to(origins)
+            distances[:] = np.nan
+        return torch.from_numpy(distances).to(origins)
 
     def _points(self, points: Tensor) -> Any:
         flat = points.detach().cpu().numpy().astype(np.float32).reshape(-1, 3)
@@ -121,7 +123,7 @@ class _Surface:
 
 
 @dataclass(frozen=True)
-class MeshThing(Thing):
+class MeshObject(SolidObject):
     """An object whose only part is a mesh."""
 
     def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
@@ -166,16 +168,16 @@ def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     defects = np.asarray(mesh.vertex_defects)
     for vertex in np.flatnonzero(defects > _TIP_DEFECT):
-        around = mesh.vertex_faces[vertex]
-        around = around[around >= 0]
-        of = np.unique(region[around])
-        if len(of) != 1 or cells[of[0]].form is Form.FLAT:
+        neighbours = mesh.vertex_faces[vertex]
+        neighbours = neighbours[neighbours >= 0]
+        region_ids = np.unique(region[neighbours])
+        if len(region_ids) != 1 or cells[region_ids[0]].form is Form.FLAT:
             continue
-        side = np.flatnonzero(region == of[0])
+        side = np.flatnonzero(region == region_ids[0])
         corners = vertices[faces[side]]
         near = np.linalg.norm(corners - vertices[vertex], axis=2).max(axis=1) < _TIP_MM
-        cells[of[0]] = Cell(form=Form.TAPER)
-        region[side[near | np.isin(side, around)]] = len(cells)
+        cells[region_ids[0]] = Cell(form=Form.TAPER)
+        region[side[near | np.isin(side, neighbours)]] = len(cells)
         cells.append(Cell(form=Form.TAPER, outline=Shape.PEAK))
     return region, tuple(cells)
 
@@ -187,12 +189,12 @@ def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape
     rim = rim[counts == 1]
     if _num_loops(rim) > 1:
         return Shape.HOLE
-    ways = vertices[rim[:, 1]] - vertices[rim[:, 0]]
-    lengths = np.linalg.norm(ways, axis=1)
-    first = np.cross(normal, ways[int(lengths.argmax())])
+    edges = vertices[rim[:, 1]] - vertices[rim[:, 0]]
+    lengths = np.linalg.norm(edges, axis=1)
+    first = np.cross(normal, edges[int(lengths.argmax())])
     first /= max(float(np.linalg.norm(first)), 1e-12)
     second = np.cross(normal, first)
-    angle = np.degrees(np.arctan2(ways @ second, ways @ first)) % 180
+    angle = np.degrees(np.arctan2(edges @ second, edges @ first)) % 180
     bins = np.bincount((np.round(angle / 10).astype(int)) % 18, weights=lengths, minlength=18)
     main = int((bins > 0.08 * lengths.sum()).sum())
     if main >= 5:
@@ -220,5 +222,5 @@ def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
     corners = vertices[np.unique(rim)]
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
     turned = 2 * middle - corners
-    apart, _ = cKDTree(corners).query(turned)
-    return float(apart.max()) < 0.05 * float(np.ptp(corners, axis=0).max())
+    distances, _ = cKDTree(corners).query(turned)
+    return float(distances.max()) < 0.05 * float(np.ptp(corners, axis=0).max())

@@ -52,10 +52,10 @@ def checked_mesh(path: Path) -> tuple[FloatArray, IntArray]:
     """
     path = Path(path)
     _check_file(path)
-    vertices, faces = _loaded(path)
+    vertices, faces = _load(path)
     try:
         _check_numbers(vertices, faces)
-        vertices, faces = _joined(vertices, faces)
+        vertices, faces = _join_vertices(vertices, faces)
         _check_surface(vertices, faces)
     except TouchError as error:
         raise TouchError(f"{path}: {error}") from None
@@ -114,8 +114,8 @@ def _declared_faces(path: Path, size: int) -> int | None:
                 lines = (line.partition(b"#")[0] for line in head.splitlines())
                 counts = [word for word in b" ".join(lines).split()[:4] if word.isdigit()]
                 return int(counts[1]) if len(counts) > 1 else None
-    found = re.search(rb"[\r\n]element\s+face\s+(\d+)", head.split(b"end_header")[0])
-    return int(found[1]) if found else None
+    match = re.search(rb"[\r\n]element\s+face\s+(\d+)", head.split(b"end_header")[0])
+    return int(match[1]) if match else None
 
 
 def _binary_stl_faces(head: bytes, size: int) -> int | None:
@@ -125,8 +125,8 @@ def _binary_stl_faces(head: bytes, size: int) -> int | None:
         TouchError: It ends before its last face.
     """
     announced = int.from_bytes(head[80:84], "little")
-    text = head.lstrip()[:5] == b"solid" and b"facet" in head
-    if len(head) < 84 or (text and size != 84 + 50 * announced):
+    is_ascii = head.lstrip()[:5] == b"solid" and b"facet" in head
+    if len(head) < 84 or (is_ascii and size != 84 + 50 * announced):
         return None
     if size < 84 + 50 * announced:
         raise TouchError(
@@ -136,17 +136,17 @@ def _binary_stl_faces(head: bytes, size: int) -> int | None:
     return announced
 
 
-def _occurrences(file: BinaryIO, head: bytes, wanted: bytes) -> int:
+def _occurrences(file: BinaryIO, head: bytes, pattern: bytes) -> int:
     count, chunk = 0, b"\n" + head
     while chunk:
-        count += chunk.count(wanted)
-        following = file.read(_CHUNK_BYTES)
+        count += chunk.count(pattern)
+        next_chunk = file.read(_CHUNK_BYTES)
         # An occurrence may lie across two chunks; its tail alone is too short to count twice.
-        chunk = chunk[-len(wanted) + 1 :] + following if following else b""
+        chunk = chunk[-len(pattern) + 1 :] + next_chunk if next_chunk else b""
     return count
 
 
-def _loaded(path: Path) -> tuple[FloatArray, IntArray]:
+def _load(path: Path) -> tuple[FloatArray, IntArray]:
     import trimesh
 
     try:
@@ -181,16 +181,16 @@ def _check_numbers(vertices: FloatArray, faces: IntArray) -> None:
         )
 
 
-def _joined(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
+def _join_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
     """One vertex for each place, no faces without area, no vertices without a face."""
-    places, which = np.unique(vertices, axis=0, return_inverse=True)
-    faces = which.reshape(-1)[faces]
+    positions, index = np.unique(vertices, axis=0, return_inverse=True)
+    faces = index.reshape(-1)[faces]
     a, b, c = faces.T
     faces = faces[(a != b) & (b != c) & (c != a)]
     if len(faces) == 0:
         raise TouchError("the mesh is empty: every face has two corners at one place")
     used, renumbered = np.unique(faces, return_inverse=True)
-    return places[used], renumbered.reshape(-1, 3)
+    return positions[used], renumbered.reshape(-1, 3)
 
 
 def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
@@ -226,9 +226,11 @@ def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
     np.minimum.at(low, part, vertices)
     np.maximum.at(high, part, vertices)
     solid = volumes > 0
-    for each in np.flatnonzero(volumes < 0):
-        within = (low[solid] <= low[each]).all(axis=1) & (high[solid] >= high[each]).all(axis=1)
-        if not within.any():
+    for part_id in np.flatnonzero(volumes < 0):
+        encloses = (low[solid] <= low[part_id]).all(axis=1) & (high[solid] >= high[part_id]).all(
+            axis=1
+        )
+        if not encloses.any():
             raise TouchError(
                 "the mesh is inside out (normals point inwards"
                 f"{f' in {int((~solid).sum())} of {number} parts' if number > 1 else ''}); "

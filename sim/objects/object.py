@@ -41,22 +41,22 @@ class Part:
 
 
 @dataclass(frozen=True, slots=True)
-class Hold:
+class Mount:
     """A way in which an object is held on purpose, such as a probe by its shank.
 
     Attributes:
-        towards: Unit vector of the object that points into the gel.
-        at: What of the object lies over the chosen place on the pad [mm].
+        direction: Unit vector in the object frame that points into the gel.
+        point: Point of the object over the chosen position on the pad, object frame [mm].
         most_tilt_deg: How far it may lean from there [°].
     """
 
-    towards: Vector = (0.0, 0.0, 1.0)
-    at: Vector = (0.0, 0.0, 0.0)
+    direction: Vector = (0.0, 0.0, 1.0)
+    point: Vector = (0.0, 0.0, 0.0)
     most_tilt_deg: float = 2.0
 
 
 @dataclass(frozen=True)
-class Thing:
+class SolidObject:
     """An object.
 
     Attributes:
@@ -73,12 +73,12 @@ class Thing:
     family: Family
     features: str
     parts: tuple[Part, ...]
-    holds: tuple[Hold, ...] = ()
-    held: float = 0.0
+    mounts: tuple[Mount, ...] = ()
+    mount_fraction: float = 0.0
     modulus_mpa: float | None = None
 
     @property
-    def small(self) -> bool:
+    def is_small(self) -> bool:
         """Whether it is turned in space and pressed down, instead of felt along its surface."""
         return self.family in (Family.PEG, Family.INDENTER)
 
@@ -98,9 +98,9 @@ class Thing:
         return max(part.solid.reach_mm for part in self.parts)
 
     @cached_property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Of its steepest part."""
-        return max(part.solid.steep for part in self.parts)
+        return max(part.solid.max_slope for part in self.parts)
 
     def distance(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of points (..., 3)."""
@@ -117,9 +117,9 @@ class Thing:
         best = self.parts[0].solid.distance(points)
         first = len(self.parts[0].solid.cells)
         for part in self.parts[1:]:
-            away = part.solid.distance(points)
-            number = torch.where(away < best, part.solid.cell(points) + first, number)
-            best = torch.minimum(best, away)
+            distance = part.solid.distance(points)
+            number = torch.where(distance < best, part.solid.cell(points) + first, number)
+            best = torch.minimum(best, distance)
             first += len(part.solid.cells)
         return number
 

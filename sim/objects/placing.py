@@ -33,25 +33,25 @@ class Placed:
         return self.solid.reach_mm + math.hypot(*self.move)
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Of the solid."""
-        return self.solid.steep
+        return self.solid.max_slope
 
-    def _back(self, points: Tensor) -> Tensor:
-        own = points - constant(self.move, points.dtype, points.device)
+    def _to_local(self, points: Tensor) -> Tensor:
+        local = points - constant(self.move, points.dtype, points.device)
         if self.turn is None:
-            return own
-        x, y, z = own.unbind(-1)
+            return local
+        x, y, z = local.unbind(-1)
         # Not a matrix product: its rounding may depend on the number of points.
         return stacked_as(points, *(x * a + y * b + z * c for a, b, c in self.turn))
 
     def distance(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        return self.solid.distance(self._back(points))
+        return self.solid.distance(self._to_local(points))
 
     def cell(self, points: Tensor) -> Tensor:
         """See ``Solid``."""
-        return self.solid.cell(self._back(points))
+        return self.solid.cell(self._to_local(points))
 
 
 _ALONG: dict[str, tuple[Vector, Vector, Vector]] = {

@@ -28,8 +28,8 @@ def _end(outline: Shape) -> Flat:
 
 def ball(diameter: float) -> Rods:
     """A ball."""
-    here = (0.0, 0.0, 0.0)
-    return Rods(((here, here),), diameter / 2, Form.CURVED)
+    origin = (0.0, 0.0, 0.0)
+    return Rods(((origin, origin),), diameter / 2, Form.CURVED)
 
 
 def oval(x: float, y: float, z: float) -> Oval:
@@ -166,8 +166,8 @@ def roof(angle: float, width: float, length: float, lean: float = 0.0, fillet: f
         Flat((-1.0, 0.0, 0.0), length / 2),
     ]
     for sign in (1.0, -1.0):
-        steep = math.radians(90 - angle / 2 + sign * lean)
-        faces.append(Flat((0.0, sign * math.sin(steep), math.cos(steep)), 0.0))
+        max_slope = math.radians(90 - angle / 2 + sign * lean)
+        faces.append(Flat((0.0, sign * math.sin(max_slope), math.cos(max_slope)), 0.0))
     reach = math.hypot(length / 2, width, width * math.tan(math.radians(angle / 2 + abs(lean))))
     return Cut(tuple(faces), fillet, reach)
 
@@ -222,17 +222,17 @@ def crossing(first: float, second: float, width: float, angle: float = 90.0) -> 
 def lattice(columns: int, rows: int, pitch: float, skew: float = 0.0) -> list[tuple[float, float]]:
     """Points of a lattice about the origin; every other row is shifted by ``skew`` pitches."""
     rise = pitch * math.sqrt(1 - skew**2)
-    at = [
+    points = [
         (i * pitch + (j % 2) * skew * pitch, j * rise) for j in range(rows) for i in range(columns)
     ]
-    mid_x = sum(x for x, _ in at) / len(at)
-    mid_y = sum(y for _, y in at) / len(at)
-    return [(x - mid_x, y - mid_y) for x, y in at]
+    mid_x = sum(x for x, _ in points) / len(points)
+    mid_y = sum(y for _, y in points) / len(points)
+    return [(x - mid_x, y - mid_y) for x, y in points]
 
 
-def bumps(at: Sequence[tuple[float, float]], diameter: float) -> Rods:
+def bumps(points: Sequence[tuple[float, float]], diameter: float) -> Rods:
     """Round bumps whose tops lie at z = 0."""
-    return dots(at, -diameter / 2, diameter / 2)
+    return dots(points, -diameter / 2, diameter / 2)
 
 
 def waves(x: float, y: float, period: float, amplitude: float, height: float = 12.0) -> Cut:

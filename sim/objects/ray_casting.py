@@ -70,7 +70,7 @@ class Marchable(Protocol):
     """What sphere tracing needs of a solid (``sim.objects.solids.Solid``)."""
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Largest slope of ``distance``."""
         ...
 
@@ -84,29 +84,29 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
     travelled = torch.zeros(origins.shape[0], dtype=origins.dtype, device=origins.device)
     hit = torch.full_like(travelled, torch.inf)
     index = torch.arange(origins.shape[0], device=origins.device)
-    away, going = travelled, travelled < far_mm
+    distance, active = travelled, travelled < far_mm
     for step in range(STEPS):
-        away = solid.distance(origins + travelled[:, None] * along)
-        arrived = away < NEAR_MM
-        found = travelled + away
+        distance = solid.distance(origins + travelled[:, None] * along)
+        arrived = distance < NEAR_MM
+        hit_mm = travelled + distance
         if step == 0:
-            found = torch.where(away < -NEAR_MM, torch.nan, found)
-        hit[index[arrived]] = found[arrived]
-        travelled = travelled + away / solid.steep
+            hit_mm = torch.where(distance < -NEAR_MM, torch.nan, hit_mm)
+        hit[index[arrived]] = hit_mm[arrived]
+        travelled = travelled + distance / solid.max_slope
         if step % 8 == 7:  # what lies behind the gel's reach needs no more steps
             nearest = float(hit.nan_to_num(nan=torch.inf).amin())
             far_mm = min(far_mm, nearest + 1.2 * BEYOND_MM)
-        going = ~arrived & (travelled < far_mm)
-        if not bool(going.any()):
+        active = ~arrived & (travelled < far_mm)
+        if not bool(active.any()):
             return hit
-        origins, travelled, index = origins[going], travelled[going], index[going]
+        origins, travelled, index = origins[active], travelled[active], index[active]
     # Still on their way: along a steep wall. They have arrived there, or end far behind the rim.
-    hit[index] = torch.where(away[going] < ALONGSIDE_MM, travelled, torch.inf)
+    hit[index] = torch.where(distance[active] < ALONGSIDE_MM, travelled, torch.inf)
     return hit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Meeting:
+class SurfacePoint:
     """Where a finger meets an object.
 
     Attributes:
@@ -118,85 +118,88 @@ class Meeting:
     normal: FloatArray
 
 
-def meet(thing: Castable, rng: np.random.Generator) -> Meeting:
+def random_surface_point(obj: Castable, rng: np.random.Generator) -> SurfacePoint:
     """Meet an object along a random line.
 
     Raises:
         ValueError: It was missed a thousand times.
     """
-    radius = thing.reach_mm + FINGER_MM
+    radius = obj.reach_mm + FINGER_MM
     for _ in range(1000):
-        towards = unit_vector(rng)
-        first, second = _across(towards)
-        angle, off = rng.uniform(0, 2 * math.pi), radius * math.sqrt(rng.random())
-        start = off * (math.cos(angle) * first + math.sin(angle) * second) - 1.01 * radius * towards
-        centre = _until(thing, start, towards, FINGER_MM, 2.1 * radius)
+        direction = unit_vector(rng)
+        first, second = _tangents(direction)
+        angle, radial_mm = rng.uniform(0, 2 * math.pi), radius * math.sqrt(rng.random())
+        start = (
+            radial_mm * (math.cos(angle) * first + math.sin(angle) * second)
+            - 1.01 * radius * direction
+        )
+        centre = _first_point_within(obj, start, direction, FINGER_MM, 2.1 * radius)
         if centre is not None:
-            normal = gradient(thing, centre)
-            return Meeting(point=_grounded(thing, centre, -normal), normal=normal)
+            normal = gradient(obj, centre)
+            return SurfacePoint(point=_project_to_surface(obj, centre, -normal), normal=normal)
     raise ValueError("a thousand random lines missed an object; is it where its reach says?")
 
 
-def support(thing: Castable, towards: FloatArray) -> Meeting:
+def support_point(obj: Castable, direction: FloatArray) -> SurfacePoint:
     """Where an object that comes in a direction, held as it is, first meets a large flat pad."""
-    first, second = _across(towards)
-    reach = thing.reach_mm
+    first, second = _tangents(direction)
+    reach = obj.reach_mm
     centre, span = np.zeros(2), reach
     point = np.zeros(3)
     for _ in range(3):
         axis = np.linspace(-span, span, 41)
         u, v = np.meshgrid(centre[0] + axis, centre[1] + axis)
-        start = u[..., None] * first + v[..., None] * second + 1.01 * reach * towards
+        start = u[..., None] * first + v[..., None] * second + 1.01 * reach * direction
         rays = torch.from_numpy(start.reshape(-1, 3))
-        far = thing.surface(rays, torch.from_numpy(-towards), 2.1 * reach).numpy()
-        best = int(np.nanargmin(far))
+        distance_mm = obj.surface(rays, torch.from_numpy(-direction), 2.1 * reach).numpy()
+        best = int(np.nanargmin(distance_mm))
         centre = np.array([u.ravel()[best], v.ravel()[best]])
-        point = start.reshape(-1, 3)[best] - far[best] * towards
+        point = start.reshape(-1, 3)[best] - distance_mm[best] * direction
         span /= 12
-    return Meeting(point=point, normal=towards)
+    return SurfacePoint(point=point, normal=direction)
 
 
-def gradient(thing: Castable, point: FloatArray, step_mm: float = 1e-3) -> FloatArray:
+def gradient(obj: Castable, point: FloatArray, step_mm: float = 1e-3) -> FloatArray:
     """Outward unit normal of the level surface through a point, (3,)."""
     offsets = np.concatenate([np.eye(3), -np.eye(3)]) * step_mm
-    away = thing.distance(torch.from_numpy(point + offsets)).numpy()
-    slope = away[:3] - away[3:]
+    distance = obj.distance(torch.from_numpy(point + offsets)).numpy()
+    slope = distance[:3] - distance[3:]
     return np.asarray(slope / max(float(np.linalg.norm(slope)), 1e-12))
 
 
-def _until(
-    thing: Castable, start: FloatArray, towards: FloatArray, level_mm: float, far_mm: float
+def _first_point_within(
+    obj: Castable, start: FloatArray, direction: FloatArray, level_mm: float, far_mm: float
 ) -> FloatArray | None:
     """Where a line first comes within ``level_mm`` of an object."""
     travelled = 0.0
     for _ in range(200):
-        point = start + travelled * towards
-        away = float(thing.distance(torch.from_numpy(point[None]))[0]) - level_mm
-        if away < 1e-3:
+        point = start + travelled * direction
+        distance = float(obj.distance(torch.from_numpy(point[None]))[0]) - level_mm
+        if distance < 1e-3:
             return np.asarray(point)
-        travelled += 0.8 * away
+        travelled += 0.8 * distance
         if travelled > far_mm:
             return None
     return None
 
 
-def _grounded(thing: Castable, point: FloatArray, towards: FloatArray) -> FloatArray:
-    found = _until(thing, point, towards, 0.0, 4 * FINGER_MM)
-    return point + FINGER_MM * towards if found is None else found
+def _project_to_surface(obj: Castable, point: FloatArray, direction: FloatArray) -> FloatArray:
+    hit_mm = _first_point_within(obj, point, direction, 0.0, 4 * FINGER_MM)
+    return point + FINGER_MM * direction if hit_mm is None else hit_mm
 
 
 def unit_vector(rng: np.random.Generator) -> FloatArray:
     """Uniform on the unit sphere, (3,)."""
-    drawn = rng.normal(size=3)
-    return np.asarray(drawn / np.linalg.norm(drawn))
+    vector = rng.normal(size=3)
+    return np.asarray(vector / np.linalg.norm(vector))
 
 
-def _across(towards: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _tangents(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Two unit vectors that make a right-handed frame with a third."""
-    least = np.eye(3)[int(np.argmin(np.abs(towards)))]
-    first = np.cross(least, towards)
+    least = np.eye(3)[int(np.argmin(np.abs(direction)))]
+    first = np.cross(least, direction)
     first /= np.linalg.norm(first)
-    return first, np.cross(towards, first)
+    return first, np.cross(direction, first)
 
 
 def frame_at(normal: FloatArray) -> FloatArray:
@@ -204,12 +207,12 @@ def frame_at(normal: FloatArray) -> FloatArray:
 
     Its turn about the normal is arbitrary.
     """
-    first, second = _across(normal)
+    first, second = _tangents(normal)
     return np.stack([first, second, normal], axis=1)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Felt:
+class PadView:
     """What lies over the pad.
 
     Attributes:
@@ -222,18 +225,18 @@ class Felt:
     points: FloatArray
 
 
-def feel(
-    thing: Castable,
+def cast_pad_rays(
+    obj: Castable,
     object_from_pad: FloatArray,
     point: FloatArray,
     x_mm: FloatArray,
     y_mm: FloatArray,
     device: torch.device | str = "cpu",
-) -> Felt | None:
+) -> PadView | None:
     """Cast the pad's rays against an object.
 
     Args:
-        thing: The object.
+        obj: The object.
         object_from_pad: Rotation (3, 3); its third column is z, into the gel.
         point: Of the object, where it lies over the pad's origin [mm].
         x_mm: Shape (H, W), over the pad [mm].
@@ -244,22 +247,22 @@ def feel(
         None where the pad can't come there: a part of the object is in its way, or nothing is over
         it.
     """
-    towards = object_from_pad[:, 2]
+    direction = object_from_pad[:, 2]
     origins = np.stack([x_mm.ravel(), y_mm.ravel()], axis=1) @ object_from_pad[:, :2].T
-    for way, start in zip(origins.T, point + BACK_MM * towards, strict=True):
-        way += start  # one coordinate after the other: numpy is slow over an axis of three
+    for component, start in zip(origins.T, point + BACK_MM * direction, strict=True):
+        component += start  # one coordinate after the other: numpy is slow over an axis of three
     rays = torch.from_numpy(origins.astype(np.float32)).view(*x_mm.shape, 3).to(device)
-    along = torch.from_numpy((-towards).astype(np.float32)).to(device)
-    over = thing.surface_over(rays, along, BACK_MM + 2 * BEYOND_MM).flatten()
-    far = over.cpu().numpy().astype(np.float64)
-    if np.isnan(far).any() or not np.isfinite(far).any():
+    along = torch.from_numpy((-direction).astype(np.float32)).to(device)
+    over = obj.surface_over(rays, along, BACK_MM + 2 * BEYOND_MM).flatten()
+    distance_mm = over.cpu().numpy().astype(np.float64)
+    if np.isnan(distance_mm).any() or not np.isfinite(distance_mm).any():
         return None
-    gap = far - far.min()
-    there = gap < BEYOND_MM
-    reached, points = np.where(there, far, 0.0), np.empty_like(origins)
-    for axis, way in enumerate(towards):
-        points[:, axis] = np.where(there, origins[:, axis] - reached * way, 0.0)
-    return Felt(
-        gap_mm=np.where(there, gap, NO_BODY_MM).reshape(x_mm.shape),
+    gap = distance_mm - distance_mm.min()
+    covered = gap < BEYOND_MM
+    reached, points = np.where(covered, distance_mm, 0.0), np.empty_like(origins)
+    for axis, component in enumerate(direction):
+        points[:, axis] = np.where(covered, origins[:, axis] - reached * component, 0.0)
+    return PadView(
+        gap_mm=np.where(covered, gap, NO_BODY_MM).reshape(x_mm.shape),
         points=points.reshape(*x_mm.shape, 3),
     )

@@ -48,11 +48,11 @@ def march_over(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) 
         clear = free.view(middles.shape[1:])
     first = _spread(clear, rays)
     # A few of the rays tell roughly how far the foremost goes.
-    few, few_first = rays[:, ::_FINER, ::_FINER], first[::_FINER, ::_FINER]
-    some = _march(solid, few.flatten(1), along, few_first.flatten(), far_mm, _FEW_STEPS)
-    far_mm = min(far_mm, float(some.nan_to_num(nan=torch.inf).amin()) + BEYOND_MM)
-    met = _march(solid, rays.flatten(1), along, first.flatten(), far_mm, STEPS)
-    return met.view(first.shape)
+    sparse, sparse_start = rays[:, ::_FINER, ::_FINER], first[::_FINER, ::_FINER]
+    sparse_mm = _march(solid, sparse.flatten(1), along, sparse_start.flatten(), far_mm, _FEW_STEPS)
+    far_mm = min(far_mm, float(sparse_mm.nan_to_num(nan=torch.inf).amin()) + BEYOND_MM)
+    reached_mm = _march(solid, rays.flatten(1), along, first.flatten(), far_mm, STEPS)
+    return reached_mm.view(first.shape)
 
 
 def _tubes(rays: Tensor, square: int) -> tuple[Tensor, float]:
@@ -90,15 +90,15 @@ def _free(
     free = travelled.clone()
     index = torch.arange(len(free))
     for _ in range(_TUBE_STEPS):
-        away = solid.distance(_points(middles, travelled, along))
-        room = (away / solid.steep - radius).clamp_(min=0)
-        travelled = travelled + room
+        distance = solid.distance(_points(middles, travelled, along))
+        free_step = (distance / solid.max_slope - radius).clamp_(min=0)
+        travelled = travelled + free_step
         free[index] = travelled
-        going = torch.nonzero((room > _WORTHWHILE * radius) & (travelled < far_mm))[:, 0]
-        if not len(going):
+        active = torch.nonzero((free_step > _WORTHWHILE * radius) & (travelled < far_mm))[:, 0]
+        if not len(active):
             break
-        middles = middles.index_select(1, going)
-        travelled, index = travelled[going], index[going]
+        middles = middles.index_select(1, active)
+        travelled, index = travelled[active], index[active]
     return free
 
 
@@ -110,21 +110,21 @@ def _march(
     index = torch.nonzero(first < far_mm)[:, 0]
     origins, travelled = origins.index_select(1, index), first[index]
     for step in range(steps):
-        away = solid.distance(_points(origins, travelled, along))
+        distance = solid.distance(_points(origins, travelled, along))
         if step == 0:
-            travelled = travelled.masked_fill((away < -NEAR_MM) & (travelled == 0), torch.nan)
-        arrived = away < NEAR_MM
-        onward = travelled + away.masked_fill(arrived, 0) / solid.steep
+            travelled = travelled.masked_fill((distance < -NEAR_MM) & (travelled == 0), torch.nan)
+        arrived = distance < NEAR_MM
+        onward = travelled + distance.masked_fill(arrived, 0) / solid.max_slope
         if len(index) < _FEW_RAYS and step % _TOGETHER and step < steps - 1:
             travelled = onward  # what has arrived stays there
             continue
         ended = torch.nonzero(arrived & ~(travelled >= far_mm))[:, 0]
-        hit[index[ended]] = travelled[ended] + away[ended]
-        going = torch.nonzero(~arrived & (onward < far_mm))[:, 0]
-        if not len(going):
+        hit[index[ended]] = travelled[ended] + distance[ended]
+        active = torch.nonzero(~arrived & (onward < far_mm))[:, 0]
+        if not len(active):
             return hit
-        origins = origins.index_select(1, going)
-        travelled, index, away = onward[going], index[going], away[going]
+        origins = origins.index_select(1, active)
+        travelled, index, distance = onward[active], index[active], distance[active]
     # Still on their way: along a steep wall, as in ``sim.objects.ray_casting.march``.
-    hit[index] = torch.where(away < ALONGSIDE_MM, travelled, torch.inf)
+    hit[index] = torch.where(distance < ALONGSIDE_MM, travelled, torch.inf)
     return hit

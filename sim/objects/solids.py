@@ -43,7 +43,7 @@ class Solid(Protocol):
         ...
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """Largest slope of ``distance``: 1 where it is exact."""
         ...
 
@@ -87,7 +87,7 @@ class Cut:
     leaning: float = 1.25
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """See ``Solid``: both bounds below are at most as steep as the distance."""
         return 1.0
 
@@ -150,7 +150,7 @@ class Oval:
     z: float
 
     @property
-    def steep(self) -> float:
+    def max_slope(self) -> float:
         """See ``Solid``; measured, over a range of proportions."""
         return max(1.25, 0.77 * max(self.x, self.y, self.z) / min(self.x, self.y, self.z))
 
@@ -184,7 +184,7 @@ class Hoop:
     tube: float
     half_angle: float = math.pi
     form: Form = Form.LOOP
-    steep: float = 1.0
+    max_slope: float = 1.0
 
     @property
     def cells(self) -> tuple[Cell, ...]:
@@ -224,8 +224,10 @@ def _rods(
     first, last = (constant(tuple(rod[i] for rod in ends), dtype, device) for i in (0, 1))
     along = last - first
     length = along.square().sum(-1).clamp(min=1e-9).view(each)
-    start, way = (tuple(v.view(each) for v in vectors.unbind(-1)) for vectors in (first, along))
-    return start, way, length, not bool(along.any())
+    start, component = (
+        tuple(v.view(each) for v in vectors.unbind(-1)) for vectors in (first, along)
+    )
+    return start, component, length, not bool(along.any())
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,7 +237,7 @@ class Rods:
     ends: tuple[tuple[Vector, Vector], ...]
     radius: float
     form: Form = Form.BAR
-    steep: float = 1.0
+    max_slope: float = 1.0
 
     @property
     def cells(self) -> tuple[Cell, ...]:

@@ -20,7 +20,7 @@ LEAST_MM, MOST_MM = 0.2, 500.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Probe:
+class ProbeShape:
     """A rigid probe, its tip at the origin.
 
     Attributes:
@@ -44,7 +44,7 @@ class Probe:
             )
 
     @classmethod
-    def named(cls, name: str) -> Probe:
+    def named(cls, name: str) -> ProbeShape:
         """Read ``ball:9.5`` and the like.
 
         Raises:

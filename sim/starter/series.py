@@ -19,7 +19,7 @@ from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DEPTH_LIMITS_MM, Shape, Texture
 from sim.grasp.bodies import Body, Range, draw_body
-from sim.starter.shapes import Pose, draw_indenter, gap_mm
+from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm
 from sim.starter.textures import relief_mm
 
 FloatArray = NDArray[np.float64]
@@ -173,7 +173,7 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     if indenter.most_tilt_rad < math.radians(10):
         slope = min(slope, depths[0] / 12)
     towards = rng.uniform(0, 2 * math.pi)
-    pose = Pose(
+    pose = IndenterPose(
         x_mm=at_x,
         y_mm=at_y,
         turn_rad=turn,

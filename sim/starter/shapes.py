@@ -39,7 +39,7 @@ class Indenter:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pose:
+class IndenterPose:
     """How an indenter meets the pad.
 
     Attributes:
@@ -68,7 +68,7 @@ def draw_indenter(shape: Shape, rng: np.random.Generator) -> Indenter:
 
 def gap_mm(
     indenter: Indenter,
-    pose: Pose,
+    pose: IndenterPose,
     x_mm: FloatArray,
     y_mm: FloatArray,
     relief_mm: FloatArray | float = 0.0,

@@ -19,12 +19,12 @@ _CRUMB = 0.12  # of the largest piece: smaller ones don't count
 _DEGREES = range(0, 90, 5)  # in which a rectangle is laid about a mask
 
 
-def share_of(mask: Mask) -> float:
+def covered_fraction(mask: Mask) -> float:
     """Share of the grid that a mask covers."""
     return int(np.count_nonzero(mask)) / mask.size
 
 
-def grown(mask: Mask, times: int = 1) -> Mask:
+def dilate(mask: Mask, times: int = 1) -> Mask:
     """A mask with the neighbours of its points above, below and beside, so many times over."""
     for _ in range(times):
         more = mask.copy()
@@ -36,7 +36,7 @@ def grown(mask: Mask, times: int = 1) -> Mask:
     return mask
 
 
-def pieces(mask: Mask) -> int:
+def count_pieces(mask: Mask) -> int:
     """Parts of a mask (not empty) that are more than crumbs of the largest one."""
     parts, num = label(mask, structure=np.ones((3, 3)))
     if num == 1:
@@ -45,7 +45,7 @@ def pieces(mask: Mask) -> int:
     return int((sizes > _CRUMB * sizes.max()).sum())
 
 
-def enclosed(mask: Mask) -> int:
+def count_enclosed_points(mask: Mask) -> int:
     """Grid points that a mask surrounds."""
     parts, num = label(~mask)
     at_border = np.unique(np.concatenate([parts[0], parts[-1], parts[:, 0], parts[:, -1]]))
@@ -53,7 +53,7 @@ def enclosed(mask: Mask) -> int:
     return int(np.count_nonzero(inside[parts]))
 
 
-def cut_share(mask: Mask) -> float:
+def border_fraction(mask: Mask) -> float:
     """Share of a mask's outline that is the border of the grid."""
     count = np.count_nonzero
     border = count(mask[0]) + count(mask[-1]) + count(mask[:, 0]) + count(mask[:, -1])
@@ -61,7 +61,7 @@ def cut_share(mask: Mask) -> float:
     return border / max(border + 0.8 * inner, 1)  # stairs are longer than what they stand for
 
 
-def way_round(mask: Mask) -> float:
+def circle_fraction(mask: Mask) -> float:
     """Share of a circle, fitted to a thin mask, along which the mask goes."""
     row, column = np.nonzero(mask)
     if len(row) < 8:
@@ -74,7 +74,7 @@ def way_round(mask: Mask) -> float:
     return len(bins) / 36
 
 
-class Spread(NamedTuple):
+class BoundingRectangle(NamedTuple):
     """Smallest rectangle about a mask: sides [mm], direction of the longer [rad]."""
 
     length: float
@@ -83,12 +83,12 @@ class Spread(NamedTuple):
 
 
 _COS, _SIN = (
-    np.array([[turn(math.radians(degrees))] for degrees in _DEGREES])
-    for turn in (math.cos, math.sin)
+    np.array([[function(math.radians(degrees))] for degrees in _DEGREES])
+    for function in (math.cos, math.sin)
 )
 
 
-def spread_of(mask: Mask, pitch_mm: float) -> Spread:
+def bounding_rectangle(mask: Mask, pitch_mm: float) -> BoundingRectangle:
     """Smallest rectangle about a mask (not empty), to 5°.
 
     Args:
@@ -105,32 +105,34 @@ def spread_of(mask: Mask, pitch_mm: float) -> Spread:
     best = int((along * across).argmin())
     sides = float(along[best]), float(across[best])
     angle = math.radians(_DEGREES[best] + (0 if sides[0] >= sides[1] else 90))
-    return Spread(max(sides), min(sides), angle)
+    return BoundingRectangle(max(sides), min(sides), angle)
 
 
 def angle_between(first: float, second: float) -> float:
     """Angle between two directions without a sense [rad]."""
-    apart = (first - second) % math.pi
-    return min(apart, math.pi - apart)
+    difference = (first - second) % math.pi
+    return min(difference, math.pi - difference)
 
 
-def slopes(gap_mm: FloatArray, where: Mask, pitch_mm: float) -> tuple[FloatArray, FloatArray]:
+def slopes(gap_mm: FloatArray, mask: Mask, pitch_mm: float) -> tuple[FloatArray, FloatArray]:
     """Slopes of a gap (H, W) at the points of a mask, (N,): down the rows, and along them."""
-    rows, columns = (np.flatnonzero(where.any(axis=axis)) for axis in (1, 0))
+    rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     if not len(rows):
         return np.zeros(0), np.zeros(0)
     # With the neighbours that differences are taken to.
-    high, wide = (slice(max(0, int(at[0]) - 1), int(at[-1]) + 2) for at in (rows, columns))
+    high, wide = (
+        slice(max(0, int(occupied[0]) - 1), int(occupied[-1]) + 2) for occupied in (rows, columns)
+    )
     down, right = np.gradient(gap_mm[high, wide], pitch_mm)
-    return np.asarray(down)[where[high, wide]], np.asarray(right)[where[high, wide]]
+    return np.asarray(down)[mask[high, wide]], np.asarray(right)[mask[high, wide]]
 
 
-def curvatures(gap_mm: FloatArray, where: Mask, pitch_mm: float) -> tuple[float, float]:
+def curvatures(gap_mm: FloatArray, mask: Mask, pitch_mm: float) -> tuple[float, float]:
     """Principal curvatures [1/mm], smaller first, of a quadric fitted to part of a gap."""
-    row, column = np.nonzero(where)
+    row, column = np.nonzero(mask)
     x, y = (column - column.mean()) * pitch_mm, (row.mean() - row) * pitch_mm
     terms = np.stack([x * x, x * y, y * y, x, y, np.ones_like(x)], axis=1)
-    (a, b, c, p, q, _), *_ = np.linalg.lstsq(terms, gap_mm[where], rcond=None)
+    (a, b, c, p, q, _), *_ = np.linalg.lstsq(terms, gap_mm[mask], rcond=None)
     first = np.array([[1 + p * p, p * q], [p * q, 1 + q * q]])
     second = np.array([[2 * a, b], [b, 2 * c]]) / math.sqrt(1 + p * p + q * q)
     low, high = np.sort(np.linalg.eigvals(np.linalg.solve(first, second)).real)

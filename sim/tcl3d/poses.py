@@ -1,11 +1,12 @@
-"""How an object comes to lie on the pad: where it is met, how it leans, turns and where it ends up.
+"""Random poses of an object on the pad: contact point, lean, rotation and position.
 
-Large objects are met along random lines (``sim.objects.ray_casting.meet``) and lean by up to 15°
-from there. Small ones are held by their shank, met like large ones, or turned to a random
-orientation of the unit sphere and brought down as they are. What is flat in a direction settles
-there: a lean stays only as far as it keeps the contact on the pad. A flat face is shifted so that
-it can be seen for what it is: a small one mostly inside the field, a large one with its end in it,
-since a pad that is pressed evenly everywhere feels nothing.
+Large objects touch at a random point of their surface
+(``sim.objects.ray_casting.random_surface_point``) and lean by up to 15° from there. Small objects
+are mounted by their shank, touch at a random point as well, or take a uniformly random orientation
+and are lowered until they touch. A flat face settles on the pad: the lean is limited to what keeps
+the contact on the pad. A flat face is also shifted until its outline shows: a small face lies
+mostly inside the sensing area, a large one has its end in it, because a pad that is pressed evenly
+everywhere measures nothing.
 
 Not here: loads and labels (``sim.tcl3d.series``).
 """
@@ -17,17 +18,18 @@ from dataclasses import dataclass
 
 import numpy as np
 import torch
+from scipy.spatial.transform import Rotation
 
 from cltp.tactile.sensors import SensorSpec
-from sim.objects.object import Hold, Thing
+from sim.objects.object import Mount, SolidObject
 from sim.objects.ray_casting import (
     Castable,
     FloatArray,
-    Meeting,
+    SurfacePoint,
     frame_at,
     gradient,
-    meet,
-    support,
+    random_surface_point,
+    support_point,
     unit_vector,
 )
 from sim.objects.skins import SMOOTH
@@ -35,32 +37,33 @@ from sim.objects.skins import SMOOTH
 CONE_DEG = 15.0
 """Largest angle between approach and normal. Source: the paper, section 3.1."""
 
-MET_SHARE = 0.55
-"""Of the presses of small objects that aren't held on purpose; the others are turned at random."""
+RANDOM_POINT_FRACTION = 0.55
+"""Fraction of the unmounted presses of small objects that touch at a random surface point; the
+others take a random orientation."""
 
 SHIFT_MM = 4.5
-"""Furthest that leaning may carry a contact over the pad."""
+"""Largest distance by which a lean may move the contact over the pad."""
 
-EVEN_SHARE = 0.2
-"""A flat face may lean until its ends differ by this share of its lightest depth."""
+EVEN_FRACTION = 0.2
+"""A flat face may lean until its ends differ by this fraction of its lightest depth."""
 
 _PAD_MM = 20.0
-
+_MOUNT_LEVEL_DEG = 2.0  # mounts that tilt no more than this press a level face
 _FLAT_PER_MM = 1 / 150  # curvature below which a surface is flat
 _SMALL_MM, _FURTHEST_MM = (18.0, 60.0)
-_COVERED = (0.87, 0.97)  # share of the field under a large face
+_COVERED_FRACTION = (0.87, 0.97)  # of the sensing area, under a large face
 _CENTRED, _CENTRED_MM = 0.3, 2.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pose:
-    """Where the pad is.
+class PressPose:
+    """Pose of the pad relative to the object.
 
     Attributes:
         object_from_pad: Rotation (3, 3); the third column is z, into the gel.
-        point: What of the object lies over the pad's origin, object frame (3,) [mm].
-        flat: Whether it was met on a flat face.
-        wide: Whether that face is larger than the pad.
+        point: Point of the object over the pad's origin, object frame (3,) [mm].
+        flat: The contact is a flat face.
+        wide: That face is larger than the pad.
     """
 
     object_from_pad: FloatArray
@@ -69,167 +72,182 @@ class Pose:
     wide: bool
 
 
-def draw_pose(
-    thing: Thing,
-    rng: np.random.Generator,
-    sensor: SensorSpec,
-    lightest_mm: float,
-    *,
-    held: bool = False,
-) -> Pose:
-    """Draw how an object comes to lie on the pad of a sensor.
-
-    Args:
-        thing: The object.
-        rng: Draws it.
-        sensor: Whose pad.
-        lightest_mm: Depth of the lightest press [mm]: a flat face leans less than that.
-        held: Whether it is held on purpose, if it can be.
-    """
-    if rng.random() < (1.0 if held else thing.held):
-        hold = thing.holds[int(rng.integers(len(thing.holds)))]
-        return _held(thing, hold, rng, sensor, lightest_mm)
-    if thing.small and rng.random() >= MET_SHARE:
-        return _placed(thing, support(thing, unit_vector(rng)), None, rng, sensor)
-    textured = any(part.skin is not SMOOTH for part in thing.parts)
-    return felt_pose(thing, meet(thing, rng), rng, sensor, lightest_mm, textured=textured)
-
-
-def felt_pose(
-    thing: Castable,
-    met: Meeting,
-    rng: np.random.Generator,
-    sensor: SensorSpec,
-    lightest_mm: float,
-    *,
-    textured: bool,
-) -> Pose:
-    """A pose about a point of a surface, with a lean that its curvatures allow."""
-    frame = frame_at(met.normal)
-    bends = [_bend(thing, met, frame[:, axis]) for axis in (0, 1)]
-    oblique = [_bend(thing, met, (frame[:, 0] + s * frame[:, 1]) / math.sqrt(2)) for s in (1, -1)]
-    flat = max(*bends, *oblique) < _FLAT_PER_MM
-    slope = math.tan(math.radians(CONE_DEG)) * math.sqrt(rng.random())
-    towards = rng.uniform(0, 2 * math.pi)
-    lean = slope * np.array([math.cos(towards), math.sin(towards)])
-    face = _face(thing, met, frame) if flat else None
-    even = EVEN_SHARE * lightest_mm / (_PAD_MM if face is None else face.felt_mm)
-    lean = _settled(lean, np.array(bends), np.array(oblique), even)
-    if face is not None and face.wide and textured and rng.random() < 0.4:
-        # A texture is felt without an end in sight.
-        face = _Face(span_mm=4 * _PAD_MM, centre=face.centre, end=None)
-    return _placed(thing, met, face, rng, sensor, lean=lean, frame=frame, flat=flat)
-
-
-def _held(
-    thing: Thing, hold: Hold, rng: np.random.Generator, sensor: SensorSpec, lightest_mm: float
-) -> Pose:
-    met = Meeting(point=np.array(hold.at), normal=np.array(hold.towards))
-    frame = frame_at(met.normal)
-    most = math.tan(math.radians(hold.most_tilt_deg))
-    face = _face(thing, met, frame)
-    face = _Face(span_mm=face.felt_mm, centre=np.zeros(2), end=None)
-    if hold.most_tilt_deg <= 2:
-        most = min(most, EVEN_SHARE * lightest_mm / face.felt_mm)
-    slope, towards = most * rng.random(), rng.uniform(0, 2 * math.pi)
-    lean = slope * np.array([math.cos(towards), math.sin(towards)])
-    level = hold.most_tilt_deg <= 2
-    return _placed(thing, met, face, rng, sensor, lean=lean, frame=frame, flat=level)
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Face:
-    """A flat side: largest width, its middle from where it was met, and its nearest end if wide."""
+    """Flat face: its span, and its middle and nearest end relative to the contact point.
+
+    The end is None where the face is smaller than the pad.
+    """
 
     span_mm: float
     centre: FloatArray
     end: FloatArray | None
 
     @property
-    def wide(self) -> bool:
-        return self.end is not None
-
-    @property
-    def felt_mm(self) -> float:
-        """Largest width on a pad."""
+    def pad_span_mm(self) -> float:
+        """Span of the part that a pad can feel."""
         return float(np.clip(self.span_mm, 2.0, _PAD_MM))
 
 
-def _face(thing: Castable, met: Meeting, frame: FloatArray) -> _Face:
-    """How far a flat side goes in 24 directions from where it was met."""
+def draw_pose(
+    obj: SolidObject,
+    rng: np.random.Generator,
+    sensor: SensorSpec,
+    lightest_mm: float,
+    *,
+    mounted: bool = False,
+) -> PressPose:
+    """Draw the pose of an object on the pad of a sensor.
+
+    Args:
+        obj: The object.
+        rng: Random generator.
+        sensor: The sensor that is pressed.
+        lightest_mm: Depth of the lightest press [mm]; a flat face leans by less than that.
+        mounted: Use a mount of the object (it must have one) instead of drawing whether to.
+    """
+    if rng.random() < (1.0 if mounted else obj.mount_fraction):
+        mount = obj.mounts[int(rng.integers(len(obj.mounts)))]
+        return _mounted_pose(obj, mount, rng, sensor, lightest_mm)
+    if obj.is_small and rng.random() >= RANDOM_POINT_FRACTION:
+        return _pose_on_pad(support_point(obj, unit_vector(rng)), None, rng, sensor)
+    textured = any(part.skin is not SMOOTH for part in obj.parts)
+    point = random_surface_point(obj, rng)
+    return surface_pose(obj, point, rng, sensor, lightest_mm, textured=textured)
+
+
+def surface_pose(
+    obj: Castable,
+    contact: SurfacePoint,
+    rng: np.random.Generator,
+    sensor: SensorSpec,
+    lightest_mm: float,
+    *,
+    textured: bool,
+) -> PressPose:
+    """Draw a pose about a surface point, with a lean that the curvatures there allow."""
+    frame = frame_at(contact.normal)
+    along = [_normal_curvature(obj, contact, frame[:, axis]) for axis in (0, 1)]
+    diagonal = [
+        _normal_curvature(obj, contact, (frame[:, 0] + sign * frame[:, 1]) / math.sqrt(2))
+        for sign in (1, -1)
+    ]
+    flat = max(*along, *diagonal) < _FLAT_PER_MM
+    lean = _random_lean(math.tan(math.radians(CONE_DEG)) * math.sqrt(rng.random()), rng)
+    face = _measure_face(obj, contact, frame) if flat else None
+    even = EVEN_FRACTION * lightest_mm / (_PAD_MM if face is None else face.pad_span_mm)
+    lean = _limit_lean(lean, np.array(along), np.array(diagonal), even)
+    if face is not None and face.end is not None and textured and rng.random() < 0.4:
+        # A texture shows without an end of the face in view.
+        face = _Face(span_mm=4 * _PAD_MM, centre=face.centre, end=None)
+    return _pose_on_pad(contact, face, rng, sensor, lean=lean, flat=flat)
+
+
+def _random_lean(slope: float, rng: np.random.Generator) -> FloatArray:
+    direction_rad = rng.uniform(0, 2 * math.pi)
+    return slope * np.array([math.cos(direction_rad), math.sin(direction_rad)])
+
+
+def _mounted_pose(
+    obj: SolidObject,
+    mount: Mount,
+    rng: np.random.Generator,
+    sensor: SensorSpec,
+    lightest_mm: float,
+) -> PressPose:
+    contact = SurfacePoint(point=np.array(mount.point), normal=np.array(mount.direction))
+    limit = math.tan(math.radians(mount.most_tilt_deg))
+    span_mm = _measure_face(obj, contact, frame_at(contact.normal)).pad_span_mm
+    face = _Face(span_mm=span_mm, centre=np.zeros(2), end=None)
+    level = mount.most_tilt_deg <= _MOUNT_LEVEL_DEG
+    if level:
+        limit = min(limit, EVEN_FRACTION * lightest_mm / span_mm)
+    lean = _random_lean(limit * rng.random(), rng)
+    return _pose_on_pad(contact, face, rng, sensor, lean=lean, flat=level)
+
+
+def _measure_face(obj: Castable, contact: SurfacePoint, frame: FloatArray) -> _Face:
+    """Extent of a flat face in 24 directions from the contact point."""
     angles = np.arange(24) * (2 * math.pi / 24)
-    ways = np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
     steps = np.arange(0.25, _FURTHEST_MM, 0.5)
-    at = met.point + (steps[:, None, None] * ways[None]) @ frame[:, :2].T - 0.05 * met.normal
-    outside = thing.distance(torch.from_numpy(at)).numpy() > 0.35
-    # Where it is outside and stays so within a pad's width: gaps between bars are no ends.
-    inside = ~outside
+    offsets = (steps[:, None, None] * directions[None]) @ frame[:, :2].T
+    positions = contact.point + offsets - 0.05 * contact.normal
+    inside = ~(obj.distance(torch.from_numpy(positions)).numpy() > 0.35)
+    # The last point inside counts: gaps between bars are no ends.
     last = np.where(inside.any(0), inside.shape[0] - 1 - inside[::-1].argmax(0), 0)
     reach = steps[last]
-    ends = reach[:, None] * ways
-    span = float((reach + np.roll(reach, 12)).max())
-    narrow = float((reach + np.roll(reach, 12)).min())
+    ends = reach[:, None] * directions
+    spans = reach + np.roll(reach, 12)
+    span, narrow = float(spans.max()), float(spans.min())
     if span <= _SMALL_MM or narrow <= 0.5 * _SMALL_MM:
         return _Face(span_mm=min(span, _PAD_MM), centre=ends.mean(axis=0), end=None)
     return _Face(span_mm=span, centre=ends.mean(axis=0), end=ends[int(reach.argmin())])
 
 
-def _bend(thing: Castable, met: Meeting, way: FloatArray, step_mm: float = 0.8) -> float:
+def _normal_curvature(
+    obj: Castable, contact: SurfacePoint, direction: FloatArray, step_mm: float = 0.8
+) -> float:
     """Normal curvature along a direction [1/mm], at least 0."""
-    ahead = gradient(thing, met.point + step_mm * way)
-    back = gradient(thing, met.point - step_mm * way)
-    return max(0.0, float((ahead - back) @ way) / (2 * step_mm))
+    front = gradient(obj, contact.point + step_mm * direction)
+    back = gradient(obj, contact.point - step_mm * direction)
+    return max(0.0, float((front - back) @ direction) / (2 * step_mm))
 
 
-def _settled(lean: FloatArray, bends: FloatArray, oblique: FloatArray, even: float) -> FloatArray:
-    """A lean (2,) as slope, less what would carry the contact off the pad."""
-    mixed = (oblique[0] - oblique[1]) / 2
-    bending = np.array([[bends[0], mixed], [mixed, bends[1]]])
-    values, ways = np.linalg.eigh(bending)
-    most = np.maximum(SHIFT_MM * values.clip(min=0), even)
-    return np.asarray(ways @ np.clip(ways.T @ lean, -most, most))
+def _limit_lean(
+    lean: FloatArray, along: FloatArray, diagonal: FloatArray, even: float
+) -> FloatArray:
+    """Lean (2,) as a slope, limited to what keeps the contact on the pad."""
+    mixed = (diagonal[0] - diagonal[1]) / 2
+    bending = np.array([[along[0], mixed], [mixed, along[1]]])
+    values, vectors = np.linalg.eigh(bending)
+    limit = np.maximum(SHIFT_MM * values.clip(min=0), even)
+    return np.asarray(vectors @ np.clip(vectors.T @ lean, -limit, limit))
 
 
-def _placed(
-    thing: Castable,
-    met: Meeting,
+def _pose_on_pad(
+    contact: SurfacePoint,
     face: _Face | None,
     rng: np.random.Generator,
     sensor: SensorSpec,
     *,
     lean: FloatArray | None = None,
-    frame: FloatArray | None = None,
     flat: bool = False,
-) -> Pose:
-    """Lean, turn, and choose where on the pad."""
-    frame = frame_at(met.normal) if frame is None else frame
-    point, wide = met.point, False
+) -> PressPose:
+    """Lean the object, turn it about the normal, and draw its position on the pad."""
+    frame = frame_at(contact.normal)
+    point, wide = contact.point, False
     spin = rng.uniform(0, 2 * math.pi)
-    turned = frame @ _about_z(spin)
-    at = _place(rng, sensor, 0.0 if face is None else face.span_mm)
+    cos, sin = math.cos(spin), math.sin(spin)
+    turned = frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
+    position = _draw_position(rng, sensor, 0.0 if face is None else face.span_mm)
     if face is not None and face.end is not None:
         wide = True
-        at = _covering(face.end, spin, sensor, rng.uniform(*_COVERED))
+        position = _covering_position(face.end, spin, sensor, rng.uniform(*_COVERED_FRACTION))
     elif face is not None:
         point = point + frame[:, :2] @ face.centre
     if lean is not None:
-        turned = _leaning(frame, lean) @ turned
-    return Pose(object_from_pad=turned, point=point - turned[:, :2] @ at, flat=flat, wide=wide)
+        turned = _lean_rotation(frame, lean) @ turned
+    return PressPose(
+        object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat, wide=wide
+    )
 
 
-def _covering(end: FloatArray, spin: float, sensor: SensorSpec, share: float) -> FloatArray:
-    """Where a wide face must be met so that its end leaves ``share`` of the field under it (2,)."""
+def _covering_position(
+    end: FloatArray, spin: float, sensor: SensorSpec, fraction: float
+) -> FloatArray:
+    """Position (2,) [mm] at which a wide face covers ``fraction`` of the sensing area."""
     cos, sin = math.cos(spin), math.sin(spin)
-    towards = np.array([end[0] * cos + end[1] * sin, end[1] * cos - end[0] * sin])
-    length = max(float(np.hypot(*towards)), 1e-6)
-    way = towards / length
+    turned = np.array([end[0] * cos + end[1] * sin, end[1] * cos - end[0] * sin])
+    length = max(float(np.hypot(*turned)), 1e-6)
+    direction = turned / length
     x = (np.arange(64) + 0.5) / 64 - 0.5
-    along = x[None] * sensor.width_mm * way[0] + x[:, None] * sensor.height_mm * way[1]
-    return np.asarray((float(np.quantile(along, share)) - length) * way)
+    along = x[None] * sensor.width_mm * direction[0] + x[:, None] * sensor.height_mm * direction[1]
+    return np.asarray((float(np.quantile(along, fraction)) - length) * direction)
 
 
-def _place(rng: np.random.Generator, sensor: SensorSpec, span_mm: float) -> FloatArray:
-    """A place on the pad (2,) [mm]; wide things stay mostly inside."""
+def _draw_position(rng: np.random.Generator, sensor: SensorSpec, span_mm: float) -> FloatArray:
+    """Position on the pad (2,) [mm]; wide faces stay mostly inside."""
     reach = np.array([sensor.width_mm, sensor.height_mm]) / 2 - max(0.36 * span_mm, 0.6)
     reach = reach.clip(min=0.5)
     if rng.random() < _CENTRED:
@@ -237,17 +255,10 @@ def _place(rng: np.random.Generator, sensor: SensorSpec, span_mm: float) -> Floa
     return np.asarray(rng.uniform(-reach, reach))
 
 
-def _about_z(angle: float) -> FloatArray:
-    cos, sin = math.cos(angle), math.sin(angle)
-    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-
-
-def _leaning(frame: FloatArray, lean: FloatArray) -> FloatArray:
+def _lean_rotation(frame: FloatArray, lean: FloatArray) -> FloatArray:
     """Rotation (3, 3), object frame, that leans a frame's normal by a slope (2,)."""
     slope = float(np.hypot(*lean))
     if slope < 1e-9:
         return np.eye(3)
     axis = frame[:, :2] @ np.array([-lean[1], lean[0]]) / slope
-    angle = math.atan(slope)
-    cross = np.array([[0.0, -axis[2], axis[1]], [axis[2], 0.0, -axis[0]], [-axis[1], axis[0], 0.0]])
-    return np.asarray(np.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross)
+    return Rotation.from_rotvec(math.atan(slope) * axis).as_matrix()

@@ -22,16 +22,16 @@ from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import DEPTH_LIMITS_MM
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
-from sim.objects.catalogue import SMALL, THINGS, UNSEEN
+from sim.objects.catalogue import CATALOGUE, SMALL, UNSEEN
 from sim.objects.catalogue_large import LARGE
-from sim.objects.object import Thing
-from sim.objects.ray_casting import Felt, FloatArray, feel
+from sim.objects.object import SolidObject
+from sim.objects.ray_casting import FloatArray, PadView, cast_pad_rays
 from sim.objects.skins import SMOOTH, faded, relief_of
+from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import in_contact, label
-from sim.tcl3d.poses import Pose, draw_pose
+from sim.tcl3d.poses import PressPose, draw_pose
 from sim.tcl3d.shape_labels import name_shape
-from sim.tcl3d.texture_labels import TEXTURE, doubts, name_texture
-from sim.tcl3d.touch import Touch
+from sim.tcl3d.texture_labels import TEXTURE, name_texture, uncertain_labels
 
 ROWS, COLUMNS = 75, 100
 """Grid over the field of a GelSight Mini: 0.2 mm. Other sensors get elements of that size."""
@@ -62,16 +62,16 @@ OTHER_GELS = (
 thickness, modulus or Poisson's ratio training never saw. Our choice about the notes' h 3.4-4.6 mm,
 nu 0.47-0.49."""
 
-TEST_SHARE, VALIDATION_SHARE, PHYSICS_SHARE = 0.08, 0.04, 0.07
+TEST_FRACTION, VALIDATION_FRACTION, PHYSICS_FRACTION = 0.08, 0.04, 0.07
 """Shares of the series of seen objects; the rest is for training. Our choice."""
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
 _SHALLOWEST_MM, _SHALLOWEST_FINE_MM, _DEEPEST_MM = 0.1, 0.18, 1.3
-_GENTLE_MM, _GENTLE_SHARE = 0.6, 0.22  # deepest where much of the field touches at once
-_TOUCH_MM = 0.25  # gap up to which a surface counts for that
+_GENTLE_MM, _GENTLE_FRACTION = 0.6, 0.22  # deepest where much of the field touches at once
+_NEAR_MM = 0.25  # gap up to which a surface counts for that
 _HAND_MM, _HAND_SPREAD = 0.30, 0.507  # real hand presses: median, and spread of the logarithm
-_MARGIN = 4  # grid points: what touches first nearer to the border slips off
-_TRIES = 40
+_BORDER_MARGIN = 4  # grid points: what touches first nearer to the border slips off
+_MAX_ATTEMPTS = 40
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,33 +79,33 @@ class Scene:
     """What lies over the pad in a series.
 
     Attributes:
-        thing: The object.
+        obj: The object.
         felt: Its bare surface there.
         cells: Shape (H, W), the cell of each point; -1 where nothing is.
         relief_mm: Shape (H, W), of its skin [mm].
         flat: Whether it was met on a flat face.
     """
 
-    thing: Thing
-    felt: Felt
+    obj: SolidObject
+    view: PadView
     cells: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
     relief_mm: FloatArray
 
     @property
     def gap_mm(self) -> FloatArray:
         """Shape (H, W), skin included; least value 0 [mm]."""
-        there = self.cells >= 0
-        gap = self.felt.gap_mm + self.relief_mm
-        return np.where(there, gap - gap[there].min(), NO_BODY_MM)
+        covered = self.cells >= 0
+        gap = self.view.gap_mm + self.relief_mm
+        return np.where(covered, gap - gap[covered].min(), NO_BODY_MM)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
+class SeriesRequest:
     """What a series is to be.
 
     Attributes:
         number: Which series.
-        thing: The object.
+        obj: The object.
         sensor: Whose field.
         gel: Under which gel.
         split: What its contacts may be used for.
@@ -113,7 +113,7 @@ class Order:
     """
 
     number: int
-    thing: Thing
+    obj: SolidObject
     sensor: SensorSpec
     gel: GelMaterial
     split: Split
@@ -159,43 +159,43 @@ def num_loads(number: int) -> int:
     return DOMAIN_LOADS if GELSTEREO_FIRST <= number < MESH_FIRST else LOADS
 
 
-def order_of(seed: int, number: int) -> Order:
+def series_request(seed: int, number: int) -> SeriesRequest:
     """What series ``number`` of the data set of ``seed`` is to be."""
     if number >= GELSIGHT_FIRST:
         rng = np.random.default_rng([seed, number, 3])
-        thing, sensor = LARGE[int(rng.integers(len(LARGE)))], sensor_named("gelsight_mini")
-        return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSIGHT, DOMAIN_LOADS)
+        obj, sensor = LARGE[int(rng.integers(len(LARGE)))], sensor_named("gelsight_mini")
+        return _request(number, obj, sensor, gel_of(sensor.name), Split.GELSIGHT, DOMAIN_LOADS)
     if number >= GELSTEREO_FIRST:
-        thing, sensor = SMALL[number % len(SMALL)], sensor_named("gelstereo")
-        return _order(number, thing, sensor, gel_of(sensor.name), Split.GELSTEREO, DOMAIN_LOADS)
-    return _main_order(seed, number, THINGS[number % len(THINGS)])
+        obj, sensor = SMALL[number % len(SMALL)], sensor_named("gelstereo")
+        return _request(number, obj, sensor, gel_of(sensor.name), Split.GELSTEREO, DOMAIN_LOADS)
+    return _main_request(seed, number, CATALOGUE[number % len(CATALOGUE)])
 
 
-def _main_order(seed: int, number: int, thing: Thing) -> Order:
+def _main_request(seed: int, number: int, obj: SolidObject) -> SeriesRequest:
     rng = np.random.default_rng([seed, number, 3])
     u, which = float(rng.random()), int(rng.integers(1 << 30))
     split = Split.TRAIN
-    if thing.name in UNSEEN:
+    if obj.name in UNSEEN:
         split = Split.OBJECT
-    elif u < TEST_SHARE:
+    elif u < TEST_FRACTION:
         split = Split.TEST
-    elif u < TEST_SHARE + VALIDATION_SHARE:
+    elif u < TEST_FRACTION + VALIDATION_FRACTION:
         split = Split.VALIDATION
-    elif u < TEST_SHARE + VALIDATION_SHARE + PHYSICS_SHARE:
+    elif u < TEST_FRACTION + VALIDATION_FRACTION + PHYSICS_FRACTION:
         split = Split.PHYSICS
     gels = OTHER_GELS if split is Split.PHYSICS else GELS
     sensor = sensor_named("gelsight_mini")
-    return _order(number, thing, sensor, gels[which % len(gels)], split, LOADS)
+    return _request(number, obj, sensor, gels[which % len(gels)], split, LOADS)
 
 
-def _order(
-    number: int, thing: Thing, sensor: SensorSpec, gel: GelMaterial, split: Split, loads: int
-) -> Order:
-    return Order(number=number, thing=thing, sensor=sensor, gel=gel, split=split, loads=loads)
+def _request(
+    number: int, obj: SolidObject, sensor: SensorSpec, gel: GelMaterial, split: Split, loads: int
+) -> SeriesRequest:
+    return SeriesRequest(number=number, obj=obj, sensor=sensor, gel=gel, split=split, loads=loads)
 
 
 def make_series(
-    seed: int, number: int, device: torch.device | str = "cpu", *, thing: Thing | None = None
+    seed: int, number: int, device: torch.device | str = "cpu", *, obj: SolidObject | None = None
 ) -> list[Contact]:
     """Make the contacts of one series, lightest first.
 
@@ -203,18 +203,18 @@ def make_series(
         seed: Of the data set.
         number: Of the series (``series_numbers``, ``mesh_numbers``).
         device: Where rays are cast and contacts are solved.
-        thing: What is pressed, instead of an object of the catalogue.
+        obj: Object to press instead of one of the catalogue.
     """
-    order = order_of(seed, number) if thing is None else _main_order(seed, number, thing)
+    request = series_request(seed, number) if obj is None else _main_request(seed, number, obj)
     rng = np.random.default_rng([seed, number, 1])
-    scene, depths = draw_scene(order, rng, device)
-    soft = order.thing.modulus_mpa
-    rows, columns = grid_over(order.sensor)
+    scene, depths = draw_scene(request, rng, device)
+    soft = request.obj.modulus_mpa
+    rows, columns = grid_over(request.sensor)
     layer = ElasticLayer(
-        order.gel,
+        request.gel,
         rows=rows,
         columns=columns,
-        pitch_mm=order.sensor.width_mm / columns,
+        pitch_mm=request.sensor.width_mm / columns,
         body_modulus_mpa=soft,
         device=device,
     )
@@ -225,52 +225,54 @@ def make_series(
         press = layer.press_to_depth(
             gaps.to(device), torch.tensor(approach, device=device), tol=_TOLERANCE
         )
-    return _labelled(seed, order, scene, approach, press)
+    return label_presses(seed, request, scene, approach, press)
 
 
 @torch.inference_mode()
 def draw_scene(
-    order: Order, rng: np.random.Generator, device: torch.device | str = "cpu"
+    request: SeriesRequest, rng: np.random.Generator, device: torch.device | str = "cpu"
 ) -> tuple[Scene, list[float]]:
     """Draw what lies over the pad, and how deep it is pressed [mm].
 
     Raises:
         ValueError: The object can't be brought to the pad.
     """
-    thing, sensor = order.thing, order.sensor
+    obj, sensor = request.obj, request.sensor
     x, y = np.meshgrid(*grid_axes_mm(sensor, *grid_over(sensor)))
-    textured = any(part.skin is not SMOOTH for part in thing.parts)
-    lowest = _SHALLOWEST_FINE_MM if textured else _SHALLOWEST_MM
-    shares = rng.random(order.loads)
-    lightest = _depths(order, shares, lowest, gentle=False)[0]
-    held = order.split is Split.GELSTEREO
-    for tries in range(_TRIES):
-        pose = draw_pose(thing, rng, sensor, lightest, held=held)
-        felt = feel(thing, pose.object_from_pad, pose.point, x, y, device)
-        slips = felt is not None and not pose.flat and _at_border(felt.gap_mm)
-        if felt is not None and not (slips and tries < _TRIES // 2):
+    textured = any(part.skin is not SMOOTH for part in obj.parts)
+    shallowest_mm = _SHALLOWEST_FINE_MM if textured else _SHALLOWEST_MM
+    fractions = rng.random(request.loads)
+    lightest = _depths(request, fractions, shallowest_mm, gentle=False)[0]
+    mounted = request.split is Split.GELSTEREO
+    for attempt in range(_MAX_ATTEMPTS):
+        pose = draw_pose(obj, rng, sensor, lightest, mounted=mounted)
+        view = cast_pad_rays(obj, pose.object_from_pad, pose.point, x, y, device)
+        slips = view is not None and not pose.flat and _at_border(view.gap_mm)
+        if view is not None and not (slips and attempt < _MAX_ATTEMPTS // 2):
             break
     else:
-        raise ValueError(f"{thing.name} could not be brought to the pad in {_TRIES} tries")
-    scene = _scene(thing, pose, felt, rng, x, y, sensor)
-    much = float((felt.gap_mm < _TOUCH_MM).mean()) > _GENTLE_SHARE
-    return scene, _depths(order, shares, lowest, gentle=much)
+        raise ValueError(f"{obj.name} could not be brought to the pad in {_MAX_ATTEMPTS} attempts")
+    scene = _scene(obj, pose, view, rng, x, y, sensor)
+    is_gentle = float((view.gap_mm < _NEAR_MM).mean()) > _GENTLE_FRACTION
+    return scene, _depths(request, fractions, shallowest_mm, gentle=is_gentle)
 
 
-def _depths(order: Order, shares: FloatArray, lowest: float, *, gentle: bool) -> list[float]:
+def _depths(
+    request: SeriesRequest, fractions: FloatArray, shallowest_mm: float, *, gentle: bool
+) -> list[float]:
     """Rising depths [mm]: one in each class, or spread like those of a hand or a machine."""
-    if order.split is Split.GELSIGHT:
-        normal = np.sqrt(2) * torch.special.erfinv(torch.from_numpy(2 * shares - 1)).numpy()
-        depths = np.sort(_HAND_MM * np.exp(_HAND_SPREAD * normal)).clip(lowest, _DEEPEST_MM)
+    if request.split is Split.GELSIGHT:
+        normal = np.sqrt(2) * torch.special.erfinv(torch.from_numpy(2 * fractions - 1)).numpy()
+        depths = np.sort(_HAND_MM * np.exp(_HAND_SPREAD * normal)).clip(shallowest_mm, _DEEPEST_MM)
         return [float(d) for d in depths]
-    limits = [lowest, *DEPTH_LIMITS_MM, _DEEPEST_MM]
+    limits = [shallowest_mm, *DEPTH_LIMITS_MM, _DEEPEST_MM]
     if gentle:
-        limits = np.linspace(lowest, _GENTLE_MM, len(limits)).tolist()
-    if order.split is Split.GELSTEREO:
-        return [float(limits[0] + s * (limits[-1] - limits[0])) for s in np.sort(shares)]
+        limits = np.linspace(shallowest_mm, _GENTLE_MM, len(limits)).tolist()
+    if request.split is Split.GELSTEREO:
+        return [float(limits[0] + s * (limits[-1] - limits[0])) for s in np.sort(fractions)]
     return [
         float(low + s * (high - low))
-        for low, high, s in zip(limits, limits[1:], shares, strict=False)
+        for low, high, s in zip(limits, limits[1:], fractions, strict=False)
     ]
 
 
@@ -278,43 +280,47 @@ def _at_border(gap_mm: FloatArray) -> bool:
     """Whether the foremost point is at the pad's border: the object slips off it."""
     row, column = np.unravel_index(int(gap_mm.argmin()), gap_mm.shape)
     rows, columns = gap_mm.shape
-    return not (_MARGIN <= row < rows - _MARGIN and _MARGIN <= column < columns - _MARGIN)
+    return not (
+        _BORDER_MARGIN <= row < rows - _BORDER_MARGIN
+        and _BORDER_MARGIN <= column < columns - _BORDER_MARGIN
+    )
 
 
 def _scene(
-    thing: Thing,
-    pose: Pose,
-    felt: Felt,
+    obj: SolidObject,
+    pose: PressPose,
+    view: PadView,
     rng: np.random.Generator,
     x: FloatArray,
     y: FloatArray,
     sensor: SensorSpec,
 ) -> Scene:
-    there = felt.gap_mm < NO_BODY_MM
-    cells = np.full(there.shape, -1, dtype=np.int64)
-    cells[there] = thing.cell(torch.from_numpy(felt.points[there])).numpy()
+    covered = view.gap_mm < NO_BODY_MM
+    cells = np.full(covered.shape, -1, dtype=np.int64)
+    cells[covered] = obj.cell(torch.from_numpy(view.points[covered])).numpy()
     axis = pose.object_from_pad[2, :2]
     if np.hypot(*axis) < 0.3:
         axis = pose.object_from_pad[0, :2]
-    relief = np.zeros(there.shape)
-    part_of_cell = np.array([*thing.part_of_cell, -1])
-    for number, part in enumerate(thing.parts):
+    relief = np.zeros(covered.shape)
+    part_of_cell = np.array([*obj.part_of_cell, -1])
+    for number, part in enumerate(obj.parts):
         own = relief_of(part.skin, rng, x, y, math.atan2(axis[1], axis[0]), sensor)
         if part.skin is not SMOOTH:
             relief = np.where(part_of_cell[cells] == number, own, relief)
     if relief.any():
-        down, right = np.gradient(felt.gap_mm, sensor.width_mm / felt.gap_mm.shape[1])
+        down, right = np.gradient(view.gap_mm, sensor.width_mm / view.gap_mm.shape[1])
         relief = faded(relief, np.hypot(down, right))
-    return Scene(thing=thing, felt=felt, cells=cells, relief_mm=relief)
+    return Scene(obj=obj, view=view, cells=cells, relief_mm=relief)
 
 
-def _labelled(
-    seed: int, order: Order, scene: Scene, approach: list[float], press: Press
+def label_presses(
+    seed: int, request: SeriesRequest, scene: Scene, approach: list[float], press: Press
 ) -> list[Contact]:
-    pitch = order.sensor.width_mm / scene.cells.shape[1]
+    """Contacts of a series that has been pressed, with their labels."""
+    pitch = request.sensor.width_mm / scene.cells.shape[1]
     pressure = press.pressure_kpa.cpu()
     closed = in_contact(pressure, pitch)
-    material = order.gel
+    material = request.gel
     gel = Gel(
         thickness_mm=material.thickness_mm,
         young_mpa=material.young_mpa,
@@ -323,37 +329,37 @@ def _labelled(
     contacts = []
     for i, approach_mm in enumerate(approach):
         height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
-        touch = Touch(
-            gap_mm=scene.felt.gap_mm,
+        geometry = ContactGeometry(
+            gap_mm=scene.view.gap_mm,
             cells=scene.cells,
-            table=scene.thing.cells,
+            cell_table=scene.obj.cells,
             touching=load > 0,
             closed=closed[i],
             depth_mm=float(height_mm.max()),
             pitch_mm=pitch,
         )
-        shape = name_shape(touch)
-        texture = name_texture(scene.thing, touch, scene.relief_mm)
+        shape = name_shape(geometry)
+        texture = name_texture(scene.obj, geometry, scene.relief_mm)
         state = label(
             height_mm=height_mm,
             pressure_kpa=load,
             touching=closed[i],
             force_n=float(press.force_n[i]),
-            sensor=order.sensor,
+            sensor=request.sensor,
             shape=shape.shape,
             texture=texture.texture,
         )
-        unsure = doubts(state, order.sensor)
+        unsure = uncertain_labels(state, request.sensor)
         unsure |= {"shape"} if not shape.sure else set()
         unsure |= {TEXTURE} if not texture.sure else set()
         contacts.append(
             Contact(
                 height_mm=height_mm,
-                sensor=order.sensor,
+                sensor=request.sensor,
                 state=state,
-                object=order.thing.name,
-                series=order.number,
-                split=order.split,
+                object=request.obj.name,
+                series=request.number,
+                split=request.split,
                 gel=gel,
                 seed=seed,
                 unsure=frozenset(unsure),

@@ -40,8 +40,8 @@ def name_texture(obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArr
     """Name the texture of what touches.
 
     Args:
-        thing: What is pressed.
-        touch: Where it touches.
+        obj: The pressed object.
+        contact: Its contact geometry.
         relief_mm: Shape (H, W), its skin's relief [mm].
     """
     counts = np.bincount(obj.part_of_cell, weights=contact.counts, minlength=len(obj.parts))

@@ -24,7 +24,7 @@ class Box:
     rows: int
     columns: int
 
-    def of(self, field: Tensor) -> Tensor:
+    def crop(self, field: Tensor) -> Tensor:
         """That part of a field (..., H, W)."""
         return field[..., self.top : self.top + self.rows, self.left : self.left + self.columns]
 
@@ -36,21 +36,21 @@ def boxes_around(contact: Tensor) -> list[Box]:
     a Fourier transform likes.
     """
     step = _STEP_CPU if contact.device.type == "cpu" else _STEP_DEVICE
-    downs = _spans(contact.any(2).cpu(), step)
-    acrosses = _spans(contact.any(1).cpu(), step)
+    row_spans = _spans(contact.any(2).cpu(), step)
+    column_spans = _spans(contact.any(1).cpu(), step)
     return [
-        Box(top=down[0], rows=down[1], left=across[0], columns=across[1])
-        for down, across in zip(downs, acrosses, strict=True)
+        Box(top=vertical[0], rows=vertical[1], left=horizontal[0], columns=horizontal[1])
+        for vertical, horizontal in zip(row_spans, column_spans, strict=True)
     ]
 
 
-def _spans(on: Tensor, step: int) -> list[tuple[int, int]]:
+def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
     """First element and length on the finer grid that hold each row of ``on`` (B, n)."""
-    size = on.shape[1]
+    size = mask.shape[1]
     spans = []
-    for row in on.numpy():
-        at = row.nonzero()[0]
-        low, high = (at[0], at[-1] + 1) if len(at) else (0, size)
+    for row in mask.numpy():
+        occupied = row.nonzero()[0]
+        low, high = (occupied[0], occupied[-1] + 1) if len(occupied) else (0, size)
         low, high = max(0, int(low) - _MARGIN_CELLS), min(size, int(high) + _MARGIN_CELLS)
         steps = next_fast_len(-(-2 * (high - low) // step), real=True)
         length = min(2 * size, steps * step)
@@ -78,5 +78,5 @@ def escaped_from(boxes: list[Box], opening: Tensor) -> Tensor:
     """
     overlap = opening < -_OVERLAP_MM
     for box, one in zip(boxes, overlap, strict=True):
-        box.of(one).fill_(False)
+        box.crop(one).fill_(False)
     return overlap.flatten(1).any(1)

@@ -23,7 +23,7 @@ from torch.nn.functional import avg_pool2d, interpolate
 from sim.gel.compliance import GelMaterial
 from sim.gel.contact_solver import Solution
 from sim.gel.fine.boxes import Box, boxes_around, escaped_from
-from sim.gel.fine.levels import TOLERANCE, Level
+from sim.gel.fine.levels import TOLERANCE, GridLevel
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, Press
 
@@ -103,36 +103,36 @@ class FineLayer:
         *,
         by_force: bool,
     ) -> Press:
-        gap, loads = self.finest.checked(gap_mm, load, by_force=by_force)
+        gap, loads = self.finest.check_inputs(gap_mm, load, by_force=by_force)
         gaps = [self._reachable(gap)]
         for _ in self._layers[1:]:
-            gaps.insert(0, _of_each_body(_coarser, gaps[0]))
+            gaps.insert(0, _per_body(_coarser, gaps[0]))
         coarsest = self._layers[0]
-        before = None if start is None else _pooled(start, gap.shape[1] // coarsest.rows)
+        start_kpa = None if start is None else _pooled(start, gap.shape[1] // coarsest.rows)
         if len(self._layers) == 1:
             press = coarsest.press_to_force if by_force else coarsest.press_to_depth
-            return press(gap, loads, start=before, tol=TOLERANCE)
-        pressure = self._coarsest(gaps[0], loads, before, by_force=by_force)
+            return press(gap, loads, start=start_kpa, tol=TOLERANCE)
+        pressure = self._coarsest(gaps[0], loads, start_kpa, by_force=by_force)
         moduli = self._moduli(len(loads))
         gaps[-1] = gap
         for layer, finer in zip(self._layers[1:], gaps[1:], strict=True):
-            level = Level(layer=layer, moduli_mpa=moduli)
+            level = GridLevel(layer=layer, moduli_mpa=moduli)
             boxes = boxes_around(pressure > 0)
             solved = level.solve(boxes, finer, loads, _finer(pressure), by_force=by_force)
             pressure = solved.pressure_mpa
-        return _whole(level, gap, loads, boxes, solved, by_force=by_force)
+        return _whole_surface(level, gap, loads, boxes, solved, by_force=by_force)
 
     def _coarsest(
-        self, gap: Tensor, loads: Tensor, before: Tensor | None, *, by_force: bool
+        self, gap: Tensor, loads: Tensor, start_kpa: Tensor | None, *, by_force: bool
     ) -> Tensor:
         """Pressure on the coarsest grid [MPa]."""
         layer = self._layers[0]
         if by_force:
-            press = layer.press_to_force(gap, loads, start=before, tol=TOLERANCE)
+            press = layer.press_to_force(gap, loads, start=start_kpa, tol=TOLERANCE)
             return press.pressure_kpa * 1e-3
         field = Box(top=0, left=0, rows=layer.rows, columns=layer.columns)
-        level = Level(layer=layer, moduli_mpa=self._moduli(len(loads)))
-        first = layer.first_pressure(before, gap, loads)
+        level = GridLevel(layer=layer, moduli_mpa=self._moduli(len(loads)))
+        first = layer.first_pressure(start_kpa, gap, loads)
         return level.solve([field] * len(loads), gap, loads, first, by_force=False).pressure_mpa
 
     def _reachable(self, gap: Tensor) -> Tensor:
@@ -151,8 +151,8 @@ class FineLayer:
         return modulus.reshape(-1).expand(batch)
 
 
-def _whole(
-    level: Level,
+def _whole_surface(
+    level: GridLevel,
     gap: Tensor,
     loads: Tensor,
     boxes: list[Box],
@@ -165,16 +165,16 @@ def _whole(
     escaped = escaped_from(boxes, opening)
     if bool(escaped.any()):
         field = Box(top=0, left=0, rows=gap.shape[1], columns=gap.shape[2])
-        out = [field if one else box for one, box in zip(escaped.tolist(), boxes, strict=True)]
-        again = level.solve(out, gap, loads, solved.pressure_mpa, by_force=by_force)
-        solved = _chosen(escaped, again, solved)
+        regions = [field if one else box for one, box in zip(escaped.tolist(), boxes, strict=True)]
+        resolved = level.solve(regions, gap, loads, solved.pressure_mpa, by_force=by_force)
+        solved = _select(escaped, resolved, solved)
         height, opening = level.surface(solved, gap)
     pressure = solved.pressure_mpa
     residual = torch.where(pressure > 0, opening, opening.clamp(max=0))
     loaded = (pressure > 0).flatten(1).any(1)[:, None, None]
     return Press(
         pressure_kpa=pressure * 1e3,
-        height_mm=torch.where(loaded, height - level.short_wave_share() * residual, 0.0),
+        height_mm=torch.where(loaded, height - level.short_wave_fraction() * residual, 0.0),
         force_n=pressure.flatten(1).sum(1) * level.layer.pitch_mm**2,
         depth_mm=solved.approach_mm,
         iterations=solved.iterations,
@@ -196,7 +196,7 @@ def _factors(rows: int, columns: int) -> list[int]:
     ]
 
 
-def _of_each_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
+def _per_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
     """Change gaps (B, H, W), once where they are one body's, expanded."""
     if gap.stride(0) != 0:
         return change(gap)
@@ -205,9 +205,9 @@ def _of_each_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
 
 def _coarser(gap: Tensor) -> Tensor:
     """Mean gap of four elements, of those where a body is: a thin body must not be lost."""
-    there = gap < NO_BODY_MM
-    count = _sum_of_four(there.to(gap.dtype))
-    mean = _sum_of_four(gap.masked_fill(~there, 0)) / count.clamp(min=1)
+    covered = gap < NO_BODY_MM
+    count = _sum_of_four(covered.to(gap.dtype))
+    mean = _sum_of_four(gap.masked_fill(~covered, 0)) / count.clamp(min=1)
     return torch.where(count > 0, mean, NO_BODY_MM)
 
 
@@ -229,11 +229,11 @@ def _pooled(start: Press | Tensor, factor: int) -> Tensor:
     return avg_pool2d(pressure[:, None], factor)[:, 0]
 
 
-def _chosen(which: Tensor, these: Solution, others: Solution) -> Solution:
+def _select(mask: Tensor, solution: Solution, other: Solution) -> Solution:
     """``these`` where ``which`` (B,), else ``others``."""
     return Solution(
-        pressure_mpa=torch.where(which[:, None, None], these.pressure_mpa, others.pressure_mpa),
-        approach_mm=torch.where(which, these.approach_mm, others.approach_mm),
-        iterations=torch.where(which, these.iterations, others.iterations),
-        converged=torch.where(which, these.converged, others.converged),
+        pressure_mpa=torch.where(mask[:, None, None], solution.pressure_mpa, other.pressure_mpa),
+        approach_mm=torch.where(mask, solution.approach_mm, other.approach_mm),
+        iterations=torch.where(mask, solution.iterations, other.iterations),
+        converged=torch.where(mask, solution.converged, other.converged),
     )

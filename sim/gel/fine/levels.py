@@ -58,7 +58,7 @@ def _compliance(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Level:
+class GridLevel:
     """One grid of the cascade, and E* of each body that presses (None: rigid)."""
 
     layer: ElasticLayer
@@ -68,50 +68,55 @@ class Level:
     def _grid(self) -> tuple[int, int, float]:
         return self.layer.rows, self.layer.columns, self.layer.pitch_mm
 
-    def _spectrum_of(self, size: tuple[int, int], chosen: Tensor, *, both: bool) -> Spectrum:
+    def _spectrum_of(self, size: tuple[int, int], chosen: Tensor, *, with_body: bool) -> Spectrum:
         layer = self.layer
         gel = _spectrum(layer.material, self._grid, size, layer.dtype, layer.device)
-        if self.moduli_mpa is None or not both:
+        if self.moduli_mpa is None or not with_body:
             return gel
         body = _spectrum(None, self._grid, size, layer.dtype, layer.device)
         inverse = (1.0 / self.moduli_mpa[chosen])[:, None, None]
         return replace(gel, values=gel.values + inverse * body.values)
 
-    def _compliance_of(self, size: tuple[int, int], which: int, *, both: bool) -> BoxCompliance:
+    def _compliance_of(
+        self, size: tuple[int, int], index: int, *, with_body: bool
+    ) -> BoxCompliance:
         gel = _compliance(self.layer.material, self._grid, size, self.layer.dtype)
-        if self.moduli_mpa is None or not both:
+        if self.moduli_mpa is None or not with_body:
             return gel
         body = _compliance(None, self._grid, size, self.layer.dtype)
-        return gel.beside(body, 1.0 / float(self.moduli_mpa[which]))
+        return gel.in_series(body, 1.0 / float(self.moduli_mpa[index]))
 
     def surface(self, solved: Solution, gap: Tensor) -> tuple[Tensor, Tensor]:
         """Surface of the gel, and the deformed gap between it and the body, both (B, H, W)."""
-        height = self._displacement(solved.pressure_mpa, both=False)
+        height = self._displacement(solved.pressure_mpa, with_body=False)
         total = height
         if self.moduli_mpa is not None:
-            total = self._displacement(solved.pressure_mpa, both=True)
+            total = self._displacement(solved.pressure_mpa, with_body=True)
         return height, total + gap - solved.approach_mm[:, None, None]
 
-    def short_wave_share(self) -> Tensor | float:
+    def short_wave_fraction(self) -> Tensor | float:
         """Share of the gel in the residual, which is short against the gel: as of half-spaces."""
         if self.moduli_mpa is None:
             return 1.0
         gel = 1.0 / self.layer.material.plane_strain_mpa
         return (gel / (gel + 1.0 / self.moduli_mpa))[:, None, None]
 
-    def _displacement(self, pressure_mpa: Tensor, *, both: bool) -> Tensor:
+    def _displacement(self, pressure_mpa: Tensor, *, with_body: bool) -> Tensor:
         size = (self.layer.rows, self.layer.columns)
         if self.layer.device.type == "cpu":
             return torch.stack(
                 [
-                    convolution(self._compliance_of(size, which, both=both)).apply(one)
-                    for which, one in enumerate(pressure_mpa)
+                    convolution(self._compliance_of(size, index, with_body=with_body)).apply(one)
+                    for index, one in enumerate(pressure_mpa)
                 ]
             )
         # Not all at once, for their padded spectra.
         parts = torch.arange(len(pressure_mpa), device=self.layer.device).split(256)
         return torch.cat(
-            [self._spectrum_of(size, part, both=both).apply(pressure_mpa[part]) for part in parts]
+            [
+                self._spectrum_of(size, part, with_body=with_body).apply(pressure_mpa[part])
+                for part in parts
+            ]
         )
 
     def solve(
@@ -135,17 +140,17 @@ class Level:
     ) -> Solution:
         pressure = torch.zeros_like(start)
         solved = []
-        for which, box in enumerate(boxes):
-            compliance = self._compliance_of((box.rows, box.columns), which, both=True)
+        for index, box in enumerate(boxes):
+            compliance = self._compliance_of((box.rows, box.columns), index, with_body=True)
             one = solve_single(
                 compliance,
-                box.of(gap[which]),
-                float(depth[which]),
-                start_mpa=box.of(start[which]),
+                box.crop(gap[index]),
+                float(depth[index]),
+                start_mpa=box.crop(start[index]),
                 tol=TOLERANCE,
                 max_iterations=_MOST_STEPS,
             )
-            box.of(pressure[which]).copy_(one.pressure_mpa)
+            box.crop(pressure[index]).copy_(one.pressure_mpa)
             solved.append(one)
         return Solution(
             pressure_mpa=pressure,
@@ -162,18 +167,18 @@ class Level:
         approach = torch.zeros_like(load)
         iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)
         converged = torch.ones(len(load), dtype=torch.bool, device=gap.device)
-        for size, members in by_size(boxes, one_by_one=gap.device.type == "cpu"):
-            chosen = torch.tensor(members, device=gap.device)
+        for size, indices in by_size(boxes, one_by_one=gap.device.type == "cpu"):
+            chosen = torch.tensor(indices, device=gap.device)
             target = load[chosen]
-            first = torch.stack([boxes[i].of(start[i]) for i in members])
-            inside = torch.stack([boxes[i].of(gap[i]) for i in members])
+            first = torch.stack([boxes[i].crop(start[i]) for i in indices])
+            inside = torch.stack([boxes[i].crop(gap[i]) for i in indices])
             first = first.clamp(min=0) * (inside < NO_BODY_MM)
             if by_force:
                 target = target / self.layer.pitch_mm**2
                 total = first.flatten(1).sum(1).clamp(min=1e-30)
                 first = first * (target / total)[:, None, None]
             solved = solve(
-                self._spectrum_of(size, chosen, both=True),
+                self._spectrum_of(size, chosen, with_body=True),
                 inside,
                 target,
                 by_force=by_force,
@@ -182,8 +187,8 @@ class Level:
                 tol=TOLERANCE,
                 max_iterations=_MOST_STEPS,
             )
-            for place, i in enumerate(members):
-                boxes[i].of(pressure[i]).copy_(solved.pressure_mpa[place])
+            for position, i in enumerate(indices):
+                boxes[i].crop(pressure[i]).copy_(solved.pressure_mpa[position])
             approach[chosen] = solved.approach_mm
             iterations[chosen], converged[chosen] = solved.iterations, solved.converged
         return Solution(

@@ -48,12 +48,12 @@ class BoxCompliance:
     values: Tensor
     periodic: Tensor
 
-    def beside(self, other: BoxCompliance, share: float) -> BoxCompliance:
+    def in_series(self, other: BoxCompliance, factor: float) -> BoxCompliance:
         """Both in series: this one and ``share`` of another for the same box."""
         return replace(
             self,
-            values=self.values + share * other.values,
-            periodic=self.periodic + share * other.periodic,
+            values=self.values + factor * other.values,
+            periodic=self.periodic + factor * other.periodic,
         )
 
 
@@ -74,12 +74,12 @@ def box_compliance(kernel: Tensor, dtype: torch.dtype) -> BoxCompliance:
         columns=columns,
         padded_rows=padded_rows,
         padded_columns=padded_columns,
-        values=_twice(torch.cat([waves, waves[1:-1].flip(0)]), dtype),
-        periodic=_twice(periodic, dtype),
+        values=_repeated(torch.cat([waves, waves[1:-1].flip(0)]), dtype),
+        periodic=_repeated(periodic, dtype),
     )
 
 
-def _twice(values: Tensor, dtype: torch.dtype) -> Tensor:
+def _repeated(values: Tensor, dtype: torch.dtype) -> Tensor:
     """(H, W) -> (W, 2 H), every value twice."""
     return values.T.to(dtype).repeat_interleave(2, dim=1).contiguous()
 
@@ -151,41 +151,41 @@ def solve_single(
         tol: Root mean square of the residual gap over the mean displacement in contact.
         max_iterations: Bound.
     """
-    yielding = convolution(compliance)
+    deform = convolution(compliance)
     size = (compliance.rows, compliance.columns)
-    stiffening = Convolution(compliance.periodic.reciprocal(), size, size)
+    precondition = Convolution(compliance.periodic.reciprocal(), size, size)
     above = gap_mm - depth_mm
     pressure = torch.where(above < 0, start_mpa.clamp(min=0), 0.0)
-    direction, before, power = torch.zeros_like(above), torch.zeros_like(above), torch.inf
+    direction, previous, power = torch.zeros_like(above), torch.zeros_like(above), torch.inf
     if not bool((above < 0).any()):
         return SingleSolution(pressure_mpa=pressure, iterations=0, converged=True)
-    displacement = yielding.apply(pressure)
+    displacement = deform.apply(pressure)
     for step in range(max_iterations + 1):
         opening = displacement + above
-        inside = pressure > 0
-        pressed = inside.to(above.dtype)
+        touched = pressure > 0
+        pressed = touched.to(above.dtype)
         count = max(float(pressed.sum()), 1.0)
         mean = _dot(displacement, pressed) / count
-        residual = torch.where(inside, opening, opening.clamp(max=0))
+        residual = torch.where(touched, opening, opening.clamp(max=0))
         done = _dot(residual, residual) <= count * (tol * mean) ** 2
         if done or step == max_iterations:
             break
         free = (residual != 0).to(above.dtype)
-        wanted = stiffening.apply(residual).mul_(free)
+        correction = precondition.apply(residual).mul_(free)
         if step == 0:
-            pressure = pressure.sub_(wanted, alpha=_FIRST_STEP).clamp_(min=0)
-            displacement = yielding.apply(pressure)
+            pressure = pressure.sub_(correction, alpha=_FIRST_STEP).clamp_(min=0)
+            displacement = deform.apply(pressure)
             continue
         # Polak and Ribière's rule forgets by itself what a change of the contact made useless.
-        kept = max(0.0, _dot(wanted, torch.sub(residual, before, out=before)) / power)
-        torch.add(wanted, direction.mul_(free), alpha=kept, out=direction)
-        before, power = residual, _dot(wanted, residual)
-        response = yielding.apply(direction)
+        conjugacy = max(0.0, _dot(correction, torch.sub(residual, previous, out=previous)) / power)
+        torch.add(correction, direction.mul_(free), alpha=conjugacy, out=direction)
+        previous, power = residual, _dot(correction, residual)
+        response = deform.apply(direction)
         length = _dot(residual, direction) / max(_dot(response, direction), 1e-30)
         pressure = pressure.sub_(direction, alpha=length)
         if float(pressure.amin()) < 0:
             pressure = pressure.clamp_(min=0)
-            displacement = yielding.apply(pressure)
+            displacement = deform.apply(pressure)
         else:
             displacement = displacement.sub(response, alpha=length)
     return SingleSolution(pressure_mpa=pressure, iterations=step, converged=done)

@@ -114,7 +114,7 @@ def shortcut_error_um(series: int) -> dict[str, float]:
                 rows=ROWS,
                 columns=COLUMNS,
                 pitch_mm=order.sensor.width_mm / COLUMNS,
-                body_modulus_mpa=order.thing.modulus_mpa,
+                body_modulus_mpa=order.obj.modulus_mpa,
             )
             gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(approach), -1, -1)
             with torch.inference_mode():

@@ -22,7 +22,7 @@ from sim.gel.fine.fine import FineLayer
 from sim.gel.fine.single import Convolution
 from sim.gel.layer import Press
 from sim.tcl3d import series as tcl3d
-from sim.tcl3d.series import Order, Scene, draw_scene, order_of
+from sim.tcl3d.series import Scene, SeriesRequest, draw_scene, series_request
 
 ROWS, COLUMNS = 240, 320
 SEED = 0
@@ -79,16 +79,16 @@ def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
         yield
 
 
-def scene_of(number: int, device: str) -> tuple[Order, Scene, list[float]]:
+def scene_of(number: int, device: str) -> tuple[SeriesRequest, Scene, list[float]]:
     """What a series is, what lies over the pad, and how deep it is pressed [mm]."""
-    order = order_of(SEED, number)
+    order = series_request(SEED, number)
     rng = np.random.default_rng([SEED, number, 1])
     scene, depths = draw_scene(order, rng, device)
-    soft = order.thing.modulus_mpa
+    soft = order.obj.modulus_mpa
     return order, scene, [d * (1 + (_SOFT_SHARE_MPA / soft if soft else 0.0)) for d in depths]
 
 
-def solved(order: Order, scene: Scene, approach: list[float], device: str) -> Press:
+def solved(order: SeriesRequest, scene: Scene, approach: list[float], device: str) -> Press:
     """Press a series at the resolution of its scene."""
     gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).to(device)
     layer = FineLayer(
@@ -96,7 +96,7 @@ def solved(order: Order, scene: Scene, approach: list[float], device: str) -> Pr
         rows=gap.shape[0],
         columns=gap.shape[1],
         pitch_mm=order.sensor.width_mm / gap.shape[1],
-        body_modulus_mpa=order.thing.modulus_mpa,
+        body_modulus_mpa=order.obj.modulus_mpa,
         device=device,
     )
     with torch.inference_mode():
@@ -118,7 +118,7 @@ def make(numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS,
             times.append(time.process_time())
             press = solved(order, scene, approach, device)
             times.append(time.process_time())
-            made = tcl3d._labelled(SEED, order, scene, approach, press)
+            made = tcl3d.label_presses(SEED, order, scene, approach, press)
             times.append(time.process_time())
             for contact in made:
                 caption(contact.state)

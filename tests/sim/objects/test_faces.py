@@ -8,9 +8,16 @@ import torch
 from scipy.ndimage import binary_dilation, maximum_filter, minimum_filter
 
 from sim.objects.faces import Cell, Form
+from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import CLOSING_MM, in_contact
-from sim.tcl3d.masks import cut_share, enclosed, grown, pieces, slopes, spread_of
-from sim.tcl3d.touch import Touch
+from sim.tcl3d.masks import (
+    border_fraction,
+    bounding_rectangle,
+    count_enclosed_points,
+    count_pieces,
+    dilate,
+    slopes,
+)
 
 PITCH = 0.2
 
@@ -29,27 +36,27 @@ def test_a_rectangle_about_the_ends_of_rows_is_that_about_every_point(seed):
         u, v = column * cos - row * sin, column * sin + row * cos
         sides.append(((np.ptp(u) + 1) * PITCH, (np.ptp(v) + 1) * PITCH))
     best = min(range(18), key=lambda i: sides[i][0] * sides[i][1])
-    spread = spread_of(mask, PITCH)
-    assert (spread.length, spread.width) == (max(sides[best]), min(sides[best]))
+    rectangle = bounding_rectangle(mask, PITCH)
+    assert (rectangle.length, rectangle.width) == (max(sides[best]), min(sides[best]))
     turn = 5 * best + (0 if sides[best][0] >= sides[best][1] else 90)
-    assert spread.angle == math.radians(turn)
+    assert rectangle.angle == math.radians(turn)
 
 
 def test_a_bar_that_leans_has_its_own_length_width_and_direction():
     x, y = np.meshgrid(np.arange(80), np.arange(60))
     along = (x - 40) * math.cos(0.5236) - (y - 30) * math.sin(0.5236)
     across = (x - 40) * math.sin(0.5236) + (y - 30) * math.cos(0.5236)
-    spread = spread_of((abs(along) <= 20) & (abs(across) <= 4), 1.0)
-    assert spread.length == pytest.approx(41, abs=1)
-    assert spread.width == pytest.approx(9, abs=1)
-    assert spread.angle == pytest.approx(math.pi / 6)
+    rectangle = bounding_rectangle((abs(along) <= 20) & (abs(across) <= 4), 1.0)
+    assert rectangle.length == pytest.approx(41, abs=1)
+    assert rectangle.width == pytest.approx(9, abs=1)
+    assert rectangle.angle == pytest.approx(math.pi / 6)
 
 
 @pytest.mark.parametrize("times", [1, 2, 5])
 def test_growing_is_dilation_by_a_cross(times):
     for seed in range(5):
         mask = scattered(0.03, seed)
-        assert np.array_equal(grown(mask, times), binary_dilation(mask, iterations=times))
+        assert np.array_equal(dilate(mask, times), binary_dilation(mask, iterations=times))
 
 
 @pytest.mark.parametrize("where", [(0, 0), (36, 51), (0, 20), (17, 51), (18, 25)])
@@ -73,11 +80,11 @@ def test_nowhere_there_are_no_slopes():
 def test_crumbs_are_no_pieces():
     mask = np.zeros((40, 40), dtype=bool)
     mask[2:12, 2:12] = True
-    assert pieces(mask) == 1
+    assert count_pieces(mask) == 1
     mask[30:34, 30:34] = True  # 16 % of the larger one
-    assert pieces(mask) == 2
+    assert count_pieces(mask) == 2
     mask[30:34, 20:23] = True  # exactly 12 %
-    assert pieces(mask) == 2
+    assert count_pieces(mask) == 2
 
 
 def test_a_hole_is_enclosed_and_a_bay_is_not():
@@ -85,13 +92,13 @@ def test_a_hole_is_enclosed_and_a_bay_is_not():
     mask[2:12, 2:12] = True
     mask[4:7, 4:8] = False
     mask[10:12, 9:11] = False
-    assert enclosed(mask) == 12
+    assert count_enclosed_points(mask) == 12
 
 
 def test_half_of_what_lies_at_the_border_is_cut():
     mask = np.zeros((20, 20), dtype=bool)
     mask[:4, 5:9] = True
-    assert cut_share(mask) == 4 / (4 + 0.8 * 12)
+    assert border_fraction(mask) == 4 / (4 + 0.8 * 12)
 
 
 @pytest.mark.parametrize("pitch", [0.05, 0.2])
@@ -107,14 +114,14 @@ def test_closing_is_the_largest_and_then_the_smallest_within_a_square(pitch):
 def test_a_touch_counts_the_points_of_its_cells_and_not_those_of_none():
     cells = np.array([[0, 0, 2], [-1, 2, 2]])
     touching = np.array([[True, False, True], [True, True, False]])
-    touch = Touch(
+    touch = ContactGeometry(
         gap_mm=np.zeros((2, 3)),
         cells=cells,
-        table=(Cell(form=Form.FLAT),) * 4,
+        cell_table=(Cell(form=Form.FLAT),) * 4,
         touching=touching,
         closed=touching,
         depth_mm=0.1,
         pitch_mm=PITCH,
     )
     assert touch.counts.tolist() == [1, 0, 2, 0]
-    assert touch.counts_in(~touching).tolist() == [1, 0, 1, 0]
+    assert touch.count_cells(~touching).tolist() == [1, 0, 1, 0]

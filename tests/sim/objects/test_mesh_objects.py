@@ -7,13 +7,13 @@ import trimesh
 from cltp.errors import TouchError
 from cltp.tactile.states import Shape
 from sim.objects.faces import Form
-from sim.objects.mesh_objects import meshes_in, thing_from_mesh
+from sim.objects.mesh_objects import meshes_in, object_from_mesh
 from sim.tcl3d.series import make_series
 
 
 def stored(tmp_path, mesh, name="it.ply"):
     mesh.export(tmp_path / name)
-    return thing_from_mesh(tmp_path / name)
+    return object_from_mesh(tmp_path / name)
 
 
 def test_regions_follow_creases(tmp_path):
@@ -48,7 +48,7 @@ def test_a_ball_is_felt_as_a_sphere_and_its_distance_is_that_of_a_ball(tmp_path)
     ball = stored(tmp_path, trimesh.creation.icosphere(4, 15), "ball.ply")
     away = ball.distance(torch.tensor([[20.0, 0, 0], [0, 0, 0]], dtype=torch.float64))
     np.testing.assert_allclose(away, [5, -15], atol=0.05)
-    names = {contact.state.shape for contact in make_series(0, 3_000_000, thing=ball)}
+    names = {contact.state.shape for contact in make_series(0, 3_000_000, obj=ball)}
     assert names == {Shape.SPHERE}
 
 

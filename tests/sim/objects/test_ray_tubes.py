@@ -8,9 +8,9 @@ import torch
 
 from sim.objects import object as objects
 from sim.objects import ray_tubes as tubes
-from sim.objects.catalogue import thing_named
+from sim.objects.catalogue import object_named
 from sim.objects.faces import Dome, Flat, Flats
-from sim.objects.ray_casting import ALONGSIDE_MM, BACK_MM, BEYOND_MM, feel, frame_at, march
+from sim.objects.ray_casting import ALONGSIDE_MM, BACK_MM, BEYOND_MM, cast_pad_rays, frame_at, march
 from sim.objects.ray_tubes import march_over
 from sim.objects.solids import Cut, Oval, Rods
 
@@ -32,7 +32,7 @@ class Counted:
     """A solid that counts how often it is asked."""
 
     def __init__(self, solid):
-        self.solid, self.steep, self.points = solid, solid.steep, 0
+        self.solid, self.max_slope, self.points = solid, solid.max_slope, 0
 
     def distance(self, points):
         self.points += len(points)
@@ -43,9 +43,9 @@ class Counted:
     "name", ["ball_9", "dots_12", "bars_2", "peg_hexagon_12", "egg_tip_26x16", "cup_9", "waves_5"]
 )
 def test_tubes_find_what_every_ray_finds_alone(name):
-    thing = thing_named(name)
+    obj = object_named(name)
     origins, along = grid()
-    tubes, alone = Counted(thing), Counted(thing)
+    tubes, alone = Counted(obj), Counted(obj)
     met = march_over(tubes, origins, along, NO_BODY_MM)
     known = march(alone, origins.view(-1, 3), along, NO_BODY_MM).view(ROWS, COLUMNS)
     assert torch.isfinite(known).any()
@@ -92,17 +92,17 @@ def test_a_ray_that_starts_inside_is_said():
 
 def test_nothing_in_the_way_is_nothing_met():
     origins, along = grid()
-    assert torch.isinf(march_over(thing_named("ball_9"), origins + 60, along, NO_BODY_MM)).all()
+    assert torch.isinf(march_over(object_named("ball_9"), origins + 60, along, NO_BODY_MM)).all()
 
 
 def test_a_finger_feels_the_same_through_tubes(monkeypatch):
-    thing = thing_named("pyramid_6_52")
-    hold = thing.holds[0]
+    obj = object_named("pyramid_6_52")
+    mount = obj.mounts[0]
     x, y = np.meshgrid(np.linspace(-8, 8, COLUMNS), np.linspace(6, -6, ROWS))
-    pose = frame_at(np.array(hold.towards)), np.array(hold.at)
-    plain = feel(thing, *pose, x, y)
+    pose = frame_at(np.array(mount.direction)), np.array(mount.point)
+    plain = cast_pad_rays(obj, *pose, x, y)
     monkeypatch.setattr(objects, "MANY_RAYS", 1)
-    quick = feel(thing, *pose, x, y)
+    quick = cast_pad_rays(obj, *pose, x, y)
     assert plain is not None
     assert quick is not None
     off = np.abs(plain.gap_mm - quick.gap_mm)
@@ -112,13 +112,13 @@ def test_a_finger_feels_the_same_through_tubes(monkeypatch):
 
 @pytest.mark.parametrize("height", [20.0, 4.0])  # the second begins inside
 def test_rays_that_take_steps_together_end_where_they_would_one_step_at_a_time(monkeypatch, height):
-    thing = thing_named("peg_hexagon_12")
+    obj = object_named("peg_hexagon_12")
     origins, along = grid(turn=0.02, height=height)
-    origins = origins - torch.tensor([0.0, 0.0, thing.reach_mm]) if height < 5 else origins
+    origins = origins - torch.tensor([0.0, 0.0, obj.reach_mm]) if height < 5 else origins
     met, asked = [], []
     for few in (0, 100_000):
         monkeypatch.setattr(tubes, "_FEW_RAYS", few)
-        counted = Counted(thing)
+        counted = Counted(obj)
         met.append(march_over(counted, origins, along, NO_BODY_MM))
         asked.append(counted.points)
     assert asked[0] < asked[1]
@@ -127,15 +127,15 @@ def test_rays_that_take_steps_together_end_where_they_would_one_step_at_a_time(m
 
 
 def test_what_a_finger_feels_lies_on_the_object_and_is_0_where_nothing_is():
-    thing = thing_named("ball_9")
+    obj = object_named("ball_9")
     x, y = np.meshgrid(np.linspace(-8, 8, COLUMNS), np.linspace(6, -6, ROWS))
     frame = frame_at(np.array([0.6, 0.0, 0.8]))
-    felt = feel(thing, frame, np.zeros(3), x, y)
+    felt = cast_pad_rays(obj, frame, np.zeros(3), x, y)
     assert felt is not None
     there = felt.gap_mm < BEYOND_MM
     assert there.any()
     assert not there.all()
-    away = thing.distance(torch.from_numpy(felt.points[there]))
+    away = obj.distance(torch.from_numpy(felt.points[there]))
     assert away.abs().max() < ALONGSIDE_MM
     across = (felt.points @ frame)[there][:, :2]
     assert np.abs(across - np.stack([x, y], axis=-1)[there]).max() < 1e-9

@@ -6,7 +6,7 @@ import pytest
 import torch
 
 from cltp.tactile.states import Shape
-from sim.objects.catalogue import LARGE, SMALL, THINGS, thing_named
+from sim.objects.catalogue import CATALOGUE, LARGE, SMALL, object_named
 from sim.objects.faces import Form
 from sim.objects.placing import along, leaning, moved
 from sim.objects.primitives import ball, bars, box, on_corner, polygon, prism, pyramid, rod
@@ -53,15 +53,15 @@ def test_cells_are_the_faces_that_are_nearest():
     assert side.outline is None
 
 
-@pytest.mark.parametrize("thing", THINGS, ids=lambda thing: thing.name)
-def test_no_distance_grows_faster_than_it_says(thing):
+@pytest.mark.parametrize("obj", CATALOGUE, ids=lambda obj: obj.name)
+def test_no_distance_grows_faster_than_it_says(obj):
     draw = torch.Generator().manual_seed(3)
-    reach = min(1.4 * thing.reach_mm, 80)
+    reach = min(1.4 * obj.reach_mm, 80)
     points = (2 * torch.rand(1500, 3, generator=draw, dtype=torch.float64) - 1) * reach
     beside = points + 0.02 * torch.randn(1500, 3, generator=draw, dtype=torch.float64)
-    away = thing.distance(points)
-    growth = (away - thing.distance(beside)).abs() / (points - beside).norm(dim=1)
-    assert float(growth[away > 0].max()) < 1.05 * thing.steep
+    away = obj.distance(points)
+    growth = (away - obj.distance(beside)).abs() / (points - beside).norm(dim=1)
+    assert float(growth[away > 0].max()) < 1.05 * obj.max_slope
 
 
 def test_a_pyramid_is_not_thought_further_away_than_it_is():
@@ -71,10 +71,10 @@ def test_a_pyramid_is_not_thought_further_away_than_it_is():
 
 def test_there_are_55_small_objects_and_62_large_ones():
     assert (len(SMALL), len(LARGE)) == (55, 62)
-    assert all(thing.small for thing in SMALL)
-    assert not any(thing.small for thing in LARGE)
+    assert all(obj.is_small for obj in SMALL)
+    assert not any(obj.is_small for obj in LARGE)
     with pytest.raises(ValueError, match="unknown object 'teapot'"):
-        thing_named("teapot")
+        object_named("teapot")
 
 
 @pytest.mark.parametrize(

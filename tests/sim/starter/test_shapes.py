@@ -12,7 +12,7 @@ from sim.gel.gap import NO_BODY_MM
 from sim.grasp.bodies import draw_body
 from sim.starter.outlines import arc, circle, convex, rectangle, segment
 from sim.starter.series import curvature_ratio
-from sim.starter.shapes import Indenter, Pose, draw_indenter, gap_mm
+from sim.starter.shapes import Indenter, IndenterPose, draw_indenter, gap_mm
 from sim.starter.textures import relief_mm
 
 MINI = sensor_named("gelsight_mini")
@@ -40,7 +40,7 @@ def test_every_shape_has_a_tip_and_nothing_before_it(shape):
     for seed in range(10):
         rng = np.random.default_rng(seed)
         indenter = draw_indenter(shape, rng)
-        pose = Pose(x_mm=3.0, y_mm=-2.0, turn_rad=rng.uniform(0, 6))
+        pose = IndenterPose(x_mm=3.0, y_mm=-2.0, turn_rad=rng.uniform(0, 6))
         gap = gap_mm(indenter, pose, X, Y)
         assert gap.shape == X.shape
         assert np.isfinite(gap).all()
@@ -93,13 +93,13 @@ def test_a_pose_turns_shifts_and_tilts():
         most_tilt_rad=0.0,
         textured=False,
     )
-    upright = gap_mm(bar, Pose(x_mm=5, y_mm=1, turn_rad=math.pi / 2), X, Y)
+    upright = gap_mm(bar, IndenterPose(x_mm=5, y_mm=1, turn_rad=math.pi / 2), X, Y)
     there = upright < NO_BODY_MM
     assert X[there].mean() == pytest.approx(5, abs=PITCH)
     assert Y[there].mean() == pytest.approx(1, abs=PITCH)
     assert np.ptp(Y[there]) == pytest.approx(6, abs=2 * PITCH)
     assert np.ptp(X[there]) == pytest.approx(1, abs=2 * PITCH)
-    tilted = gap_mm(bar, Pose(x_mm=0, y_mm=0, slope_x=0.1), X, Y)
+    tilted = gap_mm(bar, IndenterPose(x_mm=0, y_mm=0, slope_x=0.1), X, Y)
     there = tilted < NO_BODY_MM
     assert tilted[there].max() == pytest.approx(0.1 * 6, abs=0.1 * 2 * PITCH)
     assert X.ravel()[tilted.argmin()] == pytest.approx(-3, abs=PITCH)
@@ -108,7 +108,7 @@ def test_a_pose_turns_shifts_and_tilts():
 def test_an_indenter_beside_the_pad_is_refused_by_name():
     disc = draw_indenter(Shape.DISC, np.random.default_rng(0))
     with pytest.raises(ValueError, match=r"disc at \(40.0, 0.0\) mm"):
-        gap_mm(disc, Pose(x_mm=40, y_mm=0), X, Y)
+        gap_mm(disc, IndenterPose(x_mm=40, y_mm=0), X, Y)
 
 
 @pytest.mark.parametrize("seed", range(5))

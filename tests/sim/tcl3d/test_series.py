@@ -8,10 +8,10 @@ import pytest
 
 from cltp.data.contact import Split, pack_heights
 from cltp.tactile.sensors import SENSORS
-from sim.objects.catalogue import THINGS, UNSEEN, thing_named
-from sim.objects.ray_casting import frame_at, meet, support
+from sim.objects.catalogue import CATALOGUE, UNSEEN, object_named
+from sim.objects.ray_casting import frame_at, random_surface_point, support_point
 from sim.tcl3d import series as tcl3d
-from sim.tcl3d.poses import CONE_DEG, draw_pose, felt_pose
+from sim.tcl3d.poses import CONE_DEG, draw_pose, surface_pose
 
 GEL = SENSORS["gelsight_mini"]
 
@@ -22,22 +22,22 @@ def test_the_numbers_of_the_paper_come_out():
     main = [n for n in numbers if n < tcl3d.GELSTEREO_FIRST]
     assert sum(map(tcl3d.num_loads, main)) == 50_860
     assert sum(map(tcl3d.num_loads, numbers)) == 50_860 + 1_450 + 115
-    counts = Counter(n % len(THINGS) for n in main)
+    counts = Counter(n % len(CATALOGUE) for n in main)
     assert len(counts) == 117
     assert all(400 <= 4 * count <= 500 for count in counts.values())
 
 
 def test_no_split_shares_a_series_and_unseen_objects_stay_unseen():
-    orders = [tcl3d.order_of(0, number) for number in range(3000)]
+    orders = [tcl3d.series_request(0, number) for number in range(3000)]
     for order in orders:
-        assert (order.thing.name in UNSEEN) == (order.split is Split.OBJECT)
+        assert (order.obj.name in UNSEEN) == (order.split is Split.OBJECT)
         assert (order.gel in tcl3d.OTHER_GELS) == (order.split is Split.PHYSICS)
     assert not set(tcl3d.GELS) & set(tcl3d.OTHER_GELS)
     shares = Counter(order.split for order in orders)
     assert shares[Split.TRAIN] > 0.6 * 3000
     assert min(shares[s] for s in (Split.TEST, Split.VALIDATION, Split.PHYSICS)) > 0.02 * 3000
-    assert tcl3d.order_of(0, tcl3d.GELSTEREO_FIRST).sensor.name == "gelstereo"
-    assert tcl3d.order_of(0, tcl3d.GELSIGHT_FIRST).split is Split.GELSIGHT
+    assert tcl3d.series_request(0, tcl3d.GELSTEREO_FIRST).sensor.name == "gelstereo"
+    assert tcl3d.series_request(0, tcl3d.GELSIGHT_FIRST).split is Split.GELSIGHT
 
 
 def test_a_series_is_the_same_whatever_is_made_beside_it():
@@ -70,14 +70,14 @@ def test_force_and_depth_rise_along_a_series():
 
 
 def test_large_objects_are_approached_within_15_degrees_of_where_they_are_met():
-    thing = thing_named("marble_25")
+    obj = object_named("marble_25")
     rng = np.random.default_rng(0)
     steepest = 0.0
     for _ in range(20):
-        met = meet(thing, rng)
+        met = random_surface_point(obj, rng)
         assert np.linalg.norm(met.point) == pytest.approx(12.5, abs=0.01)
         assert met.normal @ met.point == pytest.approx(12.5, abs=0.01)
-        pose = felt_pose(thing, met, rng, GEL, 0.2, textured=False)
+        pose = surface_pose(obj, met, rng, GEL, 0.2, textured=False)
         angle = math.degrees(math.acos(min(1.0, pose.object_from_pad[:, 2] @ met.normal)))
         assert angle <= CONE_DEG + 1e-6
         steepest = max(steepest, angle)
@@ -87,24 +87,24 @@ def test_large_objects_are_approached_within_15_degrees_of_where_they_are_met():
 def test_a_pose_is_a_rotation():
     rng = np.random.default_rng(1)
     for name in ("cracker_box", "peg_hexagon_9", "cone_30", "banana"):
-        turn = draw_pose(thing_named(name), rng, GEL, 0.2).object_from_pad
+        turn = draw_pose(object_named(name), rng, GEL, 0.2).object_from_pad
         np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=1e-9)
         assert np.linalg.det(turn) == pytest.approx(1)
 
 
 def test_a_flat_face_hardly_leans():
-    thing = thing_named("cracker_box")
+    obj = object_named("cracker_box")
     rng = np.random.default_rng(2)
-    flat = [pose for pose in (draw_pose(thing, rng, GEL, 0.1) for _ in range(30)) if pose.flat]
+    flat = [pose for pose in (draw_pose(obj, rng, GEL, 0.1) for _ in range(30)) if pose.flat]
     assert flat
     for pose in flat:
         assert np.abs(pose.object_from_pad[:, 2]).max() > math.cos(math.radians(1))
 
 
 def test_what_is_turned_at_random_touches_with_its_lowest_point():
-    thing = thing_named("peg_square_8")
+    obj = object_named("peg_square_8")
     towards = np.array([1.0, 1.0, 1.0]) / math.sqrt(3)
-    met = support(thing, towards)
+    met = support_point(obj, towards)
     np.testing.assert_allclose(met.point, [4, 4, 0], atol=0.25)  # its fillet is 0.25 mm
     np.testing.assert_allclose(frame_at(towards)[:, 2], towards)
 

@@ -9,7 +9,7 @@ import torch
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import Shape, Texture
-from sim.objects.object import Family, Part, Thing
+from sim.objects.object import Family, Part, SolidObject
 from sim.objects.placing import along, moved
 from sim.objects.primitives import (
     ball,
@@ -29,10 +29,10 @@ from sim.objects.primitives import (
     tube,
     waves,
 )
-from sim.objects.ray_casting import feel, frame_at
+from sim.objects.ray_casting import cast_pad_rays, frame_at
 from sim.objects.solids import Hoop
+from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.shape_labels import name_shape
-from sim.tcl3d.touch import Touch
 
 GEL = SENSORS["gelsight_mini"]
 X, Y = np.meshgrid(*grid_axes_mm(GEL, 75, 100))
@@ -40,25 +40,25 @@ PITCH = GEL.width_mm / 100
 
 
 def thing_of(*solids):
-    return Thing("it", Family.PEG, "", tuple(Part(solid) for solid in solids))
+    return SolidObject("it", Family.PEG, "", tuple(Part(solid) for solid in solids))
 
 
 def named(solids, point, towards=(0, 0, 1), depth_mm=0.5):
     """Name of what touches when as much of a thing touches as geometry alone would have."""
-    thing = thing_of(*solids) if isinstance(solids, tuple) else thing_of(solids)
+    obj = thing_of(*solids) if isinstance(solids, tuple) else thing_of(solids)
     normal = np.array(towards, dtype=float)
     normal /= np.linalg.norm(normal)
-    felt = feel(thing, frame_at(normal), np.array(point, dtype=float), X, Y)
+    felt = cast_pad_rays(obj, frame_at(normal), np.array(point, dtype=float), X, Y)
     assert felt is not None
     cells = np.full(X.shape, -1)
     there = felt.gap_mm < 40
-    cells[there] = thing.cell(torch.from_numpy(felt.points[there])).numpy()
+    cells[there] = obj.cell(torch.from_numpy(felt.points[there])).numpy()
     touching = felt.gap_mm < 0.6 * depth_mm
     return name_shape(
-        Touch(
+        ContactGeometry(
             gap_mm=felt.gap_mm,
             cells=cells,
-            table=thing.cells,
+            cell_table=obj.cells,
             touching=touching,
             closed=touching,
             depth_mm=depth_mm,

@@ -43,7 +43,7 @@ def test_a_soft_body_yields_beside_the_gel():
         box_compliance(k, torch.float64) for k in (kernel(24, 32), love_kernel(24, 32, PITCH))
     )
     apart = convolution(gel).apply(field) + convolution(body).apply(field) / 0.3
-    assert torch.allclose(convolution(gel.beside(body, 1 / 0.3)).apply(field), apart)
+    assert torch.allclose(convolution(gel.in_series(body, 1 / 0.3)).apply(field), apart)
 
 
 @pytest.mark.parametrize("size", [(64, 80), (75, 61)])

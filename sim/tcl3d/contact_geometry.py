@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell
-from sim.tcl3d.masks import FloatArray, Mask, grown
+from sim.tcl3d.masks import FloatArray, Mask, dilate
 
-_BEHIND_MM = 0.3  # what counts as about to touch
+_NEARBY_MM = 0.3  # what counts as about to touch
 
 
-class Named(NamedTuple):
+class ShapeLabel(NamedTuple):
     """A shape, and whether a careful person would call it so without doubt."""
 
     shape: Shape
@@ -28,7 +28,7 @@ class Named(NamedTuple):
 
 
 @dataclass(frozen=True, kw_only=True)
-class Touch:
+class ContactGeometry:
     """What lies over the pad, and where it touches.
 
     Attributes:
@@ -43,7 +43,7 @@ class Touch:
 
     gap_mm: FloatArray
     cells: NDArray[np.int64]
-    table: Sequence[Cell]
+    cell_table: Sequence[Cell]
     touching: Mask
     closed: Mask
     depth_mm: float
@@ -52,17 +52,17 @@ class Touch:
     @cached_property
     def counts(self) -> NDArray[np.int64]:
         """Shape (len(table),): with how many grid points each cell touches."""
-        return self.counts_in(self.touching)
+        return self.count_cells(self.touching)
 
-    def counts_in(self, where: Mask) -> NDArray[np.int64]:
+    def count_cells(self, mask: Mask) -> NDArray[np.int64]:
         """Shape (len(table),): how many grid points of each cell lie in a mask (H, W)."""
-        return np.bincount(self.cells[where] + 1, minlength=len(self.table) + 1)[1:]
+        return np.bincount(self.cells[mask] + 1, minlength=len(self.cell_table) + 1)[1:]
 
 
-def about_to_touch(touch: Touch) -> Touch:
+def with_nearby_surface(contact: ContactGeometry) -> ContactGeometry:
     """A contact no larger than the fillet of an edge, with what lies just behind it."""
-    near = grown(touch.touching, 4)
-    touching = touch.touching | (near & (touch.gap_mm < _BEHIND_MM))
-    closed = touch.closed | touching
-    depth_mm = max(touch.depth_mm, 1.5 * _BEHIND_MM)
-    return replace(touch, touching=touching, closed=closed, depth_mm=depth_mm)
+    nearby = dilate(contact.touching, 4)
+    touching = contact.touching | (nearby & (contact.gap_mm < _NEARBY_MM))
+    closed = contact.closed | touching
+    depth_mm = max(contact.depth_mm, 1.5 * _NEARBY_MM)
+    return replace(contact, touching=touching, closed=closed, depth_mm=depth_mm)
