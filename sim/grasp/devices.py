@@ -136,11 +136,11 @@ class SimGripper:
     """Closes the fingers of a simulated grasp; a ``primitives.devices.Gripper``.
 
     Attributes:
-        factor: True force over commanded force; hidden from policies (a worn gripper).
+        force_gain: Ratio of true to commanded force; hidden from policies.
     """
 
-    def __init__(self, grasp: Grasp, clock: SimClock, factor: float) -> None:
-        self._grasp, self._clock, self.factor = grasp, clock, factor
+    def __init__(self, grasp: Grasp, clock: SimClock, force_gain: float) -> None:
+        self._grasp, self._clock, self.force_gain = grasp, clock, force_gain
         self._state = GripperState(width_m=MAX_WIDTH_M, force_n=0.0, closed=False)
         self._connected = True
 
@@ -150,12 +150,12 @@ class SimGripper:
         return self._state
 
     def grip(self, force_n: float) -> GripperState:
-        """Close, or adjust the grip, to a commanded force; the true one is off by ``factor``."""
+        """Close, or adjust the grip, to a commanded force; the true one is ``force_gain`` times it."""
         self._check_connected()
         if not (math.isfinite(force_n) and 0 < force_n <= MAX_FORCE_N):
             raise LimitError(f"force must lie in (0, {MAX_FORCE_N}] N, got {force_n}")
         self._clock.advance(GRIP_S)
-        self._grasp.close(force_n * self.factor)
+        self._grasp.close(force_n * self.force_gain)
         self._state = GripperState(
             width_m=settled_width_m(self._grasp), force_n=force_n, closed=True
         )

@@ -34,7 +34,7 @@ to training and tuning, and draw from the 10-90 % quantiles."""
 
 OFFSET_X_MM = Range(low=-11.0, high=11.0)
 OFFSET_Y_MM = Range(low=-8.5, high=8.5)
-GRIPPER_FACTOR = Range(low=0.5, high=2.0, log=True)
+GRIPPER_FORCE_GAIN = Range(low=0.5, high=2.0, log=True)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ class Truth:
         peak_kpa: Largest (averaged) pressure so far [kPa].
         force_n: True force now [N], 0 when nothing is held.
         offset_mm: Where the body's origin is on the pad [mm, gel frame].
-        gripper_factor: True over commanded force.
+        gripper_force_gain: Ratio of true to commanded force.
         mass_g, friction, young_mpa, bruise_n: The body's draws.
     """
 
@@ -66,7 +66,7 @@ class Truth:
     peak_kpa: float
     force_n: float
     offset_mm: tuple[float, float]
-    gripper_factor: float
+    gripper_force_gain: float
     mass_g: float
     friction: float
     young_mpa: float
@@ -109,12 +109,19 @@ class SimRig:
             peak_kpa=grasp.peak_kpa,
             force_n=grasp.patch.force_n if grasp.patch else 0.0,
             offset_mm=grasp.offset_mm,
-            gripper_factor=self.gripper.factor,
+            gripper_force_gain=self.gripper.force_gain,
             mass_g=1000 * body.mass_kg,
             friction=body.friction,
             young_mpa=body.young_mpa,
             bruise_n=body.bruise_n,
         )
+
+    def expect_untouched(self) -> None:
+        """Nothing to check: a simulated gel is untouched until the first grasp."""
+
+    def commands(self) -> tuple[()]:
+        """No commands: the simulated devices log none."""
+        return ()
 
     def disconnect(self) -> None:
         """Disconnect every device."""
@@ -131,10 +138,10 @@ def build(
     sensor_name: str = "gelsight_mini",
     start_offset_mm: tuple[float, float] | None = None,
     first_force_n: float | None = None,
-    gripper_factor: float | None = None,
+    gripper_force_gain: float | None = None,
     noise_level: float = 1.0,
 ) -> SimRig:
-    """Draw an episode: a body, where the fingers start, a worn gripper, a sensor unit.
+    """Draw an episode: a body, where the fingers start, a gripper force gain, a sensor unit.
 
     Args:
         object_name: A key of ``sim.grasp.bodies.OBJECTS``.
@@ -144,7 +151,7 @@ def build(
         sensor_name: A key of ``cltp.tactile.sensors.SENSORS``.
         start_offset_mm: Where the body lies on the pad at first, instead of the draw [mm].
         first_force_n: First commanded force instead of the draw [N].
-        gripper_factor: True over commanded force instead of the draw.
+        gripper_force_gain: Ratio of true to commanded force, instead of the draw.
         noise_level: 1 is the sensor that was measured, 0 a perfect one.
 
     Raises:
@@ -161,14 +168,14 @@ def build(
         body = _mesh_body(mesh, mass_g, body)
     u = tails + (1 - 2 * tails) * world_rng.random(4)
     offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
-    factor = gripper_factor or GRIPPER_FACTOR.quantile(u[2])
+    force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
     grasp = Grasp(fingers=FlatFingers(body, sensor, gel_of(sensor_name)), body_xy_mm=offset)
     clock = SimClock()
     clock.watch(grasp)
     unit = NoiseUnit.draw(sensor_rng, noise_level)
     return SimRig(
         arm=SimArm(grasp, clock),
-        gripper=SimGripper(grasp, clock, factor),
+        gripper=SimGripper(grasp, clock, force_gain),
         sensor=SimSensor(grasp, clock, sensor, unit, seed),
         clock=clock,
         grasp=grasp,

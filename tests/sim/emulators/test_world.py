@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from primitives.devices import Pose
-from sim.emulators.world import TICK_S, SharedWorld
+from sim.emulators.world import SLIDE_PERIOD_S, SharedWorld
 from sim.grasp.rig import build
 
 
@@ -57,14 +57,14 @@ class Pair:
 
     def open(self):
         self.rig.gripper.open_by(0.002)
-        self.world.released()
+        self.world.release()
 
     def move(self, *by_m, speed_m_s=0.4, acceleration_m_s2=2.5):
         before, began_s = self.rig.arm.pose(), self.rig.clock.monotonic()
         target = Pose(position_m=before.position_m + by_m, rotvec_rad=before.rotvec_rad)
         self.rig.arm.move_to(target, speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2)
         self.clock.now_s += self.rig.clock.monotonic() - began_s
-        self.world.moved(np.array(by_m), np.zeros(3), speed_m_s, acceleration_m_s2)
+        self.world.follow(np.array(by_m), np.zeros(3), speed_m_s, acceleration_m_s2)
 
     def wait(self, seconds):
         self.rig.clock.sleep(seconds)
@@ -84,7 +84,7 @@ def test_the_same_commands_come_to_the_same_truth_and_the_same_gel(world, clock)
 
 def test_a_body_that_cannot_be_held_slides_alike_while_it_is_lifted_and_held(clock):
     simulated, emulated = (
-        build("strawberry", 3, start_offset_mm=(0, 0), gripper_factor=1.0) for _ in range(2)
+        build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0) for _ in range(2)
     )
     world = SharedWorld(emulated, clock)
     pair = Pair(world, clock, simulated)
@@ -103,15 +103,15 @@ def test_a_body_that_cannot_be_held_slides_alike_while_it_is_lifted_and_held(clo
 
 
 def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
-    rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_factor=1.0)
+    rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
     world = SharedWorld(rig, clock)
     world.width_under(0.08)
-    world.moved(np.array([0, 0, 0.002]), np.zeros(3), 0.4, 2.5)
+    world.follow(np.array([0, 0, 0.002]), np.zeros(3), 0.4, 2.5)
     world.facts()
     before = world.height_mm()
     deadline = time.monotonic() + 20
     while np.array_equal(world.height_mm(), before) and time.monotonic() < deadline:
-        clock.now_s += 2 * TICK_S
+        clock.now_s += 2 * SLIDE_PERIOD_S
         time.sleep(0.005)
     assert not np.array_equal(world.height_mm(), before)
     world.close()
@@ -119,8 +119,8 @@ def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
 
 def test_a_tool_that_has_turned_moves_along_the_axes_that_it_has_now(clock):
     world = SharedWorld(build("peg", 3, start_offset_mm=(1.0, 2.0)), clock)
-    world.moved(np.zeros(3), np.array([0, 0, np.pi / 2]), 0.1, 0.5)
-    world.moved(np.array([0, 0.005, 0]), np.zeros(3), 0.1, 0.5)
+    world.follow(np.zeros(3), np.array([0, 0, np.pi / 2]), 0.1, 0.5)
+    world.follow(np.array([0, 0.005, 0]), np.zeros(3), 0.1, 0.5)
     facts = world.facts()
     world.close()
     assert (facts["offset_x_mm"], facts["offset_y_mm"]) == pytest.approx((-4.0, 2.0))

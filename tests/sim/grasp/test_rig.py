@@ -49,13 +49,13 @@ def test_moving_towards_the_contact_brings_it_to_the_centre():
 
 
 def test_the_true_force_is_the_commanded_one_times_the_hidden_factor():
-    rig = build("strawberry", 3, start_offset_mm=(0.0, 0.0), gripper_factor=1.7)
+    rig = build("strawberry", 3, start_offset_mm=(0.0, 0.0), gripper_force_gain=1.7)
     assert rig.gripper.grip(1.0).force_n == 1.0
     assert rig.truth().force_n == pytest.approx(1.7)
 
 
 def test_a_perfect_sensor_feels_where_how_deep_and_how_firm():
-    rig = build("cherry_tomato", 3, start_offset_mm=(3.0, -2.0), gripper_factor=1.0, noise_level=0)
+    rig = build("cherry_tomato", 3, start_offset_mm=(3.0, -2.0), gripper_force_gain=1.0, noise_level=0)
     rig.gripper.grip(1.0)
     state = contact_state(rig.sensor.read())
     assert (state.x_mm, state.y_mm) == pytest.approx((3.0, -2.0), abs=0.3)

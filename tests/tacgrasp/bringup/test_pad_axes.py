@@ -66,7 +66,7 @@ def test_steps_in_a_plane_are_not_enough():
 
 
 def test_on_a_rig_the_axes_are_found_and_the_arm_is_back_with_the_gripper_open():
-    rig = build("cherry_tomato", 3, start_offset_mm=(0, 0), gripper_factor=1.0)
+    rig = build("cherry_tomato", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
     said = []
     found = find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=said.append)
     assert found.axes.x_tcp == rig.pad_x_in_tcp
