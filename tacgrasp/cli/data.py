@@ -1,31 +1,32 @@
-"""``tacgrasp data``: make contacts to learn from, and look into them."""
+"""``tacgrasp data NAME``: make data sets of contacts, and look into them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from tacgrasp.cli.data_tools import TOOLS
+from tacgrasp.cli import data_import, data_tools
 from tacgrasp.cli.flags import parse, subcommand
 
 
 @dataclass(frozen=True)
-class Generate:
-    """Make a data set of simulated contacts; the same command goes on where it was stopped.
+class GenerateFlags:
+    """Make a data set of simulated contacts. The same command continues an interrupted one.
 
     Attributes:
-        out: Folder; made when missing.
-        set: 'tcl3d': 117 objects, splits and further domains; 'starter': what the weights that
-            come along were trained on.
-        contacts: How many; by default all: 52425 of tcl3d, 24000 of starter.
-        seed: Draws everything; below 1000000, larger ones are for benchmarks.
-        shard: Only part i of n, as i/n, 1/4 to 4/4: for several machines. Copy the files of all
-            parts into one folder and run the command once more without it.
-        workers: Processes; by default one for each core. They don't change the result.
-        meshes: Folder of meshes (PLY, OBJ, STL; mm) whose contacts are added; only for tcl3d.
-        device: Where to compute: 'cpu' or 'cuda'; only for tcl3d.
-        sensor: Whose field is pressed; only for starter.
+        out: Folder of the data set; created when missing.
+        set: tcl3d: 117 objects with splits and further domains. starter: part of what the shipped
+            weights were trained on.
+        contacts: Number of contacts. Default: all, which is 52425 for tcl3d and 24000 for starter.
+        seed: Random seed of the whole set, below 1000000. Larger seeds belong to the benchmarks.
+        shard: Part i of n as i/n, to share the work among machines. Afterwards copy the files of
+            all parts into one folder and run the command once more without --shard.
+        workers: Number of processes, one per core by default. It does not change the result.
+        meshes: Folder of meshes (PLY, OBJ, STL; mm) to press as well (tcl3d only).
+        device: Device for the computation: cpu or cuda (tcl3d only).
+        sensor: Sensor whose gel is pressed (starter only).
     """
 
     out: Path
@@ -39,19 +40,11 @@ class Generate:
     sensor: str = "gelsight_mini"
 
 
-def main(argv: Sequence[str]) -> int:
-    """Dispatch to what can be done with data sets."""
-    commands: dict[str, Callable[[Sequence[str]], int | None]] = {"generate": _generate, **TOOLS}
-    name, rest = subcommand("data", argv, {n: c.__doc__ or "" for n, c in commands.items()})
-    return 0 if name is None else commands[name](rest) or 0
+def generate(flags: GenerateFlags) -> None:
+    """Make a data set, or what is missing of it."""
+    from tacgrasp.datasets.generate import generate as make
 
-
-def _generate(argv: Sequence[str]) -> None:
-    """Make a data set of simulated contacts, or what is missing of it."""
-    flags = parse(Generate, argv, prog="tacgrasp data generate")
-    from tacgrasp.datasets.generate import generate
-
-    generate(
+    make(
         flags.out,
         contacts=flags.contacts,
         seed=flags.seed,
@@ -62,3 +55,25 @@ def _generate(argv: Sequence[str]) -> None:
         shard=flags.shard,
         device=flags.device,
     )
+
+
+COMMANDS: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
+    "generate": (GenerateFlags, generate),
+    "inspect": (data_tools.InspectFlags, data_tools.inspect),
+    "stats": (data_tools.StatsFlags, data_tools.stats),
+    "verify": (data_tools.VerifyFlags, data_tools.verify),
+    "gallery": (data_tools.GalleryFlags, data_tools.gallery),
+    "sheet": (data_tools.SheetFlags, data_tools.sheet),
+    "import": (data_import.ImportFlags, data_import.import_table),
+}
+"""Flags and function of each subcommand; the function returns the exit code, None for 0."""
+
+
+def main(argv: Sequence[str]) -> int:
+    """Run one subcommand and return its exit code."""
+    summaries = {name: flags.__doc__ or "" for name, (flags, _) in COMMANDS.items()}
+    name, rest = subcommand("data", argv, summaries)
+    if name is None:
+        return 0
+    flags, run = COMMANDS[name]
+    return run(parse(flags, rest, prog=f"tacgrasp data {name}")) or 0

@@ -1,32 +1,30 @@
-"""``tacgrasp data import``: a person's own touches, with what is known of them, as a data set."""
+"""``tacgrasp data import``: make a data set of your own measured contacts and their labels."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import tyro
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
-class Import:
-    """Bring heights, clouds or frames with a table of labels into a new data set.
+class ImportFlags:
+    """Make a data set of height maps, clouds or frames and a table of their labels.
 
     The table (CSV) has a column file and any of shape, texture, depth, position, area, force_n,
-    object, split, series. Where depth, position, area or force are empty they are measured and
-    marked so; an empty shape or texture stays unknown. A bad row stops everything.
+    object, split, series. An empty depth, position, area or force is measured and marked as
+    measured. An empty shape or texture stays unknown. After a bad row nothing is written.
 
     Attributes:
-        folder: Where the files are.
-        labels: The table.
-        out: Folder of the data set; made new.
-        sensor: Whose field the touches are on.
-        background: For frames: another of the same unit with nothing touching it.
-        calibration: For frames: of its unit; without it the one that comes along.
+        folder: Folder of the files.
+        labels: CSV file of the table.
+        out: Folder of the new data set.
+        sensor: Sensor that measured the contacts.
+        background: Frame of the same unit with nothing touching it (frames only).
+        calibration: Calibration of the unit (frames only). Default: the shipped one.
     """
 
     folder: tyro.conf.Positional[Path]
@@ -37,16 +35,16 @@ class Import:
     calibration: Path | None = None
 
 
-def import_touches(argv: Sequence[str]) -> int:
-    """Bring your own heights, clouds or frames with a table of labels into a data set."""
-    flags = parse(Import, argv, prog="tacgrasp data import")
+def import_table(flags: ImportFlags) -> None:
+    """Run ``data import``."""
     from cltp.tactile.sensors import sensor_named
-    from tacgrasp.console import console
-    from tacgrasp.datasets.import_touches import Source
-    from tacgrasp.datasets.import_touches import import_touches as bring_in
+    from tacgrasp.console import make_console
+    from tacgrasp.datasets.import_touches import Source, import_touches
 
     if not flags.folder.is_dir():
-        raise UsageError(f"{flags.folder} is no folder; expected the one with the touches' files")
+        raise UsageError(
+            f"{flags.folder} is not a folder; expected that of the measured files"
+        )
     source = Source(
         folder=flags.folder,
         labels=flags.labels,
@@ -54,12 +52,11 @@ def import_touches(argv: Sequence[str]) -> int:
         background=flags.background,
         calibration=flags.calibration,
     )
-    found = bring_in(source, flags.out)
-    to = console()
-    to.print(f"written   {flags.out}: {found.contacts} contacts")
-    for slot in found.given:
-        to.print(
-            f"{slot:9} {found.given[slot]} given, {found.measured[slot]} measured, "
-            f"{found.unknown[slot]} unknown"
+    counts = import_touches(source, flags.out)
+    out = make_console()
+    out.print(f"written   {flags.out}: {counts.contacts} contacts")
+    for slot in counts.given:
+        out.print(
+            f"{slot:9} {counts.given[slot]} given, {counts.measured[slot]} measured, "
+            f"{counts.unknown[slot]} unknown"
         )
-    return 0

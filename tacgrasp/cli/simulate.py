@@ -1,9 +1,9 @@
-"""``tacgrasp simulate press``: one press of one thing into one gel."""
+"""``tacgrasp simulate press``: press one object into one sensor's gel."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -12,25 +12,25 @@ from tacgrasp.cli.flags import parse, subcommand
 
 
 @dataclass(frozen=True)
-class Press:
-    """Press a thing into a sensor's gel; print force, area, pressure and label.
+class PressFlags:
+    """Press an object into a sensor's gel; print force, area, pressure and label.
 
-    The file holds height_mm (H, W), + into the gel, row 0 at the top, over the whole field,
-    pressure_kpa (H, W), force_n, and what the sensor would report: cloud_mm (N, 3), and with noise
-    seen_mm (H, W).
+    The file of --out holds height_mm (H, W), positive into the gel, row 0 at the top, over the
+    whole sensing area; pressure_kpa (H, W); force_n; what the sensor would report as cloud_mm
+    (N, 3); and with noise its heights seen_mm (H, W).
 
     Attributes:
         object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm; or
-            an object of the catalogue by name, its bare surface, in a pose that the seed draws.
-        depth_mm: Its tip below the undeformed surface [mm].
-        sensor: gelsight_mini, digit or gelstereo.
-        x_mm: Where its tip is, + to the right of the pad's centre [mm].
-        y_mm: Where its tip is, + towards the top [mm].
-        turn_deg: Its rotation in the plane [°].
-        grid: COLUMNSxROWS over the whole field; the sensor's own (320x240) when not given.
-        noise: Of what the sensor reports: none, unit, or uncalibrated.
-        seed: Draws the noise, and the pose of an object.
-        device: Where to compute: cpu, cuda.
+            the name of an object of the catalogue, in a random pose.
+        depth_mm: Depth of the object's tip below the undeformed surface [mm].
+        sensor: Sensor: gelsight_mini, digit or gelstereo.
+        x_mm: Position of the tip, positive to the right of the pad's centre [mm].
+        y_mm: Position of the tip, positive towards the top of the pad [mm].
+        turn_deg: Rotation of the object in the plane of the pad [deg].
+        grid: Grid over the sensing area, COLUMNSxROWS. Default: the sensor's own, 320x240.
+        noise: Noise of the sensor: none, unit (a calibrated unit) or uncalibrated.
+        seed: Random seed of the noise and of the pose of a catalogue object.
+        device: Device for the computation: cpu or cuda.
         out: File to write (.npz).
     """
 
@@ -48,31 +48,28 @@ class Press:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Dispatch to what can be simulated."""
-    commands: dict[str, Callable[[Sequence[str]], None]] = {"press": _press}
-    name, rest = subcommand("simulate", argv, {n: c.__doc__ or "" for n, c in commands.items()})
+    """Run one subcommand and return its exit code."""
+    name, rest = subcommand("simulate", argv, {"press": PressFlags.__doc__ or ""})
     if name is not None:
-        commands[name](rest)
+        _press(parse(PressFlags, rest, prog="tacgrasp simulate press"))
     return 0
 
 
-def _press(argv: Sequence[str]) -> None:
-    """Press a thing into a sensor's gel."""
-    flags = parse(Press, argv, prog="tacgrasp simulate press")
+def _press(flags: PressFlags) -> None:
     grid = None
     if flags.grid:
-        found = re.fullmatch(r"(\d+)x(\d+)", flags.grid)
-        if found is None:
+        match = re.fullmatch(r"(\d+)x(\d+)", flags.grid)
+        if match is None:
             raise UsageError(f"--grid must be like 320x240, got {flags.grid!r}")
-        grid = (int(found[1]), int(found[2]))
+        grid = (int(match[1]), int(match[2]))
     if flags.seed < 0:
         raise UsageError(f"--seed must not be negative, got {flags.seed}")
     if flags.out is not None and not flags.out.parent.is_dir():
-        raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
-    from tacgrasp.datasets.press import Request, run
+        raise UsageError(f"--out {flags.out}: {flags.out.parent} is not a folder")
+    from tacgrasp.datasets.press import PressRequest, run
 
     run(
-        Request(
+        PressRequest(
             object=flags.object,
             depth_mm=flags.depth_mm,
             sensor=flags.sensor,

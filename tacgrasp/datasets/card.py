@@ -1,9 +1,7 @@
-"""The card of a data set: a README.md beside its shards that says what is in it.
+"""The card of a data set: a README.md beside its shards that describes the contents.
 
-It is written from what is stored, when all of it is there, and says nothing that another run of
-the same command would say otherwise.
-
-Not here: figures for people to page through (``tacgrasp.datasets.stats``).
+It is written from the stored contacts once all are there. Another run of the same command writes
+the same card.
 """
 
 from __future__ import annotations
@@ -33,14 +31,14 @@ _SPLITS = {
 
 
 def write_card(folder: Path, command: str) -> None:
-    """Write the card of a complete data set, beside and renamed into place.
+    """Write the card of a complete data set.
 
     Args:
         folder: The data set.
-        command: What makes it again.
+        command: The command that makes it again.
 
     Raises:
-        TouchError: It is no data set, or not all of it.
+        TouchError: The folder is not a complete data set.
         OSError: The card can't be written.
     """
     write_atomically(folder / CARD, card(ContactDataset(folder), command))
@@ -70,7 +68,7 @@ def card(data: ContactDataset, command: str) -> str:
         *_splits(data),
         "",
         *_classes(data),
-        *_doubts(data),
+        *_ambiguity(data),
         "## Objects",
         "",
         "| object | contacts | split |",
@@ -105,18 +103,18 @@ def _classes(data: ContactDataset) -> list[str]:
     return lines
 
 
-def _doubts(data: ContactDataset) -> list[str]:
+def _ambiguity(data: ContactDataset) -> list[str]:
     unsure = [text for text in data.column("unsure").tolist() if text is not None]
     if not unsure:
         return []
-    shares = {slot: sum(slot in text.split() for text in unsure) for slot in CLASSES}
-    each = ", ".join(f"{slot} {100 * num / len(unsure):.1f} %" for slot, num in shares.items())
-    some = sum(bool(text) for text in unsure)
+    counts = {slot: sum(slot in text.split() for text in unsure) for slot in CLASSES}
+    each = ", ".join(f"{slot} {100 * num / len(unsure):.1f} %" for slot, num in counts.items())
+    num_marked = sum(bool(text) for text in unsure)
     return [
         "## Unsure labels",
         "",
-        f"{some} contacts ({100 * some / len(unsure):.1f} %) are marked in `unsure`: near another "
-        f"class in at least one way ({each}). They stay in every score.",
+        f"{num_marked} contacts ({100 * num_marked / len(unsure):.1f} %) are marked in `unsure`: "
+        f"near another class in at least one way ({each}). They stay in every score.",
         "",
     ]
 

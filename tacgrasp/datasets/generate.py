@@ -1,17 +1,12 @@
 """Make a data set of simulated contacts: worker processes, progress, resumable after ``kill -9``.
 
 A recipe (``tacgrasp.datasets.recipes``) cuts the work into shards. A shard exists when its index
-file does, and its bytes depend on the recipe and its number alone; so whatever is missing is made,
-by any number of workers and on any number of machines, and the result is that of an undisturbed
-run.
-
-Not here: what contacts are made (``sim.tcl3d.series``, ``sim.starter.contacts``), files
-(``cltp.data.dataset``).
+file does. Its bytes depend on the recipe and on its number alone, so any number of workers on any
+number of machines can make the missing ones, and the result is that of an undisturbed run.
 """
 
 from __future__ import annotations
 
-import contextlib
 import json
 import multiprocessing
 import os
@@ -28,9 +23,10 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from cltp.data.dataset import ContactDataset, DatasetWriter
 from cltp.errors import TouchError
+from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.card import write_card
-from tacgrasp.datasets.recipes import Recipe, recipe
+from tacgrasp.datasets.recipes import DatasetRecipe, recipe
 
 
 def generate(
@@ -46,29 +42,29 @@ def generate(
     device: str = "cpu",
     console: Console | None = None,
 ) -> None:
-    """Make a data set, or what is missing of it; a complete one is left as it is.
+    """Make a data set, or the missing shards of one; a complete one is left as it is.
 
     Args:
-        out: Folder; made when missing.
-        contacts: How many; by default as many as the set has.
-        seed: Draws everything; below ``sim.grasp.rig.BENCHMARK_SEED``.
-        workers: Processes; by default one for each core. Does not change the result.
-        sensor_name: Whose field is pressed; only for the set ``starter``.
-        set_name: Which set: a key of ``tacgrasp.datasets.recipes.SETS``.
+        out: Folder; created when missing.
+        contacts: Number of contacts; by default as many as the set has.
+        seed: Random seed of the whole set, below ``sim.grasp.rig.BENCHMARK_SEED``.
+        workers: Number of processes; by default one for each core. Does not change the result.
+        sensor_name: Sensor whose gel is pressed; only for the set ``starter``.
+        set_name: One of ``tacgrasp.datasets.recipes.SETS``.
         meshes: Folder of meshes whose contacts are added; only for the set ``tcl3d``.
         shard: "i/n": only the i-th of n parts, 1 to n, for several machines.
-        device: Where contacts are computed; 'cuda' gives heights within 2 µm of 'cpu'.
-        console: Where progress is shown; by default standard error.
+        device: Device for the computation; 'cuda' gives heights within 2 µm of 'cpu'.
+        console: Console for the progress bar; by default standard error.
 
     Raises:
-        UsageError: A value makes no sense, or the folder holds the data of another command.
-        TouchError: The folder is no data set of this version, or can't be written.
+        UsageError: A value out of range, or a folder that holds the data of another command.
+        TouchError: The folder is not a data set of this version, or can't be written.
     """
     if workers is None:
         workers = len(os.sched_getaffinity(0))
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
-    what = recipe(
+    plan = recipe(
         set_name,
         contacts=contacts,
         seed=seed,
@@ -76,28 +72,30 @@ def generate(
         meshes=meshes,
         device=device,
     )
-    sizes = what.shard_sizes()
-    mine = _part_of(len(sizes), shard)
-    _open(out, what.about())
-    _clear(out, mine)
-    jobs = [(out, number, sizes[number]) for number in mine if not _index_of(out, number).exists()]
+    sizes = plan.shard_sizes()
+    numbers = _part_of(len(sizes), shard)
+    _open(out, plan.about())
+    _clear(out, numbers)
+    jobs = [
+        (out, number, sizes[number]) for number in numbers if not _index_of(out, number).exists()
+    ]
     with _progress(console) as progress:
-        bar = progress.add_task("contacts", total=sum(sizes[number] for number in mine))
-        progress.advance(bar, sum(sizes[n] for n in mine) - sum(job[2] for job in jobs))
-        for number in _done(jobs, what, min(workers, len(jobs))):
+        bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
+        progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
+        for number in _make_shards(jobs, plan, min(workers, len(jobs))):
             progress.advance(bar, sizes[number])
-    if what.carded and is_complete(out):
+    if plan.carded and is_complete(out):
         try:
-            write_card(out, what.command())
+            write_card(out, plan.command())
         except OSError as error:
             raise TouchError(f"can't write the card of {out}: {error}") from error
 
 
 def is_complete(out: Path) -> bool:
-    """Whether a folder holds all of the contacts that it was made to hold.
+    """Whether a folder holds all contacts of its data set.
 
     Raises:
-        TouchError: It is no data set of this version.
+        TouchError: The folder is not a data set of this version.
     """
     try:
         data = ContactDataset(out, partial=True)
@@ -108,35 +106,35 @@ def is_complete(out: Path) -> bool:
     return len(data) == int(data.about.get("contacts", len(data)))
 
 
-def _part_of(shards: int, which: str | None) -> list[int]:
+def _part_of(shards: int, part: str | None) -> list[int]:
     """Numbers of the shards that this machine makes."""
-    if which is None:
+    if part is None:
         return list(range(shards))
-    found = re.fullmatch(r"(\d+)/(\d+)", which)
-    if found is None or not 1 <= int(found[1]) <= int(found[2]):
+    match = re.fullmatch(r"(\d+)/(\d+)", part)
+    if match is None or not 1 <= int(match[1]) <= int(match[2]):
         raise UsageError(
             f"--shard expects i/n with i from 1 to n, such as 1/4 to 4/4 on four machines, "
-            f"got {which!r}"
+            f"got {part!r}"
         )
-    return list(range(int(found[1]) - 1, shards, int(found[2])))
+    return list(range(int(match[1]) - 1, shards, int(match[2])))
 
 
 _Job = tuple[Path, int, int]
-"""Folder, number of the shard, and how many contacts it holds."""
+"""Folder, number of the shard, and number of its contacts."""
 
 
-def _done(jobs: list[_Job], what: Recipe, workers: int) -> Iterator[int]:
-    """Make shards here or in processes of their own; yields each one's number when it is safe."""
+def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterator[int]:
+    """Make shards in this or in worker processes; yields each one's number once it is on disk."""
     if workers <= 1:
-        with _one_thread():
+        with torch_threads():  # as in a worker: the bytes depend on the number of threads
             for job in jobs:
-                yield _make_shard(job, what)
+                yield _make_shard(job, plan)
         return
     spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
     pool = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_start_worker)
     try:
-        for made in as_completed([pool.submit(_make_shard, job, what) for job in jobs]):
-            yield made.result()
+        for future in as_completed([pool.submit(_make_shard, job, plan) for job in jobs]):
+            yield future.result()
     except BrokenProcessPool as error:
         raise TouchError(
             "a worker that made contacts was killed (out of memory?); the same command goes on "
@@ -146,9 +144,9 @@ def _done(jobs: list[_Job], what: Recipe, workers: int) -> Iterator[int]:
         pool.shutdown(cancel_futures=True)
 
 
-def _make_shard(job: _Job, what: Recipe) -> int:
+def _make_shard(job: _Job, plan: DatasetRecipe) -> int:
     out, number, count = job
-    contacts = what.make(number)
+    contacts = plan.make(number)
     if len(contacts) != count:
         raise RuntimeError(f"shard {number} has {len(contacts)} contacts instead of {count}")
     try:
@@ -168,40 +166,29 @@ def _start_worker() -> None:
 
 
 def _end_with_parent() -> None:
-    """A worker whose parent was killed would wait for work for ever."""
+    """End the worker when its parent is killed; it would wait for work for ever."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()
         os._exit(1)
 
 
-@contextlib.contextmanager
-def _one_thread() -> Iterator[None]:
-    """As in a worker: the order of sums, and so the bytes, depends on the number of threads."""
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(before)
-
-
 def _open(out: Path, about: Mapping[str, str]) -> None:
-    """Start or go on with a data set.
+    """Start a data set, or check that the folder belongs to this one.
 
     Raises:
         UsageError: The folder was made by another command.
-        TouchError: It is no data set of this version, or can't be written.
+        TouchError: The folder is not a data set of this version, or can't be written.
     """
     try:
         DatasetWriter(out, about=about)
-        found = json.loads((out / "dataset.json").read_text()).get("about", {})
+        stored = json.loads((out / "dataset.json").read_text()).get("about", {})
     except OSError as error:
         raise TouchError(f"can't write contacts to {out}: {error}") from error
     differing = [
-        f"{name} {found.get(name)!r} instead of {about.get(name)!r}"
-        for name in sorted({*found, *about})
-        if found.get(name) != about.get(name)
+        f"{name} {stored.get(name)!r} instead of {about.get(name)!r}"
+        for name in sorted({*stored, *about})
+        if stored.get(name) != about.get(name)
     ]
     if differing:
         raise UsageError(
@@ -210,16 +197,16 @@ def _open(out: Path, about: Mapping[str, str]) -> None:
         )
 
 
-def _clear(out: Path, mine: list[int]) -> None:
-    """Remove what an interrupted writer left half written of these shards, and of the header.
+def _clear(out: Path, numbers: list[int]) -> None:
+    """Remove the half-written files of these shards, and of the header.
 
-    Other shards may be in the making on another machine that writes to the same folder.
+    Another machine may be writing its own shards to the same folder.
     """
-    own = {f"shard-{_part(number)}-" for number in mine}
+    own = {f"shard-{_part(number)}-" for number in numbers}
     try:
-        for left_over in out.glob("*.part"):
-            if left_over.name[:13] in own or not left_over.name.startswith("shard-"):
-                left_over.unlink(missing_ok=True)
+        for path in out.glob("*.part"):
+            if path.name[:13] in own or not path.name.startswith("shard-"):
+                path.unlink(missing_ok=True)
     except OSError as error:
         raise TouchError(f"can't write contacts to {out}: {error}") from error
 

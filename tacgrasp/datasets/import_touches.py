@@ -1,17 +1,15 @@
-"""Bring a person's own touches into a data set: files beside a table of what is known of them.
+"""Make a data set of measured contacts: files, and a table of their labels.
 
-Columns of the table (CSV, UTF-8): ``file`` (a cloud, a height map or a frame, as
-``cltp.sensing.touch_files`` reads them, relative to the folder), and where they are known
-``shape``, ``texture``, ``depth``,
-``position``, ``area`` (words of ``cltp.tactile.states``; depth also as a number of mm),
-``force_n``,
-``object``, ``split`` and ``series`` (presses of one thing in one place share a number; without it
-every row is its own).
+Columns of the table (CSV, UTF-8): ``file`` (a cloud, a height map or a frame as
+``cltp.sensing.touch_files`` reads them, relative to the folder), and, where known, ``shape``,
+``texture``, ``depth``, ``position``, ``area`` (words of ``cltp.tactile.states``; depth also as a
+number of mm), ``force_n``, ``object``, ``split`` and ``series`` (presses of one object in one
+place share a number; without it each row is a series of its own).
 
-What is empty: shape and texture stay unknown. Depth, position and area are measured from the
-heights, noise and all, as ``describe`` does, and so is the force, by an estimate that is fitted to
-a GelSight Mini's gel; all that was measured is named in the contact's ``measured``. Numbers are
-always measured, except a depth or a force that the table gives.
+Empty cells: shape and texture stay unknown. Depth, position and area are measured from the heights,
+noise included, as ``describe`` measures them. The force is estimated by a law that was fitted to a
+GelSight Mini's gel. The contact's ``measured`` names all that was measured. Numbers are always
+measured, except a depth or a force that the table gives.
 
 Nothing is written unless every row is good.
 """
@@ -48,35 +46,32 @@ from cltp.tactile.states import (
 )
 from tacgrasp.base.errors import UsageError
 
-COLUMNS = (
-    *("file", *DIMENSIONS),
-    *("force_n", "object", "split", "series"),
-)
+COLUMNS = ("file", *DIMENSIONS, "force_n", "object", "split", "series")
 MEASURED = frozenset({*MEASURABLE, "cut", *NUMBER_COLUMNS.values()})
-"""What is measured where the table says nothing."""
+"""Fields that are measured where the table gives none."""
 
 SHOWN_ROWS = 20
 LARGEST_FORCE_N = 1000.0
 SHARD_CONTACTS = 256
 RISEN_MM = 0.3
-"""Beside a contact the gel rises by less than it sinks under it. Our choice: drift, tilt and the
-halos of real frames (-0.1 mm) make less without a contact."""
+"""Largest rise of a gel without contact [mm]. Our choice: drift, tilt and the halos of real frames
+(-0.1 mm) stay below. Beside a contact the gel rises by less than it sinks under it."""
 
 Word = TypeVar("Word", bound=StrEnum)
 
 
 class RowError(Exception):
-    """What is wrong with one row; never leaves this module."""
+    """An error in one row of the table; it never leaves this module."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Imported:
-    """What was brought in.
+class ImportCounts:
+    """Numbers of imported contacts.
 
     Attributes:
-        contacts: How many.
-        given, measured, unknown: By slot, and for the force: contacts whose label the table gave,
-            whose was measured, and that have none.
+        contacts: Number of contacts.
+        given, measured, unknown: Number of contacts, by dimension and for the force, whose label
+            the table gives, was measured, or is unknown.
     """
 
     contacts: int
@@ -87,14 +82,14 @@ class Imported:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Source:
-    """Where touches come from.
+    """Files of measured contacts and their table.
 
     Attributes:
-        folder: Of the files.
+        folder: Folder of the files.
         labels: The table.
-        sensor: Whose field the touches are on.
-        background: For frames: another with nothing touching.
-        calibration: For frames; None is the one that comes along.
+        sensor: Sensor that measured them.
+        background: Frame with nothing touching (frames only).
+        calibration: Calibration of the unit (frames only); None for the shipped one.
     """
 
     folder: Path
@@ -104,40 +99,40 @@ class Source:
     calibration: Path | None = None
 
 
-def import_touches(source: Source, out: Path) -> Imported:
-    """Write a new data set of the touches.
+def import_touches(source: Source, out: Path) -> ImportCounts:
+    """Write a new data set of measured contacts.
 
     Raises:
-        UsageError: The output exists or can't be written, the table is no table with these columns,
-            or rows are bad; each is named by the table's line and its file.
+        UsageError: The output exists or can't be written, the table does not have these columns, or
+            rows are bad; each is named by the table's line and its file.
     """
     if out.exists():
         raise UsageError(f"--out {out} exists already; name a new folder, nothing is added to it")
     rows = _rows(source.labels)
-    beside = out.with_name(f".{out.name}.{os.getpid()}.part")
+    part = out.with_name(f".{out.name}.{os.getpid()}.part")
     try:
-        contacts, bad = _written(source, rows, beside)
+        counts, bad = _write(source, rows, part)
         if bad:
             more = f"; and {len(bad) - SHOWN_ROWS} more" if len(bad) > SHOWN_ROWS else ""
             raise UsageError(
                 f"{len(bad)} of {len(rows)} rows are bad and nothing was written: "
                 f"{'; '.join(bad[:SHOWN_ROWS])}{more}"
             )
-        beside.rename(out)
+        part.rename(out)
     except OSError as error:
         raise UsageError(f"--out {out} can't be written: {error.strerror or error}") from None
     finally:
-        shutil.rmtree(beside, ignore_errors=True)
-    return contacts
+        shutil.rmtree(part, ignore_errors=True)
+    return counts
 
 
 @dataclass(frozen=True, slots=True)
 class _Row:
-    """A line of the table: its number, what it says, whether it has cells without a name."""
+    """A line of the table: its number, its cells, and whether there are more cells than columns."""
 
     line: int
     cells: Mapping[str, str]
-    beyond: bool
+    has_extra_cells: bool
 
 
 def _rows(labels: Path) -> list[_Row]:
@@ -151,33 +146,33 @@ def _rows(labels: Path) -> list[_Row]:
     except OSError as error:
         raise UsageError(f"--labels {labels} can't be read: {error.strerror or error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"--labels {labels} is no table of UTF-8 text (CSV): {error}") from None
+        raise UsageError(f"--labels {labels} is not a table of UTF-8 text (CSV): {error}") from None
     if not rows:
         raise UsageError(f"--labels {labels} has a header but no rows")
     return rows
 
 
 def _row(line: int, cells: dict[str | None, Any]) -> _Row:
-    beyond = cells.pop(None, None) is not None  # where csv puts what the header has no name for
-    said = {str(name): value.strip() for name, value in cells.items() if value and value.strip()}
-    return _Row(line, said, beyond)
+    has_extra_cells = cells.pop(None, None) is not None  # csv puts them under None
+    named = {str(name): value.strip() for name, value in cells.items() if value and value.strip()}
+    return _Row(line, named, has_extra_cells)
 
 
 def _check_header(labels: Path, header: list[str]) -> None:
-    foreign = [name for name in header if name not in COLUMNS]
-    if "file" not in header or foreign or len(set(header)) != len(header):
+    unknown = [name for name in header if name not in COLUMNS]
+    if "file" not in header or unknown or len(set(header)) != len(header):
         raise UsageError(
             f"--labels {labels} needs a header with the column file and any of "
             f"{', '.join(COLUMNS[1:])}, each once; got {', '.join(header) or 'nothing'}"
         )
 
 
-def _written(source: Source, rows: list[_Row], folder: Path) -> tuple[Imported, list[str]]:
+def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts, list[str]]:
     bad: list[str] = []
     counts = {
         kind: dict.fromkeys((*DIMENSIONS, "force_n"), 0) for kind in ("given", "measured", "no")
     }
-    seen: dict[str, int] = {}
+    lines: dict[str, int] = {}
     about = {
         "made_by": "tacgrasp data import",
         "contacts": str(len(rows)),
@@ -189,28 +184,28 @@ def _written(source: Source, rows: list[_Row], folder: Path) -> tuple[Imported, 
             name = row.cells.get("file", "no file")
             try:
                 path = os.path.normpath(name)
-                if path in seen:
-                    raise RowError(f"the same file as line {seen[path]}")
+                if path in lines:
+                    raise RowError(f"the same file as line {lines[path]}")
                 contact = _contact(source, row, number)
             except (RowError, TouchError) as error:
-                what = str(error).removeprefix(f"{source.folder / name}: ")
-                bad.append(f"{source.labels.name} line {row.line} ({name}): {what}")
+                text = str(error).removeprefix(f"{source.folder / name}: ")
+                bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
                 continue
-            seen[path] = row.line
+            lines[path] = row.line
             for slot in counts["given"]:
-                counts[_how(contact, slot)][slot] += 1
+                counts[_origin(contact, slot)][slot] += 1
             if not bad:
                 writer.add(contact)
-    whole = Imported(
+    total = ImportCounts(
         contacts=writer.num_written,
         given=counts["given"],
         measured=counts["measured"],
         unknown=counts["no"],
     )
-    return whole, bad
+    return total, bad
 
 
-def _how(contact: Contact, slot: str) -> str:
+def _origin(contact: Contact, slot: str) -> str:
     if slot in contact.measured:
         return "measured"
     return "no" if getattr(contact.state, slot) is None else "given"
@@ -218,7 +213,7 @@ def _how(contact: Contact, slot: str) -> str:
 
 def _contact(source: Source, row: _Row, number: int) -> Contact:
     cells = row.cells
-    if row.beyond:
+    if row.has_extra_cells:
         raise RowError("more cells than the header has")
     if "file" not in cells:
         raise RowError("names no file")
@@ -237,7 +232,7 @@ def _contact(source: Source, row: _Row, number: int) -> Contact:
     series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
-    state, measured = _labelled(_measured(heights, source.sensor), cells)
+    state, measured = _with_labels(_measured(heights, source.sensor), cells)
     return Contact(
         height_mm=heights,
         sensor=source.sensor,
@@ -255,23 +250,25 @@ def _measured(heights: object, sensor: SensorSpec) -> ContactState:
     return contact_state(cloud_from_heights(heights, sensor))  # type: ignore[arg-type]
 
 
-def _labelled(state: ContactState, cells: Mapping[str, str]) -> tuple[ContactState, frozenset[str]]:
-    """What the table gives in place of what was measured, and the names of what was measured."""
-    words = dict(_given(cells))
-    said = [name for name in (*DIMENSIONS, "force_n") if name in cells]
+def _with_labels(
+    state: ContactState, cells: Mapping[str, str]
+) -> tuple[ContactState, frozenset[str]]:
+    """A measured state with the table's labels in it, and the names of its measured fields."""
+    labels = dict(_labels(cells))
+    named = [name for name in (*DIMENSIONS, "force_n") if name in cells]
     if not state.in_contact:
-        if said:
+        if named:
             raise RowError(
-                f"labelled ({', '.join(said)}), but nothing touches: the heights stay below "
+                f"labelled ({', '.join(named)}), but nothing touches: the heights stay below "
                 f"{NO_CONTACT_MM} mm; leave its labels empty to import it as no contact"
             )
         return state, MEASURED
-    measured = MEASURED - set(words)
-    return dataclasses.replace(state, **words), measured  # type: ignore[arg-type]
+    measured = MEASURED - set(labels)
+    return dataclasses.replace(state, **labels), measured  # type: ignore[arg-type]
 
 
-def _given(cells: Mapping[str, str]) -> Iterator[tuple[str, object]]:
-    """Fields of a state that the table gives."""
+def _labels(cells: Mapping[str, str]) -> Iterator[tuple[str, object]]:
+    """Fields of a state in a row of the table."""
     for slot, kind in (("shape", Shape), ("texture", Texture), ("position", Position)):
         if slot in cells:
             yield slot, _word(kind, slot, cells)
@@ -292,7 +289,7 @@ def _word(kind: type[Word], name: str, cells: Mapping[str, str]) -> Word | None:
     try:
         return kind(cells[name].lower())
     except ValueError:
-        raise RowError(f"{name} {cells[name]!r} is none of {', '.join(kind)}") from None
+        raise RowError(f"{name} {cells[name]!r} is not one of {', '.join(kind)}") from None
 
 
 def _number(name: str, cells: Mapping[str, str], most: float) -> float:

@@ -1,4 +1,4 @@
-"""One stored contact on the terminal: what is known, measured and said of it."""
+"""One stored contact on the terminal: origin, labels, numbers, heights, texts."""
 
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from cltp.data.dataset import NUMBER_COLUMNS, ContactDataset
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DIMENSIONS
 from cltp.texts.contact_texts import texts_of
-from tacgrasp.datasets.contact_sheet import unsure_of
+from tacgrasp.datasets.contact_sheet import ambiguous_dimensions
+from tacgrasp.datasets.stats import UNKNOWN
 
 _SHADES = " .:-=+*#%@"
 _MAP_COLUMNS, _MAP_ROWS = 64, 24
 
 
 def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
-    """One line a fact: origin, labels, numbers, heights, texts.
+    """The contact in lines, one a fact.
 
     Raises:
-        TouchError: The contact is damaged, or its labels can't be worded.
+        TouchError: The contact is damaged, or its labels can't be put into words.
     """
     contact = data.contact(index)
     state, sensor, heights = contact.state, contact.sensor, contact.height_mm
@@ -35,18 +36,18 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
             f"ν {gel.poisson:.3f}; seed {contact.seed}"
         )
     else:
-        yield "gel       not known: a real contact"
-    yield f"labels    {_named(state.texture)} {_named(state.shape)}"
+        yield "gel       unknown: a real contact"
+    yield f"labels    {_word(state.texture)} {_word(state.shape)}"
     yield (
         f"          depth {state.depth or 'none'}, position {state.position or 'none'}, "
         f"area {state.area or 'none'}, cut {' '.join(sorted(state.cut)) or 'no'}"
     )
     yield (
         f"numbers   {state.depth_mm:.3f} mm deep at ({state.x_mm:+.2f}, {state.y_mm:+.2f}) mm, "
-        f"{state.area_fraction:.2%} of the field, {state.force_n:.3f} N"
+        f"{state.area_fraction:.2%} of the sensing area, {state.force_n:.3f} N"
     )
-    yield f"ambiguous {' '.join(unsure_of(data, index)) or 'no'}"
-    yield from _others(data, index)
+    yield f"ambiguous {' '.join(ambiguous_dimensions(data, index)) or 'no'}"
+    yield from _other_columns(data, index)
     yield (
         f"heights   {heights.shape[0]} × {heights.shape[1]}, {heights.min():+.3f} to "
         f"{heights.max():+.3f} mm, {int(data.column('size')[index]):,} bytes stored"
@@ -63,17 +64,17 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
 
 
 def height_lines(height_mm: NDArray[np.floating], sensor: SensorSpec) -> list[str]:
-    """A height map in letters, the field's proportions kept: ' ' untouched, '@' deepest."""
+    """A height map in characters, in the pad's proportions: ' ' untouched, '@' deepest."""
     rows = np.arange(_MAP_ROWS) * height_mm.shape[0] // _MAP_ROWS
     columns = np.arange(_MAP_COLUMNS) * height_mm.shape[1] // _MAP_COLUMNS
     coarse = height_mm[np.ix_(rows, columns)] / sensor.max_depth_mm
-    # Square root: a contact of a tenth of the range must show as well.
+    # The square root makes a contact of a tenth of the range visible.
     shade = (np.sqrt(coarse.clip(0, 1)) * len(_SHADES)).astype(int).clip(0, len(_SHADES) - 1)
     return ["".join(_SHADES[value] for value in row).rstrip() for row in shade]
 
 
-def _named(word: str | None) -> str:
-    return "(unknown)" if word is None else str(word)
+def _word(label: str | None) -> str:
+    return UNKNOWN if label is None else str(label)
 
 
 _LABELS = frozenset({*NUMBER_COLUMNS.values(), *DIMENSIONS, "cut", "unsure"})
@@ -81,8 +82,8 @@ _ORIGIN = frozenset({"sensor", "object", "series", "split", "seed"})
 _BYTES = frozenset({"offset", "size", "crc32", "rows", "columns"})
 
 
-def _others(data: ContactDataset, index: int) -> Iterator[str]:
-    """Columns that this module knows nothing of."""
+def _other_columns(data: ContactDataset, index: int) -> Iterator[str]:
+    """Columns without a line of their own."""
     for name in data.column_names:
         if name not in _LABELS | _ORIGIN | _BYTES and not name.startswith("gel_"):
             yield f"{name:9} {data.column(name)[index]}"

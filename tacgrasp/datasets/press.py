@@ -1,11 +1,7 @@
-"""``tacgrasp simulate press``: one thing pressed into one sensor's gel.
-
-Not here: the gel (``sim``), data sets of contacts (``tacgrasp.datasets.generate``).
-"""
+"""One object pressed into one sensor's gel (``tacgrasp simulate press``)."""
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -15,6 +11,7 @@ import torch
 from numpy.typing import NDArray
 from rich.console import Console
 
+from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.markers import marker_cloud
@@ -37,26 +34,26 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
 
 NOISES = ("none", "unit", "uncalibrated")
-"""No noise; a drawn unit; a drawn unit whose gradients nobody calibrated."""
+"""No noise; a random calibrated unit; a random unit with uncalibrated gradients."""
 
 _LEAST_GRID, _MOST_GRID = 24, 1280
 _POSES = 40
-_ROUGH_PIXELS = 12  # under fewer, a ball's force was up to 20 % off that of a thick layer
+_ROUGH_PIXELS = 12  # with fewer in contact, a ball's force was up to 20 % off
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pressed:
-    """One press.
+class PressResult:
+    """The gel under one press, and what the sensor reports of it.
 
     Attributes:
-        sensor: Whose gel.
-        height_mm: Shape (H, W), true surface over the whole field, row 0 at the top, + into the
-            gel [mm].
-        pressure_kpa: Same shape [kPa].
+        sensor: The sensor.
+        height_mm: Shape (H, W), true surface over the sensing area, row 0 at the top, positive
+            into the gel [mm].
+        pressure_kpa: Pressure, same shape [kPa].
         force_n: Normal force [N].
         state: Labels, from the truth.
-        seen_mm: Heights as the sensor reports them, (H, W) [mm]; None without noise, or for a
-            sensor that tracks markers.
+        seen_mm: Shape (H, W), heights as the sensor reports them [mm]; None without noise, or for
+            a sensor that tracks markers.
         cloud: Points as the sensor reports them.
     """
 
@@ -70,19 +67,19 @@ class Pressed:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Request:
-    """What to press.
+class PressRequest:
+    """An object, its pose and its depth; the sensor and its noise.
 
     Attributes:
         object: A probe such as ball:9.5, or the name of an object of the catalogue.
-        depth_mm: Its tip below the undeformed surface [mm].
+        depth_mm: Depth of its tip below the undeformed surface [mm].
         sensor: Name of the sensor.
-        x_mm, y_mm: Where its tip is [mm, gel frame].
-        turn_deg: Its rotation in the plane [°].
-        grid: Columns and rows; None is the sensor's own.
+        x_mm, y_mm: Position of its tip [mm, gel frame].
+        turn_deg: Its rotation in the plane [deg].
+        grid: Columns and rows; None for the sensor's own.
         noise: One of ``NOISES``.
-        seed: Draws the noise, and the pose of an object.
-        device: Where torch computes.
+        seed: Random seed of the noise, and of the pose of a catalogue object.
+        device: Device that torch computes on.
     """
 
     object: str
@@ -97,42 +94,44 @@ class Request:
     device: str = "cpu"
 
 
-@torch_threads()  # fields this small only make threads wait for each other
-def press(request: Request) -> Pressed:
-    """Press a thing to a depth.
+@torch_threads()
+def press(request: PressRequest) -> PressResult:
+    """Press an object to a depth.
 
     Raises:
-        UsageError: An unknown object, sensor, noise or device, a grid or depth that makes no sense,
-            or a thing that misses the gel.
+        UsageError: An unknown object, sensor, noise or device, a grid or depth out of range,
+            or an object that misses the gel.
     """
     sensor = _sensor(request)
-    laid = _laid(request, sensor)
+    surface = _surface(request, sensor)
     columns, rows = request.grid or (sensor.columns, sensor.rows)
     layer = FineLayer(
         gel_of(sensor.name),
         rows=rows,
         columns=columns,
         pitch_mm=sensor.width_mm / columns,
-        body_modulus_mpa=laid.modulus_mpa,
+        body_modulus_mpa=surface.modulus_mpa,
         device=usable_device(request.device),
     )
     with torch.inference_mode():
-        solved = layer.press_to_depth(torch.from_numpy(laid.gap_mm)[None], request.depth_mm)
+        solved = layer.press_to_depth(torch.from_numpy(surface.gap_mm)[None], request.depth_mm)
     if not bool(solved.converged.all()):
         raise TouchError(f"the press of {request.object} did not converge; try another --grid")
-    return _read(solved, request, sensor, laid)
+    return _read(solved, request, sensor, surface)
 
 
-def _read(solved: Press, request: Request, sensor: SensorSpec, laid: _Laid) -> Pressed:
+def _read(
+    solved: Press, request: PressRequest, sensor: SensorSpec, surface: _Surface
+) -> PressResult:
     pressure, force_n = solved.pressure_kpa.cpu(), float(solved.force_n)
     height_mm = solved.height_mm[0].cpu().numpy()
     pitch_mm = sensor.width_mm / pressure.shape[2]
     closed = in_contact(pressure, pitch_mm)[0]
-    shape = laid.shape
+    shape = surface.shape
     if shape is None:
         touch = ContactGeometry(
-            gap_mm=np.minimum(laid.gap_mm, NO_BODY_MM),  # as where data sets are made: never inf
-            cells=laid.cells,
+            gap_mm=np.minimum(surface.gap_mm, NO_BODY_MM),  # as where data sets are made: never inf
+            cells=surface.cells,
             cell_table=object_named(request.object).cells,
             touching=pressure[0].numpy() > 0,
             closed=closed,
@@ -157,7 +156,7 @@ def _read(solved: Press, request: Request, sensor: SensorSpec, laid: _Laid) -> P
     else:
         seen_mm = None if unit is None else unit.apply(height_mm, sensor, rng)
         cloud = cloud_from_heights(height_mm if seen_mm is None else seen_mm, sensor, rng=rng)
-    return Pressed(
+    return PressResult(
         sensor=sensor,
         height_mm=height_mm,
         pressure_kpa=pressure[0].numpy(),
@@ -168,7 +167,7 @@ def _read(solved: Press, request: Request, sensor: SensorSpec, laid: _Laid) -> P
     )
 
 
-def _sensor(request: Request) -> SensorSpec:
+def _sensor(request: PressRequest) -> SensorSpec:
     try:
         sensor = sensor_named(request.sensor)
     except TouchError as error:
@@ -190,21 +189,21 @@ def _sensor(request: Request) -> SensorSpec:
         square = abs(columns * sensor.rows - rows * sensor.columns) < sensor.columns
         if not (min(columns, rows) >= _LEAST_GRID and max(columns, rows) <= _MOST_GRID and square):
             raise UsageError(
-                f"--grid must be {_LEAST_GRID} to {_MOST_GRID} columns and rows with the field's "
+                f"--grid must be {_LEAST_GRID} to {_MOST_GRID} columns and rows with the sensor's "
                 f"proportions ({sensor.columns}x{sensor.rows}), got {columns}x{rows}"
             )
     return sensor
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Laid:
-    """What lies over the pad: a probe, whose shape is known, or an object of the catalogue.
+class _Surface:
+    """The surface over the pad: of a probe, whose shape is known, or of a catalogue object.
 
     Attributes:
-        gap_mm: Shape (H, W), behind its tip; inf where nothing is [mm].
-        shape: Of a probe; None is named from where it touches.
-        cells: Shape (H, W), which part of an object's surface is there; -1 where none is.
-        modulus_mpa: Of a soft object [MPa]; None if it is rigid.
+        gap_mm: Shape (H, W), distance behind the tip; inf where there is no body [mm].
+        shape: Shape class of a probe; None for an object, whose class depends on the contact.
+        cells: Shape (H, W), index of the part of the object's surface; -1 where there is none.
+        modulus_mpa: Young's modulus of a soft object [MPa]; None for a rigid one.
     """
 
     gap_mm: NDArray[np.float64]
@@ -213,7 +212,7 @@ class _Laid:
     modulus_mpa: float | None
 
 
-def _laid(request: Request, sensor: SensorSpec) -> _Laid:
+def _surface(request: PressRequest, sensor: SensorSpec) -> _Surface:
     columns, rows = request.grid or (sensor.columns, sensor.rows)
     x, y = np.meshgrid(*grid_axes_mm(sensor, rows, columns))
     x, y, turn = x - request.x_mm, y - request.y_mm, np.radians(request.turn_deg)
@@ -227,40 +226,40 @@ def _laid(request: Request, sensor: SensorSpec) -> _Laid:
     behind = probe.behind_mm(u, v)
     nearest = float(behind.min())
     if not nearest < request.depth_mm:
-        why = "no part of it is over the field"
+        reason = "no part of it is over the sensing area"
         if np.isfinite(nearest):
-            why = f"what is over the field lies {nearest:.2g} mm behind the tip"
-        raise _missed(request, sensor, why)
+            reason = f"its part over the sensing area lies {nearest:.2g} mm behind the tip"
+        raise _missed(request, sensor, reason)
     cells = np.where(np.isfinite(behind), 0, -1)
-    return _Laid(gap_mm=behind, shape=probe.shape, cells=cells, modulus_mpa=None)
+    return _Surface(gap_mm=behind, shape=probe.shape, cells=cells, modulus_mpa=None)
 
 
-def _missed(request: Request, sensor: SensorSpec, why: str) -> UsageError:
+def _missed(request: PressRequest, sensor: SensorSpec, reason: str) -> UsageError:
     return UsageError(
-        f"{request.object} at x {request.x_mm:g}, y {request.y_mm:g} mm misses the gel: {why} "
+        f"{request.object} at x {request.x_mm:g}, y {request.y_mm:g} mm misses the gel: {reason} "
         f"({sensor.name} sees ±{sensor.width_mm / 2:.1f}, ±{sensor.height_mm / 2:.1f} mm); "
         "move it with --x-mm and --y-mm, press deeper, or take a finer --grid"
     )
 
 
 def _object(
-    request: Request, sensor: SensorSpec, x: NDArray[np.float64], y: NDArray[np.float64]
-) -> _Laid:
-    """An object of the catalogue, its bare surface, in a pose that the seed draws."""
+    request: PressRequest, sensor: SensorSpec, x: NDArray[np.float64], y: NDArray[np.float64]
+) -> _Surface:
+    """The bare surface of a catalogue object, in a random pose."""
     try:
-        thing = object_named(request.object)
+        obj = object_named(request.object)
     except ValueError as error:
         raise UsageError(f"--object: {error}; or a probe such as ball:9.5") from None
     rng = np.random.default_rng(request.seed)
     for _ in range(_POSES):
-        pose = draw_pose(thing, rng, sensor, request.depth_mm)
-        felt = cast_pad_rays(thing, pose.object_from_pad, pose.point, x, y)
-        if felt is not None:
-            there = felt.gap_mm < NO_BODY_MM
-            cells = np.full(there.shape, -1, dtype=np.int64)
-            cells[there] = thing.cell(torch.from_numpy(felt.points[there])).numpy()
-            gap = np.where(there, felt.gap_mm, np.inf)
-            return _Laid(gap_mm=gap, shape=None, cells=cells, modulus_mpa=thing.modulus_mpa)
+        pose = draw_pose(obj, rng, sensor, request.depth_mm)
+        view = cast_pad_rays(obj, pose.object_from_pad, pose.point, x, y)
+        if view is not None:
+            mask = view.gap_mm < NO_BODY_MM
+            cells = np.full(mask.shape, -1, dtype=np.int64)
+            cells[mask] = obj.cell(torch.from_numpy(view.points[mask])).numpy()
+            gap = np.where(mask, view.gap_mm, np.inf)
+            return _Surface(gap_mm=gap, shape=None, cells=cells, modulus_mpa=obj.modulus_mpa)
     raise _missed(request, sensor, f"none of {_POSES} poses brings it to the pad")
 
 
@@ -272,54 +271,53 @@ def _unit(noise: str, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit
     return NoiseUnit.draw(rng, gain_log_ratio=ratio, spread=spread)
 
 
-def run(request: Request, out: Path | None) -> None:
-    """Press, print the figures, and write them to ``out`` (.npz) if given.
+def run(request: PressRequest, out: Path | None) -> None:
+    """Press an object, print the figures, and write them to ``out`` (.npz) if given.
 
     Raises:
         UsageError: As ``press``, or ``out`` can't be written.
     """
-    done = press(request)
-    area_mm2 = done.state.area_fraction * done.sensor.area_mm2
-    pixels = int((done.pressure_kpa > 0).sum())
-    touching = pixels / done.pressure_kpa.size * done.sensor.area_mm2
-    rows, columns = done.height_mm.shape
-    to = Console(soft_wrap=True, highlight=False)
-    to.print(f"object    {request.object}, tip {request.depth_mm:g} mm below the surface")
-    to.print(f"sensor    {done.sensor.name}, {columns}x{rows}, noise {request.noise}")
-    to.print(f"force     {done.force_n:.3f} N")
-    to.print(f"area      {touching:.2f} mm² under pressure, {area_mm2:.2f} mm² felt as contact")
-    to.print(f"pressure  {done.pressure_kpa.max():.1f} kPa at most")
-    to.print(f"surface   {done.height_mm.min():+.3f} to {done.height_mm.max():+.3f} mm")
-    to.print(f"label     {caption(done.state)}")
-    to.print(f"          {numeric_caption(done.state, done.sensor)}")
+    result = press(request)
+    area_mm2 = result.state.area_fraction * result.sensor.area_mm2
+    pixels = int((result.pressure_kpa > 0).sum())
+    touching = pixels / result.pressure_kpa.size * result.sensor.area_mm2
+    rows, columns = result.height_mm.shape
+    console = Console(soft_wrap=True, highlight=False)
+    console.print(f"object    {request.object}, tip {request.depth_mm:g} mm below the surface")
+    console.print(f"sensor    {result.sensor.name}, {columns}x{rows}, noise {request.noise}")
+    console.print(f"force     {result.force_n:.3f} N")
+    console.print(
+        f"area      {touching:.2f} mm² under pressure, {area_mm2:.2f} mm² sensed as contact"
+    )
+    console.print(f"pressure  {result.pressure_kpa.max():.1f} kPa at most")
+    console.print(f"surface   {result.height_mm.min():+.3f} to {result.height_mm.max():+.3f} mm")
+    console.print(f"label     {caption(result.state)}")
+    console.print(f"          {numeric_caption(result.state, result.sensor)}")
     if pixels < _ROUGH_PIXELS:
-        to.print(
+        console.print(
             f"note      only {pixels} pixels touch: force and area are rough; a finer --grid helps"
         )
     if out is not None:
-        _write(out, request, done)
-        to.print(f"written   {out}")
+        _write(out, request, result)
+        console.print(f"written   {out}")
 
 
-def _write(out: Path, request: Request, done: Pressed) -> None:
+def _write(out: Path, request: PressRequest, result: PressResult) -> None:
     values: dict[str, Any] = {
-        "height_mm": done.height_mm,
-        "pressure_kpa": done.pressure_kpa,
-        "force_n": np.float64(done.force_n),
-        "mm_per_px": np.float64(done.sensor.width_mm / done.height_mm.shape[1]),
-        "cloud_mm": done.cloud.points_mm,
-        "sensor": np.str_(done.sensor.name),
+        "height_mm": result.height_mm,
+        "pressure_kpa": result.pressure_kpa,
+        "force_n": np.float64(result.force_n),
+        "mm_per_px": np.float64(result.sensor.width_mm / result.height_mm.shape[1]),
+        "cloud_mm": result.cloud.points_mm,
+        "sensor": np.str_(result.sensor.name),
         "object": np.str_(request.object),
         "depth_mm": np.float64(request.depth_mm),
-        "caption": np.str_(caption(done.state)),
+        "caption": np.str_(caption(result.state)),
     }
-    if done.seen_mm is not None:
-        values["seen_mm"] = done.seen_mm
-    beside = out.with_name(f"{out.name}.{os.getpid()}.part")
+    if result.seen_mm is not None:
+        values["seen_mm"] = result.seen_mm
     try:
-        with beside.open("wb") as file:
+        with replacing(out) as part, part.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **values)
-        beside.replace(out)
     except OSError as error:
-        beside.unlink(missing_ok=True)
         raise UsageError(f"--out {out} can't be written: {error}") from None

@@ -1,8 +1,8 @@
-"""What data sets there are to generate, each cut into shards that can be made in any order.
+"""The data sets that can be generated, each cut into shards that can be made in any order.
 
 - ``tcl3d``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``);
 - ``starter``: 19 indenters and four bodies at a gripper's forces, 24,000 contacts
-  (``sim.starter.contacts``): what the weights that come along were trained on.
+  (``sim.starter.contacts``).
 
 Not here: workers and files (``tacgrasp.datasets.generate``).
 """
@@ -21,8 +21,8 @@ import torch
 from cltp.data.contact import Contact
 from cltp.tactile.sensors import sensor_named
 from sim.grasp.rig import BENCHMARK_SEED
-from sim.objects.catalogue import THINGS
-from sim.objects.mesh_objects import meshes_in, thing_from_mesh
+from sim.objects.catalogue import CATALOGUE
+from sim.objects.mesh_objects import meshes_in, object_from_mesh
 from sim.starter.contacts import GROUP_CONTACTS, make_group
 from sim.tcl3d.series import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.base.errors import UsageError
@@ -32,40 +32,40 @@ SETS = ("tcl3d", "starter")
 STARTER_CONTACTS = 24_000
 
 STARTER_MAKER, TCL3D_MAKER = "1", "tcl3d 1"
-"""Versions of what is made; counted up when the same seed makes other contacts."""
+"""Versions of the recipes; raised when the same seed gives other contacts."""
 
 SHARD_GROUPS = 5
 SHARD_SERIES = 50
 
 
-class Recipe(Protocol):
-    """A data set to make. Sent to worker processes."""
+class DatasetRecipe(Protocol):
+    """How a data set is made, shard by shard. Sent to worker processes."""
 
     @property
     def carded(self) -> bool:
-        """Whether its folder gets a card."""
+        """Whether its folder gets a data set card."""
         ...
 
     def about(self) -> dict[str, str]:
-        """What ``dataset.json`` says of it: the same for every part of it."""
+        """The facts in ``dataset.json``, the same for every part of the set."""
         ...
 
     def command(self) -> str:
-        """What makes it again."""
+        """The command that makes the set again."""
         ...
 
     def shard_sizes(self) -> list[int]:
-        """How many contacts each shard holds."""
+        """Number of contacts in each shard."""
         ...
 
     def make(self, shard: int) -> list[Contact]:
-        """The contacts of one shard; they depend on nothing but the recipe and the number."""
+        """The contacts of one shard; they depend on the recipe and the number alone."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Starter:
-    """See the module."""
+class StarterRecipe:
+    """The set ``starter``."""
 
     contacts: int
     seed: int
@@ -73,11 +73,9 @@ class Starter:
 
     @property
     def carded(self) -> bool:
-        """See ``Recipe``."""
         return False
 
     def about(self) -> dict[str, str]:
-        """See ``Recipe``."""
         return {
             "made_by": "tacgrasp data generate",
             "maker": STARTER_MAKER,
@@ -87,18 +85,15 @@ class Starter:
         }
 
     def command(self) -> str:
-        """See ``Recipe``."""
         return (
             f"tacgrasp data generate --set starter --contacts {self.contacts} --seed {self.seed}"
             f" --sensor {self.sensor_name}"
         )
 
     def shard_sizes(self) -> list[int]:
-        """See ``Recipe``."""
         return _cut(self.contacts, SHARD_GROUPS * GROUP_CONTACTS)
 
     def make(self, shard: int) -> list[Contact]:
-        """See ``Recipe``."""
         count = self.shard_sizes()[shard]
         first = shard * SHARD_GROUPS
         groups = range(first, first + math.ceil(count / GROUP_CONTACTS))
@@ -107,8 +102,8 @@ class Starter:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Tcl3d:
-    """See the module."""
+class Tcl3dRecipe:
+    """The set ``tcl3d``."""
 
     contacts: int
     seed: int
@@ -117,12 +112,10 @@ class Tcl3d:
 
     @property
     def carded(self) -> bool:
-        """See ``Recipe``."""
         return True
 
     def about(self) -> dict[str, str]:
-        """See ``Recipe``; the device is named since it may move a height by 1 µm."""
-        return {
+        return {  # the device belongs to them: it may change a height by 1 µm
             "made_by": "tacgrasp data generate",
             "set": "tcl3d",
             "maker": TCL3D_MAKER,
@@ -134,34 +127,31 @@ class Tcl3d:
         }
 
     def command(self) -> str:
-        """See ``Recipe``."""
         count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
         device = "" if self.device == "cpu" else f" --device {self.device}"
         meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
         return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{meshes}{device}"
 
     def shard_sizes(self) -> list[int]:
-        """See ``Recipe``."""
         sizes = [sum(map(num_loads, shard)) for shard in self._shards()]
         sizes[-1] -= sum(sizes) - self.contacts
         per_mesh = [sum(map(num_loads, part)) for part in _parts(mesh_numbers(0))]
         return [*sizes, *per_mesh * len(self.meshes)]
 
     def make(self, shard: int) -> list[Contact]:
-        """See ``Recipe``."""
         own = self._shards()
-        thing, part = None, shard - len(own)
+        obj, part = None, shard - len(own)
         if part >= 0:
-            which, part = divmod(part, len(_parts(mesh_numbers(0))))
-            thing, numbers = thing_from_mesh(self.meshes[which]), _parts(mesh_numbers(which))[part]
+            mesh, part = divmod(part, len(_parts(mesh_numbers(0))))
+            obj, numbers = object_from_mesh(self.meshes[mesh]), _parts(mesh_numbers(mesh))[part]
         else:
             numbers = own[shard]
-        series = (make_series(self.seed, number, self.device, thing=thing) for number in numbers)
-        made = [contact for one in series for contact in one]
-        return made[: self.shard_sizes()[shard]]
+        series = (make_series(self.seed, number, self.device, obj=obj) for number in numbers)
+        contacts = [contact for each in series for contact in each]
+        return contacts[: self.shard_sizes()[shard]]
 
     def _shards(self) -> list[Sequence[int]]:
-        """Series of the catalogue, by shard; those of meshes follow, each mesh by itself."""
+        """Numbers of the catalogue's series by shard; those of meshes are not among them."""
         return _parts(series_numbers(self.contacts))
 
 
@@ -173,13 +163,13 @@ def recipe(
     sensor_name: str,
     meshes: Path | None,
     device: str,
-) -> Recipe:
-    """A recipe by the flags of ``tacgrasp data generate``.
+) -> DatasetRecipe:
+    """Make the recipe that the flags of ``tacgrasp data generate`` name.
 
     Raises:
-        UsageError: There is no such set, or a value makes no sense for it, or the device can't be
-            used here.
-        TouchError: The sensor is not known, or a mesh can't be used.
+        UsageError: An unknown set, a value that does not fit the set, or a device that
+            can't be used here.
+        TouchError: An unknown sensor, or a mesh that can't be used.
     """
     if set_name not in SETS:
         raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
@@ -192,18 +182,23 @@ def recipe(
     if set_name == "starter":
         if meshes is not None or device != "cpu":
             raise UsageError("--meshes and --device belong to --set tcl3d")
-        return Starter(contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name)
+        return StarterRecipe(
+            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name
+        )
     if sensor_name != "gelsight_mini":
         raise UsageError(
             f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
         )
     usable_device(device)
-    found = () if meshes is None else tuple(meshes_in(meshes))
-    for path in found:  # all faults before the first contact
-        thing_from_mesh(path)
-    if len({path.stem for path in found} | {t.name for t in THINGS}) < len(found) + len(THINGS):
-        raise UsageError(f"{meshes} has meshes of one name, or that of an object of tcl3d; rename")
-    return Tcl3d(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=found, device=device)
+    paths = () if meshes is None else tuple(meshes_in(meshes))
+    for path in paths:  # every fault shows before the first contact is made
+        object_from_mesh(path)
+    names = [path.stem for path in paths] + [obj.name for obj in CATALOGUE]
+    if len(set(names)) < len(names):
+        raise UsageError(
+            f"{meshes} has two meshes of one name, or one named like an object of tcl3d; rename it"
+        )
+    return Tcl3dRecipe(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=paths, device=device)
 
 
 def _cut(contacts: int, size: int) -> list[int]:
@@ -215,5 +210,5 @@ def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:
 
 
 def _names(meshes: Sequence[Path]) -> str:
-    """Names and checksums: another mesh of the same name is other data."""
+    """Names and checksums of meshes, since another mesh of the same name is other data."""
     return " ".join(f"{p.name}:{hashlib.sha256(p.read_bytes()).hexdigest()[:12]}" for p in meshes)

@@ -1,4 +1,4 @@
-"""What is in a data set: counts per class, spread of the numbers, doubtful contacts, checksum."""
+"""Statistics of a data set: counts of classes, quantiles of numbers, ambiguity, checksum."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from cltp.data.dataset import NUMBER_COLUMNS, ContactDataset
 from cltp.tactile.states import DIMENSIONS
 
 QUANTILES = (0.0, 0.05, 0.25, 0.5, 0.75, 0.95, 1.0)
-NOBODY_SAYS = "(unknown)"
-LEAST_SHARE = 0.01
-"""No class should hold less of a set than this; smaller ones are pointed out."""
+UNKNOWN = "(unknown)"
+MIN_CLASS_FRACTION = 0.01
+"""Fraction of a set that each class should hold; smaller classes are pointed out."""
 
 _BAR = 28
 
@@ -29,15 +29,16 @@ class DataStats:
     """Figures of a data set.
 
     Attributes:
-        contacts: How many.
-        series: Presses, each of one object in one pose.
-        classes: By dimension and class: contacts. Classes without any are 0; contacts without a
-            label are under ``NOBODY_SAYS``, where there are some.
-        splits, objects, sensors: Contacts of each.
-        cut: Contacts that run over the edge of the pad.
-        ambiguous: By dimension, and under ``any``: contacts marked so; None where nobody looked.
-        quantiles: By number: its values at ``QUANTILES``; NaN where nothing is known.
-        about: What the data set says of itself.
+        contacts: Number of contacts.
+        series: Number of series; a series presses one object in one pose.
+        classes: Number of contacts by dimension and class, 0 included. Contacts without a label
+            are counted under ``UNKNOWN``.
+        splits, objects, sensors: Number of contacts of each.
+        cut: Number of contacts that run over the edge of the pad.
+        ambiguous: Number of ambiguous contacts by dimension, and under ``any``; None where the
+            data set does not mark them.
+        quantiles: Values of each number at ``QUANTILES``; NaN where none is known.
+        about: Facts in ``dataset.json``.
         checksum: ``ContactDataset.checksum``.
     """
 
@@ -55,25 +56,25 @@ class DataStats:
 
     @property
     def missing(self) -> int:
-        """Contacts that the data set was made to hold and does not."""
+        """Number of contacts that the data set should hold and does not."""
         return int(self.about.get("contacts", self.contacts)) - self.contacts
 
     def smallest_class(self) -> tuple[str, str, float]:
-        """Dimension, class and share of the class with the fewest contacts."""
-        named = [
+        """Dimension, name and fraction of the class with the fewest contacts."""
+        fractions = [
             (slot, name, count / self.contacts)
             for slot, counts in self.classes.items()
             for name, count in counts.items()
-            if name != NOBODY_SAYS
+            if name != UNKNOWN
         ]
-        return min(named, key=lambda each: each[2])
+        return min(fractions, key=lambda each: each[2])
 
 
 def stats(folder: Path) -> DataStats:
-    """Count what a data set holds.
+    """Count the contents of a data set.
 
     Raises:
-        TouchError: It is no data set of this version, or damaged.
+        TouchError: The folder is not a data set of this version, or it is damaged.
     """
     data = ContactDataset(folder, partial=True)
     return DataStats(
@@ -84,48 +85,53 @@ def stats(folder: Path) -> DataStats:
         objects=_counts(data.column("object")),
         sensors=_counts(data.column("sensor")),
         cut=int(sum(bool(sides) for sides in data.column("cut"))),
-        ambiguous=_unsure(data),
+        ambiguous=_ambiguous(data),
         quantiles={name: _quantiles(data.column(name)) for name in NUMBER_COLUMNS.values()},
         about=data.about,
         checksum=data.checksum(),
     )
 
 
-def as_json(found: DataStats) -> dict[str, Any]:
-    """For a file: ``DataStats`` with the numbers' quantiles by name, NaN as null."""
-    plain = asdict(found)
+def as_json(counts: DataStats) -> dict[str, Any]:
+    """``DataStats`` for a JSON file: quantiles by name, NaN as null."""
+    plain = asdict(counts)
     plain["quantiles"] = {
         name: {
             f"p{100 * q:g}": None if np.isnan(value) else round(value, 6)
             for q, value in zip(QUANTILES, values, strict=True)
         }
-        for name, values in found.quantiles.items()
+        for name, values in counts.quantiles.items()
     }
     return plain
 
 
-def show(found: DataStats, to: Console) -> None:
+def show(counts: DataStats, console: Console) -> None:
     """Print tables with bars."""
-    to.print(f"{found.contacts:,} contacts in {found.series:,} series")
-    if found.missing:
-        to.print(f"INCOMPLETE: {found.missing:,} contacts are missing; run the same generate again")
-    for slot, counts in found.classes.items():
-        to.print(_bars(slot, counts, found.contacts))
-    for name, counts in (("split", found.splits), ("sensor", found.sensors)):
-        to.print(_bars(name, counts, found.contacts))
-    to.print(_objects(found))
-    to.print(_numbers(found))
-    doubtful = "not marked in this data"
-    if found.ambiguous is not None:
-        doubtful = ", ".join(
-            f"{name} {count:,} ({count / found.contacts:.1%})"
-            for name, count in found.ambiguous.items()
+    console.print(f"{counts.contacts:,} contacts in {counts.series:,} series")
+    if counts.missing:
+        console.print(
+            f"INCOMPLETE: {counts.missing:,} contacts are missing; run the same generate again"
         )
-    to.print(f"ambiguous {doubtful}; cut by the edge {found.cut / found.contacts:.1%}")
-    slot, name, share = found.smallest_class()
-    verdict = "" if share >= LEAST_SHARE else f", below the {LEAST_SHARE:.0%} that a class needs"
-    to.print(f"smallest class: {slot} {name}, {share:.2%}{verdict}")
-    to.print(f"checksum {found.checksum}")
+    groups = {**counts.classes, "split": counts.splits, "sensor": counts.sensors}
+    for name, group in groups.items():
+        console.print(_bars(name, group, counts.contacts))
+    console.print(_objects(counts))
+    console.print(_numbers(counts))
+    ambiguous = "not marked in this data"
+    if counts.ambiguous is not None:
+        ambiguous = ", ".join(
+            f"{name} {count:,} ({count / counts.contacts:.1%})"
+            for name, count in counts.ambiguous.items()
+        )
+    console.print(f"ambiguous {ambiguous}; cut by the edge {counts.cut / counts.contacts:.1%}")
+    slot, name, fraction = counts.smallest_class()
+    verdict = (
+        ""
+        if fraction >= MIN_CLASS_FRACTION
+        else f", below the {MIN_CLASS_FRACTION:.0%} that a class needs"
+    )
+    console.print(f"smallest class: {slot} {name}, {fraction:.2%}{verdict}")
+    console.print(f"checksum {counts.checksum}")
 
 
 def _classes(values: NDArray[Any], kind: type) -> dict[str, int]:
@@ -137,14 +143,14 @@ def _classes(values: NDArray[Any], kind: type) -> dict[str, int]:
 
 def _counts(values: NDArray[Any]) -> dict[str, int]:
     names, counts = np.unique(
-        np.array([NOBODY_SAYS if value is None else str(value) for value in values]),
+        np.array([UNKNOWN if value is None else str(value) for value in values]),
         return_counts=True,
     )
     return {str(name): int(count) for name, count in zip(names, counts, strict=True)}
 
 
-def _unsure(data: ContactDataset) -> dict[str, int] | None:
-    """Contacts that are ambiguous in each dimension, and in any."""
+def _ambiguous(data: ContactDataset) -> dict[str, int] | None:
+    """Number of contacts that are ambiguous in each dimension, and in any."""
     if "unsure" not in data.column_names:
         return None
     marks = data.column("unsure")
@@ -158,10 +164,10 @@ def _unsure(data: ContactDataset) -> dict[str, int] | None:
 
 
 def _quantiles(values: NDArray[Any]) -> tuple[float, ...]:
-    known = values[np.isfinite(values)]
-    if len(known) == 0:
+    finite = values[np.isfinite(values)]
+    if len(finite) == 0:
         return tuple(float("nan") for _ in QUANTILES)
-    return tuple(float(value) for value in np.quantile(known, QUANTILES))
+    return tuple(float(value) for value in np.quantile(finite, QUANTILES))
 
 
 def _bars(title: str, counts: Mapping[str, int], total: int) -> Group:
@@ -169,24 +175,24 @@ def _bars(title: str, counts: Mapping[str, int], total: int) -> Group:
     most = max(counts.values())
     for name, count in counts.items():
         bar = "█" * round(_BAR * count / most) if count else ""
-        low = "red" if count < LEAST_SHARE * total else "cyan"
+        low = "red" if count < MIN_CLASS_FRACTION * total else "cyan"
         table.add_row(f"  {name}", Text(bar.ljust(_BAR), low), f"{count:,}", f"{count / total:.1%}")
     return Group(Text(title, style="bold"), table)
 
 
-def _objects(found: DataStats) -> str:
-    counts = np.array(list(found.objects.values()))
+def _objects(counts: DataStats) -> str:
+    sizes = np.array(list(counts.objects.values()))
     return (
-        f"objects   {len(counts)}, contacts of each: {counts.min():,} to {counts.max():,}, "
-        f"median {np.median(counts):,.0f}"
+        f"objects   {len(sizes)}, contacts of each: {sizes.min():,} to {sizes.max():,}, "
+        f"median {np.median(sizes):,.0f}"
     )
 
 
-def _numbers(found: DataStats) -> Table:
+def _numbers(counts: DataStats) -> Table:
     table = Table(box=None, padding=(0, 1))
     table.add_column("number", no_wrap=True)
     for q in QUANTILES:
         table.add_column(f"p{100 * q:g}", justify="right", no_wrap=True)
-    for name, values in found.quantiles.items():
+    for name, values in counts.quantiles.items():
         table.add_row(name, *(f"{value:.3f}" for value in values))
     return table

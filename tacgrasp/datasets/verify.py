@@ -1,6 +1,6 @@
 """Check a data set row by row: bytes, words, numbers, clouds, texts, splits.
 
-Every problem names its file and row. Nothing is repaired: a damaged set is to be made again.
+Each problem names its file and row. Nothing is repaired: make a damaged set again.
 """
 
 from __future__ import annotations
@@ -30,31 +30,30 @@ from cltp.texts.contact_texts import texts_of
 from cltp.texts.paraphrases import read_paraphrase
 
 DEPTH_TOLERANCE_MM = 0.02
-"""How far the deepest stored height may lie from the depth's label. Our choice: labels come from
-the solver's own grid, which may be finer than what is stored."""
-
+"""Largest difference between the deepest stored height and the label of depth [mm]. Our choice:
+labels come from the solver's grid, which may be finer than the stored one."""
 
 ROUNDING = 1e-6
-"""Numbers are stored in float32: one that lay on the limit of a class may have crossed it."""
+"""Relative error of stored numbers (float32); it can carry one across the limit of a class."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Problem:
-    """Something that is wrong.
+    """An error in a data set.
 
     Attributes:
-        file: In which file.
-        row: In which row of it, from 0; None where it concerns the whole file.
-        what: Expected, and found.
+        file: Name of the file.
+        row: Row of the file, from 0; None for the whole file.
+        text: What was expected, and what is there.
     """
 
     file: str
     row: int | None
-    what: str
+    text: str
 
     def __str__(self) -> str:
-        where = self.file if self.row is None else f"{self.file} row {self.row}"
-        return f"{where}: {self.what}"
+        location = self.file if self.row is None else f"{self.file} row {self.row}"
+        return f"{location}: {self.text}"
 
 
 def bar() -> Progress:
@@ -64,34 +63,34 @@ def bar() -> Progress:
 
 
 def problems(folder: Path) -> Iterator[tuple[int, Problem | None]]:
-    """Look at every shard and contact.
+    """Check every shard and contact.
 
     Yields:
-        How many contacts have been looked at, and a problem, or None after each contact.
+        The number of contacts checked so far, and a problem, or None after each contact.
 
     Raises:
-        TouchError: It is no data set of this version, or a shard is too damaged to be read at all.
+        TouchError: The folder is not a data set of this version, or a shard can't be read.
     """
     data = ContactDataset(folder, partial=True)
-    for problem in (*_whole(data), *_shards(data.folder), *_splits(data)):
+    for problem in (*_size(data), *_shards(data.folder), *_splits(data)):
         yield 0, problem
-    names, rows = _places(data)
+    names, rows = _locations(data)
     for index in range(len(data)):
-        for what in _contact(data, index):
-            yield index + 1, Problem(file=names[index], row=rows[index], what=what)
+        for text in _contact(data, index):
+            yield index + 1, Problem(file=names[index], row=rows[index], text=text)
         yield index + 1, None
 
 
-def _whole(data: ContactDataset) -> Iterator[Problem]:
+def _size(data: ContactDataset) -> Iterator[Problem]:
     expected = data.about.get("contacts")
     if expected is not None and str(expected).isdigit() and int(expected) != len(data):
         yield Problem(
             file="dataset.json",
             row=None,
-            what=f"expected {expected} contacts, found {len(data)}; run the same generate again",
+            text=f"expected {expected} contacts, found {len(data)}; run the same generate again",
         )
-    for left_over in sorted(data.folder.glob("*.part")):
-        yield Problem(file=left_over.name, row=None, what="left by a writer that was interrupted")
+    for path in sorted(data.folder.glob("*.part")):
+        yield Problem(file=path.name, row=None, text="left by a writer that was interrupted")
 
 
 def _shards(folder: Path) -> Iterator[Problem]:
@@ -99,22 +98,22 @@ def _shards(folder: Path) -> Iterator[Problem]:
         stored = (pq.read_schema(path).metadata or {}).get(b"heights_sha256", b"").decode()
         heights = path.with_suffix(".heights")
         with heights.open("rb") as file:
-            found = hashlib.file_digest(file, "sha256").hexdigest()
-        if stored != found:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+        if stored != digest:
             yield Problem(
                 file=heights.name,
                 row=None,
-                what=f"SHA-256 is {found[:12]}…, the index says {stored[:12] or 'none'}…",
+                text=f"SHA-256 is {digest[:12]}…, the index says {stored[:12] or 'none'}…",
             )
     for heights in sorted(folder.glob("shard-*.heights")):
         if not heights.with_suffix(".parquet").exists():
-            yield Problem(file=heights.name, row=None, what="heights without an index")
+            yield Problem(file=heights.name, row=None, text="heights without an index")
 
 
 def _splits(data: ContactDataset) -> Iterator[Problem]:
-    """A press, deeper and deeper, is in one split; what a split calls unseen is in no other.
+    """Check that no series is in two splits, and that what a split calls unseen is unseen.
 
-    Contacts of a press are nearly the same. ``Split.OBJECT`` promises objects, and
+    The contacts of a series are nearly the same. ``Split.OBJECT`` promises objects, and
     ``Split.PHYSICS`` gels, that training never shows.
     """
     splits = data.column("split")
@@ -122,37 +121,38 @@ def _splits(data: ContactDataset) -> Iterator[Problem]:
     gels = list(
         zip(*(data.column(f"gel_{name}") for name in ("thickness_mm", "poisson")), strict=True)
     )
-    seen = np.isin(splits.astype(str), [Split.TRAIN.value, Split.VALIDATION.value])
+    is_learned = np.isin(splits.astype(str), [Split.TRAIN.value, Split.VALIDATION.value])
     yield from _shared(data, "press", presses, splits.astype(str))
-    for split, what, of in (
+    for split, kind, items in (
         (Split.OBJECT, "object", [(name,) for name in data.column("object")]),
         (Split.PHYSICS, "gel", gels),
     ):
-        chosen = splits.astype(str) == split.value
-        groups = np.where(chosen, split.value, np.where(seen, "what is learned from", ""))
-        yield from _shared(data, what, of, groups)
+        mask = splits.astype(str) == split.value
+        groups = np.where(mask, split.value, np.where(is_learned, "what is learned from", ""))
+        yield from _shared(data, kind, items, groups)
 
 
 def _shared(
-    data: ContactDataset, what: str, of: Sequence[tuple[Any, ...]], groups: NDArray[np.str_]
+    data: ContactDataset, kind: str, items: Sequence[tuple[Any, ...]], groups: NDArray[np.str_]
 ) -> Iterator[Problem]:
-    """Things that are in two groups, each told once; the group '' is not looked at."""
-    names, rows = _places(data)
+    """Items that are in two groups, each reported once; the group '' does not count."""
+    names, rows = _locations(data)
     first: dict[tuple[Any, ...], int] = {}
-    told: set[tuple[Any, ...]] = set()
+    reported: set[tuple[Any, ...]] = set()
     for index in np.flatnonzero(groups != "").tolist():
-        known = first.setdefault(of[index], index)
-        if groups[known] != groups[index] and of[index] not in told:
-            told.add(of[index])
+        item = items[index]
+        other = first.setdefault(item, index)
+        if groups[other] != groups[index] and item not in reported:
+            reported.add(item)
             yield Problem(
                 file=names[index],
                 row=rows[index],
-                what=f"{what} {' '.join(map(str, of[index]))} is in {groups[index]}, but in "
-                f"{groups[known]} in {names[known]} row {rows[known]}",
+                text=f"{kind} {' '.join(map(str, item))} is in {groups[index]}, but in "
+                f"{groups[other]} in {names[other]} row {rows[other]}",
             )
 
 
-def _places(data: ContactDataset) -> tuple[list[str], list[int]]:
+def _locations(data: ContactDataset) -> tuple[list[str], list[int]]:
     """File and row of every contact."""
     names: list[str] = []
     rows: list[int] = []
@@ -164,7 +164,7 @@ def _places(data: ContactDataset) -> tuple[list[str], list[int]]:
 
 
 def _contact(data: ContactDataset, index: int) -> Iterator[str]:
-    """What is wrong with one contact."""
+    """Errors of one contact."""
     row = {name: data.column(name)[index] for name in ("sensor", "cut", "series", *DIMENSIONS)}
     outside = list(_outside_vocabulary(row))
     yield from outside
@@ -187,24 +187,24 @@ def _contact(data: ContactDataset, index: int) -> Iterator[str]:
     except TouchError as error:
         yield str(error)
     if not (simulated and state.in_contact):
-        return  # what a person said need not agree with what was measured
+        return  # a person's labels need not agree with the measured numbers
     for slot, words in _expected(state, sensor).items():
         if getattr(state, slot) not in words:
-            yield f"{slot} is {getattr(state, slot)}, its numbers say {words[0]}"
+            yield f"{slot} is {getattr(state, slot)}, its numbers give {words[0]}"
     if abs(float(heights.max()) - state.depth_mm) > DEPTH_TOLERANCE_MM:
         yield f"depth is {state.depth_mm:.3f} mm, the heights reach {heights.max():.3f} mm"
 
 
 def _expected(state: ContactState, sensor: SensorSpec) -> dict[str, list[StrEnum]]:
     """The words that a state's numbers allow: two where rounding crosses the limit of a class."""
-    off = (0.0, -ROUNDING, ROUNDING)
+    errors = (0.0, -ROUNDING, ROUNDING)
     return {
-        "depth": [depth_word(state.depth_mm * (1 + by)) for by in off],
-        "area": [area_word(state.area_fraction * (1 + by)) for by in off],
+        "depth": [depth_word(state.depth_mm * (1 + by)) for by in errors],
+        "area": [area_word(state.area_fraction * (1 + by)) for by in errors],
         "position": [
             position_word(state.x_mm + by * sensor.width_mm, state.y_mm + up, sensor)
-            for by in off
-            for up in (each * sensor.height_mm for each in off)
+            for by in errors
+            for up in (each * sensor.height_mm for each in errors)
         ],
     }
 
@@ -213,9 +213,9 @@ def _outside_vocabulary(row: dict[str, Any]) -> Iterator[str]:
     for slot, kind in DIMENSIONS.items():
         words = [str(word) for word in kind]
         if row[slot] is not None and row[slot] not in words:
-            yield f"{slot} {row[slot]!r} is none of {', '.join(words)}"
+            yield f"{slot} {row[slot]!r} is not one of {', '.join(words)}"
     unknown = set(str(row["cut"] or "").split()) - {str(side) for side in Side}
     if unknown:
-        yield f"cut {row['cut']!r} names what is no side: {', '.join(sorted(unknown))}"
+        yield f"cut {row['cut']!r} names unknown sides: {', '.join(sorted(unknown))}"
     if (row["depth"] is None) != (row["position"] is None or row["area"] is None):
         yield "depth, position and area must be given together, or none of them"

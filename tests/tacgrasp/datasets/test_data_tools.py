@@ -12,7 +12,7 @@ from cltp.data.contact import Gel, Split
 from cltp.data.dataset import ContactDataset
 from cltp.tactile.states import Depth
 from tacgrasp.__main__ import main
-from tacgrasp.datasets.contact_sheet import drawn
+from tacgrasp.datasets.contact_sheet import draw_contacts
 from tests.fakes.contact_samples import cap_contact, write_samples
 
 NUM = 20
@@ -89,7 +89,7 @@ def test_a_good_set_verifies(untouched, capsys):
 @pytest.mark.parametrize(
     ("contact", "message"),
     [
-        (replaced(4, depth=Depth.VERY_DEEP), "depth is very deep, its numbers say"),
+        (replaced(4, depth=Depth.VERY_DEEP), "depth is very deep, its numbers give"),
         (replaced(4, depth_mm=0.05, depth=Depth.SLIGHT), "depth is 0.050 mm, the heights reach"),
         (replaced(4, position=None), "depth, position and area must be"),
         (cap_contact(1, split=Split.TEST), "press thing-0 0 is in test, but in train"),
@@ -147,8 +147,8 @@ def test_words_outside_the_vocabulary_are_found(tmp_path, capsys):
     pq.write_table(table, path)
     assert main(["data", "verify", str(folder)]) == 1
     said = capsys.readouterr().out
-    assert "row 2: shape 'blob' is none of sphere, " in said
-    assert "row 2: cut 'under' names what is no side: under" in said
+    assert "row 2: shape 'blob' is not one of sphere, " in said
+    assert "row 2: cut 'under' names unknown sides: under" in said
 
 
 def test_a_set_with_contacts_missing_or_a_shard_torn_is_not_taken_for_whole(tmp_path, capsys):
@@ -173,7 +173,7 @@ def test_the_gallery_is_one_page_that_loads_nothing(untouched, tmp_path, capsys)
     assert main([*command, "--seed", "5"]) == 0
     text = page.read_text(encoding="utf-8")
     data = ContactDataset(untouched)
-    chosen = drawn(NUM, 6, 5)
+    chosen = draw_contacts(NUM, 6, 5)
     assert re.findall(r"<h3>#(\d+) ", text) == [str(index) for index in chosen]
     assert text.count("data:image/webp;base64,") == 12
     outside = re.findall(r"""(?:src|href|url\()\s*=?\s*["']?(?!data:)(\w+:|//|\.|/)""", text)

@@ -81,12 +81,12 @@ def test_a_depth_may_be_a_number_of_mm(touches):
     ("row", "message"),
     [
         ("gone.npy,,,,,,,,,", "gone.npy does not exist"),
-        ("map.npy,blob,,,,,,,,", "shape 'blob' is none of sphere, "),
-        ("map.npy,,,,left,,,,,", "position 'left' is none of top-left, "),
+        ("map.npy,blob,,,,,,,,", "shape 'blob' is not one of sphere, "),
+        ("map.npy,,,,left,,,,,", "position 'left' is not one of top-left, "),
         ("map.npy,,,0,,,,,,", "depth must be a number above 0"),
         ("map.npy,,,,,,-2,,,", "force_n must be a number above 0"),
         ("map.npy,,,,,,nan,,,", "force_n must be a number above 0"),
-        ("map.npy,,,,,,,,bench,", "split 'bench' is none of train, "),
+        ("map.npy,,,,,,,,bench,", "split 'bench' is not one of train, "),
         ("map.npy,,,,,,,,,one", "series must be a number from 0"),
         ("map.npy,,,,,,,,,,,", "more cells than the header"),
         (",sphere,,,,,,,,", "names no file"),
@@ -149,7 +149,7 @@ def test_missing_folders_and_tables_are_wrong_use(tmp_path, capsys):
     assert main([*base, str(tmp_path / "out")]) == 2
     assert "l.csv can't be read" in capsys.readouterr().err
     assert main([*base[:2], str(tmp_path / "no"), *base[3:], str(tmp_path / "out")]) == 2
-    assert "is no folder" in capsys.readouterr().err
+    assert "is not a folder" in capsys.readouterr().err
 
 
 def test_a_simulated_map_measures_near_its_truth(tmp_path):

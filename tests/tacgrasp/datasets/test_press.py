@@ -132,7 +132,7 @@ def test_a_press_that_few_pixels_feel_is_called_rough(capsys):
         (["--depth-mm", "0"], "above 0"),
         (["--depth-mm", "nan"], "above 0"),
         (["--turn-deg", "inf"], "finite"),
-        (["--x-mm", "40"], "no part of it is over the field"),
+        (["--x-mm", "40"], "no part of it is over the sensing area"),
         (["--x-mm", "13", "--depth-mm", "0.5"], "behind the tip"),
         (["--object", "spaceship"], "mug"),
         (["--object", "ball:"], "ball:DIAMETER"),
@@ -143,7 +143,7 @@ def test_a_press_that_few_pixels_feel_is_called_rough(capsys):
         (["--grid", "8x6"], "24 to 1280"),
         (["--grid", "240x240"], "proportions"),
         (["--device", "abacus"], "cpu always can"),
-        (["--out", "no/such/folder/a.npz"], "is no folder"),
+        (["--out", "no/such/folder/a.npz"], "is not a folder"),
         (["--seed", "-1"], "negative"),
     ],
 )
