@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Setting up a bench: checking its devices, jogging, and the measurements for calibrations.
+
+Not here: the checks of one device (``tacgrasp.drivers``), the commands (``tacgrasp.cli``).
+"""

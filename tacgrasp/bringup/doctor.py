@@ -35,7 +35,7 @@ def examine(config: RunConfig) -> Sequence[Finding]:
     found = [*_of_the_file(config)]
     if config.hardware is None:
         what = "simulated: there is nothing to connect"
-        return [*found, Finding(device="rig", name="devices", ok=True, found=what)]
+        return [*found, Finding(device="rig", name="devices", ok=True, detail=what)]
     found += _libraries()
     if config.devices == "hardware":
         return [*found, *_of_the_devices(config.hardware)]
@@ -51,12 +51,12 @@ def _of_the_file(config: RunConfig) -> list[Finding]:
     )
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
     return [
-        Finding(device="rig", name="limits", ok=True, found=limits),
+        Finding(device="rig", name="limits", ok=True, detail=limits),
         Finding(
             device="rig",
             name="pad axes",
             ok=True,
-            found=f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame",
+            detail=f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame",
         ),
     ]
 
@@ -73,7 +73,7 @@ def _libraries() -> list[Finding]:
                 device=device,
                 name="library",
                 ok=version.startswith(tested),
-                found=f"{package} {version or 'not installed'}",
+                detail=f"{package} {version or 'not installed'}",
                 advice=""
                 if version.startswith(tested)
                 else f"the driver was tested with {package} {tested}x: install that (make setup)",
@@ -115,12 +115,12 @@ def _emulated(config: RunConfig, hardware: HardwareConfig) -> list[Finding]:
             tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder,
         ):
             ready = ", ".join(f"{name} {value}" for name, value in emulators.ready.items())
-            started = Finding(device="rig", name="emulators", ok=True, found=ready)
+            started = Finding(device="rig", name="emulators", ok=True, detail=ready)
             settings = settings_for(hardware, emulators, Path(folder))
             return [started, *_of_the_devices(settings)]
     except RobotError as error:
         advice = "see the message; python -m sim.emulators rig shows all of it"
-        return [Finding(device="rig", name="emulators", ok=False, found=str(error), advice=advice)]
+        return [Finding(device="rig", name="emulators", ok=False, detail=str(error), advice=advice)]
 
 
 def _listed(axis: Sequence[float]) -> str:

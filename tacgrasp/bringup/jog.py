@@ -16,7 +16,7 @@ from cltp.tactile.measure import contact_state
 from primitives.devices import Pose
 from primitives.execution import PadAxes, rotated
 from primitives.limits import Limits, check_workspace, clamp_force, clamp_step
-from tacgrasp.console import contact_words
+from tacgrasp.console import contact_text
 from tacgrasp.rig.protocols import Rig
 
 SPEED_M_S = 0.02
@@ -49,7 +49,7 @@ HELP = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Settings:
+class JogSettings:
     """What the next key will do.
 
     Attributes:
@@ -67,7 +67,7 @@ class Settings:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class JogStep:
     """Move by ``length_mm`` along ``direction``, a unit vector in the ``frame`` pad or base."""
 
     frame: str
@@ -109,15 +109,15 @@ class Unknown:
     key: str
 
 
-Command = Step | Grip | Open | Stop | Help | Quit | Unknown | None
+Command = JogStep | Grip | Open | Stop | Help | Quit | Unknown | None
 """None: only the settings change."""
 
 
-def command_of(key: str, settings: Settings) -> tuple[Command, Settings]:
+def command_of(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
     """What a key means, and the settings after it."""
     if key in _DIRECTIONS:
         frame, direction = _DIRECTIONS[key]
-        return Step(frame=frame, direction=direction, length_mm=settings.step_mm), settings
+        return JogStep(frame=frame, direction=direction, length_mm=settings.step_mm), settings
     if key in "[]" and key:
         step = settings.step + (1 if key == "]" else -1)
         return None, replace(settings, step=min(max(step, 0), len(STEPS_MM) - 1))
@@ -152,7 +152,7 @@ class Jogger:
             LimitError: It would leave the limits; nothing was sent.
             RobotError: A device failed.
         """
-        if isinstance(command, Step):
+        if isinstance(command, JogStep):
             return self._step(command)
         if isinstance(command, Grip):
             force = clamp_force(command.force_n, self._limits)
@@ -175,9 +175,9 @@ class Jogger:
         Raises:
             TouchError: The sensor failed.
         """
-        return contact_words(contact_state(self._rig.sensor.read()))
+        return contact_text(contact_state(self._rig.sensor.read()))
 
-    def _step(self, step: Step) -> str:
+    def _step(self, step: JogStep) -> str:
         here = self._rig.arm.pose()
         length = clamp_step(step.length_mm, self._limits)
         direction = self._in_base(step, here)
@@ -192,7 +192,7 @@ class Jogger:
         note = f" ({length.note})" if length.note else ""
         return f"at ({x:.1f}, {y:.1f}, {z:.1f}) mm{note}"
 
-    def _in_base(self, step: Step, here: Pose) -> NDArray[np.float64]:
+    def _in_base(self, step: JogStep, here: Pose) -> NDArray[np.float64]:
         if step.frame == "base":
             return np.array(step.direction)
         x, y, _ = step.direction

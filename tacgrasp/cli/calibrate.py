@@ -74,11 +74,11 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
     from cltp.tactile.sensors import sensor_named
     from cltp.train.photometric import train_gradients
     from cltp.train.progress import Bar
+    from tacgrasp.bringup.ball_frames import read_ball_frames
     from tacgrasp.bringup.ball_profiles import ball_profiles
-    from tacgrasp.console import console
-    from tacgrasp.drivers.gelsight.frame_folder import read_ball_frames
+    from tacgrasp.console import make_console
 
-    sensor, to = sensor_named("gelsight_mini"), console()
+    sensor, to = sensor_named("gelsight_mini"), make_console()
     balls = read_ball_frames(flags.balls, sensor, flags.background)
     with Bar(sys.stderr) as bar:
         trained = train_gradients(

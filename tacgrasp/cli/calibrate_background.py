@@ -11,7 +11,7 @@ from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
-class Background:
+class CalibrateBackgroundFlags:
     """Average frames of the untouched gel into the background that a rig's file names.
 
     Free the gel, let its LEDs warm up for a minute, and take it with the light and the crop that
@@ -36,7 +36,7 @@ class Background:
 
 def main(argv: Sequence[str]) -> None:
     """The untouched gel of a GelSight Mini."""
-    flags = parse(Background, argv, prog="tacgrasp calibrate background")
+    flags = parse(CalibrateBackgroundFlags, argv, prog="tacgrasp calibrate background")
     if not 2 <= flags.frames <= 1000:
         raise UsageError(f"--frames must be 2 to 1000, got {flags.frames}")
     if flags.out.suffix.lower() != ".png" or not flags.out.parent.is_dir():
@@ -44,7 +44,7 @@ def main(argv: Sequence[str]) -> None:
 
     from pydantic import ValidationError
 
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.drivers.gelsight.background import save_background
     from tacgrasp.drivers.gelsight.connect import take_background
     from tacgrasp.drivers.gelsight.settings import GelSightSettings
@@ -63,7 +63,7 @@ def main(argv: Sequence[str]) -> None:
         raise UsageError(f"{'.'.join(map(str, first['loc']))} {first['msg']}".strip()) from None
     background = take_background(settings, num_frames=flags.frames)
     save_background(flags.out, background)
-    to = console()
+    to = make_console()
     to.print(f"background  {background.num_frames} frames of unit {background.unit}")
     to.print(f"taken       {background.taken:%Y-%m-%d %H:%M}")
     to.print(f"written     {flags.out}")

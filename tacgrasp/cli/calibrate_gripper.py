@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Gripper:
+class CalibrateGripperFlags:
     """Measure force over current, so that the gripper can be asked for newtons.
 
     Put a scale between the open fingers. They squeeze it with one current after another, and you
@@ -48,9 +48,9 @@ class Gripper:
 
 def main(argv: Sequence[str]) -> None:
     """Force over current of a gripper: from a scale, or from a file of readings."""
-    flags = parse(Gripper, argv, prog="tacgrasp calibrate gripper")
+    flags = parse(CalibrateGripperFlags, argv, prog="tacgrasp calibrate gripper")
     from tacgrasp.config.layers import load
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.drivers.dynamixel.calibration import save_calibration
 
     if not 3 <= flags.steps <= 50:
@@ -61,7 +61,7 @@ def main(argv: Sequence[str]) -> None:
         raise UsageError(
             f"--rig {flags.rig} has no section hardware, hence no gripper to calibrate"
         )
-    settings, to = config.hardware.gripper, console()
+    settings, to = config.hardware.gripper, make_console()
     out = flags.out or settings.calibration
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
@@ -86,7 +86,7 @@ def _date(text: str) -> datetime.date:
 
 
 def _fitted(
-    flags: Gripper, settings: DynamixelSettings, readings: Path, date: datetime.date
+    flags: CalibrateGripperFlags, settings: DynamixelSettings, readings: Path, date: datetime.date
 ) -> GripperCalibration:
     from primitives.errors import RobotError
     from tacgrasp.drivers.dynamixel.calibration import fit_calibration, read_readings
@@ -100,25 +100,25 @@ def _fitted(
 
 
 def _measured(
-    flags: Gripper, settings: DynamixelSettings, date: datetime.date, to: Console
+    flags: CalibrateGripperFlags, settings: DynamixelSettings, date: datetime.date, to: Console
 ) -> GripperCalibration:
-    from tacgrasp.drivers.dynamixel.fingers import connect_hand
+    from tacgrasp.drivers.dynamixel.fingers import connect_fingers
     from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
 
-    hand = connect_hand(settings)
+    fingers = connect_fingers(settings)
     try:
         to.print("put the scale between the fingers, at zero; they will close")
         _typed("press Enter when it is there, Ctrl-C to leave: ")
         most_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma
         return calibrate_gripper(
-            hand,
+            fingers,
             _ask_force,
             steps_ma(most_ma, flags.steps),
             date=date,
             source=flags.source or "read by a person",
         )
     finally:
-        hand.disconnect()
+        fingers.disconnect()
 
 
 def _ask_force(current_ma: float) -> float:

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class PadAxes:
+class CalibratePadAxesFlags:
     """Find the axes of the pad in the frame of the tool centre point (TCP), for a rig's file.
 
     With a rig: from where it stands, the hand goes 2 mm to both sides along every axis of the TCP
@@ -44,20 +44,20 @@ class PadAxes:
 
 def main(argv: Sequence[str]) -> None:
     """Axes of the pad: from small moves with a contact, or from what you see."""
-    flags = parse(PadAxes, argv, prog="tacgrasp calibrate pad-axes")
+    flags = parse(CalibratePadAxesFlags, argv, prog="tacgrasp calibrate pad-axes")
     if flags.rig is not None and (flags.right or flags.palm):
         raise UsageError("give --rig to measure, or --right and --palm, not both")
     from tacgrasp.bringup.pad_axes import as_yaml
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
 
-    out = console()
+    out = make_console()
     axes = _named(flags) if flags.rig is None else _measured(flags, flags.rig)
     out.print("for the rig's file:")
     for line in as_yaml(axes):
         out.print(line)
 
 
-def _named(flags: PadAxes) -> execution.PadAxes:
+def _named(flags: CalibratePadAxesFlags) -> execution.PadAxes:
     from tacgrasp.bringup.pad_axes import axes_named
 
     right = flags.right or _asked("Which axis of the TCP points to the pad's right (+x ... -z)? ")
@@ -71,10 +71,10 @@ def _asked(question: str) -> str:
     return input(question)
 
 
-def _measured(flags: PadAxes, rig_name: str) -> execution.PadAxes:
+def _measured(flags: CalibratePadAxesFlags, rig_name: str) -> execution.PadAxes:
     from tacgrasp.bringup.pad_axes import find_pad_axes
     from tacgrasp.config.layers import load
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.rig.factory import make_rig
 
     config, _ = load(None, rig_name, os.environ)
@@ -82,7 +82,7 @@ def _measured(flags: PadAxes, rig_name: str) -> execution.PadAxes:
     config = config.model_copy(
         update={"object": flags.object, "seed": flags.seed, "hardware": hardware}
     )
-    out, rig = console(), make_rig(config)
+    out, rig = make_console(), make_rig(config)
     try:
         found = find_pad_axes(
             rig,

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Doctor:
+class DoctorFlags:
     """Look at every device of a rig; nothing moves. 0 when all is well, 1 when something is not.
 
     Attributes:
@@ -30,14 +30,14 @@ class Doctor:
 
 def main(argv: Sequence[str]) -> int:
     """Print what was found, and what to do about it."""
-    flags = parse(Doctor, argv, prog="tacgrasp doctor")
+    flags = parse(DoctorFlags, argv, prog="tacgrasp doctor")
     from tacgrasp.bringup.doctor import examine
     from tacgrasp.config.layers import load
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
 
     config, _ = load(flags.task, flags.rig, os.environ)
     found = examine(config)
-    _print(console(), found)
+    _print(make_console(), found)
     return 0 if all(finding.ok for finding in found) else 1
 
 
@@ -51,13 +51,13 @@ def _print(out: Console, found: Sequence[Finding]) -> None:
             table.add_column(column, overflow="fold")
         for one in found:
             shown = Text("ok", style="green") if one.ok else Text("not ok", style="bold red")
-            table.add_row(one.device, one.name, shown, one.found, one.advice)
+            table.add_row(one.device, one.name, shown, one.detail, one.advice)
         out.print(table)
     else:
         for one in found:
             verdict = "ok" if one.ok else "NOT OK"
             todo = f" | {one.advice}" if one.advice else ""
-            out.print(f"{one.device:8} {one.name:27} {verdict:7} {one.found}{todo}")
+            out.print(f"{one.device:8} {one.name:27} {verdict:7} {one.detail}{todo}")
     wrong = sum(not one.ok for one in found)
     out.print(
         f"{wrong} of {len(found)} findings are not ok: the rig is not fit to run"

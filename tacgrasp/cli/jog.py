@@ -19,14 +19,14 @@ from rich.segment import ControlType
 from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
-    from tacgrasp.bringup.jog import Jogger, Settings
+    from tacgrasp.bringup.jog import Jogger, JogSettings
 
 LOOK_S = 0.4
 """How often the contact is shown while no key is pressed [s]."""
 
 
 @dataclass(frozen=True)
-class Jog:
+class JogFlags:
     """Move a rig by hand; one key is one small step. ? lists the keys.
 
     Nothing moves before the first key: the arm does not go to its start pose.
@@ -48,22 +48,22 @@ class Jog:
 
 def main(argv: Sequence[str]) -> int:
     """Jog until q, Ctrl-C or the end of the input."""
-    flags = parse(Jog, argv, prog="tacgrasp jog")
+    flags = parse(JogFlags, argv, prog="tacgrasp jog")
     from primitives.execution import PadAxes
     from primitives.limits import clamp_force
-    from tacgrasp.bringup.jog import HELP, Jogger, Settings
+    from tacgrasp.bringup.jog import HELP, Jogger, JogSettings
     from tacgrasp.config.layers import load
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.rig.factory import make_rig
 
     config, _ = load(flags.task, flags.rig, os.environ)
     hardware = None if config.hardware is None else config.hardware.where_it_stands()
     config = config.model_copy(update={"seed": flags.seed, "hardware": hardware})
-    limits, out = config.limits(), console()
+    limits, out = config.limits(), make_console()
     rig = make_rig(config)
     try:
         asked_n = rig.first_force_n if flags.force_n is None else flags.force_n
-        settings = Settings(force_n=clamp_force(asked_n, limits).value)
+        settings = JogSettings(force_n=clamp_force(asked_n, limits).value)
         axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
         jogger = Jogger(rig, limits, axes, clear_mm=config.primitives.clear_mm)
         for line in HELP:
@@ -81,7 +81,7 @@ def main(argv: Sequence[str]) -> int:
     return 0
 
 
-def _jog(keys: Iterator[str], jogger: Jogger, settings: Settings, out: Console) -> None:
+def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Console) -> None:
     from cltp import TouchError
     from primitives import LimitError
     from tacgrasp.bringup.jog import Quit, command_of

@@ -1,5 +1,6 @@
-"""Drivers of real devices: each captures or commands, and imports its SDK where it is used.
+"""Drivers of real devices, a folder for each device, with its settings in ``settings.py``.
 
-An arm and a gripper keep the contracts of ``primitives.devices``, a sensor that of
-``tacgrasp.rig.sensor``. ``tacgrasp.rig.hardware`` composes them into a rig.
+A driver imports its manufacturer's library where it uses it. An arm and a gripper keep the
+contracts of ``primitives.devices``, a sensor that of ``tacgrasp.rig.protocols``. Not here: a whole
+rig (``tacgrasp.rig.hardware``), emulated devices (``sim.emulators``).
 """

@@ -1,6 +1,6 @@
-"""The newest of what one thread captures, for another thread that waits for something fresh.
+"""The newest item captured by one thread, for another thread that waits for a fresh one.
 
-Not here: capturing, and what makes something fresh (``taxels``, ``gelsight_mini``).
+Not here: capturing, and the criterion for a fresh item (``taxels.sensor``, ``gelsight.sensor``).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ T = TypeVar("T")
 
 
 class Latest(Generic[T]):
-    """Holds one item; a failure that was put in stays for good."""
+    """Holds one item; a reported failure stays for good."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
@@ -28,14 +28,14 @@ class Latest(Generic[T]):
             self._item = item
             self._changed.notify_all()
 
-    def fail(self, why: str) -> None:
-        """Nothing will come any more; the first reason is kept."""
+    def fail(self, reason: str) -> None:
+        """Report that no item will follow; the first reason is kept."""
         with self._changed:
-            self._failure = self._failure or why
+            self._failure = self._failure or reason
             self._changed.notify_all()
 
     def newest(self) -> T | None:
-        """The item as it is; None before the first.
+        """The present item; None before the first.
 
         Raises:
             TouchError: Capturing has failed.
@@ -44,21 +44,20 @@ class Latest(Generic[T]):
             self._check()
             return self._item
 
-    def wait_for(self, wanted: Callable[[T], bool], timeout_s: float) -> T | None:
-        """The first item that is wanted; None when none came within ``timeout_s`` [s].
+    def wait_for(self, accepts: Callable[[T], bool], timeout_s: float) -> T | None:
+        """Wait for an accepted item; None if there was none within ``timeout_s`` [s].
 
         Raises:
             TouchError: Capturing has failed.
         """
+
+        def accepted() -> bool:
+            return self._item is not None and accepts(self._item)
+
         with self._changed:
-            self._changed.wait_for(
-                lambda: (
-                    self._failure is not None or (self._item is not None and wanted(self._item))
-                ),
-                timeout_s,
-            )
+            self._changed.wait_for(lambda: self._failure is not None or accepted(), timeout_s)
             self._check()
-            return self._item if self._item is not None and wanted(self._item) else None
+            return self._item if accepted() else None
 
     def _check(self) -> None:
         if self._failure is not None:

@@ -1,10 +1,10 @@
-"""Serial ports by stable names: which there are, and which one a rig's file means.
+"""Serial ports by stable names: listing them, and finding the port of a rig's file.
 
-``/dev/ttyUSB0`` is whatever was plugged in first; the names under ``/dev/serial/by-id`` and the
-serial numbers of the adapters stay. A rig's file may give any of them.
+``/dev/ttyUSB0`` depends on the order of plugging in; the names under ``/dev/serial/by-id`` and the
+serial numbers of the adapters are stable. A rig's file may give any of these.
 
-Not here: opening a port. Whoever opens one takes it with ``claim``, so that two programs never talk
-on it at the same time.
+Not here: opening a port. A driver that opens a port calls ``claim``, so that two programs never use
+it at the same time.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ class SerialPort:
     """A serial port of this computer.
 
     Attributes:
-        device: Its path, like /dev/ttyUSB0.
-        stable_id: Its name under /dev/serial/by-id; empty when it has none.
-        serial_number: Of the USB adapter; empty when it tells none.
-        description: What the adapter calls itself.
+        device: Path, like /dev/ttyUSB0.
+        stable_id: Name under /dev/serial/by-id; empty for none.
+        serial_number: Serial number of the USB adapter; empty for none.
+        description: Description by the adapter.
     """
 
     device: str
@@ -44,7 +44,7 @@ class SerialPort:
 
 
 def serial_ports(by_id: Path = BY_ID) -> Sequence[SerialPort]:
-    """The serial ports that this computer has now, adapters with a USB identity only."""
+    """List the present serial ports of this computer; only adapters with a USB identity."""
     from serial.tools import list_ports
 
     links = {}
@@ -64,69 +64,69 @@ def serial_ports(by_id: Path = BY_ID) -> Sequence[SerialPort]:
 
 
 def find_port(
-    wanted: str, what: str, ports: Sequence[SerialPort] | None = None, by_id: Path = BY_ID
+    name: str, device: str, ports: Sequence[SerialPort] | None = None, by_id: Path = BY_ID
 ) -> str:
-    """The path of the one port that a rig's file means.
+    """Path of the one port with the name in a rig's file.
 
     Args:
-        wanted: A path; or a name under /dev/serial/by-id, a part of one, or the adapter's serial
+        name: A path; or a name under /dev/serial/by-id, a part of one, or the adapter's serial
             number.
-        what: The device, for the error: 'the gripper'.
-        ports: Those to choose from; this computer's when not given.
-        by_id: Where the stable names are.
+        device: The device, for the error: 'the gripper'.
+        ports: The ports to choose from; None is this computer's.
+        by_id: Folder of the stable names.
 
     Raises:
-        RobotError: No port, or more than one, is meant; the message lists those that exist.
+        RobotError: No port, or more than one, has the name; the message lists the present ports.
     """
-    if os.sep in wanted:
-        if Path(wanted).exists():
-            return wanted
-        raise RobotError(f"no serial port {wanted} for {what}; {_listed(ports, by_id)}")
-    known = serial_ports(by_id) if ports is None else ports
-    exact = [port for port in known if wanted in (port.stable_id, port.serial_number)]
-    meant = exact or [port for port in known if wanted and wanted in port.stable_id]
-    if len(meant) == 1:
-        return meant[0].device
-    how = f"{len(meant)} serial ports match" if meant else "no serial port matches"
-    raise RobotError(f"{how} {wanted!r} for {what}; {_listed(known, by_id)}")
+    if os.sep in name:
+        if Path(name).exists():
+            return name
+        raise RobotError(f"no serial port {name} for {device}; {_listed(ports, by_id)}")
+    present = serial_ports(by_id) if ports is None else ports
+    exact = [port for port in present if name in (port.stable_id, port.serial_number)]
+    matches = exact or [port for port in present if name and name in port.stable_id]
+    if len(matches) == 1:
+        return matches[0].device
+    problem = f"{len(matches)} serial ports match" if matches else "no serial port matches"
+    raise RobotError(f"{problem} {name!r} for {device}; {_listed(present, by_id)}")
 
 
 def adapter_serial(path: str, ports: Sequence[SerialPort] | None = None) -> str:
-    """Serial number of the USB adapter at a path; empty when it tells none."""
+    """Serial number of the USB adapter at a path; empty for none."""
     real = str(Path(path).resolve())
-    known = serial_ports() if ports is None else ports
-    return next((p.serial_number for p in known if str(Path(p.device).resolve()) == real), "")
+    present = serial_ports() if ports is None else ports
+    return next((p.serial_number for p in present if str(Path(p.device).resolve()) == real), "")
 
 
 def _listed(ports: Sequence[SerialPort] | None, by_id: Path) -> str:
-    known = serial_ports(by_id) if ports is None else ports
-    if not known:
+    present = serial_ports(by_id) if ports is None else ports
+    if not present:
         return (
             "this computer has no USB serial adapter now: check the cable, and that you may read "
             "the port (group dialout)"
         )
-    return "there are: " + "; ".join(str(port) for port in known)
+    return "there are: " + "; ".join(str(port) for port in present)
 
 
-def claim(descriptor: int, path: str, what: str) -> None:
-    """Take an open serial port for this program alone, until it is closed.
+def claim(descriptor: int, path: str, device: str) -> None:
+    """Lock an open serial port for this program, until it is closed.
 
-    Two locks, since programs honour one or the other: ``flock`` (pyserial's ``exclusive``), and
+    Two locks, since a program honours one or the other: ``flock`` (pyserial's ``exclusive``), and
     ``TIOCEXCL``, by which the kernel refuses any further opening but root's.
 
     Raises:
-        RobotError: Another program has it.
+        RobotError: Another program uses the port.
     """
     try:
         fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
         fcntl.ioctl(descriptor, termios.TIOCEXCL)
     except OSError:
-        raise RobotError(taken(path, what)) from None
+        raise RobotError(in_use_message(path, device)) from None
 
 
-def taken(path: str, what: str) -> str:
-    """What to tell a person when another program has the port."""
+def in_use_message(path: str, device: str) -> str:
+    """Error message for a port in use by another program."""
     return (
-        f"the serial port {path} of {what} is in use by another program; end that one first "
+        f"the serial port {path} of {device} is in use by another program; end that one first "
         f"(to see which: fuser {path})"
     )

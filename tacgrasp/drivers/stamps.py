@@ -1,4 +1,4 @@
-"""Both clocks of this computer, for whatever is captured."""
+"""Stamps of captured data: both clocks of this computer."""
 
 from __future__ import annotations
 
@@ -8,5 +8,5 @@ from cltp.tactile.cloud import Stamp
 
 
 def real_stamp() -> Stamp:
-    """Both clocks, now."""
+    """Present time on both clocks."""
     return Stamp(monotonic_s=time.monotonic(), wall_s=time.time())

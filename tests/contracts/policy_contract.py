@@ -12,7 +12,7 @@ import pytest
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from policies import Decision, Policy
-from policies.extraction.extract import extract
+from policies.extraction import extract
 
 SENSOR = sensor_named("gelsight_mini")
 INSTRUCTION = "Pick the strawberry gently, without bruising it."

@@ -2,7 +2,8 @@
 
 import pytest
 
-from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator
+from sim.emulators.dynamixel.options import ServoOptions
 from sim.emulators.dynamixel.fingers import SpringLoad
 from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
 from tacgrasp.drivers.dynamixel.gripper import connect_gripper
@@ -23,7 +24,7 @@ class TestEmulatedGripper(GripperContract):
             emulator.serial_port, tmp_path, model=self.model, num_servos=self.num_servos
         )
         gripper = connect_gripper(settings, folder=tmp_path)
-        gripper.hurry_while(lambda: False)  # no arm moves: a busy computer must fail no test
+        gripper.fail_fast_while(lambda: False)  # no arm moves: a busy computer must fail no test
         yield gripper
         gripper.disconnect()
         emulator.close()

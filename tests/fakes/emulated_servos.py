@@ -4,8 +4,9 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
-from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import SpringLoad
+from sim.emulators.dynamixel.options import ServoOptions
 from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
 from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper, connect_gripper
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
@@ -39,7 +40,7 @@ class EmulatedServos:
     def gripper(self, **options) -> DynamixelGripper:
         """Connect the driver; no arm moves here, so that a busy computer fails no test."""
         gripper = connect_gripper(self.settings, folder=self.folder, **options)
-        gripper.hurry_while(lambda: False)
+        gripper.fail_fast_while(lambda: False)
         self._grippers.append(gripper)
         return gripper
 

@@ -30,8 +30,8 @@ from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import Depth, Shape
 from tacgrasp.benchmarks.sensing.ball_answers import Said, asker
 from tacgrasp.benchmarks.sensing.balls import measure_held_out
+from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles
-from tacgrasp.drivers.gelsight.frame_folder import frames_heights, read_ball_frames
 
 ROUND = (Shape.SPHERE, Shape.ELLIPSOID)
 """One class on frames of an uncalibrated unit, whose gains of x and y differ (shared notes)."""

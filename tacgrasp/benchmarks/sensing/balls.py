@@ -26,8 +26,8 @@ from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.train.photometric import train_gradients
 from cltp.train.progress import Bar
+from tacgrasp.bringup.ball_frames import BallFrames, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles
-from tacgrasp.drivers.gelsight.frame_folder import BallFrames, read_ball_frames
 
 PROFILE = "profile_6.31mm.csv"
 DIAMETER_LIMIT_PERCENT = 4.0

@@ -1,10 +1,10 @@
 """Force of a gripper over the current of its servos: a measured line, kept in the rig's folder.
 
-A servo that stands still with a set current presses with about (current - friction) × slope; both
-differ from gripper to gripper and with wear, so that a calibration names its gripper and its date,
-and is refused for another gripper and when it is too old.
+A blocked servo with a set current presses with about (current - friction) × slope. Both constants
+differ from gripper to gripper and change with wear. A calibration therefore names its gripper and
+its date, and is refused for another gripper or when it is too old.
 
-Not here: moving the gripper for a measurement (``measure_gripper``).
+Not here: moving the gripper for a measurement (``measure_calibration``).
 """
 
 from __future__ import annotations
@@ -25,25 +25,25 @@ from tacgrasp.base.settings import Number, SettingsBase
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
 MIN_READINGS = 3
-MAX_RESIDUAL_SHARE = 0.15
-"""Residual over the largest force, above which a line does not describe the gripper; our choice."""
+MAX_RESIDUAL_FRACTION = 0.15
+"""Residual over the largest force; above it a line does not describe the gripper. Our choice."""
 
 
 class GripperCalibration(SettingsBase):
-    """The line, what it was measured on, and how well it fits.
+    """The fitted line, the gripper that it belongs to, and the quality of the fit.
 
     Attributes:
-        unit: Which gripper, as its rig's file calls it.
-        model: Of its servos.
-        ids: Of its servos.
-        adapter: Serial number of the USB adapter; empty when it tells none.
-        date: Of the measurement.
-        newtons_per_ma: Slope [N/mA].
-        friction_ma: Current at which it just begins to press [mA].
-        residual_n: Root mean square of what the line leaves over [N].
-        max_force_n: Largest force that was measured; none above it is asked for [N].
-        num_readings: How many were measured.
-        source: With what.
+        unit: Name of the gripper in its rig's file.
+        model: Model of its servos.
+        ids: Ids of its servos.
+        adapter: Serial number of the USB adapter; empty if the adapter has none.
+        date: Date of the measurement.
+        newtons_per_ma: Slope of the line [N/mA].
+        friction_ma: Current at which the gripper begins to press [mA].
+        residual_n: Root mean square residual of the line [N].
+        max_force_n: Largest measured force, and the limit of every commanded force [N].
+        num_readings: Number of readings.
+        source: Instrument or file of the readings.
     """
 
     unit: str = Field(min_length=1)
@@ -60,28 +60,28 @@ class GripperCalibration(SettingsBase):
 
     @model_validator(mode="after")
     def _the_line_fits(self) -> GripperCalibration:
-        if self.residual_n > MAX_RESIDUAL_SHARE * self.max_force_n:
+        if self.residual_n > MAX_RESIDUAL_FRACTION * self.max_force_n:
             raise ValueError(
-                f"residual_n {self.residual_n:.2f} is more than {100 * MAX_RESIDUAL_SHARE:.0f} % "
+                f"residual_n {self.residual_n:.2f} is more than {MAX_RESIDUAL_FRACTION:.0%} "
                 f"of max_force_n {self.max_force_n:.2f}: the readings are on no line"
             )
         return self
 
     def current_ma(self, force_n: float) -> float:
-        """Current that presses with a force [mA]."""
+        """Current for a force [mA]."""
         return self.friction_ma + force_n / self.newtons_per_ma
 
     def force_n(self, current_ma: float) -> float:
-        """Force of a current, 0 below friction [N]."""
+        """Force at a current, 0 below friction [N]."""
         return max(0.0, (current_ma - self.friction_ma) * self.newtons_per_ma)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reading:
-    """One force that was read off a scale while a current was set.
+    """One force read off a scale at a set current.
 
     Raises:
-        RobotError: It is not finite, or below 0.
+        RobotError: A value is not finite or negative.
     """
 
     current_ma: float
@@ -105,10 +105,10 @@ def fit_calibration(
     adapter: str = "",
     source: str = "",
 ) -> GripperCalibration:
-    """The line through some readings, by least squares over those that press at all.
+    """Fit the line through readings, by least squares over those with a force above 0.
 
     Raises:
-        RobotError: Too few readings, or they are on no line.
+        RobotError: Too few readings, or readings that lie on no line.
     """
     pressing = [reading for reading in readings if reading.force_n > 0]
     currents = np.array([reading.current_ma for reading in pressing])
@@ -140,14 +140,14 @@ def fit_calibration(
             source=source,
         )
     except ValidationError as error:
-        raise RobotError(f"these readings make no calibration: {_plain(error)}") from None
+        raise RobotError(f"these readings make no calibration: {_first_error(error)}") from None
 
 
 def read_readings(path: Path) -> Sequence[Reading]:
-    """Readings of a CSV file with the columns current_ma and force_n.
+    """Read readings from a CSV file with the columns current_ma and force_n.
 
     Raises:
-        RobotError: No such file, or a line that is no reading.
+        RobotError: No such file, or an invalid line.
     """
     expected = "expected a CSV file with the columns current_ma and force_n"
     try:
@@ -168,10 +168,10 @@ def read_readings(path: Path) -> Sequence[Reading]:
 
 
 def save_calibration(path: Path, calibration: GripperCalibration) -> None:
-    """Write it as YAML, whole or not at all.
+    """Write a calibration as YAML, whole or not at all.
 
     Raises:
-        RobotError: It can't be written there.
+        RobotError: The file can't be written.
     """
     text = (
         "# Force of a gripper over the current of its servos; made by: tacgrasp calibrate gripper\n"
@@ -184,26 +184,26 @@ def save_calibration(path: Path, calibration: GripperCalibration) -> None:
 
 
 def load_calibration(path: Path) -> GripperCalibration:
-    """Read it.
+    """Read a calibration.
 
     Raises:
-        RobotError: There is none, or it is damaged.
+        RobotError: The file is missing or damaged.
     """
-    mend = "make one with: tacgrasp calibrate gripper"
+    advice = "make one with: tacgrasp calibrate gripper"
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
     except FileNotFoundError:
-        raise RobotError(f"no calibration of the gripper at {path}; {mend}") from None
+        raise RobotError(f"no calibration of the gripper at {path}; {advice}") from None
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        why = " ".join(str(error).split())
-        raise RobotError(f"{path} is no calibration of a gripper: {why}; {mend}") from None
+        reason = " ".join(str(error).split())
+        raise RobotError(f"{path} is no calibration of a gripper: {reason}; {advice}") from None
     if not isinstance(values, dict):
-        raise RobotError(f"{path} is no calibration of a gripper: expected fields; {mend}")
+        raise RobotError(f"{path} is no calibration of a gripper: expected fields; {advice}")
     try:
         return GripperCalibration(**values)
     except ValidationError as error:
         raise RobotError(
-            f"{path} is no calibration of a gripper: {_plain(error)}; {mend}"
+            f"{path} is no calibration of a gripper: {_first_error(error)}; {advice}"
         ) from None
 
 
@@ -214,7 +214,7 @@ def refusal(
     adapter: str,
     today: datetime.date,
 ) -> str:
-    """Why a calibration can't be used for this gripper today; empty when it can."""
+    """Reason to refuse a calibration for this gripper and date; empty for none."""
     ids = tuple(servo.id for servo in settings.servos)
     pairs = (
         ("unit", calibration.unit, settings.unit),
@@ -222,28 +222,28 @@ def refusal(
         ("ids", calibration.ids, ids),
         ("adapter", calibration.adapter or adapter, adapter or calibration.adapter),
     )
-    for name, theirs, ours in pairs:
-        if theirs != ours:
+    for name, calibrated, connected in pairs:
+        if calibrated != connected:
             return (
-                f"the calibration is of another gripper: its {name} is {theirs}, this one's "
-                f"{ours}; make one with: tacgrasp calibrate gripper"
+                f"the calibration is of another gripper: its {name} is {calibrated}, this one's "
+                f"{connected}; make one with: tacgrasp calibrate gripper"
             )
-    age = (today - calibration.date).days
-    if age < 0:
+    age_days = (today - calibration.date).days
+    if age_days < 0:
         return (
             f"the calibration is dated {calibration.date}, after today ({today}): check this "
             "computer's clock"
         )
-    if age > settings.max_calibration_age_days:
+    if age_days > settings.max_calibration_age_days:
         return (
-            f"the calibration is {age} days old (max_calibration_age_days is "
+            f"the calibration is {age_days} days old (max_calibration_age_days is "
             f"{settings.max_calibration_age_days}); make a new one with: tacgrasp calibrate gripper"
         )
     return ""
 
 
-def _plain(error: ValidationError) -> str:
-    """The first thing that pydantic found, on one line."""
+def _first_error(error: ValidationError) -> str:
+    """The first of pydantic's errors, on one line."""
     first = error.errors()[0]
-    place = ".".join(str(part) for part in first["loc"])
-    return f"{place}: {first['msg']}" if place else str(first["msg"])
+    field = ".".join(str(part) for part in first["loc"])
+    return f"{field}: {first['msg']}" if field else str(first["msg"])

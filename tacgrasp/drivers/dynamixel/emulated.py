@@ -1,8 +1,7 @@
 """Settings and calibration of the emulated gripper (``sim.emulators.dynamixel.bus_process``).
 
-The emulator's own line of force over current is written down as a calibration of today: nobody has
-to hold a scale between fingers that do not exist, and only the quantisation of the current is left
-between the force that is asked for and the one that presses.
+The emulator's own line of force over current is saved as a calibration with today's date. The force
+then differs from the commanded one by the quantisation of the current only.
 """
 
 from __future__ import annotations
@@ -27,15 +26,15 @@ def emulated_gripper(
     baud: int = 1_000_000,
     linkage: Linkage | None = None,
 ) -> DynamixelSettings:
-    """Settings for an emulator at a port; its calibration is written into a folder.
+    """Settings for an emulator at a port; writes its calibration into a folder.
 
     Args:
-        port: That the emulator announced.
-        folder: Of the rig's file, or a temporary one.
-        model: As the emulator was started with; so are the others.
-        num_servos: 1 or 2.
-        baud: [bit/s].
-        linkage: Default: the emulator's.
+        port: Port announced by the emulator.
+        folder: Folder of the rig's file, or a temporary one.
+        model: Model of the emulated servos.
+        num_servos: Number of emulated servos, 1 or 2.
+        baud: Baud rate of the emulator [bit/s].
+        linkage: Linkage of the emulator; None is its default.
 
     Raises:
         RobotError: The calibration can't be written.

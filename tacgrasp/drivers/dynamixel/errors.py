@@ -1,4 +1,4 @@
-"""What a transaction with a servo may come to: an answer, or one of four kinds of trouble."""
+"""The result of one transaction with a servo: a reply, or one of four kinds of fault."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import Enum
 
 from primitives.errors import RobotError
 
-_ERRORS = {
+_STATUS_ERRORS = {
     1: "it failed",
     2: "it does not know the instruction",
     3: "it received a wrong CRC",
@@ -18,39 +18,39 @@ _ERRORS = {
 }
 
 
-class Trouble(Enum):
-    """What went wrong on the bus."""
+class BusFault(Enum):
+    """Kind of a fault on the bus."""
 
-    SILENT = "no answer"
-    CORRUPT = "a corrupt answer"
+    SILENT = "no reply"
+    CORRUPT = "a corrupt reply"
     REFUSED = "refused"
     LOST = "the port is gone"
 
 
 class BusError(RobotError):
-    """A transaction failed.
+    """A failed transaction.
 
     Attributes:
-        trouble: How.
-        waited: The time for an answer ran out, so that (the rest of) one may still come.
+        kind: Kind of the fault.
+        timed_out: Whether the wait for the reply ran out, so that (the rest of) it may still come.
     """
 
-    def __init__(self, trouble: Trouble, message: str, *, waited: bool = False) -> None:
+    def __init__(self, kind: BusFault, message: str, *, timed_out: bool = False) -> None:
         super().__init__(message)
-        self.trouble, self.waited = trouble, waited
+        self.kind, self.timed_out = kind, timed_out
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Answer:
-    """What a servo answered: its data, and whether it reports a hardware error."""
+class BusReply:
+    """The data in a servo's reply, and whether the servo reports a hardware error (alert bit)."""
 
     data: bytes
     alert: bool
 
 
 @dataclass(slots=True, kw_only=True)
-class Counts:
-    """Transient faults that were survived since the bus was opened."""
+class BusFaultCounts:
+    """Transient faults from which the driver recovered since the bus was opened."""
 
     silent: int = 0
     corrupt: int = 0
@@ -60,11 +60,11 @@ class Counts:
 
     def __str__(self) -> str:
         return (
-            f"{self.silent} without an answer, {self.corrupt} corrupt, {self.late} late, "
+            f"{self.silent} without a reply, {self.corrupt} corrupt, {self.late} late, "
             f"{self.rewritten} written again, port rebuilt {self.rebuilt} times"
         )
 
 
-def refusal_words(number: int) -> str:
-    """What the error number of a status packet says."""
-    return _ERRORS.get(number, f"error {number}")
+def status_error_text(number: int) -> str:
+    """Meaning of the error number in a status packet."""
+    return _STATUS_ERRORS.get(number, f"error {number}")

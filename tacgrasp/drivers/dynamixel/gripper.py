@@ -1,8 +1,8 @@
 """A gripper of Dynamixel servos that holds a force in newtons; a ``primitives.devices.Gripper``.
 
-Force comes from a calibration of this very gripper; without one that fits and is young enough
-nothing starts. The driver never lets go by itself: torque stays on at every end, and opening is for
-the task to decide.
+The force comes from a calibration of this gripper; a missing, foreign or old calibration refuses
+the start. The driver never lets go by itself: torque stays on at every end of a run, and the task
+decides when to open.
 """
 
 from __future__ import annotations
@@ -17,19 +17,18 @@ from pathlib import Path
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers.check import Finding
-from tacgrasp.drivers.dynamixel import registers as at
+from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, load_calibration, refusal
-from tacgrasp.drivers.dynamixel.errors import Counts
-from tacgrasp.drivers.dynamixel.fingers import Hand, connect_hand
-from tacgrasp.drivers.dynamixel.poller import OnFault
+from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
+from tacgrasp.drivers.dynamixel.fingers import Fingers, connect_fingers
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
-from tacgrasp.drivers.dynamixel.startup_checks import start_findings
+from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
 from tacgrasp.drivers.serial_ports import adapter_serial
 
 LATENCY_READS = 200
 SLOW_MS = 8.0
-"""A 99th percentile above this tells that the adapter collects bytes: its timer is at 16 ms."""
+"""Limit of the 99th percentile [ms]; above it the adapter collects bytes (latency timer 16 ms)."""
 
 _log = logging.getLogger(__name__)
 
@@ -37,79 +36,69 @@ _log = logging.getLogger(__name__)
 class DynamixelGripper:
     """One or two servos under force control; made by ``connect_gripper``."""
 
-    def __init__(self, hand: Hand, calibration: GripperCalibration) -> None:
-        self._hand, self._calibration = hand, calibration
+    def __init__(self, fingers: Fingers, calibration: GripperCalibration) -> None:
+        self._fingers, self._calibration = fingers, calibration
         self._force_n, self._closed = 0.0, False
 
     @property
     def max_force_n(self) -> float:
-        """Largest force that it takes [N]: what was calibrated, and what its current allows."""
-        most = self._calibration.force_n(self._hand.settings.max_current_ma)
-        return min(self._calibration.max_force_n, most)
+        """Largest force [N], limited by the calibrated range and by ``max_current_ma``."""
+        limit_n = self._calibration.force_n(self._fingers.settings.max_current_ma)
+        return min(self._calibration.max_force_n, limit_n)
 
     @property
     def fault(self) -> str:
-        """Why it can't be used any more; empty while it can."""
-        return self._hand.watch.fault
+        """The latched fault; empty while there is none."""
+        return self._fingers.poller.fault
 
     @property
-    def transients(self) -> Counts:
-        """Faults of the bus that were survived so far."""
-        return self._hand.transients
+    def transients(self) -> BusFaultCounts:
+        """Faults of the bus from which the driver has recovered."""
+        return self._fingers.transients
 
     @property
     def sent(self) -> str:
-        """What the last command put on the wire, in the servos' words; empty when nothing."""
-        return self._hand.sent
+        """The last command on the wire, in the servos' words; empty for none."""
+        return self._fingers.sent
 
-    def healthy(self) -> bool:
-        """Whether the last poll, some milliseconds ago, was good; costs nothing."""
-        return self._hand.watch.healthy()
+    def fail_fast_while(self, arm_is_moving: Callable[[], bool]) -> None:
+        """Treat a servo's silence as a fault at once only while the arm moves.
 
-    def tell_faults_to(self, on_fault: OnFault) -> None:
-        """Call this, once and from the I/O thread, when the gripper fails, whatever else goes on.
-
-        When it has failed already it is called at once. It must be quick: stop the arm.
-        """
-        self._hand.watch.tell(on_fault)
-
-    def hurry_while(self, arm_moves: Callable[[], bool]) -> None:
-        """Take silence for a fault at once only while the arm moves.
-
-        Until this is called it always is: two answers missed, about 60 ms. While the arm stands
-        there is no hurry (``patience_ms``), and a busy computer ends no episode.
+        Without this call it always is: after two missed replies, about 60 ms. While the arm stands
+        still, silence is waited out (``patience_ms``), so that a busy computer ends no episode.
 
         Args:
-            arm_moves: Asked from the I/O thread when an answer is missing; quick.
+            arm_is_moving: Called from the I/O thread when a reply is missing; must return fast.
         """
-        self._hand.hurry_while(arm_moves)
+        self._fingers.fail_fast_while(arm_is_moving)
 
     def state(self) -> GripperState:
-        """Opening, read now, and the force last commanded.
+        """Present opening and the last commanded force.
 
         Raises:
-            RobotError: It can't be read, or the gripper has a fault.
+            RobotError: The opening can't be read, or the gripper has a fault.
         """
-        return self._state(self._hand.width_m())
+        return self._state(self._fingers.width_m())
 
     def grip(self, force_n: float) -> GripperState:
         """Close, or adjust a grip, to a force [N]; returns when the fingers rest.
 
         Raises:
-            LimitError: The force is none or beyond the device; nothing is sent.
+            LimitError: The force is not positive or beyond the device; nothing is sent.
             RobotError: The fingers do not come to rest, or the gripper has a fault.
         """
-        self._hand.sent = ""
+        self._fingers.sent = ""
         if not (math.isfinite(force_n) and 0 < force_n <= self.max_force_n * (1 + 1e-9)):
             raise LimitError(
-                f"force must lie in (0, {self.max_force_n:.2f}] N (what is calibrated, and "
-                f"max_current_ma {self._hand.settings.max_current_ma:g}), got {force_n}"
+                f"force must lie in (0, {self.max_force_n:.2f}] N (calibrated range, and "
+                f"max_current_ma {self._fingers.settings.max_current_ma:g}), got {force_n}"
             )
         current_ma = self._calibration.current_ma(force_n)
-        self._check()
-        # from here on something may be held, also when what follows fails
+        if self.fault:
+            raise RobotError(self.fault)
+        # from here on an object may be held, also after an error
         self._force_n, self._closed = force_n, True
-        return self._state(self._hand.squeeze(max(self._hand.unit_ma, current_ma)))
+        return self._state(self._fingers.squeeze(max(self._fingers.unit_ma, current_ma)))
 
     def open_by(self, clear_m: float) -> GripperState:
         """Open by ``clear_m`` [m] from the present width, up to the end of the travel.
@@ -118,28 +107,24 @@ class DynamixelGripper:
             LimitError: ``clear_m`` is not positive; nothing is sent.
             RobotError: The fingers do not get there, or the gripper has a fault.
         """
-        self._hand.sent = ""
+        self._fingers.sent = ""
         if not (math.isfinite(clear_m) and clear_m > 0):
             raise LimitError(f"the gripper opens by a positive number of metres, got {clear_m}")
-        width_m = self._hand.open_to(self._hand.width_m() + clear_m)
+        width_m = self._fingers.open_to(self._fingers.width_m() + clear_m)
         self._force_n, self._closed = 0.0, False
         return self._state(width_m)
 
     def stop(self) -> None:
-        """Stop fingers that are on their way; a grip is kept. Idempotent, never raises."""
-        self._hand.sent = ""
+        """Stop moving fingers; a grip is kept. Idempotent, never raises."""
+        self._fingers.sent = ""
         try:
-            self._hand.freeze()
+            self._fingers.freeze()
         except RobotError as error:
             _log.debug("nothing to stop: %s", error)
 
     def disconnect(self) -> None:
         """Free the port, keeping the present grip. Idempotent, never raises."""
-        self._hand.disconnect()
-
-    def _check(self) -> None:
-        if self.fault:
-            raise RobotError(self.fault)
+        self._fingers.disconnect()
 
     def _state(self, width_m: float) -> GripperState:
         return GripperState(width_m=width_m, force_n=self._force_n, closed=self._closed)
@@ -149,29 +134,27 @@ def connect_gripper(
     settings: DynamixelSettings,
     *,
     folder: Path = Path(),
-    on_fault: OnFault | None = None,
     clock: Callable[[], float] = time.monotonic,
     today: Callable[[], datetime.date] = datetime.date.today,
 ) -> DynamixelGripper:
-    """Check calibration and servos, and let them hold where they are; nothing moves.
+    """Check calibration and servos, and let the servos hold their positions; nothing moves.
 
     Args:
-        settings: What the rig's file says.
-        folder: Of the rig's file; the calibration's path is relative to it.
-        on_fault: See ``DynamixelGripper.tell_faults_to``.
+        settings: The gripper's section of the rig's file.
+        folder: Folder of the rig's file; the calibration's path is relative to it.
         clock: Monotonic [s].
-        today: For the calibration's age.
+        today: Gives the date for the calibration's age.
 
     Raises:
-        RobotError: The calibration does not fit, the port can't be had, or a check refuses.
+        RobotError: The calibration does not fit, the port can't be opened, or a check fails.
     """
     calibration = load_calibration(folder / settings.calibration)
-    hand = connect_hand(settings, on_fault=on_fault, clock=clock)
-    why = refusal(calibration, settings, adapter=hand.adapter, today=today())
-    if why:
-        hand.disconnect()
-        raise RobotError(f"{folder / settings.calibration}: {why}")
-    return DynamixelGripper(hand, calibration)
+    fingers = connect_fingers(settings, clock=clock)
+    reason = refusal(calibration, settings, adapter=fingers.adapter, today=today())
+    if reason:
+        fingers.disconnect()
+        raise RobotError(f"{folder / settings.calibration}: {reason}")
+    return DynamixelGripper(fingers, calibration)
 
 
 def check(
@@ -181,51 +164,43 @@ def check(
     clock: Callable[[], float] = time.perf_counter,
     today: Callable[[], datetime.date] = datetime.date.today,
 ) -> Sequence[Finding]:
-    """Look at the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves."""
-    bus = Bus(settings)
+    """Check the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves."""
+    bus, adapter = Bus(settings), ""
     findings = []
     try:
         bus.open()
-        findings.append(Finding(device="gripper", name="port", ok=True, found=bus.path))
+        findings.append(_finding("port", True, bus.path))
         adapter = adapter_serial(bus.path)
-        found = start_findings(bus, settings)
-        findings += found
-        if found[0].ok:
+        servo_findings = startup_findings(bus, settings)
+        findings += servo_findings
+        if servo_findings[0].ok:
             findings.append(_latency(bus, settings, clock))
     except RobotError as error:
-        findings.append(
-            Finding(
-                device="gripper",
-                name="port",
-                ok=False,
-                found=settings.port,
-                advice=f"{error}",
-            )
-        )
         adapter = ""
+        findings.append(_finding("port", False, settings.port, f"{error}"))
     finally:
         bus.close()
-    findings.append(_calibration(settings, folder, adapter, today()))
-    return findings
+    return [*findings, _calibration(settings, folder, adapter, today())]
+
+
+def _finding(name: str, ok: bool, detail: str, advice: str = "") -> Finding:
+    return Finding(device="gripper", name=name, ok=ok, detail=detail, advice="" if ok else advice)
 
 
 def _latency(bus: Bus, settings: DynamixelSettings, clock: Callable[[], float]) -> Finding:
-    took_ms = []
+    durations_ms = []
     for _ in range(LATENCY_READS):
-        began_s = clock()
-        bus.read(settings.servos[0].id, at.PRESENT, at.PRESENT_LENGTH)
-        took_ms.append(1000 * (clock() - began_s))
-    took_ms.sort()
-    middle, high = took_ms[len(took_ms) // 2], took_ms[(99 * len(took_ms)) // 100]
-    return Finding(
-        device="gripper",
-        name="latency",
-        ok=high <= SLOW_MS,
-        found=f"p50 {middle:.2f} ms, p99 {high:.2f} ms, max {took_ms[-1]:.2f} ms over "
-        f"{len(took_ms)} reads; {bus.counts}",
-        advice=""
-        if high <= SLOW_MS
-        else "set the USB adapter's latency timer to 1 ms (for ttyUSB0: echo 1 | sudo tee "
+        start_s = clock()
+        bus.read(settings.servos[0].id, reg.PRESENT, reg.PRESENT_LENGTH)
+        durations_ms.append(1000 * (clock() - start_s))
+    durations_ms.sort()
+    p50, p99 = durations_ms[len(durations_ms) // 2], durations_ms[(99 * len(durations_ms)) // 100]
+    return _finding(
+        "latency",
+        p99 <= SLOW_MS,
+        f"p50 {p50:.2f} ms, p99 {p99:.2f} ms, max {durations_ms[-1]:.2f} ms over "
+        f"{len(durations_ms)} reads; {bus.counts}",
+        "set the USB adapter's latency timer to 1 ms (for ttyUSB0: echo 1 | sudo tee "
         "/sys/bus/usb-serial/devices/ttyUSB0/latency_timer), and end what else keeps this "
         "computer busy",
     )
@@ -234,24 +209,15 @@ def _latency(bus: Bus, settings: DynamixelSettings, clock: Callable[[], float]) 
 def _calibration(
     settings: DynamixelSettings, folder: Path, adapter: str, today: datetime.date
 ) -> Finding:
-    path = folder / settings.calibration
-    mend = "make one with: tacgrasp calibrate gripper"
     try:
-        calibration = load_calibration(path)
+        calibration = load_calibration(folder / settings.calibration)
     except RobotError as error:
-        return Finding(
-            device="gripper", name="calibration", ok=False, found=f"{error}", advice=mend
-        )
-    why = refusal(calibration, settings, adapter=adapter, today=today)
-    found = (
+        advice = "make one with: tacgrasp calibrate gripper"
+        return _finding("calibration", False, f"{error}", advice)
+    reason = refusal(calibration, settings, adapter=adapter, today=today)
+    detail = (
         f"of {calibration.date}, {(today - calibration.date).days} days old, "
         f"{calibration.newtons_per_ma:.4f} N/mA from {calibration.friction_ma:.0f} mA on, "
         f"residual {calibration.residual_n:.3f} N, up to {calibration.max_force_n:.1f} N"
     )
-    return Finding(
-        device="gripper",
-        name="calibration",
-        ok=not why,
-        found=found,
-        advice=why,
-    )
+    return _finding("calibration", not reason, detail, reason)

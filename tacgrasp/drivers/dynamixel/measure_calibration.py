@@ -1,6 +1,6 @@
 """Measure force over current: the gripper squeezes a scale with one current after another.
 
-Who reads the scale is a callable: a person at a prompt, or an instrument.
+The force on the scale is read by a callable: a person at a prompt, or an instrument.
 """
 
 from __future__ import annotations
@@ -10,58 +10,60 @@ from collections.abc import Callable, Sequence
 
 from primitives.errors import LimitError
 from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, Reading, fit_calibration
-from tacgrasp.drivers.dynamixel.fingers import Hand
+from tacgrasp.drivers.dynamixel.fingers import Fingers
 
 ReadForce = Callable[[float], float]
-"""Given the current that is set [mA], returns the force on the scale [N]."""
+"""Takes the set current [mA] and returns the force on the scale [N]."""
 
-_LOWEST_SHARE = 0.1
+_LOWEST_FRACTION = 0.1
 
 
 def steps_ma(max_ma: float, steps: int) -> Sequence[float]:
-    """Currents in equal steps, from a tenth of the largest on, so that friction shows [mA]."""
-    low = _LOWEST_SHARE * max_ma
+    """Currents in equal steps, from a tenth of the largest, so that friction is visible [mA]."""
+    low = _LOWEST_FRACTION * max_ma
     return [low + (max_ma - low) * step / (steps - 1) for step in range(steps)]
 
 
 def calibrate_gripper(
-    hand: Hand,
+    fingers: Fingers,
     read_force: ReadForce,
     currents_ma: Sequence[float],
     *,
     date: datetime.date,
     source: str = "",
 ) -> GripperCalibration:
-    """Squeeze with each current, rising, and fit the line; opens again, whatever happens.
+    """Squeeze with each current, rising, and fit the line; opens again, also after an error.
 
-    Rising only: on the way down friction holds against the scale, and the line would be another.
+    Rising only: with falling currents friction holds against the scale and gives another line.
 
     Args:
-        hand: Connected, with a scale between the fingers.
-        read_force: Asked once the fingers rest.
-        currents_ma: Above 0 [mA].
-        date: Of the measurement.
-        source: With what, for the record.
+        fingers: Connected fingers with a scale between them.
+        read_force: Called when the fingers rest.
+        currents_ma: Currents above 0 [mA].
+        date: Date of the measurement.
+        source: Instrument, for the record.
 
     Raises:
         LimitError: A current is beyond ``max_current_ma``; nothing has moved.
         RobotError: The gripper fails, or the readings make no line.
     """
-    most_ma = hand.settings.max_current_ma
-    wrong = [current for current in currents_ma if not 0 < current <= most_ma]
-    if wrong:
+    limit_ma = fingers.settings.max_current_ma
+    refused = [current for current in currents_ma if not 0 < current <= limit_ma]
+    if refused:
         raise LimitError(
-            f"currents must lie in (0, {most_ma:g}] mA (max_current_ma of the rig's file), got "
-            f"{wrong[0]:g}"
+            f"currents must lie in (0, {limit_ma:g}] mA (max_current_ma of the rig's file), got "
+            f"{refused[0]:g}"
         )
-    start_m = hand.width_m()
+    start_m = fingers.width_m()
     readings = []
     try:
         for current_ma in sorted(currents_ma):
-            hand.squeeze(current_ma)
-            set_ma = hand.unit_ma * max(1, round(current_ma / hand.unit_ma))
+            fingers.squeeze(current_ma)
+            set_ma = fingers.unit_ma * max(1, round(current_ma / fingers.unit_ma))
             readings.append(Reading(current_ma=set_ma, force_n=read_force(set_ma)))
     finally:
-        if not hand.watch.fault:
-            hand.open_to(start_m)
-    return fit_calibration(readings, hand.settings, date=date, adapter=hand.adapter, source=source)
+        if not fingers.poller.fault:
+            fingers.open_to(start_m)
+    return fit_calibration(
+        readings, fingers.settings, date=date, adapter=fingers.adapter, source=source
+    )

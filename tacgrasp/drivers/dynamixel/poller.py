@@ -1,11 +1,10 @@
-"""The one thread that talks with the gripper's servos: it polls them and runs what it is given.
+"""The one thread that talks to the gripper's servos: it polls them and runs jobs for other threads.
 
-Polling goes on whatever the rest of the program does, also while the arm moves and nobody asks for
-the gripper: a fault is noticed within a few polls, latched, and told to ``on_fault``. It also feeds
-the servos' bus watchdog.
+Polling never pauses, whatever the rest of the program does, also while the arm moves: a fault is
+detected within a few polls and latched. Polling also feeds the servos' bus watchdog.
 
-Source: the notes: two threads on a port get -1000; a sync read drops the alert bit, hence single
-reads and register 70.
+Source: our notes on the SDK: two threads on one port get error -1000; a sync read drops the alert
+bit, hence single reads and register 70.
 """
 
 from __future__ import annotations
@@ -21,26 +20,25 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from primitives.errors import RobotError
-from tacgrasp.drivers.dynamixel import registers as at
+from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.errors import BusError, Trouble
+from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
 T = TypeVar("T")
-OnFault = Callable[[str], None]
 
 CALL_S = 2.0
-"""Longest wait for the thread to do what it is given; it is busy for some 0.1 s at most."""
+"""Longest wait for a job to end [s]; the thread is busy for about 0.1 s at most."""
 
 _WATCHDOG_POLLS = 10
-_PARTS = 4
+_NUM_WAITS = 4
 
 _log = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ServoSample:
-    """One servo as it was polled; current in the model's units, signed as the position."""
+    """State of one servo at one poll; current in the model's units, signed like the position."""
 
     moving: bool
     current: int
@@ -51,58 +49,40 @@ class ServoSample:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sample:
-    """All servos as they were polled; ``number`` counts up, ``taken_s`` is monotonic."""
+class PollSample:
+    """State of all servos at one poll; ``number`` counts the polls."""
 
     number: int
-    taken_s: float
     servos: Sequence[ServoSample]
 
 
-class Watch:
+class ServoPoller:
     """The I/O thread of one gripper. Starts polling at once."""
 
     def __init__(
         self,
         bus: Bus,
         settings: DynamixelSettings,
-        on_fault: OnFault | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._bus, self._settings, self._clock = bus, settings, clock
-        self._on_fault = on_fault
         self._ids = [servo.id for servo in settings.servos]
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._changed = threading.Condition()
         self._fault = ""
-        self._sample: Sample | None = None
-        self._polls = 0
+        self._sample: PollSample | None = None
+        self._num_polls = 0
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="gripper", daemon=True)
         self._thread.start()
 
     @property
     def fault(self) -> str:
-        """Why the gripper can't be used any more; empty while it can."""
+        """The latched fault; empty while there is none."""
         return self._fault
 
-    def tell(self, on_fault: OnFault) -> None:
-        """Call this once, from the I/O thread, with a fault's reason; at once if there is one."""
-        with self._changed:
-            self._on_fault, why = on_fault, self._fault
-        if why:
-            _tell(on_fault, why)
-
-    def healthy(self) -> bool:
-        """Whether all is well, from what was polled last; costs nothing."""
-        sample = self._sample
-        if self._fault or sample is None or not self._thread.is_alive():
-            return False
-        stale_s = 0.2 + 2 * self._settings.poll_ms / 1000
-        return self._clock() - sample.taken_s < stale_s
-
     def call(self, job: Callable[[Bus], T], *, despite_fault: bool = False) -> T:
-        """Run a job on the I/O thread and return what it returns.
+        """Run a job on the I/O thread and return its result.
 
         Raises:
             RobotError: The gripper has a fault, the job failed, or the thread does not answer.
@@ -117,8 +97,8 @@ class Watch:
                 result.set_result(job(self._bus))
             except BaseException as error:
                 result.set_exception(error)
-                if isinstance(error, BusError) and error.trouble is not Trouble.REFUSED:
-                    self._latch(f"{error}")
+                if isinstance(error, BusError) and error.kind is not BusFault.REFUSED:
+                    self._latch_fault(f"{error}")
 
         if not self._thread.is_alive():
             raise RobotError(self._fault or "the gripper is disconnected")
@@ -131,16 +111,19 @@ class Watch:
                 "overloaded?"
             ) from None
 
-    def next_sample(self, after: int, timeout_s: float = CALL_S) -> Sample:
-        """The first sample with a number above ``after``.
+    def next_sample(self, after: int, timeout_s: float = CALL_S) -> PollSample:
+        """Wait for the first sample with a number above ``after``.
 
         Raises:
-            RobotError: The gripper has a fault, or none came in time.
+            RobotError: The gripper has a fault, or no sample arrived in time.
         """
         with self._changed:
-            # in parts: after a pause of the whole process the other thread must have its turn first
-            for _ in range(_PARTS):
-                if self._changed.wait_for(lambda: self._news(after), timeout_s / _PARTS):
+            # Several short waits: after a pause of the whole process the poller must run first.
+            for _ in range(_NUM_WAITS):
+                if self._changed.wait_for(
+                    lambda: self._closed or self._fault or self._num_polls > after,
+                    timeout_s / _NUM_WAITS,
+                ):
                     break
             if self._fault or self._closed:
                 raise RobotError(self._fault or "the gripper is disconnected")
@@ -150,14 +133,10 @@ class Watch:
                 )
             return self._sample
 
-    def _news(self, after: int) -> bool:
-        newer = self._sample is not None and self._sample.number > after
-        return bool(self._closed or self._fault or newer)
-
     @property
-    def num_samples(self) -> int:
+    def last_sample_number(self) -> int:
         """Number of the last sample; 0 before the first."""
-        return self._polls
+        return self._num_polls
 
     def close(self) -> None:
         """End the thread. Idempotent."""
@@ -186,79 +165,68 @@ class Watch:
 
     def _poll(self) -> None:
         try:
-            servos = [self._look_at(servo) for servo in self._ids]
+            servos = [self._poll_servo(servo) for servo in self._ids]
         except RobotError as error:
-            self._latch(f"{error}")
+            self._latch_fault(f"{error}")
             return
         except Exception as error:
             _log.exception("the gripper's polling failed")
-            self._latch(f"the gripper's driver failed: {type(error).__name__}: {error}")
+            self._latch_fault(f"the gripper's driver failed: {type(error).__name__}: {error}")
             return
         with self._changed:
-            self._polls += 1
-            self._sample = Sample(number=self._polls, taken_s=self._clock(), servos=servos)
+            self._num_polls += 1
+            self._sample = PollSample(number=self._num_polls, servos=servos)
             self._changed.notify_all()
 
-    def _look_at(self, servo: int) -> ServoSample:
-        answer = self._bus.read(servo, at.PRESENT, at.PRESENT_LENGTH)
-        error = self._bus.read_number(servo, at.HARDWARE_ERROR, 1)
-        if error or answer.alert:
-            torque = self._bus.read_number(servo, at.TORQUE, 1)
-            raise RobotError(_hardware_error(servo, error, bool(torque)))
-        sample = parsed(answer.data)
+    def _poll_servo(self, servo: int) -> ServoSample:
+        reply = self._bus.read(servo, reg.PRESENT, reg.PRESENT_LENGTH)
+        error = self._bus.read_number(servo, reg.HARDWARE_ERROR, 1)
+        if error or reply.alert:
+            torque = self._bus.read_number(servo, reg.TORQUE, 1)
+            raise RobotError(_hardware_error_message(servo, error, bool(torque)))
+        sample = parse_registers(reply.data)
         if sample.temperature_c > self._settings.max_temperature_c:
             raise RobotError(
                 f"servo {servo} of the gripper is {sample.temperature_c} °C hot, beyond "
                 f"{self._settings.max_temperature_c:g} °C; let it cool, and grip with less force "
                 "or for less time"
             )
-        if self._settings.bus_watchdog_ms and self._polls % _WATCHDOG_POLLS == 0:
-            watchdog = self._bus.read_number(servo, at.WATCHDOG, 1)
-            if watchdog == at.WATCHDOG_TRIPPED:
+        if self._settings.bus_watchdog_ms and self._num_polls % _WATCHDOG_POLLS == 0:
+            watchdog = self._bus.read_number(servo, reg.WATCHDOG, 1)
+            if watchdog == reg.WATCHDOG_TRIPPED:
                 raise RobotError(
                     f"the bus watchdog of servo {servo} has tripped: this program was stalled for "
                     f"more than {self._settings.bus_watchdog_ms} ms; start the run again"
                 )
         return sample
 
-    def _latch(self, why: str) -> None:
+    def _latch_fault(self, fault: str) -> None:
         with self._changed:
-            if self._fault:
-                return
-            self._fault, told = why, self._on_fault
+            self._fault = self._fault or fault
             self._changed.notify_all()
-        if told is not None:
-            _tell(told, why)
 
 
-def _tell(on_fault: OnFault, why: str) -> None:
-    try:
-        on_fault(why)
-    except Exception:
-        _log.exception("what was to be done about a fault of the gripper failed: %s", why)
-
-
-def parsed(data: bytes) -> ServoSample:
-    """A servo's registers from ``at.PRESENT`` on."""
+def parse_registers(data: bytes) -> ServoSample:
+    """Parse a servo's registers from ``reg.PRESENT`` on."""
 
     def number(address: int, length: int, signed: bool = True) -> int:
-        start = address - at.PRESENT
+        start = address - reg.PRESENT
         return int.from_bytes(data[start : start + length], "little", signed=signed)
 
     return ServoSample(
-        moving=bool(number(at.PRESENT, 1, signed=False)),
+        moving=bool(number(reg.PRESENT, 1, signed=False)),
         current=number(126, 2),
         velocity=number(128, 4),
-        position=number(at.PRESENT_POSITION, 4),
-        voltage_v=0.1 * number(at.VOLTAGE, 2, signed=False),
-        temperature_c=number(at.TEMPERATURE, 1, signed=False),
+        position=number(reg.PRESENT_POSITION, 4),
+        voltage_v=0.1 * number(reg.VOLTAGE, 2, signed=False),
+        temperature_c=number(reg.TEMPERATURE, 1, signed=False),
     )
 
 
-def _hardware_error(servo: int, error: int, torque: bool) -> str:
-    what = at.error_words(error) or "a hardware error that was gone when it was read"
-    held = "it still holds" if torque else "its torque is off: what was held has been let go"
+def _hardware_error_message(servo: int, error: int, torque: bool) -> str:
+    text = reg.hardware_error_text(error) or "a hardware error that was gone when it was read"
+    grip = "it still holds" if torque else "its torque is off: what was held has been let go"
     return (
-        f"servo {servo} of the gripper reports: {what} (hardware error {error:#04x}); {held}. "
+        f"servo {servo} of the gripper reports: {text} (hardware error {error:#04x}); {grip}. "
         "Remove the cause, then reboot the servo or switch its power off and on"
     )

@@ -1,7 +1,7 @@
-"""The serial port under the Dynamixel SDK: claimed for one program, waiting without spinning.
+"""The serial port under the Dynamixel SDK: claimed for one program, without busy waiting.
 
-Imports the SDK at its top: import this module where it is used. The SDK's own port may be opened by
-two programs at once, waits in a busy loop, and measures timeouts on the wall clock.
+The SDK's own port may be opened by two programs at once, waits in a busy loop, and measures
+time-outs on the wall clock. This module imports the SDK: import it inside functions only.
 """
 
 from __future__ import annotations
@@ -15,22 +15,22 @@ from tacgrasp.drivers.serial_ports import claim
 
 _READ_S = 0.002
 _WRITE_S = 1.0
-_OVERTIME = 8
+_EXTRA_CHECKS = 8
 
 
 class ClaimedPort(PortHandler):
-    """A ``PortHandler`` that no other program can have at the same time."""
+    """A ``PortHandler`` that no other program can open at the same time."""
 
-    def __init__(self, path: str, baud: int, reply_timeout_s: float, what: str) -> None:
-        """Open it.
+    def __init__(self, path: str, baud: int, reply_timeout_s: float, device: str) -> None:
+        """Open the port.
 
         Raises:
-            RobotError: Another program has it.
-            OSError: It can't be opened.
+            RobotError: Another program uses the port.
+            OSError: The port can't be opened.
         """
         super().__init__(path)
-        self._reply_timeout_ms, self._what = 1000 * reply_timeout_s, what
-        self._overtime = 0
+        self._reply_timeout_ms, self._device = 1000 * reply_timeout_s, device
+        self._num_extra_checks = 0
         if not self.setBaudRate(baud):
             raise OSError(f"the Dynamixel SDK can't set {baud} baud")
 
@@ -42,7 +42,7 @@ class ClaimedPort(PortHandler):
         )
         self.is_open = True
         try:
-            claim(self.ser.fileno(), self.port_name, self._what)
+            claim(self.ser.fileno(), self.port_name, self._device)
         except BaseException:
             self.closePort()
             raise
@@ -51,7 +51,7 @@ class ClaimedPort(PortHandler):
         return True
 
     def closePort(self) -> None:  # noqa: N802
-        """Close it; other programs may have it then. Idempotent."""
+        """Close the port and release the claim. Idempotent."""
         if self.ser is not None:
             self.ser.close()
         self.is_open = False
@@ -61,19 +61,19 @@ class ClaimedPort(PortHandler):
         return 1000 * time.monotonic()
 
     def setPacketTimeout(self, packet_length: int) -> None:  # noqa: N802
-        """Wait for an answer of so many bytes as long as the settings say."""
-        self._overtime = 0
+        """Set the wait for a reply of so many bytes, by the settings' reply time-out."""
+        self._num_extra_checks = 0
         self.setPacketTimeoutMillis(self.tx_time_per_byte * packet_length + self._reply_timeout_ms)
 
     def isPacketTimeout(self) -> bool:  # noqa: N802
-        """Whether the wait is over and nothing has come.
+        """Whether the wait has ended without a reply.
 
-        On a busy computer this thread may not have run for longer than the wait, while the answer
-        came in time: what lies there is read first, a few times at most.
+        On a busy computer this thread may pause for longer than the wait although the reply arrived
+        in time: bytes in the buffer are read first, a few times at most.
         """
         if self.getTimeSinceStart() <= self.packet_timeout:
             return False
-        if self.ser.in_waiting and self._overtime < _OVERTIME:
-            self._overtime += 1
+        if self.ser.in_waiting and self._num_extra_checks < _EXTRA_CHECKS:
+            self._num_extra_checks += 1
             return False
         return True

@@ -12,7 +12,7 @@ MAX_VOLTAGE, MIN_VOLTAGE, CURRENT_LIMIT, SHUTDOWN = 32, 34, 38, 63
 TORQUE, STATUS_RETURN, HARDWARE_ERROR, WATCHDOG = 64, 68, 70, 98
 GOAL_CURRENT, GOAL_POSITION = 102, 116
 PRESENT, PRESENT_LENGTH = 122, 25
-"""Moving to temperature, without a gap: what is polled in one read."""
+"""First register and length of the block polled in one read: from moving to temperature."""
 PRESENT_POSITION = 132
 VOLTAGE, TEMPERATURE = 144, 146
 
@@ -23,14 +23,14 @@ WATCHDOG_FIRMWARE = 38
 """First firmware with a bus watchdog."""
 
 TIME_BASED, TORQUE_BY_GOAL = 0x04, 0x08
-"""Bits of the drive mode that would change what our goals mean."""
+"""Bits of the drive mode that would change the meaning of our goals."""
 
 VELOCITY_TICKS_S = 0.229 / 60 * 4096
 """One unit of velocity, 0.229 rev/min [ticks/s]."""
 
 HEAT, SHOCK, OVERLOAD = 0x04, 0x10, 0x20
 NEEDED_SHUTDOWN = HEAT | SHOCK | OVERLOAD
-"""Errors at which a servo must let go by itself, so that it isn't destroyed."""
+"""Errors at which a servo must switch its torque off by itself, or it is destroyed."""
 
 HARDWARE_ERRORS = {
     0x01: "input voltage out of its limits",
@@ -42,12 +42,12 @@ HARDWARE_ERRORS = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Model:
+class ServoModel:
     """A servo with current-based position control.
 
     Attributes:
-        number: What it answers to a ping.
-        unit_ma: One unit of current [mA].
+        number: Model number in the reply to a ping.
+        unit_ma: Current of one register unit [mA].
     """
 
     number: int
@@ -55,32 +55,31 @@ class Model:
 
 
 MODELS = {
-    "XM430-W350": Model(number=1020, unit_ma=2.69),
-    "XM430-W210": Model(number=1030, unit_ma=2.69),
-    "XM540-W270": Model(number=1120, unit_ma=2.69),
-    "XM540-W150": Model(number=1130, unit_ma=2.69),
-    "XH430-W350": Model(number=1000, unit_ma=2.69),
-    "XH430-W210": Model(number=1010, unit_ma=2.69),
-    "XC330-T181": Model(number=1210, unit_ma=1.0),
-    "XC330-T288": Model(number=1220, unit_ma=1.0),
-    "XC330-M181": Model(number=1230, unit_ma=1.0),
-    "XC330-M288": Model(number=1240, unit_ma=1.0),
+    "XM430-W350": ServoModel(number=1020, unit_ma=2.69),
+    "XM430-W210": ServoModel(number=1030, unit_ma=2.69),
+    "XM540-W270": ServoModel(number=1120, unit_ma=2.69),
+    "XM540-W150": ServoModel(number=1130, unit_ma=2.69),
+    "XH430-W350": ServoModel(number=1000, unit_ma=2.69),
+    "XH430-W210": ServoModel(number=1010, unit_ma=2.69),
+    "XC330-T181": ServoModel(number=1210, unit_ma=1.0),
+    "XC330-T288": ServoModel(number=1220, unit_ma=1.0),
+    "XC330-M181": ServoModel(number=1230, unit_ma=1.0),
+    "XC330-M288": ServoModel(number=1240, unit_ma=1.0),
 }
 
 WITHOUT_CURRENT = {1060: "XL430-W250", 1070: "XC430-W150", 1080: "XC430-W240"}
-"""Models whose register 126 is load, not current: they can't hold a force."""
+"""Models whose register 126 is load, not current. They can't hold a force."""
 
 
 def model_name(number: int) -> str:
-    """Name of a model number; the number itself when it is not known."""
+    """Name of a model number; the number itself for an unknown model."""
     names = {model.number: name for name, model in MODELS.items()} | WITHOUT_CURRENT
     return names.get(number, f"model number {number}")
 
 
-def error_words(bits: int) -> str:
-    """What a hardware error status says."""
-    words = [text for bit, text in HARDWARE_ERRORS.items() if bits & bit]
-    unknown = bits & ~sum(HARDWARE_ERRORS)
-    if unknown:
-        words.append(f"unknown bits {unknown:#04x}")
-    return ", ".join(words)
+def hardware_error_text(bits: int) -> str:
+    """Meaning of a hardware error status; empty for none."""
+    texts = [text for bit, text in HARDWARE_ERRORS.items() if bits & bit]
+    if unknown := bits & ~sum(HARDWARE_ERRORS):
+        texts.append(f"unknown bits {unknown:#04x}")
+    return ", ".join(texts)

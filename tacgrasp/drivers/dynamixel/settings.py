@@ -1,7 +1,7 @@
-"""What a rig's file says about a Dynamixel gripper.
+"""Settings of a Dynamixel gripper: the section ``hardware.gripper`` of a rig's file.
 
-Not here: force over current, which is measured (``gripper_calibration``), and the limits of force
-that a task is held to (``tacgrasp.config.schema.GripperConfig``).
+Not here: force over current, which is measured (``calibration``), and the limits of force of a task
+(``tacgrasp.config.schema.GripperConfig``).
 """
 
 from __future__ import annotations
@@ -10,20 +10,20 @@ from pathlib import Path
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, Section
+from tacgrasp.base.settings import Number, SettingsBase
 from tacgrasp.drivers.dynamixel.registers import MODELS, WATCHDOG_UNIT_S
 
 BAUDS = (9600, 57600, 115200, 1_000_000, 2_000_000, 3_000_000, 4_000_000)
 
 
-class ServoSettings(Section):
+class ServoSettings(SettingsBase):
     """One servo of the gripper.
 
     Attributes:
-        id: On the bus.
-        open_ticks: Its position with the fingers open, at ``open_width_mm``.
-        closed_ticks: Its position with the fingers closed, at ``closed_width_mm``; a servo that is
-            mounted the other way round has them the other way round.
+        id: Id on the bus.
+        open_ticks: Position with the fingers open, at ``open_width_mm``.
+        closed_ticks: Position with the fingers closed, at ``closed_width_mm``; below ``open_ticks``
+            or above it, according to the servo's mounting.
     """
 
     id: int = Field(ge=0, le=252, strict=True)
@@ -40,35 +40,35 @@ class ServoSettings(Section):
         return self
 
 
-class DynamixelSettings(Section):
+class DynamixelSettings(SettingsBase):
     """A gripper of one or two Dynamixel servos under current-based position control.
 
-    Ticks and width go together linearly. Of two servos each moves its own finger by half of the
-    width; they get the same current.
+    Opening and ticks are linear to each other. With two servos, each moves its own finger by half
+    of the opening, and both get the same current.
 
     Attributes:
         port: Serial port: a path, a name under /dev/serial/by-id, or the adapter's serial number.
-        baud: [bit/s].
-        unit: What you call this gripper; a calibration of another one is refused.
-        model: Of the servos.
-        servos: One or two.
+        baud: Baud rate [bit/s].
+        unit: Name of this gripper; a calibration of another unit is refused.
+        model: Model of the servos.
+        servos: One or two servos.
         open_width_mm: Opening between the fingers at ``open_ticks`` [mm].
-        closed_width_mm: At ``closed_ticks`` [mm].
-        speed_mm_s: Of the fingers, opening and closing [mm/s].
-        open_current_ma: Current with which they open [mA].
-        max_current_ma: Hard limit of every current that is sent [mA].
-        max_temperature_c: At which a run ends, below the servo's own limit [°C].
+        closed_width_mm: Opening between the fingers at ``closed_ticks`` [mm].
+        speed_mm_s: Speed of opening and closing [mm/s].
+        open_current_ma: Current for opening [mA].
+        max_current_ma: Hard limit of every commanded current [mA].
+        max_temperature_c: Temperature above which a run ends; below the servo's own limit [°C].
         calibration: File with force over current; relative to the rig's file.
-        max_calibration_age_days: Older ones are refused.
-        bus_watchdog_ms: Silence after which the servo stops taking goals [ms]; 0 turns it off.
-        poll_ms: How often the servos are looked at [ms].
-        reply_timeout_ms: Longest wait for an answer [ms].
-        patience_ms: Silence of a servo that is put up with while the arm stands [ms]; while it
-            moves, two answers that do not come are a fault.
-        drain_ms: How long stray answers are thrown away after one did not come [ms].
-        settle_polls: So many times in a row the fingers must be at rest.
+        max_calibration_age_days: Largest age of the calibration [days].
+        bus_watchdog_ms: Silence after which the servo refuses goals [ms]; 0 turns it off.
+        poll_ms: Period of polling [ms].
+        reply_timeout_ms: Longest wait for a reply [ms].
+        patience_ms: Longest silence of a servo that is waited out while the arm stands still [ms];
+            while the arm moves, two missing replies are a fault.
+        drain_ms: Time for which stray bytes are discarded after a missing reply [ms].
+        settle_polls: Number of polls in a row in which resting fingers must be at rest.
         settle_timeout_s: Longest closing or opening [s].
-        max_skew_mm: How far two fingers may differ when they have come to rest [mm].
+        max_skew_mm: Largest difference between two fingers at rest [mm].
     """
 
     port: str = Field(min_length=1)

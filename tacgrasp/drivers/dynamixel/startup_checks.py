@@ -1,72 +1,78 @@
-"""What is looked at before a gripper's servos may move; nothing is written to them here.
+"""Checks of a gripper's servos before they may move; nothing is written to the servos here.
 
-The same findings refuse a start and are printed by ``tacgrasp doctor``.
+A failed check refuses the start; ``tacgrasp doctor`` prints all of them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 from tacgrasp.drivers.check import Finding
-from tacgrasp.drivers.dynamixel import registers as at
+from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.errors import BusError, Trouble
+from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
 from tacgrasp.drivers.dynamixel.settings import BAUDS, DynamixelSettings, ServoSettings
 
 WIZARD = "with the DYNAMIXEL Wizard"
-_MARGIN_SHARE = 0.1  # of the travel, that a servo may stand outside of it
+_MARGIN_FRACTION = 0.1  # of the travel; a servo may stand so far outside of it
 
 
-def start_findings(bus: Bus, settings: DynamixelSettings) -> Sequence[Finding]:
-    """Look at every servo; a servo that is missing or of another kind is not asked further."""
+class _Check(NamedTuple):
+    """Result of one check; the advice is used when ``ok`` is False."""
+
+    name: str
+    ok: bool
+    detail: str
+    advice: str
+
+
+def startup_findings(bus: Bus, settings: DynamixelSettings) -> Sequence[Finding]:
+    """Check every servo; a servo that is missing or of another model gets no further checks."""
     findings: list[Finding] = []
     for servo in settings.servos:
-        found = _who(bus, settings, servo)
-        findings.append(found)
-        if found.ok:
-            findings += [look(bus, settings, servo) for look in _LOOKS]
+        model = _model(bus, settings, servo)
+        findings.append(_finding(servo, model))
+        if model.ok:
+            findings += [_finding(servo, check(bus, settings, servo)) for check in _CHECKS]
     return findings
 
 
-def _finding(
-    servo: ServoSettings, name: str, ok: bool, found: str, advice: Callable[[], str] | str
-) -> Finding:
-    told = "" if ok else advice if isinstance(advice, str) else advice()
+def _finding(servo: ServoSettings, check: _Check) -> Finding:
     return Finding(
-        device="gripper", name=f"servo {servo.id} {name}", ok=ok, found=found, advice=told
+        device="gripper",
+        name=f"servo {servo.id} {check.name}",
+        ok=check.ok,
+        detail=check.detail,
+        advice="" if check.ok else check.advice,
     )
 
 
-def _who(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
+def _model(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     try:
         number = bus.ping(servo.id)
     except BusError as error:
-        if error.trouble is Trouble.LOST:
+        if error.kind is BusFault.LOST:
             raise
-        return _finding(
-            servo,
-            "model",
-            False,
-            f"expected {settings.model} at id {servo.id}, {settings.baud} baud; {error}",
-            lambda: _elsewhere(bus, settings, servo),
-        )
-    wanted = at.MODELS[settings.model].number
-    if number in at.WITHOUT_CURRENT:
+        detail = f"expected {settings.model} at id {servo.id}, {settings.baud} baud; {error}"
+        return _Check("model", False, detail, _search_other_bauds(bus, settings, servo))
+    expected = reg.MODELS[settings.model].number
+    if number in reg.WITHOUT_CURRENT:
         advice = (
             "this model has no current control and can't hold a force; use one of "
-            + ", ".join(sorted(at.MODELS))
+            + ", ".join(sorted(reg.MODELS))
         )
     else:
         advice = "give the rig's file the right model and id, or mount the right servo"
-    found = at.model_name(number)
-    if number != wanted:
-        found += f", expected {settings.model}"
-    return _finding(servo, "model", number == wanted, found, advice)
+    detail = reg.model_name(number)
+    if number != expected:
+        detail += f", expected {settings.model}"
+    return _Check("model", number == expected, detail, advice)
 
 
-def _elsewhere(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> str:
-    """Whether the servo answers at another baud rate; asked quickly, since there are many."""
-    bus.hurried = lambda: True
+def _search_other_bauds(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> str:
+    """Advice for a silent servo: ping it at the other baud rates, without patience for each."""
+    bus.arm_is_moving = lambda: True
     for baud in BAUDS:
         if baud == settings.baud:
             continue
@@ -74,7 +80,7 @@ def _elsewhere(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> s
             bus.open(baud)
             bus.ping(servo.id)
         except BusError as error:
-            if error.trouble is Trouble.LOST:
+            if error.kind is BusFault.LOST:
                 raise
             continue
         finally:
@@ -86,121 +92,94 @@ def _elsewhere(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> s
     )
 
 
-def _firmware(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    version = bus.read_number(servo.id, at.FIRMWARE, 1)
-    return _finding(
-        servo,
+def _firmware(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    version = bus.read_number(servo.id, reg.FIRMWARE, 1)
+    return _Check(
         "firmware",
-        version >= at.WATCHDOG_FIRMWARE,
-        f"version {version}, {at.WATCHDOG_FIRMWARE} or later is needed for the bus watchdog",
+        version >= reg.WATCHDOG_FIRMWARE,
+        f"version {version}, {reg.WATCHDOG_FIRMWARE} or later is needed for the bus watchdog",
         f"update it {WIZARD}",
     )
 
 
-def _mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    mode = bus.read_number(servo.id, at.OPERATING_MODE, 1)
-    return _finding(
-        servo,
+def _mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    mode, expected = bus.read_number(servo.id, reg.OPERATING_MODE, 1), reg.CURRENT_BASED_POSITION
+    return _Check(
         "operating mode",
-        mode == at.CURRENT_BASED_POSITION,
-        f"{mode}, expected {at.CURRENT_BASED_POSITION} (current-based position)",
-        f"set register {at.OPERATING_MODE} to {at.CURRENT_BASED_POSITION} {WIZARD}, torque off",
+        mode == expected,
+        f"{mode}, expected {expected} (current-based position)",
+        f"set register {reg.OPERATING_MODE} to {expected} {WIZARD}, torque off",
     )
 
 
-def _drive_mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    mode = bus.read_number(servo.id, at.DRIVE_MODE, 1)
-    wrong = mode & (at.TIME_BASED | at.TORQUE_BY_GOAL)
-    return _finding(
-        servo,
+def _drive_mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    mode = bus.read_number(servo.id, reg.DRIVE_MODE, 1)
+    wrong_bits = mode & (reg.TIME_BASED | reg.TORQUE_BY_GOAL)
+    return _Check(
         "drive mode",
-        not wrong,
+        not wrong_bits,
         f"{mode:#04x}, expected a velocity-based profile and no torque-on by goal (bits 2, 3 off)",
-        f"set register {at.DRIVE_MODE} to {mode & ~wrong} {WIZARD}, torque off",
+        f"set register {reg.DRIVE_MODE} to {mode & ~wrong_bits} {WIZARD}, torque off",
     )
 
 
-def _answers(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    level = bus.read_number(servo.id, at.STATUS_RETURN, 1)
-    return _finding(
-        servo,
-        "status return level",
-        level == 2,
-        f"{level}, expected 2 (every instruction is answered)",
-        f"set register {at.STATUS_RETURN} to 2 {WIZARD}",
-    )
+def _status_return(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    level = bus.read_number(servo.id, reg.STATUS_RETURN, 1)
+    detail = f"{level}, expected 2 (every instruction is answered)"
+    advice = f"set register {reg.STATUS_RETURN} to 2 {WIZARD}"
+    return _Check("status return level", level == 2, detail, advice)
 
 
-def _shutdown(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    mask = bus.read_number(servo.id, at.SHUTDOWN, 1)
-    missing = at.NEEDED_SHUTDOWN & ~mask
-    found = f"{mask:#04x}"
+def _shutdown(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    mask = bus.read_number(servo.id, reg.SHUTDOWN, 1)
+    missing = reg.NEEDED_SHUTDOWN & ~mask
+    detail = f"{mask:#04x}"
     if missing:
-        found += f", it would not let go when {at.error_words(missing)}"
-    return _finding(
-        servo,
-        "shutdown mask",
-        not missing,
-        found,
-        f"set register {at.SHUTDOWN} to {mask | missing} {WIZARD}, torque off",
-    )
+        detail += f", it would not let go when {reg.hardware_error_text(missing)}"
+    advice = f"set register {reg.SHUTDOWN} to {mask | missing} {WIZARD}, torque off"
+    return _Check("shutdown mask", not missing, detail, advice)
 
 
-def _current_limit(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    unit_ma = at.MODELS[settings.model].unit_ma
-    limit_ma = bus.read_number(servo.id, at.CURRENT_LIMIT, 2) * unit_ma
-    return _finding(
-        servo,
+def _current_limit(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    unit_ma = reg.MODELS[settings.model].unit_ma
+    limit_ma = bus.read_number(servo.id, reg.CURRENT_LIMIT, 2) * unit_ma
+    return _Check(
         "current limit",
         limit_ma >= settings.max_current_ma,
         f"{limit_ma:.0f} mA, max_current_ma is {settings.max_current_ma:.0f}",
-        f"lower max_current_ma in the rig's file, or raise register {at.CURRENT_LIMIT} {WIZARD}",
+        f"lower max_current_ma in the rig's file, or raise register {reg.CURRENT_LIMIT} {WIZARD}",
     )
 
 
-def _hardware_error(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    error = bus.read_number(servo.id, at.HARDWARE_ERROR, 1)
-    return _finding(
-        servo,
-        "hardware error",
-        error == 0,
-        at.error_words(error) or "none",
-        "remove the cause, then reboot the servo or switch its power off and on",
-    )
+def _hardware_error(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    error = bus.read_number(servo.id, reg.HARDWARE_ERROR, 1)
+    advice = "remove the cause, then reboot the servo or switch its power off and on"
+    return _Check("hardware error", error == 0, reg.hardware_error_text(error) or "none", advice)
 
 
-def _voltage(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
+def _voltage(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     volts, low, high = (
         0.1 * bus.read_number(servo.id, address, 2)
-        for address in (at.VOLTAGE, at.MIN_VOLTAGE, at.MAX_VOLTAGE)
+        for address in (reg.VOLTAGE, reg.MIN_VOLTAGE, reg.MAX_VOLTAGE)
     )
-    return _finding(
-        servo,
-        "voltage",
-        low <= volts <= high,
-        f"{volts:.1f} V, allowed {low:.1f} to {high:.1f} V",
-        "check the power supply, its cable and its rating",
-    )
+    detail = f"{volts:.1f} V, allowed {low:.1f} to {high:.1f} V"
+    advice = "check the power supply, its cable and its rating"
+    return _Check("voltage", low <= volts <= high, detail, advice)
 
 
-def _temperature(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    celsius = bus.read_number(servo.id, at.TEMPERATURE, 1)
-    return _finding(
-        servo,
-        "temperature",
-        celsius <= settings.max_temperature_c,
-        f"{celsius} °C, at most {settings.max_temperature_c:g} °C",
-        "let it cool; if it is cold to the touch, its sensor is broken",
-    )
+def _temperature(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    celsius, limit_c = bus.read_number(servo.id, reg.TEMPERATURE, 1), settings.max_temperature_c
+    detail = f"{celsius} °C, at most {limit_c:g} °C"
+    advice = "let it cool; if it is cold to the touch, its sensor is broken"
+    return _Check("temperature", celsius <= limit_c, detail, advice)
 
 
-def _position(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Finding:
-    """Mode 5 counts turns and ignores position limits; a reboot forgets the turns."""
-    ticks = bus.read_number(servo.id, at.PRESENT_POSITION, 4, signed=True)
+def _position(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+    """The position must lie in the travel: mode 5 ignores limits, and a reboot loses the turns."""
+    ticks = bus.read_number(servo.id, reg.PRESENT_POSITION, 4, signed=True)
     low, high = sorted((servo.open_ticks, servo.closed_ticks))
-    margin = round(_MARGIN_SHARE * (high - low))
-    return _finding(
-        servo,
+    margin = round(_MARGIN_FRACTION * (high - low))
+    return _Check(
         "position",
         low - margin <= ticks <= high + margin,
         f"{ticks} ticks, its travel is {low} to {high}",
@@ -209,11 +188,11 @@ def _position(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Fi
     )
 
 
-_LOOKS: Sequence[Callable[[Bus, DynamixelSettings, ServoSettings], Finding]] = (
+_CHECKS: Sequence[Callable[[Bus, DynamixelSettings, ServoSettings], _Check]] = (
     _firmware,
     _mode,
     _drive_mode,
-    _answers,
+    _status_return,
     _shutdown,
     _current_limit,
     _hardware_error,

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""Driver of a GelSight Mini: its camera or a recording, the capture thread, its background image.
+
+Not here: frames to heights (``cltp.sensing.photometric``), learning a unit's calibration
+(``tacgrasp calibrate gelsight-mini``).
+"""

@@ -1,9 +1,8 @@
-"""The untouched gel of one unit: averaged, kept with its date, refused when it no longer serves.
+"""The untouched gel of one unit: averaged, saved with its date, refused when it is out of date.
 
 A background is a PNG that any viewer shows; unit, date and number of frames are in its text.
 
-Not here: taking the frames (``gelsight_mini``), what a background is for
-(``cltp.sensing.photometric``).
+Not here: taking the frames (``connect``), the use of a background (``cltp.sensing.photometric``).
 """
 
 from __future__ import annotations
@@ -29,14 +28,14 @@ _KEY = "tacgrasp_background"
 BLUR_PX = 2.0
 
 UNTOUCHED_LEVELS = 6.0
-"""Change (blurred) that a pixel of an untouched gel stays below. Our choice: 0.7 levels where the
-frames that we have are untouched, 30 under the faintest press."""
+"""Largest (blurred) change of a pixel of an untouched gel. Our choice: in our recorded frames, 0.7
+levels where untouched, 30 under the faintest press."""
 
-UNTOUCHED_SHARE = 0.01
-"""Share of pixels that may change more: dust."""
+UNTOUCHED_FRACTION = 0.01
+"""Fraction of pixels that may change more, because of dust."""
 
-LIGHT_SHARE = 0.5
-"""From this share on it is the light or the wrong background; below, something at one place."""
+LIGHT_FRACTION = 0.5
+"""Fraction of changed pixels that means another light or a wrong background; fewer: an object."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,9 +44,9 @@ class Background:
 
     Attributes:
         frame: (rows, columns, 3) uint8.
-        unit: Whose it is; empty when the image doesn't say.
-        taken: When, with its time zone; None when the image doesn't say.
-        num_frames: Averaged; 0 when the image doesn't say.
+        unit: Name of the unit; empty if the image has no record.
+        taken: Date and time, with the time zone; None if the image has no record.
+        num_frames: Number of averaged frames; 0 if the image has no record.
     """
 
     frame: Frame
@@ -56,53 +55,53 @@ class Background:
     num_frames: int
 
     def age_h(self, now: datetime.datetime) -> float | None:
-        """Hours since it was taken; None when that isn't known."""
+        """Hours since it was taken; None if unknown."""
         return None if self.taken is None else (now - self.taken).total_seconds() / 3600
 
 
 def average_frames(
     frames: Sequence[Frame], sensor: SensorSpec, unit: str, taken: datetime.datetime
 ) -> Background:
-    """One background out of several frames.
+    """Average several frames into one background.
 
     Raises:
-        TouchError: Fewer than two frames, one is no frame of the sensor, or they differ among
-            themselves: something moves, or the light changes.
+        TouchError: Fewer than two frames, a frame of another sensor, or frames that differ from
+            each other: something moves, or the light changes.
     """
     if len(frames) < 2:
         raise TouchError(f"a background is averaged from 2 frames or more, got {len(frames)}")
     stack = np.stack([check_frame(frame, sensor) for frame in frames]).astype(np.float32)
     half = len(stack) // 2
-    moved = changed(stack[half:].mean(0), stack[:half].mean(0))
-    share = float((moved > UNTOUCHED_LEVELS / 2).mean())
-    if share > UNTOUCHED_SHARE:
+    change = pixel_change(stack[half:].mean(0), stack[:half].mean(0))
+    fraction = float((change > UNTOUCHED_LEVELS / 2).mean())
+    if fraction > UNTOUCHED_FRACTION:
         raise TouchError(
-            f"{share:.0%} of the picture changed while the background was taken; expected a still "
-            "one: let nothing touch the gel, and let the LEDs warm up for a minute"
+            f"{fraction:.0%} of the picture changed while the background was taken; expected a "
+            "still one: let nothing touch the gel, and let the LEDs warm up for a minute"
         )
     frame = np.rint(stack.mean(axis=0)).astype(np.uint8)
     return Background(frame=frame, unit=unit, taken=taken, num_frames=len(frames))
 
 
-def changed(frame: NDArray[np.number], other: NDArray[np.number]) -> NDArray[np.float32]:
-    """How much each pixel differs, (rows, columns), in levels: noise blurred away, worst colour."""
+def pixel_change(frame: NDArray[np.number], other: NDArray[np.number]) -> NDArray[np.float32]:
+    """Change of each pixel, (rows, columns), in levels: blurred, largest of the colours."""
     change = frame.astype(np.float32) - other.astype(np.float32)
     blurred = ndimage.gaussian_filter(change, (BLUR_PX, BLUR_PX, 0))
     return np.asarray(np.abs(blurred).max(axis=2), dtype=np.float32)
 
 
 def mismatch(frame: Frame, background: Frame) -> str:
-    """Why a frame is not the untouched gel of a background; empty when it is."""
-    share = float((changed(frame, background) > UNTOUCHED_LEVELS).mean())
-    if share > LIGHT_SHARE:
+    """Reason why a frame differs from the untouched gel of a background; empty for none."""
+    fraction = float((pixel_change(frame, background) > UNTOUCHED_LEVELS).mean())
+    if fraction > LIGHT_FRACTION:
         return (
-            f"stale background: {share:.0%} of the picture differs from it by more than "
+            f"stale background: {fraction:.0%} of the picture differs from it by more than "
             f"{UNTOUCHED_LEVELS:g} levels although nothing touches; another unit, another gel or "
             "another light: take a new one: tacgrasp calibrate background"
         )
-    if share > UNTOUCHED_SHARE:
+    if fraction > UNTOUCHED_FRACTION:
         return (
-            f"{share:.0%} of the picture differs from the background by more than "
+            f"{fraction:.0%} of the picture differs from the background by more than "
             f"{UNTOUCHED_LEVELS:g} levels although nothing should touch: free the gel and clean "
             "it; if it is free, the background is stale or the gel is damaged: take a new one"
         )
@@ -113,7 +112,7 @@ def save_background(path: Path, background: Background) -> None:
     """Write a background, whole or not at all.
 
     Raises:
-        TouchError: It has no date, or the file isn't to be a .png.
+        TouchError: The background has no date, or the file's name does not end in .png.
         OSError: The file can't be written.
     """
     from PIL import Image
@@ -142,26 +141,26 @@ def load_background(
     now: datetime.datetime,
     dated: bool,
 ) -> Background:
-    """Read a background and refuse one that can't serve.
+    """Read a background, and refuse a wrong or old one.
 
     Args:
         path: A file of ``save_background``; or, unless ``dated``, any image.
-        sensor: Whose frame it must be.
-        unit: Whose it must be, where it says so.
-        max_age_h: Oldest that is taken, where it says its age [h].
-        now: With its time zone.
-        dated: Whether it must say unit and date: for a camera, not for a recording.
+        sensor: Expected sensor of the frame.
+        unit: Expected unit, if ``dated``.
+        max_age_h: Largest age, if ``dated`` [h].
+        now: Present time, with the time zone.
+        dated: Whether a record with unit and date is required: for a camera, not for a recording.
 
     Raises:
-        TouchError: Missing, no frame of this sensor, another unit's, too old, from the future, or
-            without the record that it must have.
+        TouchError: The file is missing, no frame of this sensor, of another unit, too old, from the
+            future, or without a required record.
     """
     if not path.is_file():
         raise TouchError(
             f"no background {path}: free the gel and take one: tacgrasp calibrate background"
         )
     frame = read_frame(path, sensor)
-    background = _recorded(path, frame)
+    background = _with_record(path, frame)
     if background.taken is None:
         if dated:
             raise TouchError(
@@ -185,8 +184,8 @@ def load_background(
     return background
 
 
-def _recorded(path: Path, frame: Frame) -> Background:
-    """What the image's text says of it."""
+def _with_record(path: Path, frame: Frame) -> Background:
+    """Background from an image and the record in its text."""
     from PIL import Image
 
     with Image.open(path) as image:

@@ -1,8 +1,8 @@
-"""Where a GelSight Mini's frames come from: its camera, a video file, a folder of images.
+"""Sources of a GelSight Mini's frames: its camera, a video file, a folder of images.
 
-Each source gives one frame after another, in red, green and blue, as large as the sensor's map.
+Each source gives one frame after another, in red, green and blue, of the size of the sensor's map.
 
-Not here: threads and freshness (``gelsight_mini``), frames to heights
+Not here: the capture thread and freshness (``capture_thread``), frames to heights
 (``cltp.sensing.photometric``).
 """
 
@@ -20,76 +20,66 @@ from cltp.errors import TouchError
 from cltp.sensing.frames import DARK_LEVEL, FRAME_SUFFIXES, Frame, read_frame
 from cltp.sensing.touch_files import ASPECT_TOLERANCE
 from cltp.tactile.sensors import SensorSpec
-from tacgrasp.drivers.gelsight.frame_folder import BACKGROUND, counted
+from tacgrasp.drivers.frame_folder import BACKGROUND, ended_message, list_recorded
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 
-BRIGHT_LEVEL, BRIGHT_SHARE = 250, 0.3
-"""A frame with more than this share of pixels at the end of a channel is over-exposed. Our choice:
-the frames that we have show none."""
+BRIGHT_LEVEL, BRIGHT_FRACTION = 250, 0.3
+"""A frame with more than this fraction of pixels at the end of a channel is over-exposed. Our
+choice: our recorded frames have none."""
 
 BY_ID = Path("/dev/v4l/by-id")
 
-_MISSED = 3  # failed reads in a row until a camera counts as lost; one can be a damaged transfer
+_NUM_READS = 3  # failed reads in a row that mean a lost camera; one can be a damaged transfer
 
 
 class FrameSource(Protocol):
-    """Gives frames, from one thread."""
+    """Gives frames to one thread."""
 
     def next_frame(self) -> Frame:
         """Wait for the next frame, (rows, columns, 3) uint8.
 
         Raises:
-            TouchError: The camera is lost, the recording has ended, or it is no frame.
+            TouchError: The camera is lost, the recording has ended, or the image is no frame.
         """
         ...
 
     def close(self) -> None:
-        """Free what it holds. Idempotent."""
+        """Release the camera or file. Idempotent."""
         ...
 
 
-class Capture(Protocol):
-    """As much of ``cv2.VideoCapture`` as is used."""
+class VideoCapture(Protocol):
+    """The used part of ``cv2.VideoCapture``."""
 
     def isOpened(self) -> bool:  # noqa: N802 - OpenCV's name
-        """Whether it can be read."""
         ...
 
     def read(self) -> tuple[bool, NDArray[Any] | None]:
-        """Next frame in blue, green, red; False without one."""
+        """Success, and the next frame in blue, green, red."""
         ...
 
-    def release(self) -> None:
-        """Close it."""
-        ...
+    def release(self) -> None: ...
 
 
-def open_camera(device: int | str) -> Capture:
-    """The camera of an index or a path, not buffering more than it must."""
+def open_camera(device: int | str) -> VideoCapture:
+    """Open the camera of an index or a path, with the shortest buffer."""
     import cv2
 
     backend = cv2.CAP_V4L2 if sys.platform == "linux" else cv2.CAP_ANY
-    where = device if isinstance(device, int) else str(Path(device).resolve())
-    capture = cv2.VideoCapture(where, backend)
+    source = device if isinstance(device, int) else str(Path(device).resolve())
+    capture = cv2.VideoCapture(source, backend)
     capture.set(cv2.CAP_PROP_BUFFERSIZE, 1)
     return capture
-
-
-def open_video(path: Path) -> Capture:
-    """A video file."""
-    import cv2
-
-    return cv2.VideoCapture(str(path))
 
 
 class CameraSource:
     """A camera.
 
     Args:
-        device: Its path or index.
-        sensor: Whose map the frames are to fill.
-        crop_share: Cut off on each side of larger frames.
-        opener: Opens it.
+        device: Path or index of the camera.
+        sensor: Sensor whose map the frames fill.
+        crop_share: Fraction cut off on each side of larger frames.
+        opener: Opens the camera.
 
     Raises:
         TouchError: There is no such camera, or it can't be opened.
@@ -100,33 +90,32 @@ class CameraSource:
         device: int | str,
         sensor: SensorSpec,
         crop_share: float,
-        opener: Callable[[int | str], Capture] = open_camera,
+        opener: Callable[[int | str], VideoCapture] = open_camera,
     ) -> None:
         self._device, self._sensor, self._crop_share = device, sensor, crop_share
         if isinstance(device, str) and not Path(device).exists():
-            raise TouchError(f"no camera {device}: is it plugged in? {_cameras()}")
+            raise TouchError(f"no camera {device}: is it plugged in? {_listed_cameras()}")
         self._capture = opener(device)
         if not self._capture.isOpened():
             raise TouchError(
                 f"camera {device} can't be opened: another program has it, it is no camera, or you "
-                f"may not read it (group video). {_cameras()}"
+                f"may not read it (group video). {_listed_cameras()}"
             )
 
     def next_frame(self) -> Frame:
-        """As ``FrameSource``; a single failed read is tried again."""
-        for _ in range(_MISSED):
-            came, image = self._capture.read()
-            if came and image is not None:
-                return fitted(image[..., ::-1], self._sensor, self._crop_share)
+        """As ``FrameSource``; a failed read is repeated."""
+        for _ in range(_NUM_READS):
+            ok, image = self._capture.read()
+            if ok and image is not None:
+                return fit_to_sensor(image[..., ::-1], self._sensor, self._crop_share)
             if isinstance(self._device, str) and not Path(self._device).exists():
                 raise TouchError(f"camera {self._device} was unplugged; plug it in, start again")
         raise TouchError(
-            f"camera {self._device} gives no frames any more ({_MISSED} failed in a row): was it "
-            "unplugged? Check the cable and start again"
+            f"camera {self._device} gives no frames any more ({_NUM_READS} failed in a row): was "
+            "it unplugged? Check the cable and start again"
         )
 
     def close(self) -> None:
-        """As ``FrameSource``."""
         self._capture.release()
 
 
@@ -139,31 +128,31 @@ class VideoSource:
 
     def __init__(self, path: Path, sensor: SensorSpec, crop_share: float, repeat: bool) -> None:
         self._path, self._sensor, self._crop_share = path, sensor, crop_share
-        self._repeat, self._played = repeat, 0
+        self._repeat, self._num_played = repeat, 0
         if not path.is_file():
             raise TouchError(f"no video {path}; expected a file")
         self._capture = self._opened()
 
-    def _opened(self) -> Capture:
-        capture = open_video(self._path)
+    def _opened(self) -> VideoCapture:
+        import cv2
+
+        capture = cv2.VideoCapture(str(self._path))
         if not capture.isOpened():
             raise TouchError(f"{self._path} is not a video that can be read")
         return capture
 
     def next_frame(self) -> Frame:
-        """As ``FrameSource``."""
-        came, image = self._capture.read()
-        if not came and self._repeat and self._played:
+        ok, image = self._capture.read()
+        if not ok and self._repeat and self._num_played:
             self._capture.release()
             self._capture = self._opened()
-            came, image = self._capture.read()
-        if not came or image is None:
-            raise TouchError(ended(str(self._path), self._played))
-        self._played += 1
-        return fitted(image[..., ::-1], self._sensor, self._crop_share)
+            ok, image = self._capture.read()
+        if not ok or image is None:
+            raise TouchError(ended_message(str(self._path), self._num_played))
+        self._num_played += 1
+        return fit_to_sensor(image[..., ::-1], self._sensor, self._crop_share)
 
     def close(self) -> None:
-        """As ``FrameSource``."""
         self._capture.release()
 
 
@@ -177,25 +166,17 @@ class ImageSource:
     def __init__(self, folder: Path, sensor: SensorSpec, background: Path, repeat: bool) -> None:
         if not folder.is_dir():
             raise TouchError(f"{folder} is no folder; expected one with frames")
-        apart = {(folder / BACKGROUND).resolve(), background.resolve()}
-        self._paths = sorted(
-            (
-                path
-                for path in folder.iterdir()
-                if path.suffix.lower() in FRAME_SUFFIXES and path.resolve() not in apart
-            ),
-            key=lambda path: counted(path.name),
+        self._paths = list_recorded(
+            folder, FRAME_SUFFIXES, content="frames", excluded=[folder / BACKGROUND, background]
         )
-        if not self._paths:
-            raise TouchError(f"{folder} holds no frames; expected {', '.join(FRAME_SUFFIXES)}")
-        self._folder, self._sensor, self._repeat, self._played = folder, sensor, repeat, 0
+        self._folder, self._sensor, self._repeat, self._num_played = folder, sensor, repeat, 0
 
     def next_frame(self) -> Frame:
-        """As ``FrameSource``; images have to be as large as the map."""
-        if self._played >= len(self._paths) and not self._repeat:
-            raise TouchError(ended(str(self._folder), self._played))
-        path = self._paths[self._played % len(self._paths)]
-        self._played += 1
+        """As ``FrameSource``; images must have the size of the map."""
+        if self._num_played >= len(self._paths) and not self._repeat:
+            raise TouchError(ended_message(str(self._folder), self._num_played))
+        path = self._paths[self._num_played % len(self._paths)]
+        self._num_played += 1
         return read_frame(path, self._sensor)
 
     def close(self) -> None:
@@ -203,10 +184,10 @@ class ImageSource:
 
 
 def make_source(settings: GelSightSettings, sensor: SensorSpec) -> FrameSource:
-    """The source that the settings name.
+    """Open the source named in the settings.
 
     Raises:
-        TouchError: It isn't there, or can't be opened.
+        TouchError: It doesn't exist or can't be opened.
     """
     if settings.device is not None:
         return CameraSource(settings.device, sensor, settings.crop_share)
@@ -217,21 +198,13 @@ def make_source(settings: GelSightSettings, sensor: SensorSpec) -> FrameSource:
     raise TouchError("no source of frames; give device, video or images")
 
 
-def ended(what: str, played: int) -> str:
-    """What to tell a person when a recording is over."""
-    return (
-        f"the recording {what} has ended after {played} touches; nothing newer can be felt: give a "
-        "longer one, or repeat it"
-    )
-
-
-def fitted(image: NDArray[Any], sensor: SensorSpec, crop_share: float) -> Frame:
-    """A camera's image as a frame of the sensor: cropped and scaled, unless it is one already.
+def fit_to_sensor(image: NDArray[Any], sensor: SensorSpec, crop_share: float) -> Frame:
+    """Crop and scale a camera's image to a frame of the sensor, unless it has the size already.
 
     Args:
         image: (H, W, 3) uint8, red, green, blue.
-        sensor: Whose map it is to fill.
-        crop_share: Cut off on each side.
+        sensor: Sensor whose map the frame fills.
+        crop_share: Fraction cut off on each side.
 
     Raises:
         TouchError: Not in colour, too small, or of another aspect.
@@ -257,7 +230,7 @@ def fitted(image: NDArray[Any], sensor: SensorSpec, crop_share: float) -> Frame:
 
 
 def frame_problem(frame: Frame) -> str:
-    """Why a frame shows no gel; empty when it may."""
+    """Reason why a frame shows no gel; empty for none."""
     mean = float(frame[::4, ::4].mean())
     if mean < DARK_LEVEL:
         return (
@@ -265,14 +238,14 @@ def frame_problem(frame: Frame) -> str:
             "the cable and the exposure"
         )
     bright = float((frame[::4, ::4] >= BRIGHT_LEVEL).any(axis=2).mean())
-    if bright > BRIGHT_SHARE:
+    if bright > BRIGHT_FRACTION:
         return (
             f"{bright:.0%} of the frame is over-exposed; expected none: fix the camera's exposure, "
-            "and look whether the gel sits in its frame"
+            "and check that the gel sits in its frame"
         )
     return ""
 
 
-def _cameras() -> str:
+def _listed_cameras() -> str:
     names = sorted(path.name for path in BY_ID.iterdir()) if BY_ID.is_dir() else []
     return f"There are: {', '.join(names)}" if names else "This computer has no camera now"

@@ -1,10 +1,9 @@
-"""One thread that captures frames all the time, and counts those that are missing or frozen.
+"""A thread that captures frames continuously, and counts dropped and frozen ones.
 
-A camera that is not read keeps old frames in its buffers; so it is read all the time. Frames equal
-to the one before to the last bit are none: a camera has noise, so they are a frozen picture, and
-are never taken for a new touch.
+A camera keeps old frames in its buffers unless it is read continuously. A frame equal to its
+predecessor in every bit is a frozen picture, since a camera has noise; it is never a new frame.
 
-Not here: what becomes of frames (``gelsight_sensor``), where they come from (``gelsight_sources``).
+Not here: frames to clouds (``sensor``), the sources of frames (``cameras``).
 """
 
 from __future__ import annotations
@@ -23,18 +22,18 @@ from cltp.tactile.cloud import Stamp
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
 from tacgrasp.drivers.latest import Latest
 
-_GAPS = 50  # intervals whose median is the camera's own
-_LATE = 1.5  # times that median, and a frame has been dropped
+_NUM_GAPS = 50  # intervals for the median, the camera's own interval
+_LATE_FACTOR = 1.5  # an interval above so many medians means dropped frames
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FrameCounts:
-    """What has come since the camera was opened.
+    """Numbers of frames since the camera was opened.
 
     Attributes:
-        frames: New ones.
-        dropped: That should have come, from the gaps between those that did.
-        repeated: Equal to the one before.
+        frames: New frames.
+        dropped: Missing frames, estimated from the gaps between frames.
+        repeated: Frames equal to their predecessor.
         interval_ms: Median time between frames; NaN before the third.
     """
 
@@ -45,30 +44,30 @@ class FrameCounts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Captured:
-    """A frame.
+class CapturedFrame:
+    """A frame with its times.
 
     Attributes:
         frame: (rows, columns, 3) uint8.
-        stamp: Measured when it had arrived.
-        begun_s: Its exposure began then or later, on the monotonic clock [s].
-        problem: Why it shows no gel; empty when it may.
+        stamp: Time of arrival.
+        exposed_s: Earliest start of the exposure, on the monotonic clock [s].
+        problem: Reason why the frame shows no gel; empty for none.
     """
 
     frame: Frame
     stamp: Stamp
-    begun_s: float
+    exposed_s: float
     problem: str
 
 
-class FrameThread:
-    """Captures all the time; what it captured last is ``latest``.
+class CaptureThread:
+    """Captures frames continuously; ``latest`` holds the last one.
 
     Args:
-        opener: Opens the source; called in the thread, which alone uses it.
-        age_s: How old a frame can be when it arrives [s].
-        pace_s: Shortest time between two frames; 0 for a camera, which has its own [s].
-        stamp: Both clocks.
+        opener: Opens the source; called in the thread, which alone uses the source.
+        age_s: Largest age of a frame at its arrival [s].
+        pace_s: Shortest time between two frames; 0 for a camera, which has its own rate [s].
+        stamp: Returns both clocks.
     """
 
     def __init__(
@@ -79,16 +78,16 @@ class FrameThread:
         pace_s: float,
         stamp: Callable[[], Stamp],
     ) -> None:
-        self.latest: Latest[Captured] = Latest()
+        self.latest: Latest[CapturedFrame] = Latest()
         self._opener, self._age_s, self._pace_s, self._stamp = opener, age_s, pace_s, stamp
         self._ending = threading.Event()
-        self._gaps: deque[float] = deque(maxlen=_GAPS)
+        self._gaps: deque[float] = deque(maxlen=_NUM_GAPS)
         self._frames = self._dropped = self._repeated = 0
         self._thread = threading.Thread(target=self._run, name="gelsight mini", daemon=True)
         self._thread.start()
 
     def counts(self) -> FrameCounts:
-        """What has come so far."""
+        """Numbers of frames so far."""
         gaps = list(self._gaps)
         return FrameCounts(
             frames=self._frames,
@@ -97,40 +96,39 @@ class FrameThread:
             interval_ms=1e3 * statistics.median(gaps) if len(gaps) > 1 else float("nan"),
         )
 
-    def end(self, why: str) -> None:
-        """Capture no more. A camera that hangs keeps its thread, but nobody waits for it long."""
-        self.latest.fail(why)
+    def end(self, reason: str) -> None:
+        """End the capture. A hanging camera keeps its thread, which is waited for 1 s only."""
+        self.latest.fail(reason)
         self._ending.set()
         self._thread.join(timeout=1)
 
     def _run(self) -> None:
-        why, source = "the capture ended without a reason; this is a bug", None
+        reason, source = "the capture ended without a reason; this is a bug", None
         try:
             source = self._opener()
-            before: Captured | None = None
+            previous: CapturedFrame | None = None
             while not self._ending.is_set():
-                frame = source.next_frame()
-                before = self._take(frame, before)
+                previous = self._take(source.next_frame(), previous)
                 self._ending.wait(self._pace_s)
-            why = "it is disconnected"
+            reason = "it is disconnected"
         except TouchError as error:
-            why = str(error)
+            reason = str(error)
         finally:
-            self.latest.fail(why)
+            self.latest.fail(reason)
             if source is not None:
                 source.close()
 
-    def _take(self, frame: Frame, before: Captured | None) -> Captured:
+    def _take(self, frame: Frame, previous: CapturedFrame | None) -> CapturedFrame:
         stamp = self._stamp()
-        if before is not None and np.array_equal(frame, before.frame):
+        if previous is not None and np.array_equal(frame, previous.frame):
             self._repeated += 1
-            return before
-        if before is not None:
-            self._count_dropped(stamp.monotonic_s - before.stamp.monotonic_s)
-        captured = Captured(
+            return previous
+        if previous is not None:
+            self._count_dropped(stamp.monotonic_s - previous.stamp.monotonic_s)
+        captured = CapturedFrame(
             frame=frame,
             stamp=stamp,
-            begun_s=stamp.monotonic_s - self._age_s,
+            exposed_s=stamp.monotonic_s - self._age_s,
             problem=frame_problem(frame),
         )
         self._frames += 1
@@ -140,6 +138,6 @@ class FrameThread:
     def _count_dropped(self, gap_s: float) -> None:
         if len(self._gaps) >= 5:
             usual_s = statistics.median(self._gaps)
-            if gap_s > _LATE * usual_s:
+            if gap_s > _LATE_FACTOR * usual_s:
                 self._dropped += round(gap_s / usual_s) - 1
         self._gaps.append(gap_s)

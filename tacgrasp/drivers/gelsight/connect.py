@@ -1,6 +1,6 @@
 """Open and check the GelSight Mini of a rig's file, and take its background.
 
-Not here: reading it (``gelsight_sensor``), calibrating it (``tacgrasp calibrate gelsight-mini``).
+Not here: reading it (``sensor``), calibrating it (``tacgrasp calibrate gelsight-mini``).
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from tacgrasp.drivers.check import Finding
-from tacgrasp.drivers.gelsight.background import Background, averaged, load_background
+from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.gelsight.background import Background, average_frames, load_background
 from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
-from tacgrasp.drivers.gelsight.capture_thread import Captured, FrameThread
+from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread
 from tacgrasp.drivers.gelsight.sensor import GelSightMini
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.stamps import real_stamp
@@ -34,7 +34,7 @@ Now = Callable[[], datetime.datetime]
 
 
 def local_now() -> datetime.datetime:
-    """Date and time, with the time zone."""
+    """Present date and time, with the time zone."""
     return datetime.datetime.now().astimezone()
 
 
@@ -48,14 +48,14 @@ def connect_gelsight(
 ) -> GelSightMini:
     """Open the GelSight Mini of a rig's file and wait for its first frame.
 
-    Calibration and background are read and judged first: with a wrong one nothing is opened.
+    Calibration and background are checked first: nothing is opened with a wrong one.
 
     Raises:
-        TouchError: Calibration or background are missing, another unit's or too old; the camera or
+        TouchError: Calibration or background is missing, of another unit or too old; the camera or
             recording is missing, can't be opened, or gives no frame.
     """
     sensor = _sensor()
-    calibration, background = load_parts(settings, now())
+    calibration, background = load_unit_files(settings, now())
     photometer = Photometer(calibration.net, background.frame, sensor)
     gelsight = GelSightMini(
         settings,
@@ -73,13 +73,13 @@ def connect_gelsight(
     return gelsight
 
 
-def load_parts(
+def load_unit_files(
     settings: GelSightSettings, now: datetime.datetime
 ) -> tuple[Calibration, Background]:
-    """Calibration and background of a rig's file.
+    """Read calibration and background of a rig's file.
 
     Raises:
-        TouchError: Missing, damaged, another unit's, or, for a camera, too old.
+        TouchError: A file is missing, damaged, of another unit, or, for a camera, too old.
     """
     sensor = _sensor()
     if settings.calibration == "shipped":
@@ -112,7 +112,7 @@ def take_background(
     now: Now = local_now,
     opener: Opener = make_source,
 ) -> Background:
-    """Average frames of the gel; nothing may touch it. ``save_background`` keeps the result.
+    """Average frames of the gel, which nothing may touch, for ``save_background``.
 
     Raises:
         TouchError: The source can't be read, or the picture isn't still.
@@ -120,110 +120,108 @@ def take_background(
     sensor = _sensor()
     open_source = partial(opener, settings, sensor)
     if settings.is_camera:
-        frames = _captured(settings, open_source, num_frames, stamp)
+        frames = _camera_frames(settings, open_source, num_frames, stamp)
     else:
         source = open_source()
         try:
             frames = [source.next_frame() for _ in range(num_frames)]
         finally:
             source.close()
-    return averaged(frames, sensor, settings.unit, now())
+    return average_frames(frames, sensor, settings.unit, now())
 
 
-def _captured(
+def _camera_frames(
     settings: GelSightSettings,
     open_source: Callable[[], FrameSource],
     num_frames: int,
     stamp: Callable[[], Stamp],
 ) -> list[Frame]:
-    """Frames of a camera one after another, without its first ones."""
-    thread = FrameThread(open_source, age_s=0.0, pace_s=0.0, stamp=stamp)
+    """Successive frames of a camera, without its first ones."""
+    thread = CaptureThread(open_source, age_s=0.0, pace_s=0.0, stamp=stamp)
     frames: list[Frame] = []
-    last_s, patience_s = -np.inf, settings.connect_timeout_s
+    last_s, timeout_s = -np.inf, settings.connect_timeout_s
     try:
         for number in range(_WARM_UP + num_frames):
-            one = thread.latest.wait_for(partial(_is_after, last_s), patience_s)
-            if one is None or one.problem:
-                why = f"no frame within {patience_s:g} s" if one is None else one.problem
-                raise TouchError(f"{settings.source}: {why}; no background was taken")
-            last_s, patience_s = one.stamp.monotonic_s, settings.read_timeout_s
+            captured = thread.latest.wait_for(partial(_is_after, last_s), timeout_s)
+            if captured is None or captured.problem:
+                reason = captured.problem if captured else f"no frame within {timeout_s:g} s"
+                raise TouchError(f"{settings.source}: {reason}; no background was taken")
+            last_s, timeout_s = captured.stamp.monotonic_s, settings.read_timeout_s
             if number >= _WARM_UP:
-                frames.append(one.frame)
+                frames.append(captured.frame)
     finally:
         thread.end(f"{settings.source}: the background was taken")
     return frames
 
 
-def _is_after(time_s: float, captured: Captured) -> bool:
+def _is_after(time_s: float, captured: CapturedFrame) -> bool:
     return captured.stamp.monotonic_s > time_s
 
 
 def check(
     settings: GelSightSettings, *, now: Now = local_now, opener: Opener = make_source
 ) -> Sequence[Finding]:
-    """Look at the sensor for ``tacgrasp doctor``; nothing may touch the gel of a camera."""
+    """Check the sensor for ``tacgrasp doctor``; nothing may touch the gel of a camera."""
     try:
-        calibration, background = load_parts(settings, now())
+        calibration, background = load_unit_files(settings, now())
     except TouchError as error:
         advice = "make or name the right file; see docs/hardware.md"
         return [_finding("calibration and background", False, str(error), advice)]
-    found = [_calibrated(settings, calibration, now()), _background(background, now())]
+    findings = [
+        _calibration_finding(settings, calibration, now()),
+        _background_finding(background, now()),
+    ]
     try:
         sensor = connect_gelsight(settings, now=now, opener=opener)
     except TouchError as error:
         advice = "check cable and device; another program may have the camera"
-        return [*found, _finding("found", False, str(error), advice)]
+        return [*findings, _finding("connection", False, str(error), advice)]
     try:
-        return [*found, _finding("found", True, settings.source), *_live(sensor, settings)]
+        connection = _finding("connection", True, settings.source)
+        return [*findings, connection, _read_finding(sensor, settings)]
     finally:
         sensor.disconnect()
 
 
-def _calibrated(
+def _calibration_finding(
     settings: GelSightSettings, calibration: Calibration, now: datetime.datetime
 ) -> Finding:
-    age = f"{calibration.age_days(now.date())} days old, unit {calibration.unit}"
+    detail = f"{calibration.age_days(now.date())} days old, unit {calibration.unit}"
     if settings.calibration == "shipped":
-        age += ": not this unit's, so heights are rough; tacgrasp calibrate gelsight-mini"
-    return _finding("calibration", True, age)
+        detail += ": not this unit's, so heights are rough; tacgrasp calibrate gelsight-mini"
+    return _finding("calibration", True, detail)
 
 
-def _background(background: Background, now: datetime.datetime) -> Finding:
+def _background_finding(background: Background, now: datetime.datetime) -> Finding:
     age_h = background.age_h(now)
-    age = "no date" if age_h is None else f"{age_h:.1f} h old, {background.num_frames} frames"
-    return _finding("background", True, age)
+    detail = "no date" if age_h is None else f"{age_h:.1f} h old, {background.num_frames} frames"
+    return _finding("background", True, detail)
 
 
-def _live(sensor: GelSightMini, settings: GelSightSettings) -> list[Finding]:
-    times, reads = [], _CHECKS if settings.is_camera or settings.repeat else 1
+def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
+    durations_ms, num_reads = [], _CHECKS if settings.is_camera or settings.repeat else 1
     try:
-        for _ in range(reads):
+        for _ in range(num_reads):
             start = time.perf_counter()
             sensor.read()
-            times.append(1e3 * (time.perf_counter() - start))
+            durations_ms.append(1e3 * (time.perf_counter() - start))
         sensor.expect_untouched()
     except TouchError as error:
-        return [_finding("reads", False, str(error), "put right what it says, then look again")]
+        return _finding("reads", False, str(error), "correct the error, then check again")
     counts = sensor.counts()
-    lost = counts is not None and counts.dropped > 0.05 * counts.frames + 1
-    line = "" if counts is None else (
+    too_many_dropped = counts is not None and counts.dropped > 0.05 * counts.frames + 1
+    rate = "" if counts is None else (
         f"; {counts.frames} frames, {counts.dropped} dropped, {counts.repeated} repeated, every "
         f"{counts.interval_ms:.0f} ms"
     )  # fmt: skip
-    p50, p99 = np.percentile(times, [50, 99])
-    return [
-        _finding(
-            "fresh cloud",
-            not lost,
-            f"p50 {p50:.0f}, p99 {p99:.0f} ms{line}",
-            "plug it into a USB port of its own" if lost else "",
-        )
-    ]
+    p50, p99 = np.percentile(durations_ms, [50, 99])
+    detail = f"p50 {p50:.0f}, p99 {p99:.0f} ms{rate}"
+    advice = "plug it into a USB port of its own"
+    return _finding("fresh cloud", not too_many_dropped, detail, advice)
 
 
 def _sensor() -> SensorSpec:
     return sensor_named("gelsight_mini")
 
 
-def _finding(name: str, ok: bool, found: str, advice: str = "") -> Finding:
-    return Finding(device="sensor", name=name, ok=ok, found=found, advice=advice)
+_finding = partial(finding, "sensor")

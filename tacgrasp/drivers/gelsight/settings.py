@@ -1,4 +1,4 @@
-"""Settings of a GelSight Mini, as a rig's file gives them."""
+"""Settings of a GelSight Mini: the section ``hardware.sensor`` of a rig's file."""
 
 from __future__ import annotations
 
@@ -7,30 +7,30 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, Section
+from tacgrasp.base.settings import Number, SettingsBase
 
 
-class GelSightSettings(Section):
+class GelSightSettings(SettingsBase):
     """A GelSight Mini: its camera, or a recording of one.
 
     Attributes:
-        kind: Which driver.
-        device: The camera: its path under /dev/v4l/by-id, which stays, or its index.
-        video: A video file to play instead.
-        images: A folder of images to play instead, in counting order, without its background.png.
-        play_hz: Play at this rate, as if it were a camera; none: one image for each read [Hz].
-        repeat: Begin anew where a recording ends; otherwise its end is an error.
-        unit: What the unit is called in its calibration and background.
-        calibration: Of this unit, from ``tacgrasp calibrate gelsight-mini``; or 'shipped', which is
-            another unit's, so that heights are rough.
-        background: Frame of this unit untouched, taken with it; a recording's may be any image.
-        max_background_age_h: Older backgrounds are refused: gel and light change [h].
-        max_calibration_age_days: Older calibrations are refused [days].
-        crop_share: Cut off on each side of a frame that is larger than the sensor's map. Source:
+        kind: Name of the driver.
+        device: Camera: its path under /dev/v4l/by-id, which is stable, or its index.
+        video: Video file to play instead of a camera.
+        images: Folder of images to play instead, in counting order, without its background.png.
+        play_hz: Rate of a recording played like a camera [Hz]; None gives one image for each read.
+        repeat: Start a recording again at its end; otherwise its end is an error.
+        unit: Name of the unit in its calibration and background.
+        calibration: File of this unit from ``tacgrasp calibrate gelsight-mini``; or 'shipped',
+            which belongs to another unit, so that heights are rough.
+        background: Frame of this unit's untouched gel; for a recording, any image.
+        max_background_age_h: Largest age of a background: gel and light change [h].
+        max_calibration_age_days: Largest age of a calibration [days].
+        crop_share: Fraction cut off on each side of a frame larger than the sensor's map. Source:
             gsrobotics cuts a seventh, which gives the 0.0634 mm per pixel of the map.
-        frame_age_s: How old a camera's frame can be when it arrives: exposure and transfer [s].
+        frame_age_s: Largest age of a camera's frame at arrival: exposure and transfer [s].
         read_timeout_s: Longest wait for a frame captured after the call [s].
-        stale_s: Without a frame for so long, the camera is not alive [s].
+        stale_s: Largest time without a frame from a live camera [s].
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
@@ -53,10 +53,10 @@ class GelSightSettings(Section):
 
     @model_validator(mode="after")
     def _one_source(self) -> GelSightSettings:
-        given = [n for n in ("device", "video", "images") if getattr(self, n) is not None]
-        if len(given) != 1:
+        names = [n for n in ("device", "video", "images") if getattr(self, n) is not None]
+        if len(names) != 1:
             raise ValueError(
-                f"give one of device, video and images, got {' and '.join(given) or 'none'}"
+                f"give one of device, video and images, got {' and '.join(names) or 'none'}"
             )
         if self.device is not None and (self.play_hz is not None or self.repeat):
             raise ValueError("play_hz and repeat are for video and images, not for a device")
@@ -64,12 +64,12 @@ class GelSightSettings(Section):
 
     @property
     def is_camera(self) -> bool:
-        """Whether it is the real thing."""
+        """Whether the frames come from a camera, not from a recording."""
         return self.device is not None
 
     @property
     def source(self) -> str:
-        """What the frames come from, for messages."""
+        """Name of the frames' source, for messages."""
         if self.device is not None:
             return f"camera {self.device}"
         return f"video {self.video}" if self.video is not None else f"images in {self.images}"

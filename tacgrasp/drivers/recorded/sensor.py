@@ -1,8 +1,8 @@
-"""A sensor that plays what another one felt: an episode, or a folder of touches.
+"""A sensor that plays a recording: the clouds of an episode, or a folder of contacts.
 
-It answers every read with the next recorded touch, whatever the robot does, stamped with the time
-at which it is played. For a rig without a sensor, for looking at a policy: never for a grasp. Its
-end is an error.
+Every read returns the next recorded cloud, whatever the robot does, stamped with the time of the
+read. It is for a rig without a sensor, to look at a policy, and never for a grasp. The end of the
+recording is an error.
 
 Not here: policies that repeat an episode's decisions (``policies.recorded``).
 """
@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from cltp.errors import TouchError
@@ -19,8 +20,8 @@ from cltp.sensing.touch_files import read_touch
 from cltp.tactile.cloud import NUM_POINTS, Stamp, TactileCloud
 from cltp.tactile.encoder_input import lattice_points
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from tacgrasp.drivers.check import Finding
-from tacgrasp.drivers.gelsight.frame_folder import BACKGROUND, counted
+from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.frame_folder import BACKGROUND, ended_message, list_recorded
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
 
@@ -28,63 +29,54 @@ log = logging.getLogger(__name__)
 
 _SUFFIXES = (".ply", ".pcd", ".xyz", ".npy", ".npz", *FRAME_SUFFIXES)
 
-Touch = Callable[[], TactileCloud]
-"""Reads one recorded touch."""
+LoadCloud = Callable[[], TactileCloud]
+"""Loads one recorded cloud."""
 
 
 class RecordedSensor:
-    """Plays touches; a ``TactileSensor`` in all but that nothing is felt.
+    """A ``TactileSensor`` that plays recorded clouds.
 
     Args:
-        name: Of the recording, for messages.
-        touches: What to play, in order; each is read when its turn comes.
-        sensor: Which sensor they are of.
-        repeat: Begin anew at the end.
-        stamp: Both clocks.
+        name: Name of the recording, for messages.
+        loaders: Loaders of the clouds, in order; each is called when it is played.
+        sensor: Sensor of the recording.
+        repeat: Start again at the end.
+        stamp: Returns both clocks.
     """
 
     def __init__(
         self,
         name: str,
-        touches: Sequence[Touch],
+        loaders: Sequence[LoadCloud],
         sensor: SensorSpec,
         *,
         repeat: bool = False,
         stamp: Callable[[], Stamp] = real_stamp,
     ) -> None:
-        self._name, self._touches, self._spec = name, touches, sensor
+        self._name, self._loaders, self._spec = name, loaders, sensor
         self._repeat, self._stamp = repeat, stamp
-        self._played, self._disconnected = 0, False
+        self._num_played, self._disconnected = 0, False
 
     @property
     def spec(self) -> SensorSpec:
-        """Which sensor the recording is of."""
         return self._spec
 
     @property
     def length(self) -> int:
-        """Touches of the recording."""
-        return len(self._touches)
-
-    @property
-    def played(self) -> int:
-        """Touches played so far."""
-        return self._played
+        """Number of recorded clouds."""
+        return len(self._loaders)
 
     def read(self) -> TactileCloud:
-        """The next recorded touch, as if it were captured now.
+        """Return the next recorded cloud with a stamp of now.
 
         Raises:
-            TouchError: Disconnected, the recording has ended, or a file of it can't be read.
+            TouchError: Disconnected, the recording has ended, or one of its files can't be read.
         """
         self.check_alive()
-        if self._played >= len(self._touches) and not self._repeat:
-            raise TouchError(
-                f"the recording {self._name} has ended after {self._played} touches; nothing newer "
-                "can be felt: give a longer one, or repeat it"
-            )
-        cloud = self._touches[self._played % len(self._touches)]()
-        self._played += 1
+        if self._num_played >= len(self._loaders) and not self._repeat:
+            raise TouchError(ended_message(self._name, self._num_played))
+        cloud = self._loaders[self._num_played % len(self._loaders)]()
+        self._num_played += 1
         points = cloud.points_mm if len(cloud.points_mm) == NUM_POINTS else lattice_points(cloud)
         return TactileCloud(points_mm=points, sensor=self._spec, stamp=self._stamp())
 
@@ -97,8 +89,14 @@ class RecordedSensor:
         if self._disconnected:
             raise TouchError(f"the recording {self._name} is disconnected; connect it again")
 
+    def expect_untouched(self) -> None:
+        """Nothing to compare: a recording has no untouched gel."""
+
+    def counts(self) -> None:
+        """No counts: a recording loses no frames."""
+
     def disconnect(self) -> None:
-        """Play no more. Idempotent, never raises."""
+        """End the playing. Idempotent, never raises."""
         self._disconnected = True
 
 
@@ -108,21 +106,21 @@ def connect_recorded(
     """Open the recording of a rig's file.
 
     Raises:
-        TouchError: It doesn't exist, can't be read, holds no touches, or is of another sensor.
+        TouchError: It doesn't exist, can't be read, is empty, or is of another sensor.
     """
     sensor = sensor_named(settings.sensor)
     path = settings.path
     if path.is_dir():
-        touches = _of_folder(settings, sensor)
+        loaders = _folder_loaders(settings, sensor)
     elif path.is_file() and path.suffix.lower() == ".mcap":
-        touches = _of_episode(path, sensor)
+        loaders = _episode_loaders(path, sensor)
     else:
         raise TouchError(f"no recording {path}; expected an episode (.mcap) or a folder of touches")
-    log.info("%d recorded touches are played from %s: nothing is felt", len(touches), path)
-    return RecordedSensor(str(path), touches, sensor, repeat=settings.repeat, stamp=stamp)
+    log.info("%d recorded touches are played from %s: nothing is felt", len(loaders), path)
+    return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat, stamp=stamp)
 
 
-def _of_episode(path: Path, sensor: SensorSpec) -> list[Touch]:
+def _episode_loaders(path: Path, sensor: SensorSpec) -> list[LoadCloud]:
     from tacgrasp.episodes import EpisodeError, read_episode
 
     try:
@@ -134,48 +132,39 @@ def _of_episode(path: Path, sensor: SensorSpec) -> list[Touch]:
             f"{path} was recorded with {episode.header.sensor.name}, expected {sensor.name}; name "
             "that sensor, or another episode"
         )
-    if not episode.ticks:
+    if not episode.steps:
         raise TouchError(f"{path} holds no touch: its run ended before the first one")
-    return [_kept(tick.cloud) for tick in episode.ticks]
+    return [partial(_unchanged, step.cloud) for step in episode.steps]
 
 
-def _kept(cloud: TactileCloud) -> Touch:
-    return lambda: cloud
+def _unchanged(cloud: TactileCloud) -> TactileCloud:
+    return cloud
 
 
-def _of_folder(settings: RecordedSettings, sensor: SensorSpec) -> list[Touch]:
+def _folder_loaders(settings: RecordedSettings, sensor: SensorSpec) -> list[LoadCloud]:
     folder = settings.path
     background = settings.background or folder / BACKGROUND
-    paths = sorted(
-        (
-            path
-            for path in folder.iterdir()
-            if path.suffix.lower() in _SUFFIXES and path.resolve() != background.resolve()
-        ),
-        key=lambda path: counted(path.name),
-    )
-    if not paths:
-        raise TouchError(f"{folder} holds no touches; expected files {', '.join(_SUFFIXES)}")
-    return [_of_file(path, settings, sensor, background) for path in paths]
-
-
-def _of_file(path: Path, settings: RecordedSettings, sensor: SensorSpec, background: Path) -> Touch:
+    paths = list_recorded(folder, _SUFFIXES, content="touches", excluded=[background])
     calibration = None if settings.calibration == "shipped" else settings.calibration
-    return lambda: read_touch(
-        path,
-        sensor,
-        background=background if background.is_file() else None,
-        calibration=calibration,
-    )
+    return [
+        partial(
+            read_touch,
+            path,
+            sensor,
+            background=background if background.is_file() else None,
+            calibration=calibration,
+        )
+        for path in paths
+    ]
 
 
 def check(settings: RecordedSettings) -> Sequence[Finding]:
-    """Look at the recording for ``tacgrasp doctor``: every touch of it is read once."""
+    """Check the recording for ``tacgrasp doctor``: every cloud is read once."""
     try:
         sensor = connect_recorded(settings.model_copy(update={"repeat": False}))
         count = len([sensor.read() for _ in range(sensor.length)])
     except TouchError as error:
-        advice = "name another recording, or put right what it says"
-        return [Finding(device="sensor", name="found", ok=False, found=str(error), advice=advice)]
-    found = f"{count} recorded touches in {settings.path}: nothing is felt"
-    return [Finding(device="sensor", name="found", ok=True, found=found)]
+        advice = "name another recording, or correct the error"
+        return [finding("sensor", "connection", False, str(error), advice)]
+    detail = f"{count} recorded touches in {settings.path}: nothing is felt"
+    return [finding("sensor", "connection", True, detail)]

@@ -1,4 +1,4 @@
-"""Settings of a recorded sensor, as a rig's file gives them."""
+"""Settings of a recorded sensor: the section ``hardware.sensor`` of a rig's file."""
 
 from __future__ import annotations
 
@@ -7,19 +7,19 @@ from typing import Literal
 
 from pydantic import Field
 
-from tacgrasp.base.settings import Section
+from tacgrasp.base.settings import SettingsBase
 
 
-class RecordedSettings(Section):
-    """Touches of the past in place of a sensor: nothing is felt.
+class RecordedSettings(SettingsBase):
+    """A recording in place of a sensor: nothing is felt.
 
     Attributes:
-        kind: Which driver.
+        kind: Name of the driver.
         path: An episode (.mcap), or a folder of clouds, height maps or frames, in counting order.
-        sensor: Which sensor they are of.
-        background: For frames: the untouched gel; background.png in the folder when not given.
-        calibration: For frames: of their unit; or 'shipped'.
-        repeat: Begin anew at the end; otherwise the end is an error.
+        sensor: Sensor of the recording.
+        background: Frame of the untouched gel, for frames; None is background.png in the folder.
+        calibration: Calibration of the frames' unit, or 'shipped'.
+        repeat: Start again at the end; otherwise the end is an error.
     """
 
     kind: Literal["recorded"] = "recorded"

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""Driver of a serial taxel array that sends the packets of docs/taxels.md.
+
+Not here: the packets (``cltp.sensing.taxel_packets``), the emulated array
+(``sim.emulators.taxels``).
+"""

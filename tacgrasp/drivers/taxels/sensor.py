@@ -1,11 +1,11 @@
 """An open serial taxel array: packets of heights in, clouds out.
 
-The array streams. A read sends a mark and waits for the first frame that carries it: that frame's
-capture began after the call, which no clock has to prove. Frames older than that, damaged ones and
-repeated ones are never returned.
+The array streams. A read sends a mark and waits for the first frame that repeats the mark: the
+capture of that frame began after the call, whatever the clocks. Older, damaged and repeated frames
+are never returned.
 
-Not here: opening the port (``taxels``), the packets (``cltp.sensing.taxel_packets``), the array
-without hardware (``sim.emulators.taxels.array``).
+Not here: opening the port (``connect``), the packets (``cltp.sensing.taxel_packets``), the emulated
+array (``sim.emulators.taxels.array``).
 """
 
 from __future__ import annotations
@@ -36,25 +36,25 @@ from tacgrasp.drivers.taxels.settings import TaxelSettings
 if TYPE_CHECKING:
     from serial import Serial
 
-SATURATED_SHARE = 0.2
-"""From this share of taxels at the end of their range on, a frame is no touch. Our choice: a
-contact that deep would destroy the gel first."""
+SATURATED_FRACTION = 0.2
+"""Largest fraction of taxels at the end of their range in a valid frame. Our choice: a deeper
+contact would destroy the gel first."""
 
-_APART = 1000
-_SENDS = 2  # of one mark: a mark damaged on the line costs half of the time-out, not the read
+_MARK_GAP = 1000
+_NUM_SENDS = 2  # per mark: a mark damaged on the line costs half of the time-out, not the read
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LineCounts:
-    """What has come over the line since it was opened.
+    """Numbers of frames on the line since it was opened.
 
     Attributes:
-        frames: Whole and new.
-        damaged: Torn, or with a wrong checksum.
-        missing: Numbers that never came.
-        repeated: Came twice; the second is dropped.
-        restarts: Times that the array was switched off and on.
-        garbage_bytes: Belong to no packet.
+        frames: Whole, new frames.
+        damaged: Frames that are torn or have a wrong checksum.
+        missing: Sequence numbers that never arrived.
+        repeated: Frames that arrived twice; the second is dropped.
+        restarts: Restarts of the array.
+        garbage_bytes: Bytes that belong to no packet.
     """
 
     frames: int
@@ -66,7 +66,7 @@ class LineCounts:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Arrived:
+class _StampedFrame:
     frame: TaxelFrame
     stamp: Stamp
     problem: str
@@ -76,10 +76,10 @@ class TaxelArray:
     """An open array; a ``TactileSensor``. One thread reads the port.
 
     Args:
-        port: Open, and this program's alone; closed by the array.
-        settings: Of the rig's file.
+        port: Open and claimed port; closed by the array.
+        settings: The sensor's section of the rig's file.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
-        stamp: Both clocks.
+        stamp: Returns both clocks.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class TaxelArray:
     ) -> None:
         self._port, self._settings, self._rng, self._stamp = port, settings, rng, stamp
         self._spec = sensor_named(settings.sensor)
-        self._latest: Latest[_Arrived] = Latest()
+        self._latest: Latest[_StampedFrame] = Latest()
         self._parser, self._numbers = PacketParser(), SequenceCount()
         self._ending = threading.Event()
         self._sending = threading.Lock()
@@ -103,11 +103,10 @@ class TaxelArray:
 
     @property
     def spec(self) -> SensorSpec:
-        """Which sensor this is."""
         return self._spec
 
     def counts(self) -> LineCounts:
-        """What has come so far."""
+        """Numbers of frames so far."""
         wire, numbers = self._parser.counts, self._numbers
         return LineCounts(
             frames=wire.packets - numbers.repeated,
@@ -119,55 +118,58 @@ class TaxelArray:
         )
 
     def wait_until_alive(self) -> None:
-        """Wait for the first whole frame; ``connect_taxels`` has done it.
+        """Wait for the first whole frame; called by ``connect_taxels``.
 
         Raises:
-            TouchError: None came in time, or it does not fit the sensor.
+            TouchError: No frame in time, or its grid does not fit the sensor.
         """
         first = self._latest.wait_for(lambda _: True, self._settings.connect_timeout_s)
         if first is None:
-            raise TouchError(f"{self._name}: {self._why_none(self._settings.connect_timeout_s)}")
+            raise self._no_frame_error(self._settings.connect_timeout_s)
         rows, columns = first.frame.counts_um.shape
         aspect = columns / rows / (self._spec.columns / self._spec.rows)
         if min(rows, columns) < 8 or abs(aspect - 1) > ASPECT_TOLERANCE:
             raise TouchError(
-                f"{self._name} sends {rows} × {columns} taxels, which doesn't fit the field of "
-                f"{self._spec.name} ({self._spec.rows} × {self._spec.columns} px, or as wide as "
-                "that; at least 8 × 8); name the right sensor or port"
+                f"{self._name} sends {rows} × {columns} taxels, which doesn't fit the sensing area "
+                f"of {self._spec.name} ({self._spec.rows} × {self._spec.columns} px, or the same "
+                "aspect; at least 8 × 8); name the right sensor or port"
             )
-        with self._sending:  # far from any mark that is still under way from another program
-            self._mark = (first.frame.mark + _APART) % 2**32
+        with self._sending:  # far from any mark of another program that is still on the line
+            self._mark = (first.frame.mark + _MARK_GAP) % 2**32
 
     def read(self) -> TactileCloud:
         """Capture the gel now.
 
         Raises:
             TouchError: Unplugged, disconnected, no frame captured after the call within the
-                time-out, or a frame that no gel gives.
+                time-out, or a frame that shows no gel.
         """
         with self._sending:
-            arrived = self._fresh()
-        if arrived is None:
-            raise TouchError(f"{self._name}: {self._why_none(self._settings.read_timeout_s)}")
-        if arrived.problem:
-            raise TouchError(f"{self._name}: {arrived.problem}")
+            fresh = self._read_fresh()
+        if fresh is None:
+            raise self._no_frame_error(self._settings.read_timeout_s)
+        if fresh.problem:
+            raise TouchError(f"{self._name}: {fresh.problem}")
         return cloud_from_heights(
-            arrived.frame.height_mm, self._spec, rng=self._rng, stamp=arrived.stamp
+            fresh.frame.height_mm, self._spec, rng=self._rng, stamp=fresh.stamp
         )
 
     def check_alive(self) -> None:
-        """Return at once when frames are coming; for whoever watches while the arm moves.
+        """Return at once if frames are arriving; called while the arm moves.
 
         Raises:
-            TouchError: Unplugged, disconnected, no frame for ``stale_s``, or the last one is one
-                that no gel gives.
+            TouchError: Unplugged, disconnected, no frame for ``stale_s``, or the last frame shows
+                no gel.
         """
         newest = self._latest.newest()
         since_s = self._opened_s if newest is None else newest.stamp.monotonic_s
         if self._stamp().monotonic_s - since_s > self._settings.stale_s:
-            raise TouchError(f"{self._name}: {self._why_none(self._settings.stale_s)}")
+            raise self._no_frame_error(self._settings.stale_s)
         if newest is not None and newest.problem:
             raise TouchError(f"{self._name}: {newest.problem}")
+
+    def expect_untouched(self) -> None:
+        """Nothing to compare: taxels have no background."""
 
     def disconnect(self) -> None:
         """Free the port. Idempotent, never raises."""
@@ -180,18 +182,18 @@ class TaxelArray:
     def _name(self) -> str:
         return f"the taxel array at {self._settings.port}"
 
-    def _fresh(self) -> _Arrived | None:
-        """The first frame with a new mark; None when it does not come in time."""
-        self._latest.newest()  # raises what has failed, before anything is sent
+    def _read_fresh(self) -> _StampedFrame | None:
+        """The first frame with a new mark; None if it does not arrive in time."""
+        self._latest.newest()  # raises a latched failure before anything is sent
         self._mark = self._mark % (2**32 - 1) + 1
         mark = self._mark
-        for _ in range(_SENDS):
+        for _ in range(_NUM_SENDS):
             self._send(encode_mark(mark))
-            arrived = self._latest.wait_for(
-                lambda one: one.frame.mark == mark, self._settings.read_timeout_s / _SENDS
+            fresh = self._latest.wait_for(
+                lambda latest: latest.frame.mark == mark, self._settings.read_timeout_s / _NUM_SENDS
             )
-            if arrived is not None:
-                return arrived
+            if fresh is not None:
+                return fresh
         return None
 
     def _send(self, data: bytes) -> None:
@@ -200,64 +202,69 @@ class TaxelArray:
         try:
             self._port.write(data)
         except (SerialException, OSError) as error:
-            self._latest.fail(f"{self._name} was unplugged, or its port failed: {error}")
-            raise TouchError(f"{self._name} was unplugged, or its port failed: {error}") from None
+            message = f"{self._name} was unplugged, or its port failed: {error}"
+            self._latest.fail(message)
+            raise TouchError(message) from None
 
-    def _why_none(self, waited_s: float) -> str:
+    def _no_frame_error(self, waited_s: float) -> TouchError:
         counts, newest = self.counts(), self._latest.newest()
         if newest is not None:
             age_s = self._stamp().monotonic_s - newest.stamp.monotonic_s
-            return (
+            problem = (
                 f"no fresh frame within {waited_s:g} s; the last one came "
                 f"{age_s:.2f} s ago with mark {newest.frame.mark} ({counts.damaged} damaged so "
                 "far); expected a steady stream that repeats the host's marks: check the cable, "
                 "and power the array off and on"
             )
-        if self._parser.counts.foreign:
-            return (
+        elif self._parser.counts.foreign:
+            problem = (
                 f"its packets are of another version or kind; expected version {VERSION}: load the "
                 "firmware that fits docs/taxels.md"
             )
-        if counts.garbage_bytes:
-            return (
+        elif counts.garbage_bytes:
+            problem = (
                 f"{counts.garbage_bytes} bytes came within {waited_s:g} s, but no packet; expected "
                 "those of docs/taxels.md: is it another device, or another baud rate than "
                 f"{self._settings.baud}?"
             )
-        return (
-            f"silent for {waited_s:g} s; expected a steady stream of frames: check its power, and "
-            "that the port is the array's"
-        )
+        else:
+            problem = (
+                f"silent for {waited_s:g} s; expected a steady stream of frames: check its power, "
+                "and that the port is the array's"
+            )
+        return TouchError(f"{self._name}: {problem}")
 
     def _capture(self) -> None:
-        """Read until the end; whatever ends it is latched."""
+        """Read until the end, and latch its reason."""
         from serial import SerialException
 
-        why = "its reader ended without a reason; this is a bug"
+        reason = "its reader ended without a reason; this is a bug"
         try:
             while not self._ending.is_set():
                 for packet in self._parser.feed(self._port.read(max(1, self._port.in_waiting))):
                     if isinstance(packet, TaxelFrame) and self._numbers.is_new(packet.sequence):
                         self._latest.put(
-                            _Arrived(frame=packet, stamp=self._stamp(), problem=_problem(packet))
+                            _StampedFrame(
+                                frame=packet, stamp=self._stamp(), problem=_problem(packet)
+                            )
                         )
-            why = "it is disconnected"
+            reason = "it is disconnected"
         except (SerialException, OSError) as error:
-            why = f"it was unplugged, or its port failed: {error}; plug it in and start again"
+            reason = f"it was unplugged, or its port failed: {error}; plug it in and start again"
         finally:
-            self._latest.fail(f"{self._name}: {why}")
+            self._latest.fail(f"{self._name}: {reason}")
             self._port.close()
 
 
 def _problem(frame: TaxelFrame) -> str:
-    """Why no gel gives this frame; empty when one can."""
+    """Reason why a frame shows no gel; empty for none."""
     counts = frame.counts_um
     if int(counts.min()) == int(counts.max()):
         return (
             f"all taxels read {int(counts[0, 0])} µm; expected a gel, whose noise alone is some "
             "µm: the sensing element is dead or dark, check its light and supply"
         )
-    ended = float((np.abs(counts.astype(np.int32)) > UM_LIMIT).mean())
-    if ended > SATURATED_SHARE:
-        return f"{ended:.0%} of the taxels are at the end of their range: check its supply"
+    saturated = float((np.abs(counts.astype(np.int32)) > UM_LIMIT).mean())
+    if saturated > SATURATED_FRACTION:
+        return f"{saturated:.0%} of the taxels are at the end of their range: check its supply"
     return ""

@@ -1,4 +1,4 @@
-"""Settings of a serial taxel array, as a rig's file gives them."""
+"""Settings of a serial taxel array: the section ``hardware.sensor`` of a rig's file."""
 
 from __future__ import annotations
 
@@ -6,20 +6,20 @@ from typing import Literal
 
 from pydantic import Field
 
-from tacgrasp.base.settings import Number, Section
+from tacgrasp.base.settings import Number, SettingsBase
 
 
-class TaxelSettings(Section):
+class TaxelSettings(SettingsBase):
     """A taxel array on a serial port that speaks the packets of docs/taxels.md.
 
     Attributes:
-        kind: Which driver.
-        port: Its path, its name under /dev/serial/by-id or a part of it, or the serial number of
-            its adapter.
-        baud: Speed of the line; USB arrays ignore it [bit/s].
-        sensor: Which sensor's field the grid of taxels covers.
+        kind: Name of the driver.
+        port: Serial port: a path, a name under /dev/serial/by-id or a part of it, or the serial
+            number of the adapter.
+        baud: Baud rate; USB arrays ignore it [bit/s].
+        sensor: Sensor whose sensing area the grid of taxels covers.
         read_timeout_s: Longest wait for a frame captured after the call [s].
-        stale_s: Without a frame for so long, the array is not alive [s].
+        stale_s: Largest time without a frame from a live array [s].
         connect_timeout_s: Longest wait for the first frame [s].
     """
 

@@ -20,20 +20,20 @@ import numpy as np
 from primitives.devices import Pose
 from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers.ur.dashboard import CONFIRMED, Dashboard, stop_from_outside
-from tacgrasp.drivers.ur.motion_limits import expected_s, nearest_rotvec, refusal
+from tacgrasp.drivers.ur.motion_limits import expected_duration_s, nearest_rotvec, refusal
 from tacgrasp.drivers.ur.preflight import check, preflight
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     MOTION,
     PERIOD,
+    ArmCommand,
+    CommandOutcome,
+    CommandRecord,
     Distribution,
-    Order,
-    OrderRecord,
-    Outcome,
-    Phase,
-    State,
+    WorkerPhase,
+    WorkerState,
 )
-from tacgrasp.drivers.ur.worker_process import LOOK_S, Owner
+from tacgrasp.drivers.ur.worker_process import LOOK_S, WorkerProcess
 
 __all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
 
@@ -90,7 +90,7 @@ class UrArm:
         self.settings = settings
         self._clock, self._sleep = clock, sleep
         self._lock = threading.RLock()
-        self._owner: Owner | None = None
+        self._worker: WorkerProcess | None = None
         self._fault = "the UR arm is not connected"
         self._unsafe = False
         self._number = 0
@@ -114,7 +114,7 @@ class UrArm:
         """Move on a straight line; returns the pose reached, at rest and within tolerance."""
         self.sent, state = "", self._state()
         order = self._order(
-            Order.MOVE,
+            ArmCommand.MOVE,
             (*pose.position_m.tolist(), *pose.rotvec_rad.tolist()),
             float(speed_m_s),
             float(acceleration_m_s2),
@@ -122,12 +122,12 @@ class UrArm:
         if why := refusal(order, state.pose, self.settings):
             raise LimitError(why)
         self._send(order)
-        takes_s = expected_s(order, state.pose) / max(0.01, state.speed_fraction)
+        takes_s = expected_duration_s(order, state.pose) / max(0.01, state.speed_fraction)
         longest_s = takes_s + self.settings.move_margin_s + REACT_S
         state = self._await(order.number, longest_s)
         if state.done != order.number:
             raise RobotError("the move was cut short by a stop")
-        if state.outcome == Outcome.REFUSED:
+        if state.outcome == CommandOutcome.REFUSED:
             raise LimitError(state.text)
         self._rotvec = tuple(pose.rotvec_rad.tolist())
         return self._as_pose(state)
@@ -139,7 +139,7 @@ class UrArm:
             if self._fault:
                 self._make_safe()
                 return
-            order = self._order(Order.STOP)
+            order = self._order(ArmCommand.STOP)
             self._send(order)
             self._await(order.number, STOP_S)
         except Exception as error:
@@ -150,12 +150,12 @@ class UrArm:
     def disconnect(self) -> None:
         """Stop, end the program and the worker. Idempotent, never raises."""
         with self._lock:
-            owner = self._owner
+            owner = self._worker
             if owner is None:
                 return
             try:
                 if not self._fault:
-                    self._send(self._order(Order.END))
+                    self._send(self._order(ArmCommand.END))
                     owner.wait(END_S)
             except Exception as error:
                 log.warning("UR disconnect: %s", error)
@@ -163,7 +163,7 @@ class UrArm:
                 self._unsafe = self._unsafe or not self._fault
                 self._make_safe()
             owner.close()
-            self._owner = None
+            self._worker = None
             self._fault = self._fault or "the UR arm is disconnected"
 
     # -- operator --------------------------------------------------------------------------------
@@ -191,13 +191,13 @@ class UrArm:
             RobotError: The arm is not ready, or connected already.
         """
         with self._lock:
-            if self._owner is not None:
+            if self._worker is not None:
                 raise RobotError("the UR arm is connected already: disconnect or reset it")
             preflight(self.settings)
             self._unsafe = True  # whatever program is found on the controller from here on is ours
-            self._number, self._owner = 0, Owner(self.settings)
+            self._number, self._worker = 0, WorkerProcess(self.settings)
             try:
-                self._owner.await_ready(self._clock, self._sleep)
+                self._worker.await_ready(self._clock, self._sleep)
                 self._fault, self._unsafe = "", False
                 self._check_place()
             except BaseException:
@@ -211,30 +211,30 @@ class UrArm:
             RobotError: The arm is not connected.
         """
         with self._lock:
-            if self._owner is None:
+            if self._worker is None:
                 raise RobotError("the UR arm is not connected")
             return ArmTiming(
-                period=self._owner.distribution(PERIOD),
-                command_to_motion=self._owner.distribution(MOTION),
+                period=self._worker.distribution(PERIOD),
+                command_to_motion=self._worker.distribution(MOTION),
             )
 
     # -- orders and state ------------------------------------------------------------------------
 
     def _order(
         self,
-        order: Order,
+        order: ArmCommand,
         pose: tuple[float, ...] = (0.0,) * 6,
         speed_m_s: float = 0.0,
         acceleration_m_s2: float = 0.0,
-    ) -> OrderRecord:
+    ) -> CommandRecord:
         with self._lock:
             self._number += 1
-            return OrderRecord(
+            return CommandRecord(
                 order=order, number=self._number, sent_s=self._clock(), pose=pose,
                 speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2,
             )  # fmt: skip
 
-    def _send(self, order: OrderRecord) -> None:
+    def _send(self, order: CommandRecord) -> None:
         owner = self._connected()
         try:
             owner.send(order)
@@ -243,7 +243,7 @@ class UrArm:
             self._state()  # says why, if the worker could
             self._latch(f"the UR arm's worker takes no orders any more ({error})")
 
-    def _await(self, number: int, longest_s: float) -> State:
+    def _await(self, number: int, longest_s: float) -> WorkerState:
         """Wait until an order (or a later one) has ended."""
         until_s = self._clock() + longest_s
         while True:
@@ -256,19 +256,19 @@ class UrArm:
                 )
             self._sleep(LOOK_S)
 
-    def _connected(self) -> Owner:
-        owner = self._owner
+    def _connected(self) -> WorkerProcess:
+        owner = self._worker
         if owner is None or self._fault:
             raise RobotError(self._fault or "the UR arm is not connected")
         return owner
 
-    def _state(self) -> State:
+    def _state(self) -> WorkerState:
         """The worker's state, if it lives and all is well; latches what is not."""
         owner = self._connected()
         # Asked first: what an ended worker left is complete; a pause of ours is none of its.
         ended, now_s = owner.has_ended, self._clock()
         state = owner.read()
-        if state.phase != Phase.READY:
+        if state.phase != WorkerPhase.READY:
             owner.wait(HUNG_S)  # it brakes the arm now, and will say how
             self._latch(owner.read().text)
         if ended:
@@ -281,7 +281,7 @@ class UrArm:
     def _check_place(self) -> None:
         """The TCP must start inside the workspace, or every move back in would begin outside."""
         state = self._connected().read()
-        here = OrderRecord(order=Order.MOVE, number=0, sent_s=0.0, pose=state.pose,
+        here = CommandRecord(order=ArmCommand.MOVE, number=0, sent_s=0.0, pose=state.pose,
                            speed_m_s=self.settings.max_speed_m_s,
                            acceleration_m_s2=self.settings.max_acceleration_m_s2)  # fmt: skip
         if why := refusal(here, state.pose, self.settings):
@@ -302,21 +302,23 @@ class UrArm:
         with self._lock:
             if not self._unsafe:
                 return
-            if self._owner is not None:
-                self._owner.wait(HUNG_S)  # it brakes the arm itself
-                self._owner.kill()
+            if self._worker is not None:
+                self._worker.wait(HUNG_S)  # it brakes the arm itself
+                self._worker.kill()
             how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
             self._unsafe = how != CONFIRMED
             log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")
 
-    def _as_pose(self, state: State) -> Pose:
+    def _as_pose(self, state: WorkerState) -> Pose:
         rotvec = nearest_rotvec(state.pose[3:], self._rotvec)
         return Pose(position_m=np.array(state.pose[:3]), rotvec_rad=np.array(rotvec))
 
 
-def _in_words(order: OrderRecord, settings: UrSettings) -> str:
+def _in_words(order: CommandRecord, settings: UrSettings) -> str:
     """What the worker tells the controller for an order."""
-    if order.order == Order.MOVE:
+    if order.order == ArmCommand.MOVE:
         pose = ", ".join(f"{value:.6f}" for value in order.pose)
         return f"moveL([{pose}], {order.speed_m_s:g}, {order.acceleration_m_s2:g}, asynchronous)"
-    return f"stopL({settings.stop_deceleration_m_s2:g})" if order.order == Order.STOP else "end"
+    return (
+        f"stopL({settings.stop_deceleration_m_s2:g})" if order.order == ArmCommand.STOP else "end"
+    )

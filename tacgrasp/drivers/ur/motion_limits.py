@@ -10,13 +10,13 @@ import math
 from collections.abc import Sequence
 
 from tacgrasp.drivers.ur.settings import UrSettings
-from tacgrasp.drivers.ur.shared_state import OrderRecord
+from tacgrasp.drivers.ur.shared_state import CommandRecord
 
 SLACK = 1e-9
 """Relative slack of a comparison with a bound: a bound itself is allowed."""
 
 
-def refusal(order: OrderRecord, here: Sequence[float], settings: UrSettings) -> str:
+def refusal(order: CommandRecord, here: Sequence[float], settings: UrSettings) -> str:
     """Why a move must not be sent, '' when it may.
 
     Args:
@@ -49,14 +49,14 @@ def refusal(order: OrderRecord, here: Sequence[float], settings: UrSettings) -> 
     return ""
 
 
-def way_m(a: Sequence[float], b: Sequence[float]) -> float:
+def distance_m(a: Sequence[float], b: Sequence[float]) -> float:
     """Distance between the positions of two poses [m]."""
     return math.dist(a[:3], b[:3])
 
 
-def expected_s(order: OrderRecord, here: Sequence[float]) -> float:
+def expected_duration_s(order: CommandRecord, here: Sequence[float]) -> float:
     """How long a move takes on its trapezoid [s]; turning counts like metres, as on a UR."""
-    length = way_m(order.pose, here) or turn_between_rad(order.pose[3:], here[3:])
+    length = distance_m(order.pose, here) or turn_between_rad(order.pose[3:], here[3:])
     top = min(order.speed_m_s, math.sqrt(length * order.acceleration_m_s2))
     return 0.0 if top == 0 else length / top + top / order.acceleration_m_s2
 

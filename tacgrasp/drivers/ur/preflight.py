@@ -65,10 +65,10 @@ def preflight(settings: UrSettings) -> None:
         RobotError: What was found and what to do.
     """
     for finding in look(settings, seconds=0.08):
-        log.debug("%s: %s", finding.name, finding.found)
+        log.debug("%s: %s", finding.name, finding.detail)
         if not finding.ok:
             raise RobotError(
-                f"the UR arm at {settings.host} is not ready: {finding.name}: {finding.found}. "
+                f"the UR arm at {settings.host} is not ready: {finding.name}: {finding.detail}. "
                 f"{finding.advice}"
             )
 
@@ -106,11 +106,11 @@ def look(
 
 
 def _good(name: str, found: str) -> Finding:
-    return Finding(device=DEVICE, name=name, ok=True, found=found)
+    return Finding(device=DEVICE, name=name, ok=True, detail=found)
 
 
 def _bad(name: str, found: str, advice: str) -> Finding:
-    return Finding(device=DEVICE, name=name, ok=False, found=found, advice=advice)
+    return Finding(device=DEVICE, name=name, ok=False, detail=found, advice=advice)
 
 
 def _judged(name: str, ok: bool, found: str, advice: str) -> Finding:

@@ -32,7 +32,7 @@ VARIABLES = [
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sample:
+class RtdeSample:
     """What the controller last sent, as the library holds it.
 
     Attributes:
@@ -155,10 +155,10 @@ class UrLink:
         """Both connections stand. The library's other calls go on saying True when they don't."""
         return bool(self._control.isConnected() and self._receive.isConnected())
 
-    def sample(self) -> Sample:
+    def sample(self) -> RtdeSample:
         """What the controller last sent; may be old: compare stamps."""
         receive = self._receive
-        return Sample(
+        return RtdeSample(
             stamp_s=receive.getTimestamp(),
             pose=tuple(receive.getActualTCPPose()),
             speed=tuple(receive.getActualTCPSpeed()),
@@ -210,7 +210,7 @@ class UrLink:
         got_kg = self._receive.getPayload()
         raise RobotError(f"the controller took the payload as {got_kg} kg, not {wanted_kg} kg")
 
-    def _until(self, true_of: Callable[[Sample], bool], otherwise: str) -> None:
+    def _until(self, true_of: Callable[[RtdeSample], bool], otherwise: str) -> None:
         for _ in range(100):
             if true_of(self.sample()):
                 return

@@ -9,10 +9,10 @@ from typing import Literal
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, Section, Vector
+from tacgrasp.base.settings import Number, SettingsBase, Vector
 
 
-class UrSettings(Section):
+class UrSettings(SettingsBase):
     """A UR e-Series arm (or PolyScope X), driven by ur_rtde. Ports are fixed by the controller.
 
     Attributes:

@@ -21,7 +21,7 @@ from primitives.errors import RobotError
 TEXT_BYTES = 480
 
 
-class Order(IntEnum):
+class ArmCommand(IntEnum):
     """What the worker is told to do."""
 
     MOVE = 1
@@ -29,7 +29,7 @@ class Order(IntEnum):
     END = 3
 
 
-class Phase(IntEnum):
+class WorkerPhase(IntEnum):
     """Where the worker is in its life."""
 
     STARTING = 1
@@ -38,8 +38,8 @@ class Phase(IntEnum):
     ENDED = 4
 
 
-class Outcome(IntEnum):
-    """How the order of ``State.done`` ended."""
+class CommandOutcome(IntEnum):
+    """How the order of ``WorkerState.done`` ended."""
 
     NONE = 0
     DONE = 1
@@ -48,7 +48,7 @@ class Outcome(IntEnum):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class OrderRecord:
+class CommandRecord:
     """One order.
 
     Attributes:
@@ -59,7 +59,7 @@ class OrderRecord:
         speed_m_s, acceleration_m_s2: Of a move.
     """
 
-    order: Order
+    order: ArmCommand
     number: int
     sent_s: float
     pose: tuple[float, ...] = (0.0,) * 6
@@ -68,27 +68,27 @@ class OrderRecord:
 
     def packed(self) -> bytes:
         """As it goes down the pipe; short enough that a write is never split."""
-        return _ORDER.pack(
+        return _COMMAND.pack(
             self.order, self.number, self.sent_s, *self.pose,
             self.speed_m_s, self.acceleration_m_s2,
         )  # fmt: skip
 
     @classmethod
-    def unpacked(cls, data: bytes) -> OrderRecord:
-        """The order in ``ORDER_BYTES`` bytes.
+    def unpacked(cls, data: bytes) -> CommandRecord:
+        """The order in ``COMMAND_BYTES`` bytes.
 
         Raises:
             ValueError: It is none.
         """
-        order, number, sent_s, *pose, speed, acceleration = _ORDER.unpack(data)
+        order, number, sent_s, *pose, speed, acceleration = _COMMAND.unpack(data)
         return cls(
-            order=Order(order), number=number, sent_s=sent_s, pose=tuple(pose),
+            order=ArmCommand(order), number=number, sent_s=sent_s, pose=tuple(pose),
             speed_m_s=speed, acceleration_m_s2=acceleration,
         )  # fmt: skip
 
 
 @dataclass(slots=True, kw_only=True)
-class State:
+class WorkerState:
     """What the worker knows; it alone changes it.
 
     Attributes:
@@ -101,9 +101,9 @@ class State:
         text: While starting what it does, then the latched fault, or why an order was refused.
     """
 
-    phase: int = Phase.STARTING
+    phase: int = WorkerPhase.STARTING
     done: int = 0
-    outcome: int = Outcome.NONE
+    outcome: int = CommandOutcome.NONE
     beat_s: float = 0.0
     data_s: float = 0.0
     pose: tuple[float, ...] = (0.0,) * 6
@@ -113,8 +113,8 @@ class State:
     text: str = ""
 
 
-_ORDER = struct.Struct("<IQd6ddd")
-ORDER_BYTES = _ORDER.size
+_COMMAND = struct.Struct("<IQd6ddd")
+COMMAND_BYTES = _COMMAND.size
 _STATE = struct.Struct(f"<IQIdd6d6d6dd{TEXT_BYTES}s")
 _SUM = struct.Struct("<I")
 _COUNTS_AT = 1024
@@ -143,7 +143,7 @@ class Distribution:
     max_ms: float
 
 
-class Block:
+class SharedStateBlock:
     """The shared memory of a worker and its owner.
 
     Attributes:
@@ -159,7 +159,7 @@ class Block:
         self.fd = fd
         self._memory = mmap.mmap(fd, BLOCK_BYTES)
 
-    def write(self, state: State) -> None:
+    def write(self, state: WorkerState) -> None:
         """Publish a state (the worker)."""
         text = state.text.encode()[:TEXT_BYTES]
         body = _STATE.pack(
@@ -168,7 +168,7 @@ class Block:
         )  # fmt: skip
         self._memory[: _STATE.size + _SUM.size] = body + _SUM.pack(zlib.crc32(body))
 
-    def read(self) -> State:
+    def read(self) -> WorkerState:
         """The state that was last published whole (the owner).
 
         Raises:
@@ -179,7 +179,7 @@ class Block:
             body = data[: _STATE.size]
             if zlib.crc32(body) == _SUM.unpack_from(data, _STATE.size)[0]:
                 phase, done, outcome, beat_s, data_s, *numbers, text = _STATE.unpack(body)
-                return State(
+                return WorkerState(
                     phase=phase, done=done, outcome=outcome, beat_s=beat_s, data_s=data_s,
                     pose=tuple(numbers[:6]), speed=tuple(numbers[6:12]),
                     force=tuple(numbers[12:18]), speed_fraction=numbers[18],

@@ -16,18 +16,18 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from primitives.errors import RobotError
-from tacgrasp.drivers.ur.motion_limits import expected_s, refusal, way_m
+from tacgrasp.drivers.ur.motion_limits import distance_m, expected_duration_s, refusal
 from tacgrasp.drivers.ur.rtde_link import STILL_M_S, UrLink
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
+    COMMAND_BYTES,
     MOTION,
-    ORDER_BYTES,
     PERIOD,
-    Block,
-    Order,
-    OrderRecord,
-    Outcome,
-    State,
+    ArmCommand,
+    CommandOutcome,
+    CommandRecord,
+    SharedStateBlock,
+    WorkerState,
 )
 
 OLD_S = 0.03
@@ -47,12 +47,12 @@ NOTICE_S = 0.001
 """How often the data is looked at until a commanded motion shows [s]."""
 
 
-class NoOwnerError(Exception):
+class OwnerGoneError(Exception):
     """The process that gave the orders has vanished, or told this one to end."""
 
 
 @dataclass(slots=True, kw_only=True)
-class Job:
+class ActiveCommand:
     """The move or stop under way.
 
     Attributes:
@@ -81,24 +81,24 @@ class Supervisor:
         self,
         settings: UrSettings,
         link: UrLink,
-        block: Block,
+        block: SharedStateBlock,
         orders_fd: int,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._settings, self._link, self._block = settings, link, block
         self._orders_fd, self._clock = orders_fd, clock
-        self.state = State()
+        self.state = WorkerState()
         self._unread = b""
         self._sample = link.sample()
         self._data_s = clock()
-        self._job: Job | None = None
+        self._job: ActiveCommand | None = None
 
     def run(self) -> NoReturn:
         """Rounds and orders until something ends it.
 
         Raises:
             RobotError: The fault to latch.
-            NoOwnerError: No one is left to work for.
+            OwnerGoneError: No one is left to work for.
         """
         period_s = 1.0 / self._settings.supervision_hz
         due_s = self._clock()
@@ -174,29 +174,31 @@ class Supervisor:
     def _read_orders(self) -> None:
         data = os.read(self._orders_fd, 65536)
         if not data:
-            raise NoOwnerError("its owner has vanished")
+            raise OwnerGoneError("its owner has vanished")
         self._unread += data
-        while len(self._unread) >= ORDER_BYTES:
-            order = OrderRecord.unpacked(self._unread[:ORDER_BYTES])
-            self._unread = self._unread[ORDER_BYTES:]
-            if order.order is Order.MOVE:
+        while len(self._unread) >= COMMAND_BYTES:
+            order = CommandRecord.unpacked(self._unread[:COMMAND_BYTES])
+            self._unread = self._unread[COMMAND_BYTES:]
+            if order.order is ArmCommand.MOVE:
                 self._move(order)
-            elif order.order is Order.STOP:
+            elif order.order is ArmCommand.STOP:
                 self._stop(order)
             else:
-                raise NoOwnerError("told to end")
+                raise OwnerGoneError("told to end")
 
-    def _move(self, order: OrderRecord) -> None:
+    def _move(self, order: CommandRecord) -> None:
         self._look(self._clock())
         why = refusal(order, self._sample.pose, self._settings)
         if self._job is not None:
             why = "a move is under way: stop it first"
         if why:
-            self._finish(order.number, Outcome.REFUSED, why)
+            self._finish(order.number, CommandOutcome.REFUSED, why)
             return
-        seconds = expected_s(order, self._sample.pose) / max(0.01, self._sample.speed_fraction)
-        far = way_m(order.pose, self._sample.pose) > 1e-3
-        self._job = Job(
+        seconds = expected_duration_s(order, self._sample.pose) / max(
+            0.01, self._sample.speed_fraction
+        )
+        far = distance_m(order.pose, self._sample.pose) > 1e-3
+        self._job = ActiveCommand(
             number=order.number,
             target=order.pose,
             operation=self._link.operation()[0],
@@ -205,8 +207,8 @@ class Supervisor:
         )
         self._link.move(order.pose, order.speed_m_s, order.acceleration_m_s2)
 
-    def _stop(self, order: OrderRecord) -> None:
-        self._job = Job(
+    def _stop(self, order: CommandRecord) -> None:
+        self._job = ActiveCommand(
             number=order.number,
             target=None,
             operation=self._link.operation()[0],
@@ -214,7 +216,7 @@ class Supervisor:
         )
         self._link.stop()
 
-    def _notice(self, job: Job) -> None:
+    def _notice(self, job: ActiveCommand) -> None:
         if job.sent_s is not None:
             now_s = self._clock()
             self._look(now_s)
@@ -222,7 +224,7 @@ class Supervisor:
                 self._block.count(MOTION, now_s - job.sent_s)
                 job.sent_s = None
 
-    def _follow(self, job: Job, now_s: float) -> None:
+    def _follow(self, job: ActiveCommand, now_s: float) -> None:
         self._notice(job)
         operation, running = self._link.operation()
         if job.ended_s is None and operation != job.operation and not running:
@@ -231,12 +233,12 @@ class Supervisor:
         if job.target is None:
             job.still = job.still + 1 if resting else 0
             if job.still >= 3:
-                self._finish(job.number, Outcome.DONE)
+                self._finish(job.number, CommandOutcome.DONE)
                 return
         elif job.ended_s is not None:
-            off_mm = 1e3 * way_m(job.target, self._sample.pose)
+            off_mm = 1e3 * distance_m(job.target, self._sample.pose)
             if resting and off_mm <= self._settings.reach_tolerance_mm:
-                self._finish(job.number, Outcome.DONE)
+                self._finish(job.number, CommandOutcome.DONE)
                 return
             if now_s - job.ended_s > SETTLE_S:
                 raise RobotError(f"the move ended {off_mm:.2f} mm from its target")
@@ -247,8 +249,8 @@ class Supervisor:
                 f"{self._sample.speed_fraction:.0%}"
             )
 
-    def _finish(self, number: int, outcome: Outcome, text: str = "") -> None:
-        self._job = None if outcome is not Outcome.REFUSED else self._job
+    def _finish(self, number: int, outcome: CommandOutcome, text: str = "") -> None:
+        self._job = None if outcome is not CommandOutcome.REFUSED else self._job
         self.state.done, self.state.outcome, self.state.text = number, outcome, text
         self.publish(self._clock())
 

@@ -24,8 +24,8 @@ from primitives.errors import RobotError
 from tacgrasp.drivers.ur.dashboard import Dashboard, stop_from_outside
 from tacgrasp.drivers.ur.rtde_link import UrLink
 from tacgrasp.drivers.ur.settings import UrSettings
-from tacgrasp.drivers.ur.shared_state import Block, Phase, State
-from tacgrasp.drivers.ur.supervisor import NoOwnerError, Supervisor, within
+from tacgrasp.drivers.ur.shared_state import SharedStateBlock, WorkerPhase, WorkerState
+from tacgrasp.drivers.ur.supervisor import OwnerGoneError, Supervisor, within
 
 LIBRARY_END_S = 0.2
 DASHBOARD_S = 0.1
@@ -37,12 +37,12 @@ ROUNDS, LIBRARY = 10, 12
 
 def main(argv: list[str]) -> NoReturn:
     """Connect, supervise, end. Never returns: the library's destructors would reconnect."""
-    block = Block(int(argv[0]))
+    block = SharedStateBlock(int(argv[0]))
     settings = UrSettings.model_validate_json(argv[1])
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the owner's: it stops the arm
     # A library that hangs holds the interpreter: only the kernel can end this process then.
     signal.alarm(math.ceil(settings.start_timeout_s) + 1)
-    starting = State()
+    starting = WorkerState()
 
     def step(text: str) -> None:
         starting.text, starting.beat_s = text, time.monotonic()
@@ -54,7 +54,7 @@ def main(argv: list[str]) -> NoReturn:
         link.set_up(step)
         dashboard = Dashboard(settings.host, DASHBOARD_S)
         supervisor = Supervisor(settings, link, block, sys.stdin.fileno())
-        supervisor.state.phase = Phase.READY
+        supervisor.state.phase = WorkerPhase.READY
         gc.collect()
         gc.disable()  # a collection would be a hole in the supervision
         link.arm_watchdog()
@@ -64,8 +64,8 @@ def main(argv: list[str]) -> NoReturn:
     signal.signal(signal.SIGTERM, _gone)
     try:
         supervisor.run()
-    except NoOwnerError as gone:
-        supervisor.state.phase, supervisor.state.text = Phase.ENDED, str(gone)
+    except OwnerGoneError as gone:
+        supervisor.state.phase, supervisor.state.text = WorkerPhase.ENDED, str(gone)
         supervisor.brake()
         ended = within(LIBRARY_END_S, link.end)
         if not ended:
@@ -74,7 +74,7 @@ def main(argv: list[str]) -> NoReturn:
         os._exit(0)
     except Exception as error:
         text = str(error) if isinstance(error, RobotError) else repr(error)
-        supervisor.state.phase, supervisor.state.text = Phase.FAULT, text
+        supervisor.state.phase, supervisor.state.text = WorkerPhase.FAULT, text
         supervisor.publish(supervisor.state.beat_s)
         ways = [supervisor.brake(), _stop_from_outside(settings, dashboard)]
         told = ", ".join(filter(None, ways)) or "no way to tell it is left but its own watchdog"
@@ -99,11 +99,11 @@ def _ask_for_real_time() -> None:
 
 
 def _gone(signum: int, frame: object) -> NoReturn:
-    raise NoOwnerError("told to end by a signal")
+    raise OwnerGoneError("told to end by a signal")
 
 
-def _last_words(block: Block, state: State, text: str) -> NoReturn:
-    state.phase, state.text = Phase.FAULT, text
+def _last_words(block: SharedStateBlock, state: WorkerState, text: str) -> NoReturn:
+    state.phase, state.text = WorkerPhase.FAULT, text
     block.write(state)
     with contextlib.suppress(OSError, ValueError):
         sys.stderr.flush()

@@ -16,7 +16,13 @@ from pathlib import Path
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.ur.settings import UrSettings
-from tacgrasp.drivers.ur.shared_state import Block, Distribution, OrderRecord, Phase, State
+from tacgrasp.drivers.ur.shared_state import (
+    CommandRecord,
+    Distribution,
+    SharedStateBlock,
+    WorkerPhase,
+    WorkerState,
+)
 
 LOOK_S = 0.002
 """How often the worker's state is looked at while waiting for it [s]."""
@@ -24,7 +30,7 @@ LOOK_S = 0.002
 BURY_S = 5.0
 
 
-class Owner:
+class WorkerProcess:
     """One worker process with its order pipe and its block of shared memory.
 
     Attributes:
@@ -34,8 +40,8 @@ class Owner:
     def __init__(self, settings: UrSettings) -> None:
         """Start the worker; it is not ready yet."""
         self._settings = settings
-        self._block = Block()
-        self._block.write(State(text="starting Python", beat_s=time.monotonic()))
+        self._block = SharedStateBlock()
+        self._block.write(WorkerState(text="starting Python", beat_s=time.monotonic()))
         self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
         packages = str(Path(__file__).resolve().parents[3])
         path = os.pathsep.join(filter(None, [packages, os.environ.get("PYTHONPATH", "")]))
@@ -64,10 +70,10 @@ class Owner:
         until_s = clock() + self._settings.start_timeout_s
         while True:
             ended, state = self.has_ended, self.read()
-            if state.phase == Phase.READY:
+            if state.phase == WorkerPhase.READY:
                 return
-            if state.phase == Phase.FAULT or ended:
-                why = state.text if state.phase == Phase.FAULT else self.last_said(state)
+            if state.phase == WorkerPhase.FAULT or ended:
+                why = state.text if state.phase == WorkerPhase.FAULT else self.last_said(state)
                 raise RobotError(f"the UR arm can't be used: {why}")
             if clock() > until_s:
                 raise RobotError(
@@ -76,7 +82,7 @@ class Owner:
                 )
             sleep(LOOK_S)
 
-    def send(self, order: OrderRecord) -> None:
+    def send(self, order: CommandRecord) -> None:
         """Hand an order over; never waits.
 
         Raises:
@@ -86,7 +92,7 @@ class Owner:
             raise BrokenPipeError("the worker's order pipe is closed")
         os.write(self._worker.stdin.fileno(), order.packed())
 
-    def read(self) -> State:
+    def read(self) -> WorkerState:
         """What the worker last published.
 
         Raises:
@@ -122,7 +128,7 @@ class Owner:
             self._worker.kill()
             self.wait(BURY_S)
 
-    def last_said(self, state: State) -> str:
+    def last_said(self, state: WorkerState) -> str:
         """Why it ended without a word: exit code and the end of its output."""
         self._said.seek(0)
         said = " ".join(self._said.read().decode(errors="replace").split()[-40:])

@@ -22,10 +22,10 @@ from tacgrasp.bringup.jog import (
     Grip,
     Help,
     Jogger,
+    JogSettings,
+    JogStep,
     Open,
     Quit,
-    Settings,
-    Step,
     Stop,
     Unknown,
     command_of,
@@ -33,7 +33,7 @@ from tacgrasp.bringup.jog import (
 from tacgrasp.cli.jog import _show
 from tests.fakes.patient_rig import patient_rig
 
-SETTINGS = Settings(force_n=1.0)
+SETTINGS = JogSettings(force_n=1.0)
 LIMITS = Limits(
     max_step_mm=2,
     workspace_low_m=(0.44, -0.2, 0.19),
@@ -62,7 +62,7 @@ def jogger(rig):
 )
 def test_a_letter_is_one_step_of_the_chosen_length(key, frame, direction):
     command, after = command_of(key, SETTINGS)
-    assert command == Step(frame=frame, direction=direction, length_mm=1.0)
+    assert command == JogStep(frame=frame, direction=direction, length_mm=1.0)
     assert after == SETTINGS
 
 
@@ -108,13 +108,13 @@ def test_a_step_along_the_pad_goes_along_its_axes_in_the_base(jogger, rig):
 
 
 def test_a_step_is_shortened_and_a_force_lowered_to_the_limits_and_it_is_said(jogger):
-    long = Step(frame="base", direction=(0, 0, 1), length_mm=5)
+    long = JogStep(frame="base", direction=(0, 0, 1), length_mm=5)
     assert "shortened to max_step_mm 2" in jogger.carry_out(long)
     assert "lowered to max_force_n 2" in jogger.carry_out(Grip(force_n=9))
 
 
 def test_a_step_out_of_the_box_is_refused_and_nothing_moves(jogger, rig):
-    aside = Step(frame="base", direction=(1, 0, 0), length_mm=2)
+    aside = JogStep(frame="base", direction=(1, 0, 0), length_mm=2)
     for _ in range(4):
         jogger.carry_out(aside)
     here = rig.arm.pose()

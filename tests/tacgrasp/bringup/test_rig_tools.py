@@ -13,8 +13,8 @@ import yaml
 
 from sim.emulators.process.control import ControlClient
 from tacgrasp.__main__ import main
-from tacgrasp.benchmarks.faults.cases import CASES, Phase
-from tacgrasp.benchmarks.faults.injection import Trial
+from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
+from tacgrasp.benchmarks.faults.injection import InjectionResult
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of
 from tacgrasp.benchmarks.loop.rigs import End, Pair
 from tacgrasp.cli.emulate import HELP, KINDS, EmulatedRigFlags, UrFlags, options_of
@@ -162,13 +162,13 @@ def test_there_are_faults_of_every_device_in_every_phase():
         device: {case.phase for case in CASES if case.name.startswith(device)}
         for device in ("UR", "gripper", "sensor")
     }
-    assert phases["UR"] == {Phase.START, Phase.MOTION}
+    assert phases["UR"] == {InjectionPhase.START, InjectionPhase.MOTION}
     assert phases["gripper"] == phases["sensor"] == set(Phase)
 
 
 def a_trial(**changes):
     values = {"detected": True, "told": "gone", "noticed_ms": 20.0, "stop_ms": 60.0} | changes
-    return Trial(**values)
+    return InjectionResult(**values)
 
 
 STALL = next(case for case in CASES if case.name == "sensor: stall")

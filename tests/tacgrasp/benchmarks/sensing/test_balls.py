@@ -17,7 +17,7 @@ from cltp.train.photometric import train_gradients
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.sensing import balls as bench_balls
 from tacgrasp.bringup.ball_profiles import ball_profiles
-from tacgrasp.drivers.gelsight.frame_folder import frames_heights, read_ball_frames
+from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.playback.describe import describe
 from tests.paths import SHARED_DATA
 

@@ -9,9 +9,9 @@ import pytest
 
 from primitives import RobotError
 from sim.emulators.dynamixel.packets import status
-from tacgrasp.drivers.dynamixel import registers as at
+from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.errors import BusError, Trouble
+from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
 from tests.fakes.emulated_servos import EmulatedServos, eventually
 
 pytest.importorskip("dynamixel_sdk")
@@ -36,32 +36,32 @@ def bus(servos):
 
 def test_registers_are_read_and_written(bus):
     assert bus.ping(1) == 1220
-    bus.write(1, at.GOAL_CURRENT, (77).to_bytes(2, "little"))
-    assert bus.read_number(1, at.GOAL_CURRENT, 2) == 77
+    bus.write(1, reg.GOAL_CURRENT, (77).to_bytes(2, "little"))
+    assert bus.read_number(1, reg.GOAL_CURRENT, 2) == 77
 
 
 @pytest.mark.parametrize("fault", ["bad_crc", "partial_reply"])
 def test_one_corrupt_answer_is_read_again_and_counted(bus, servos, fault):
     servos.emulator.inject(fault)
-    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert bus.read(1, reg.MODEL, 2).data == MODEL
     assert (bus.counts.corrupt, bus.counts.silent) == (1, 0)
 
 
 def test_a_late_answer_is_never_taken_for_the_next_one(bus, servos):
     servos.emulator.inject("late_reply", delay_ms=45)
-    assert bus.read(1, at.PRESENT, 25).data[0] == 0
+    assert bus.read(1, reg.PRESENT, 25).data[0] == 0
     # on a busy computer it may still have been in time
     assert (bus.counts.silent, bus.counts.late) in [(1, 1), (0, 0)]
-    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert bus.read(1, reg.MODEL, 2).data == MODEL
 
 
 @pytest.mark.parametrize("delay_ms", [26, 30, 50, 70])
 def test_however_late_an_answer_is_the_next_reads_are_true(bus, servos, delay_ms):
     servos.emulator.inject("late_reply", delay_ms=delay_ms)
     for _ in range(3):
-        assert bus.read(1, at.MODEL, 2).data == MODEL
-        assert bus.read(1, at.VOLTAGE, 2).data == (111).to_bytes(2, "little")
-        assert bus.read_number(1, at.GOAL_CURRENT, 2) == 910
+        assert bus.read(1, reg.MODEL, 2).data == MODEL
+        assert bus.read(1, reg.VOLTAGE, 2).data == (111).to_bytes(2, "little")
+        assert bus.read_number(1, reg.GOAL_CURRENT, 2) == 910
 
 
 def test_stray_answers_do_not_use_up_the_second_try(bus, servos, monkeypatch):
@@ -76,53 +76,53 @@ def test_stray_answers_do_not_use_up_the_second_try(bus, servos, monkeypatch):
         return write(sent)
 
     monkeypatch.setattr(port, "writePort", first_stray)
-    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert bus.read(1, reg.MODEL, 2).data == MODEL
     assert (bus.counts.late, bus.counts.corrupt, bus.counts.silent) == (3, 0, 0)
 
 
 def test_two_corrupt_answers_are_an_error_and_no_value(bus, servos):
     servos.emulator.inject("bad_crc", count=3)  # read, ping, read
     with pytest.raises(BusError, match="wrong CRC") as error:
-        bus.read(1, at.MODEL, 2)
-    assert error.value.trouble is Trouble.CORRUPT
+        bus.read(1, reg.MODEL, 2)
+    assert error.value.kind is BusFault.CORRUPT
 
 
 def test_silence_is_known_after_two_timeouts_and_says_what_to_check(bus, servos):
-    bus.hurried = lambda: True
+    bus.arm_is_moving = lambda: True
     servos.emulator.inject("silence")
     began = time.monotonic()
     with pytest.raises(BusError, match="does not answer within 25 ms: check power") as error:
-        bus.read(1, at.MODEL, 2)
-    assert error.value.trouble is Trouble.SILENT
+        bus.read(1, reg.MODEL, 2)
+    assert error.value.kind is BusFault.SILENT
     assert time.monotonic() - began < 1.0  # 50 ms when nothing else runs
 
 
 def test_while_the_arm_stands_a_pause_is_waited_out(bus, servos):
     servos.emulator.inject("silence")
     threading.Timer(0.15, servos.emulator.clear).start()
-    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert bus.read(1, reg.MODEL, 2).data == MODEL
     assert bus.counts.silent == 1
 
 
 def test_after_a_pause_the_answers_to_all_that_was_asked_meanwhile_are_thrown_away(bus, servos):
     with servos.emulator._lock:  # the emulated servos stand still, the questions queue up
-        thread = threading.Timer(0.0, lambda: models.append(bus.read(1, at.MODEL, 2).data))
+        thread = threading.Timer(0.0, lambda: models.append(bus.read(1, reg.MODEL, 2).data))
         models: list[bytes] = []
         thread.start()
         time.sleep(0.2)
     thread.join()
     assert models == [MODEL]
-    assert bus.read(1, at.VOLTAGE, 2).data == (111).to_bytes(2, "little")
+    assert bus.read(1, reg.VOLTAGE, 2).data == (111).to_bytes(2, "little")
 
 
 def test_a_silence_is_a_fault_as_soon_as_the_arm_moves(bus, servos):
     moves = threading.Event()
-    bus.hurried = moves.is_set
+    bus.arm_is_moving = moves.is_set
     servos.emulator.inject("silence")
     threading.Timer(0.1, moves.set).start()
     began = time.monotonic()
     with pytest.raises(BusError, match="does not answer"):
-        bus.read(1, at.MODEL, 2)
+        bus.read(1, reg.MODEL, 2)
     assert 0.1 <= time.monotonic() - began < 0.4
 
 
@@ -130,7 +130,7 @@ def test_patience_ends(bus, servos):
     servos.emulator.inject("silence")
     began = time.monotonic()
     with pytest.raises(BusError, match="does not answer"):
-        bus.read(1, at.MODEL, 2)
+        bus.read(1, reg.MODEL, 2)
     assert 0.4 <= time.monotonic() - began < 2.0
 
 
@@ -143,7 +143,7 @@ def test_an_answer_that_came_while_this_thread_did_not_run_is_taken(bus, servos,
         return b""
 
     monkeypatch.setattr(port, "readPort", starved)
-    assert bus.read(1, at.MODEL, 2).data == MODEL
+    assert bus.read(1, reg.MODEL, 2).data == MODEL
     assert (bus.counts.silent, bus.counts.corrupt) == (0, 0)
 
 
@@ -162,27 +162,27 @@ def test_at_another_baud_rate_there_is_no_answer(bus, servos, garbage):
 
 
 def test_an_alert_is_passed_on_with_the_data(bus, servos):
-    assert not bus.read(1, at.MODEL, 2).alert
+    assert not bus.read(1, reg.MODEL, 2).alert
     servos.emulator.inject("alert")
-    answer = bus.read(1, at.MODEL, 2)
+    answer = bus.read(1, reg.MODEL, 2)
     assert (answer.data, answer.alert) == (MODEL, True)
 
 
 def test_a_refusal_says_why(bus, servos):
     servos.emulator.inject("overload")
     with pytest.raises(BusError, match=r"refused: it can't be written now") as error:
-        bus.write(1, at.TORQUE, b"\1")
-    assert error.value.trouble is Trouble.REFUSED
+        bus.write(1, reg.TORQUE, b"\1")
+    assert error.value.kind is BusFault.REFUSED
     bus.reboot(1)
-    bus.write(1, at.TORQUE, b"\1")
+    bus.write(1, reg.TORQUE, b"\1")
 
 
 @pytest.mark.parametrize("fault", ["bad_crc", "partial_reply", "late_reply"])
 def test_a_write_whose_answer_is_lost_is_read_back_and_not_repeated(bus, servos, fault):
     servos.emulator.inject(fault, delay_ms=45)
     before = servos.emulator.facts()["instructions"]
-    bus.write(1, at.GOAL_CURRENT, (77).to_bytes(2, "little"))
-    assert bus.read_number(1, at.GOAL_CURRENT, 2) == 77
+    bus.write(1, reg.GOAL_CURRENT, (77).to_bytes(2, "little"))
+    assert bus.read_number(1, reg.GOAL_CURRENT, 2) == 77
     assert bus.counts.rewritten == 0
     # write, ping, read back, read; on a busy computer the late answer may still have been in time
     assert servos.emulator.facts()["instructions"] - before in (4, 2)
@@ -191,7 +191,7 @@ def test_a_write_whose_answer_is_lost_is_read_back_and_not_repeated(bus, servos,
 def test_a_sync_write_that_a_servo_refuses_is_noticed(bus):
     good, bad = (50).to_bytes(2, "little"), (950).to_bytes(2, "little")
     with pytest.raises(BusError, match=r"servo 2 .* refused: the value is beyond a limit"):
-        bus.write_all(at.GOAL_CURRENT, {1: good, 2: bad})
+        bus.write_all(reg.GOAL_CURRENT, {1: good, 2: bad})
 
 
 def test_unplugged_is_an_error_and_the_port_can_be_built_again(bus, servos):
@@ -199,7 +199,7 @@ def test_unplugged_is_an_error_and_the_port_can_be_built_again(bus, servos):
     assert eventually(lambda: not os.path.exists(bus.path))  # noqa: PTH110
     with pytest.raises(BusError, match="is gone") as error:
         bus.ping(1)
-    assert error.value.trouble is Trouble.LOST
+    assert error.value.kind is BusFault.LOST
     with pytest.raises(BusError, match="not open"):
         bus.ping(1)
     with pytest.raises(RobotError, match="no serial port"):
@@ -252,4 +252,4 @@ def test_something_else_on_the_port_is_no_servo(servos):
 
 def test_three_bytes_are_never_read(bus):
     with pytest.raises(ValueError, match="ping"):
-        bus.read(1, at.MODEL, 3)
+        bus.read(1, reg.MODEL, 3)

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from primitives import RobotError
-from tacgrasp.drivers.dynamixel import registers as at
+from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.gripper import check, connect_gripper
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tests.fakes.emulated_servos import EmulatedServos
@@ -38,18 +38,22 @@ def refused(servos: EmulatedServos, match: str) -> None:
 @pytest.mark.parametrize(
     ("address", "value", "match"),
     [
-        (at.MODEL, 1060, r"model: XL430-W250, expected XC330-T288; this model has no current cont"),
-        (at.MODEL, 1020, r"model: XM430-W350, expected XC330-T288; give the rig's file the right"),
-        (at.MODEL, 4321, r"model: model number 4321, expected XC330-T288"),
-        (at.FIRMWARE, 37, r"firmware: version 37, 38 or later is needed .* update it"),
-        (at.OPERATING_MODE, 3, r"operating mode: 3, expected 5 .* set register 11 to 5"),
-        (at.DRIVE_MODE, 4, r"drive mode: 0x04, expected .* set register 10 to 0"),
-        (at.STATUS_RETURN, 1, r"(status return level: 1, expected 2|does not answer)"),
-        (at.SHUTDOWN, 0x14, r"shutdown mask: 0x14, it would not let go when overloaded; .* to 52"),
-        (at.CURRENT_LIMIT, 500, r"current limit: 500 mA, max_current_ma is 900; lower"),
-        (at.VOLTAGE, 45, r"voltage: 4\.5 V, allowed 5\.5 to 14\.0 V; check the power"),
-        (at.TEMPERATURE, 66, r"temperature: 66 °C, at most 65 °C; let it cool"),
-        (at.HARDWARE_ERROR, 0x20, r"hardware error: overloaded; .* reboot"),
+        (
+            reg.MODEL,
+            1060,
+            r"model: XL430-W250, expected XC330-T288; this model has no current ",
+        ),
+        (reg.MODEL, 1020, r"model: XM430-W350, expected XC330-T288; give the rig's file the right"),
+        (reg.MODEL, 4321, r"model: model number 4321, expected XC330-T288"),
+        (reg.FIRMWARE, 37, r"firmware: version 37, 38 or later is needed .* update it"),
+        (reg.OPERATING_MODE, 3, r"operating mode: 3, expected 5 .* set register 11 to 5"),
+        (reg.DRIVE_MODE, 4, r"drive mode: 0x04, expected .* set register 10 to 0"),
+        (reg.STATUS_RETURN, 1, r"(status return level: 1, expected 2|does not answer)"),
+        (reg.SHUTDOWN, 0x14, r"shutdown mask: 0x14, it would not let go when overloaded; .* to 52"),
+        (reg.CURRENT_LIMIT, 500, r"current limit: 500 mA, max_current_ma is 900; lower"),
+        (reg.VOLTAGE, 45, r"voltage: 4\.5 V, allowed 5\.5 to 14\.0 V; check the power"),
+        (reg.TEMPERATURE, 66, r"temperature: 66 °C, at most 65 °C; let it cool"),
+        (reg.HARDWARE_ERROR, 0x20, r"hardware error: overloaded; .* reboot"),
     ],
 )
 @pytest.mark.parametrize("servo", [1, 2])
@@ -109,7 +113,7 @@ def test_a_calibration_that_does_not_fit_is_refused(servos, values, match):
 
 
 def test_after_a_refusal_the_port_is_free(servos):
-    servos.poke(at.OPERATING_MODE, 3)
+    servos.poke(reg.OPERATING_MODE, 3)
     refused(servos, "operating mode")
     servos.emulator.clear()
     servos.gripper()
@@ -121,14 +125,14 @@ def test_doctor_finds_all_well_without_writing_or_moving(servos):
     assert [f.name for f in findings if not f.ok and f.name != "latency"] == []
     names = [finding.name for finding in findings]
     assert names[0] == "port" and names[-1] == "calibration" and "latency" in names
-    assert "over 200 reads" in next(f.found for f in findings if f.name == "latency")
+    assert "over 200 reads" in next(f.detail for f in findings if f.name == "latency")
     facts = servos.emulator.facts()
     assert (facts["torque"], facts["bus_watchdog"], facts["moving"]) == (False, 0, False)
 
 
 def test_doctor_says_all_that_is_wrong_at_once(servos):
-    servos.poke(at.OPERATING_MODE, 3, id=1)
-    servos.poke(at.TEMPERATURE, 80, id=2)
+    servos.poke(reg.OPERATING_MODE, 3, id=1)
+    servos.poke(reg.TEMPERATURE, 80, id=2)
     servos.setting(unit="another")
     wrong = [f.name for f in check(servos.settings, folder=servos.folder) if not f.ok]
     assert [name for name in wrong if name != "latency"] == [

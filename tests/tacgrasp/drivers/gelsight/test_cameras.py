@@ -10,12 +10,12 @@ from cltp.errors import TouchError
 from cltp.tactile.sensors import SENSORS
 from tacgrasp.drivers.gelsight.background import (
     Background,
-    averaged,
+    average_frames,
     load_background,
     mismatch,
     save_background,
 )
-from tacgrasp.drivers.gelsight.cameras import CameraSource, fitted, frame_problem
+from tacgrasp.drivers.gelsight.cameras import CameraSource, fit_to_sensor, frame_problem
 
 SENSOR = SENSORS["gelsight_mini"]
 NOW = datetime.datetime(2026, 2, 1, 12, tzinfo=datetime.UTC)
@@ -58,19 +58,19 @@ def test_frames_come_in_red_green_blue_and_fill_the_map():
 def test_a_frame_is_cropped_alike_on_all_sides():
     picture = np.zeros((480, 640, 3), dtype=np.uint8)
     picture[69:411, 91:549] = 100  # what a seventh off each side leaves
-    assert fitted(picture, SENSOR, 1 / 7).min() == 100
-    assert fitted(picture, SENSOR, 1 / 8).min() == 0
+    assert fit_to_sensor(picture, SENSOR, 1 / 7).min() == 100
+    assert fit_to_sensor(picture, SENSOR, 1 / 8).min() == 0
 
 
 def test_a_frame_of_the_maps_size_is_left_as_it_is():
     picture = np.random.default_rng(0).integers(0, 255, (240, 320, 3), dtype=np.uint8)
-    np.testing.assert_array_equal(fitted(picture, SENSOR, 1 / 7), picture)
+    np.testing.assert_array_equal(fit_to_sensor(picture, SENSOR, 1 / 7), picture)
 
 
 @pytest.mark.parametrize("shape", [(480, 480, 3), (200, 300, 3), (240, 320)])
 def test_a_frame_that_can_not_fill_the_map_is_refused(shape):
     with pytest.raises(TouchError, match="frame"):
-        fitted(np.zeros(shape, dtype=np.uint8), SENSOR, 1 / 7)
+        fit_to_sensor(np.zeros(shape, dtype=np.uint8), SENSOR, 1 / 7)
 
 
 def test_single_failed_reads_are_survived_and_several_are_the_end():
@@ -115,15 +115,15 @@ def test_dark_and_over_exposed_frames_are_told_from_good_ones():
 def test_a_background_is_the_mean_of_still_frames():
     rng = np.random.default_rng(0)
     frames = [rng.integers(95, 106, (240, 320, 3), dtype=np.uint8) for _ in range(16)]
-    background = averaged(frames, SENSOR, "mine", NOW)
+    background = average_frames(frames, SENSOR, "mine", NOW)
     assert abs(background.frame.mean() - 100) < 0.5 and background.frame.std() < 1.2
     moved = [frame.copy() for frame in frames]
     for frame in moved[8:]:
         frame[:60, :80] += 20
     with pytest.raises(TouchError, match="changed while the background was taken"):
-        averaged(moved, SENSOR, "mine", NOW)
+        average_frames(moved, SENSOR, "mine", NOW)
     with pytest.raises(TouchError, match="2 frames or more"):
-        averaged(frames[:1], SENSOR, "mine", NOW)
+        average_frames(frames[:1], SENSOR, "mine", NOW)
 
 
 def test_a_background_keeps_unit_and_date_and_stays_an_image(tmp_path):

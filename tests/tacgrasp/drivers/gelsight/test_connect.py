@@ -16,7 +16,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
-from tacgrasp.drivers.gelsight.frame_folder import frames_heights, read_ball_frames
+from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tests.paths import SHARED_DATA
 
@@ -276,16 +276,16 @@ def test_a_background_is_not_taken_of_a_dark_or_missing_picture(files, camera):
 def test_a_check_names_ages_rate_and_what_is_wrong(files, camera):
     found = {one.name: one for one in check(settings_of(files), now=lambda: NOW, opener=camera)}
     assert all(one.ok for one in found.values() if one.name != "fresh cloud")  # a busy machine
-    assert "1 days old, unit mine" in found["calibration"].found
-    assert "2.0 h old, 20 frames" in found["background"].found
-    assert "0 repeated" in found["fresh cloud"].found
+    assert "1 days old, unit mine" in found["calibration"].detail
+    assert "2.0 h old, 20 frames" in found["background"].detail
+    assert "0 repeated" in found["fresh cloud"].detail
     camera.picture = pressed(0.6)
     *_, reads = check(settings_of(files), now=lambda: NOW, opener=camera)
-    assert not reads.ok and "free the gel" in reads.found
+    assert not reads.ok and "free the gel" in reads.detail
     (wrong,) = check(settings_of(files, unit="other"), opener=camera)
     assert not wrong.ok
     *_, missing = check(settings_of(files), now=lambda: NOW)
-    assert not missing.ok and "no camera /dev/v4l/by-id/mine" in missing.found
+    assert not missing.ok and "no camera /dev/v4l/by-id/mine" in missing.detail
 
 
 @pytest.fixture

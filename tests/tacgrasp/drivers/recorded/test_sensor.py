@@ -13,7 +13,7 @@ from primitives.devices import GripperState, Pose
 from tacgrasp.drivers.recorded.sensor import check, connect_recorded
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
-from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, Phase, TickRecord
+from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, StepPhase, StepRecord
 
 SENSOR = SENSORS["gelsight_mini"]
 
@@ -47,12 +47,12 @@ def episode(tmp_path):
     with EpisodeWriter(path, header) as writer:
         for index in range(3):
             rng = np.random.default_rng(index)
-            writer.write_tick(
-                TickRecord(
-                    index=index, phase=Phase.TICK, decision=None, executed=None, stamp=stamp,
+            writer.write_step(
+                StepRecord(
+                    index=index, phase=StepPhase.LOOP, decision=None, executed=None, stamp=stamp,
                     cloud=cloud_from_heights(heights(0.2 * index), SENSOR, rng=rng, stamp=stamp),
                     tcp_pose=Pose(position_m=np.zeros(3), rotvec_rad=np.zeros(3)),
-                    gripper=GripperState(width_m=0.03, force_n=1.0, closed=True), tick_ms=1.0,
+                    gripper=GripperState(width_m=0.03, force_n=1.0, closed=True), step_ms=1.0,
                 )
             )  # fmt: skip
     return path
@@ -61,7 +61,7 @@ def episode(tmp_path):
 def test_a_folder_is_played_as_a_person_counts_and_ends(folder):
     sensor = connect_recorded(RecordedSettings(path=folder))
     assert [depth(sensor.read()) for _ in range(3)] == [0.1, 0.2, 1.0]
-    assert sensor.played == sensor.length == 3
+    assert sensor._num_played == sensor.length == 3
     for _ in range(2):
         with pytest.raises(TouchError, match="has ended after 3 touches"):
             sensor.read()
@@ -133,7 +133,7 @@ def test_what_is_no_recording_is_refused(tmp_path, episode, folder):
 
 def test_a_check_reads_every_touch_once(folder):
     (found,) = check(RecordedSettings(path=folder, repeat=True))
-    assert found.ok and "3 recorded touches" in found.found and "nothing is felt" in found.found
+    assert found.ok and "3 recorded touches" in found.detail and "nothing is felt" in found.detail
     (folder / "touch_3.npy").write_bytes(b"damaged")
     (found,) = check(RecordedSettings(path=folder))
-    assert not found.ok and "touch_3.npy" in found.found
+    assert not found.ok and "touch_3.npy" in found.detail

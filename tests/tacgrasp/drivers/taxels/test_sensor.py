@@ -254,12 +254,12 @@ def test_points_are_jittered_by_the_generator_that_is_given(settings):
 def test_a_check_tells_latency_and_line(emulator, settings):
     found = check(settings)
     assert [(one.name, one.ok) for one in found] == [
-        ("found", True), ("fresh frame", True), ("line", True),
+        ("connection", True), ("fresh frame", True), ("line", True),
     ]  # fmt: skip
-    assert "ms" in found[1].found and "0 damaged" in found[2].found
+    assert "ms" in found[1].detail and "0 damaged" in found[2].detail
     emulator.inject("black")
     (_, reads) = check(settings)
-    assert not reads.ok and "dead or dark" in reads.found
+    assert not reads.ok and "dead or dark" in reads.detail
     emulator.inject("unplugged")
     (missing,) = check(settings)
     assert not missing.ok and missing.advice

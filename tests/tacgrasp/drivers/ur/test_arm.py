@@ -22,17 +22,22 @@ from tacgrasp.drivers.ur import arm as ur
 from tacgrasp.drivers.ur import rtde_link as ur_link
 from tacgrasp.drivers.ur.arm import UrArm, check, connect_arm
 from tacgrasp.drivers.ur.emulated import emulated_arm
-from tacgrasp.drivers.ur.motion_limits import expected_s, nearest_rotvec, refusal, turn_between_rad
+from tacgrasp.drivers.ur.motion_limits import (
+    expected_duration_s,
+    nearest_rotvec,
+    refusal,
+    turn_between_rad,
+)
 from tacgrasp.drivers.ur.preflight import look, preflight
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     PERIOD,
-    Block,
-    Order,
-    OrderRecord,
-    Outcome,
-    Phase,
-    State,
+    ArmCommand,
+    CommandOutcome,
+    CommandRecord,
+    SharedStateBlock,
+    WorkerPhase,
+    WorkerState,
 )
 
 pytest.importorskip("rtde_control")
@@ -267,7 +272,7 @@ def test_supervision_and_latency_are_counted(arm):
 
 def test_the_librarys_threads_come_before_the_thread_that_spins_for_their_answers(arm):
     """With equal real-time priorities a command hung for a second while nothing could receive."""
-    worker = arm._owner.pid
+    worker = arm._worker.pid
     if os.sched_getscheduler(worker) != os.SCHED_FIFO:
         pytest.skip("this system grants no real-time priority")
     tasks = [int(task.name) for task in Path(f"/proc/{worker}/task").iterdir()]
@@ -405,7 +410,7 @@ def test_with_the_rtde_link_dead_the_stop_takes_another_way(arm, emulator, alrea
 
 
 def test_a_killed_worker_leaves_an_arm_that_stops_and_an_owner_that_knows(arm, emulator):
-    worker = arm._owner.pid
+    worker = arm._worker.pid
 
     def kill():
         emulator.control.inject("ur", "contact_force", force_n=0.0)  # starts the measurement
@@ -417,7 +422,7 @@ def test_a_killed_worker_leaves_an_arm_that_stops_and_an_owner_that_knows(arm, e
 
 
 def test_a_worker_that_hangs_is_noticed_and_the_arm_stops(arm, emulator):
-    worker = arm._owner.pid
+    worker = arm._worker.pid
 
     def hang():
         emulator.control.inject("ur", "contact_force", force_n=0.0)
@@ -436,7 +441,7 @@ from primitives.devices import Pose
 from tacgrasp.drivers.ur.arm import connect_arm
 from tacgrasp.drivers.ur.settings import UrSettings
 arm = connect_arm(UrSettings.model_validate_json(sys.argv[1]))
-print(arm._owner.pid, flush=True)
+print(arm._worker.pid, flush=True)
 pose = arm.pose()
 x, y, z = pose.position_m
 far = np.array([x, y, 0.13 if z > 0.26 else 0.39])
@@ -506,9 +511,9 @@ def test_a_pose_that_is_not_finite_or_not_whole_never_gets_as_far_as_the_driver(
 
 
 def order(**changes):
-    given = {"order": Order.MOVE, "number": 1, "sent_s": 0.0, "pose": (*START_M, *DOWN_RAD),
+    given = {"order": ArmCommand.MOVE, "number": 1, "sent_s": 0.0, "pose": (*START_M, *DOWN_RAD),
              "speed_m_s": 0.1, "acceleration_m_s2": 1.0}  # fmt: skip
-    return OrderRecord(**(given | changes))
+    return CommandRecord(**(given | changes))
 
 
 @pytest.mark.parametrize(
@@ -537,8 +542,10 @@ def test_bounds_themselves_are_allowed():
 
 def test_the_expected_time_is_that_of_the_trapezoid():
     here = (START_M[0] - 0.1, *START_M[1:], *DOWN_RAD)
-    assert expected_s(order(speed_m_s=0.1, acceleration_m_s2=1.0), here) == pytest.approx(1.1)
-    assert expected_s(order(), order().pose) == 0.0
+    assert expected_duration_s(order(speed_m_s=0.1, acceleration_m_s2=1.0), here) == pytest.approx(
+        1.1
+    )
+    assert expected_duration_s(order(), order().pose) == 0.0
 
 
 def test_half_a_turn_has_two_rotation_vectors_and_no_turn_between_them():
@@ -585,7 +592,7 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
 
 
 def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set():
-    sample = ur_link.Sample(
+    sample = ur_link.RtdeSample(
         stamp_s=1.0, pose=(0,) * 6, speed=(0,) * 6, force=(0,) * 6,
         robot_mode=7, runtime_state=2, safety_bits=1 << 4, speed_fraction=1.0,
     )  # fmt: skip
@@ -594,10 +601,10 @@ def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set(
 
 def test_orders_and_states_survive_their_fixed_layout():
     sent = order(sent_s=12.5, number=7)
-    assert OrderRecord.unpacked(sent.packed()) == sent
-    owners = Block()
-    workers = Block(os.dup(owners.fd))
-    state = State(phase=Phase.FAULT, done=3, outcome=Outcome.REFUSED, beat_s=1.5, data_s=1.25,
+    assert CommandRecord.unpacked(sent.packed()) == sent
+    owners = SharedStateBlock()
+    workers = SharedStateBlock(os.dup(owners.fd))
+    state = WorkerState(phase=WorkerPhase.FAULT, done=3, outcome=CommandOutcome.REFUSED, beat_s=1.5, data_s=1.25,
                   pose=tuple(range(6)), text="link, dropped °")  # fmt: skip
     workers.write(state)
     assert owners.read() == state
@@ -612,8 +619,8 @@ def test_orders_and_states_survive_their_fixed_layout():
 
 
 def test_a_torn_state_is_not_read():
-    block = Block()
-    block.write(State(text="whole"))
+    block = SharedStateBlock()
+    block.write(WorkerState(text="whole"))
     block._memory[8] ^= 0xFF
     with pytest.raises(RobotError, match="torn"):
         block.read()

@@ -1,12 +1,12 @@
-"""Folders of ball presses: frames of one unit and ``background.png``; their heights.
+"""Folders of ball presses, for the calibration of a GelSight Mini and the benchmarks on them.
 
-Not here: benchmarks on them (``tacgrasp.benchmarks.sensing.balls``), calibrating
+A folder holds one frame per press of a ball on one unit, and ``background.png``. Not here: the
+benchmarks (``tacgrasp.benchmarks.sensing.balls``), learning a calibration
 (``cltp.train.photometric``).
 """
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,18 +18,17 @@ from cltp.sensing.calibration import default_calibration, load_calibration
 from cltp.sensing.frames import FRAME_SUFFIXES, Frame, read_frame
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
-
-BACKGROUND = "background.png"
+from tacgrasp.drivers.frame_folder import BACKGROUND, list_recorded
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BallFrames:
-    """What a folder holds.
+    """The frames of a folder.
 
     Attributes:
-        names: File names without suffix, ordered as a person counts.
+        names: File names without suffix, in counting order.
         frames: One press each, (rows, columns, 3) uint8.
-        background: The same unit untouched.
+        background: Frame of the same unit with nothing touching it.
     """
 
     names: tuple[str, ...]
@@ -43,32 +42,26 @@ def read_ball_frames(
     """Read every image of ``folder`` but the background.
 
     Args:
-        folder: Where they are.
-        sensor: Whose frames they are.
-        background: The untouched gel; None is ``background.png`` in the folder.
+        folder: Folder of the frames.
+        sensor: Sensor of the frames.
+        background: Frame of the untouched gel; None is ``background.png`` in the folder.
 
     Raises:
-        TouchError: No such folder, no images in it, no background, or an image that is no frame.
+        TouchError: No such folder, no images in it, no background, or an invalid image.
     """
     if not folder.is_dir():
         raise TouchError(f"{folder} is no folder; expected one with frames of ball presses")
-    behind = background or folder / BACKGROUND
-    if not behind.is_file():
+    untouched = background or folder / BACKGROUND
+    if not untouched.is_file():
         raise TouchError(
-            f"no background {behind}; expected a frame of the same unit with nothing touching it: "
-            "name it with --background"
+            f"no background {untouched}; expected a frame of the same unit with nothing touching "
+            "it: name it with --background"
         )
-    paths = [
-        path
-        for path in sorted(folder.iterdir(), key=lambda path: counted(path.name))
-        if path.suffix.lower() in FRAME_SUFFIXES and path.resolve() != behind.resolve()
-    ]
-    if not paths:
-        raise TouchError(f"{folder} holds no frames; expected {', '.join(FRAME_SUFFIXES)}")
+    paths = list_recorded(folder, FRAME_SUFFIXES, content="frames", excluded=[untouched])
     return BallFrames(
         names=tuple(path.stem for path in paths),
         frames=tuple(read_frame(path, sensor) for path in paths),
-        background=read_frame(behind, sensor),
+        background=read_frame(untouched, sensor),
     )
 
 
@@ -82,13 +75,13 @@ def frames_heights(
     """Heights of every frame in a folder: (name, (rows, columns) [mm]).
 
     Args:
-        folder: Where the frames are.
-        sensor: Whose they are; None is a GelSight Mini.
-        background: As ``read_ball_frames``.
-        calibration: None is the one that ships.
+        folder: Folder of the frames.
+        sensor: Sensor of the frames; None is a GelSight Mini.
+        background: As in ``read_ball_frames``.
+        calibration: Calibration file; None is the one that ships with the package.
 
     Raises:
-        TouchError: As ``read_ball_frames``, or the calibration can't be used.
+        TouchError: As in ``read_ball_frames``, or the calibration can't be used.
     """
     sensor = sensor or sensor_named("gelsight_mini")
     balls = read_ball_frames(folder, sensor, background)
@@ -98,8 +91,3 @@ def frames_heights(
         (name, photometer.heights(frame))
         for name, frame in zip(balls.names, balls.frames, strict=True)
     ]
-
-
-def counted(name: str) -> list[tuple[int, str]]:
-    """Key that sorts as a person counts: ball_2 before ball_10."""
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]

@@ -1,0 +1,54 @@
+"""Recordings in folders: their files in counting order, the name of the background, their end.
+
+Not here: folders of ball presses for a calibration (``tacgrasp.bringup.ball_frames``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from cltp.errors import TouchError
+
+BACKGROUND = "background.png"
+
+
+def list_recorded(
+    folder: Path, suffixes: Sequence[str], *, content: str, excluded: Iterable[Path]
+) -> list[Path]:
+    """Files of a folder with one of the suffixes, in counting order: ball_2 before ball_10.
+
+    Args:
+        folder: Folder of the recording.
+        suffixes: Suffixes of the files, in lower case.
+        content: Noun for the error: 'frames'.
+        excluded: Files to leave out, the background for instance.
+
+    Raises:
+        TouchError: No such file in the folder.
+    """
+    left_out = {path.resolve() for path in excluded}
+    paths = sorted(
+        (
+            path
+            for path in folder.iterdir()
+            if path.suffix.lower() in suffixes and path.resolve() not in left_out
+        ),
+        key=lambda path: _counting_key(path.name),
+    )
+    if not paths:
+        raise TouchError(f"{folder} holds no {content}; expected {', '.join(suffixes)}")
+    return paths
+
+
+def _counting_key(name: str) -> list[tuple[int, str]]:
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]
+
+
+def ended_message(name: str, num_played: int) -> str:
+    """Error message for a read after the end of a recording."""
+    return (
+        f"the recording {name} has ended after {num_played} touches; nothing newer can be felt: "
+        "give a longer one, or repeat it"
+    )
