@@ -1,9 +1,9 @@
-"""The world that the emulated arm, gripper and sensor share: one ``sim.grasp.world.Grasp``.
+"""The world shared by the emulated arm, gripper and sensor: one ``sim.grasp.world.Grasp``.
 
-It is drawn as the simulated rig of the same object and seed (same body, place on the pad, worn
-gripper, sensor unit and noise of every contact), so that a strawberry slips and bruises alike. A
-thread of its own solves the contacts: of the emulated devices, which have to answer within
-milliseconds, only a gripper that is closing waits for it.
+It is drawn as the simulated rig of the same object and seed (same body, position on the pad,
+gripper force gain, sensor unit and noise of every contact), so that a strawberry slips and bruises
+alike. A thread of its own solves the contacts. The emulated devices have to answer within
+milliseconds; only a closing gripper waits for that thread.
 
 Not here: the protocols, and the process around them (``sim.emulators.rig``).
 """
@@ -14,7 +14,6 @@ import math
 import time
 from collections.abc import Callable
 from concurrent.futures import Future, ThreadPoolExecutor
-from concurrent.futures import TimeoutError as TooLate
 from dataclasses import asdict
 from typing import Any, TypeVar
 
@@ -24,76 +23,67 @@ from scipy.spatial.transform import Rotation
 
 from primitives.errors import RobotError
 from sim.emulators.process.control import Facts
+from sim.emulators.ur.motion import MotionSegment
 from sim.grasp.devices import settled_width_m
 from sim.grasp.rig import SimRig
 from sim.grasp.world import trapezoid_s
 
 T = TypeVar("T")
 
-TICK_S = 0.02
-"""How often a body that slides is followed while nothing is commanded [s]."""
+SLIDE_PERIOD_S = 0.02
+"""Period at which a sliding body is updated while nothing is commanded [s]."""
 
 ANSWER_S = 10.0
 """Longest wait for the solver [s]; a contact takes about 10 ms on an idle core."""
 
 
 class SharedWorld:
-    """One body between two fingers, moved and asked from several threads.
+    """One body between two fingers, used from several threads.
 
-    Time passes as it really does: what is lifted and can't be held slides on while nothing is
-    commanded. A motion is solved with the speed and acceleration that were commanded, as in the
-    simulated rig.
+    Time is real: a lifted body that can't be held slides on while nothing is commanded. A motion is
+    solved with its commanded speed and acceleration, as in the simulated rig.
     """
 
     def __init__(self, rig: SimRig, clock: Callable[[], float] = time.monotonic) -> None:
-        """Take a freshly built simulated rig; its own devices must not be used any more."""
+        """Take over a new simulated rig; its own devices must not be used any more."""
         self._rig, self._clock = rig, clock
-        self._until_s = clock()
+        self._solved_until_s = clock()
         self._base_from_tcp = Rotation.from_rotvec(np.array(rig.start_pose.rotvec_rad))
-        self._felt = (0, 0.0)
+        self._published = (0, 0.0)
         self._height_mm = rig.sensor.height_mm()
         self._solver = ThreadPoolExecutor(1, thread_name_prefix="world")
         self._last: Future[Any] = self._solver.submit(lambda: None)
 
-    def moved(
-        self,
-        by_base_m: NDArray[np.float64],
-        rotvec_rad: NDArray[np.float64],
-        speed_m_s: float,
-        acceleration_m_s2: float,
-    ) -> None:
-        """The TCP has covered a straight segment; returns when the world has followed.
-
-        Args:
-            by_base_m: Shape (3,), what was really covered [m, base frame].
-            rotvec_rad: Shape (3,), by what the TCP turned on the way [rad, base frame].
-            speed_m_s: As commanded [m/s].
-            acceleration_m_s2: As commanded [m/s²].
+    def follow(self, segment: MotionSegment) -> None:
+        """Follow a segment of the TCP that has just ended; returns when it is solved.
 
         Raises:
             RobotError: The solver failed or does not answer.
         """
-        by_m, ended_s = np.array(by_base_m, dtype=float), self._clock()
+        ended_s = self._clock()
         axes = (self._rig.pad_x_in_tcp, self._rig.pad_y_in_tcp)
-        x_mm, y_mm = (float(1000 * self._base_from_tcp.apply(axis) @ by_m) for axis in axes)
-        self._base_from_tcp = Rotation.from_rotvec(np.array(rotvec_rad)) * self._base_from_tcp
+        x_mm, y_mm = (
+            float(1000 * self._base_from_tcp.apply(axis) @ segment.by_base_m) for axis in axes
+        )
+        self._base_from_tcp = Rotation.from_rotvec(segment.rotvec_rad) * self._base_from_tcp
         distance_m = math.hypot(x_mm, y_mm) / 1000
         if distance_m == 0:
             return
+        speed_m_s, acceleration_m_s2 = segment.speed_m_s, segment.acceleration_m_s2
         ramp_s, cruise_s = trapezoid_s(distance_m, speed_m_s, acceleration_m_s2)
 
         def move() -> None:
             self._wait_until(ended_s - 2 * ramp_s - cruise_s)
             self._rig.grasp.move((x_mm, y_mm), speed_m_s, acceleration_m_s2)
-            self._until_s = max(self._until_s, ended_s)
+            self._solved_until_s = max(self._solved_until_s, ended_s)
 
-        _answer(self._do(move))
+        _result(self._submit(move))
 
     def width_under(self, force_n: float) -> float:
-        """Close, or adjust a grip, with a force as the gripper believes it [N].
+        """Close, or adjust a grip, with a commanded force [N].
 
         Returns:
-            Opening at which the fingers settle [m]; 0 when nothing is between them.
+            Opening at which the fingers settle [m]; 0 with nothing between them.
 
         Raises:
             ValueError: The force is not positive.
@@ -105,41 +95,41 @@ class SharedWorld:
 
         def close() -> float:
             self._wait_until(at_s)
-            self._rig.grasp.close(force_n * self._rig.gripper.factor)
+            self._rig.grasp.close(force_n * self._rig.gripper.force_gain)
             return settled_width_m(self._rig.grasp)
 
-        return _answer(self._do(close))
+        return _result(self._submit(close))
 
-    def released(self) -> None:
-        """The fingers have left the object; returns at once."""
+    def release(self) -> None:
+        """Open the fingers; returns at once."""
         at_s = self._clock()
 
         def open_() -> None:
             self._wait_until(at_s)
             self._rig.grasp.open()
 
-        self._do(open_)
+        self._submit(open_)
 
     def height_mm(self) -> NDArray[np.float32]:
-        """The gel as this sensor unit reconstructs it now; shape (rows, columns) [mm].
+        """Reconstructed heights of the gel now, shape (rows, columns) [mm].
 
-        Never waits: while a contact is being solved, the answer is the one before it.
+        Never waits: while a contact is being solved, these are the heights before it.
         """
         now_s = self._clock()
-        holds = self._rig.grasp.patch is not None
-        if holds and self._last.done() and now_s - self._until_s > TICK_S:
-            self._do(lambda: self._wait_until(now_s))
+        is_holding = self._rig.grasp.patch is not None
+        if is_holding and self._last.done() and now_s - self._solved_until_s > SLIDE_PERIOD_S:
+            self._submit(lambda: self._wait_until(now_s))
         return self._height_mm
 
     def inject(self, fault: str, **details: float | str) -> None:
-        """The world has no faults; ``ValueError``."""
+        """Raise ``ValueError``: the world has no faults."""
         raise ValueError(f"the world has no fault {fault!r}; faults are the devices'")
 
     def clear(self) -> None:
-        """Nothing to take back."""
+        """Nothing to end: the world has no faults."""
 
     def facts(self) -> Facts:
-        """The truth as ``sim.grasp.rig.Truth`` has it, and how often fingers and gel were changed.
+        """``sim.grasp.rig.Truth``, and the numbers of grips and of solved contacts.
 
         Raises:
             RobotError: The solver failed or does not answer.
@@ -154,37 +144,37 @@ class SharedWorld:
             counts = {"grips": grasp.grips, "contacts": grasp.contacts}
             return {**facts, "offset_x_mm": x_mm, "offset_y_mm": y_mm, **counts}
 
-        return _answer(self._do(truth))
+        return _result(self._submit(truth))
 
     def close(self) -> None:
-        """Solve no more. Idempotent."""
+        """End the solver. Idempotent."""
         self._solver.shutdown(wait=False, cancel_futures=True)
 
-    def _do(self, change: Callable[[], T]) -> Future[T]:
+    def _submit(self, change: Callable[[], T]) -> Future[T]:
         """Queue a change and publish the gel after it. Changes happen in the order of calls."""
         if self._last.done():
-            self._last.result()  # an error of the solver must not pass unseen
+            self._last.result()  # raises an error of the solver
 
-        def changed() -> T:
-            answer = change()
-            felt = (self._rig.grasp.contacts, self._rig.grasp.slip_mm)
-            if felt != self._felt:
+        def run() -> T:
+            result = change()
+            version = (self._rig.grasp.contacts, self._rig.grasp.slip_mm)
+            if version != self._published:
                 self._height_mm = self._rig.sensor.height_mm()
-                self._felt = felt
-            return answer
+                self._published = version
+            return result
 
-        done = self._solver.submit(changed)
-        self._last = done
-        return done
+        future = self._solver.submit(run)
+        self._last = future
+        return future
 
     def _wait_until(self, at_s: float) -> None:
-        if at_s > self._until_s:
-            self._rig.grasp.wait(at_s - self._until_s)
-            self._until_s = at_s
+        if at_s > self._solved_until_s:
+            self._rig.grasp.wait(at_s - self._solved_until_s)
+            self._solved_until_s = at_s
 
 
-def _answer(done: Future[T]) -> T:
+def _result(future: Future[T]) -> T:
     try:
-        return done.result(ANSWER_S)
-    except TooLate:
+        return future.result(ANSWER_S)
+    except TimeoutError:
         raise RobotError(f"the emulated world did not answer within {ANSWER_S:g} s") from None

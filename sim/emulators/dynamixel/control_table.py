@@ -1,11 +1,11 @@
-"""Control tables of the emulated X-series servos: registers, their limits, and the models.
+"""Control tables of the emulated X-series servos: registers, limits and models.
 
 Source: ROBOTIS e-Manual, 'Control Table' of XC330-T288, XM430-W350 and XL430-W250.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import Enum
 
 from sim.emulators.dynamixel.packets import BAD_LENGTH, BEYOND_LIMIT, NO_ACCESS, OK, OUT_OF_RANGE
@@ -21,7 +21,7 @@ VOLTAGE, TEMPERATURE = 144, 146
 CURRENT_BASED_POSITION = 5
 
 BAUDS = (9600, 57600, 115200, 1000000, 2000000, 3000000, 4000000)
-"""By the value of the baud rate register."""
+"""Baud rates [bit/s], by the value of the baud rate register."""
 
 VELOCITY_TICKS_S = 0.229 / 60 * 4096
 """One unit of velocity, 0.229 rev/min [ticks/s]."""
@@ -30,7 +30,7 @@ _SIZE = 147
 
 
 class RegisterAccess(Enum):
-    """What may be written when."""
+    """When a register may be written."""
 
     READ_ONLY = "read only"
     EEPROM = "written with torque off"
@@ -105,19 +105,19 @@ _REGISTERS: dict[int, Register] = {
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EmulatedServoModel:
-    """A servo as it leaves the factory.
+    """A servo model, with factory settings.
 
     Attributes:
-        number: Of the model.
-        firmware: Version that a new one came with.
-        current_limit: Factory setting and largest [units]; None: no current control.
+        number: Model number.
+        firmware: Firmware version of a new servo.
+        current_limit: Factory setting and maximum [units]; None without current control.
         unit_ma: One unit of current [mA].
-        volts: Voltage that it is fed with here [V].
-        volt_limits: Lowest and highest [V].
+        volts: Supply voltage here [V].
+        volt_limits: Lowest and highest supply voltage [V].
         hottest_c: Temperature limit [°C].
-        shutdown: Mask of the errors at which it lets go.
-        watchdog_stops: Whether it stops when the bus watchdog trips. Source: the notes' trial; 330-
-            size servos did not.
+        shutdown: Mask of the errors that switch torque off.
+        watchdog_stops: It stops when the bus watchdog trips. Source: our own trial; servos of size
+            330 did not stop.
     """
 
     number: int
@@ -131,6 +131,17 @@ class EmulatedServoModel:
     watchdog_stops: bool
 
 
+_XM430 = EmulatedServoModel(
+    number=1020,
+    firmware=45,
+    current_limit=1193,
+    unit_ma=2.69,
+    volts=12.0,
+    volt_limits=(9.5, 16.0),
+    hottest_c=80,
+    shutdown=0x34,
+    watchdog_stops=True,
+)
 MODELS = {
     "XC330-T288": EmulatedServoModel(
         number=1220,
@@ -143,44 +154,16 @@ MODELS = {
         shutdown=0x35,
         watchdog_stops=False,
     ),
-    "XM430-W350": EmulatedServoModel(
-        number=1020,
-        firmware=45,
-        current_limit=1193,
-        unit_ma=2.69,
-        volts=12.0,
-        volt_limits=(9.5, 16.0),
-        hottest_c=80,
-        shutdown=0x34,
-        watchdog_stops=True,
-    ),
-    "XM540-W270": EmulatedServoModel(
-        number=1120,
-        firmware=45,
-        current_limit=2047,
-        unit_ma=2.69,
-        volts=12.0,
-        volt_limits=(9.5, 16.0),
-        hottest_c=80,
-        shutdown=0x34,
-        watchdog_stops=True,
-    ),
-    "XL430-W250": EmulatedServoModel(
-        number=1060,
-        firmware=45,
-        current_limit=None,
-        unit_ma=1.0,
-        volts=12.0,
-        volt_limits=(6.5, 12.0),
-        hottest_c=72,
-        shutdown=0x34,
-        watchdog_stops=True,
+    "XM430-W350": _XM430,
+    "XM540-W270": replace(_XM430, number=1120, current_limit=2047),
+    "XL430-W250": replace(
+        _XM430, number=1060, current_limit=None, unit_ma=1.0, volt_limits=(6.5, 12.0), hottest_c=72
     ),
 }
 
 
 class ControlTable:
-    """The memory of one servo: registers by their address."""
+    """The registers of one servo, by address."""
 
     def __init__(self, model: EmulatedServoModel, servo_id: int, baud: int, mode: int) -> None:
         self._registers = dict(_REGISTERS)
@@ -192,7 +175,7 @@ class ControlTable:
                 2, RegisterAccess.EEPROM, 0, model.current_limit
             )
         low_v, high_v = model.volt_limits
-        start = {
+        factory = {
             MODEL: model.number,
             FIRMWARE: model.firmware,
             ID: servo_id,
@@ -212,13 +195,13 @@ class ControlTable:
             TEMPERATURE: 34,
         }
         if model.current_limit is not None:
-            start[CURRENT_LIMIT] = model.current_limit
-        for address, value in start.items():
+            factory[CURRENT_LIMIT] = model.current_limit
+        for address, value in factory.items():
             self[address] = value
         self.start_up()
 
     def start_up(self) -> None:
-        """The volatile registers as after switching on."""
+        """Reset the volatile registers, as after switching on."""
         for address, value in ((68, 2), (GOAL_PWM, 885), (TORQUE, 0), (HARDWARE_ERROR, 0)):
             self[address] = value
         for address in (WATCHDOG, GOAL_VELOCITY, PROFILE_VELOCITY, 108):
@@ -240,29 +223,29 @@ class ControlTable:
         self._memory[address : address + register.size] = raw
 
     def read(self, address: int, length: int) -> tuple[int, bytes]:
-        """Error number and the bytes; reading runs over addresses that hold nothing."""
+        """Error number and bytes; a read may cover addresses without a register."""
         if length == 0 or address + length > _SIZE:
             return OUT_OF_RANGE, b""
         return OK, bytes(self._memory[address : address + length])
 
     def write(self, address: int, data: bytes) -> tuple[int, frozenset[int]]:
-        """Error number and the addresses that were written: either all of the data or nothing."""
+        """Write all of the data or nothing; returns error number and written addresses."""
         values: dict[int, int] = {}
-        place = address
-        while place < address + len(data):
-            register = self._registers.get(place)
+        current = address
+        while current < address + len(data):
+            register = self._registers.get(current)
             if register is None:
                 return NO_ACCESS, frozenset()
-            raw = data[place - address : place - address + register.size]
+            raw = data[current - address : current - address + register.size]
             if len(raw) < register.size:
                 return BAD_LENGTH, frozenset()
-            values[place] = int.from_bytes(raw, "little", signed=register.low < 0)
-            place += register.size
+            values[current] = int.from_bytes(raw, "little", signed=register.low < 0)
+            current += register.size
         error = next((e for a, v in values.items() if (e := self._refusal(a, v))), OK)
         if error or not values:
             return error or BAD_LENGTH, frozenset()
-        for place, value in values.items():
-            self[place] = value
+        for written, value in values.items():
+            self[written] = value
         return OK, frozenset(values)
 
     def _refusal(self, address: int, value: int) -> int:

@@ -1,4 +1,4 @@
-"""Faults of the emulated bus: what can be injected, and what it does to answers and servos."""
+"""Faults of the emulated bus: their names, and their effect on answers and servos."""
 
 from __future__ import annotations
 
@@ -12,27 +12,27 @@ VOLTAGE_BIT, HEAT_BIT, ENCODER_BIT, OVERLOAD_BIT = 0x01, 0x04, 0x08, 0x20
 """Bits of the hardware error status (70)."""
 
 FAULTS = {
-    "silence": "no answers any more; id: of one servo only",
-    "bad_crc": "the next answers carry a wrong CRC; count: 1",
+    "silence": "no more answers; id: of one servo only",
+    "bad_crc": "the next answers have a wrong CRC; count: 1",
     "late_reply": "the next answers come late; delay_ms: 50, count: 1",
     "partial_reply": "the next answers break off half-way; count: 1",
     "wrong_baud": "the servos listen at another baud rate; garbage: 1 for noise as an answer",
-    "wrong_model": "another servo is there; model: 1060, an XL430 without current control",
-    "port_taken": "another program has the port",
-    "unplug": "the port is gone; clear plugs it in again",
-    "alert": "a hardware error that does not let go; bit: 8, the encoder",
+    "wrong_model": "the servo reports another model; model: 1060, an XL430 without current control",
+    "port_taken": "another program has locked the port",
+    "unplug": "the port disappears; clear plugs it in again",
+    "alert": "a hardware error that leaves torque on; bit: 8, the encoder",
     "overload": "overload: torque goes off",
     "over_temperature": "too hot: torque goes off; celsius: 85",
     "register": "a register is changed; address, value, id: all",
 }
-"""What can be injected, and its details with their defaults."""
+"""Names and effects of the faults, with the defaults of their details."""
 
 
 class BusFaults:
-    """The faults of one bus. Not thread-safe: the caller's lock guards it.
+    """The faults of one bus. Not thread-safe: the caller holds a lock.
 
     Attributes:
-        active: Names of what was injected since the last ``clear``.
+        active: Names of the faults injected since the last ``clear``.
     """
 
     def __init__(
@@ -41,30 +41,30 @@ class BusFaults:
         self._servos, self._wire, self._clock = servos, wire, clock
         self._injected_s: float | None = None
         self.active: set[str] = set()
-        self._silent: set[int] = set()
-        self._spoil: list[tuple[str, float]] = []
+        self._silent_ids: set[int] = set()
+        self._next_replies: list[tuple[str, float]] = []
         self._garbage = False
-        self._before: list[tuple[EmulatedServo, int, int]] = []
+        self._original_values: list[tuple[EmulatedServo, int, int]] = []
 
     def inject(self, fault: str, details: Mapping[str, float | str]) -> None:
-        """Let a fault happen.
+        """Start a fault.
 
         Raises:
-            ValueError: It is not known, or can't happen now.
+            ValueError: The fault is not known, or impossible now.
         """
         if fault not in FAULTS:
-            known = "; ".join(f"{name} ({what})" for name, what in FAULTS.items())
+            known = "; ".join(f"{name} ({effect})" for name, effect in FAULTS.items())
             raise ValueError(f"no fault {fault!r}; known: {known}")
         values = {name: float(value) for name, value in details.items()}
-        only = int(values.get("id", 0))
-        servos = [servo for servo in self._servos if only in (0, servo.id)]
+        servo_id = int(values.get("id", 0))
+        servos = [servo for servo in self._servos if servo_id in (0, servo.id)]
         if fault in ("bad_crc", "late_reply", "partial_reply"):
             delay_s = values.get("delay_ms", 50.0) / 1000
-            self._spoil += [(fault, delay_s)] * int(values.get("count", 1))
+            self._next_replies += [(fault, delay_s)] * int(values.get("count", 1))
         elif fault == "silence":
-            self._silent |= {servo.id for servo in servos}
+            self._silent_ids |= {servo.id for servo in servos}
         elif fault == "port_taken":
-            self._wire.take()
+            self._wire.lock()
         elif fault == "unplug":
             self._wire.unplug()
         else:
@@ -73,36 +73,36 @@ class BusFaults:
         self._injected_s = self._clock()
 
     def clear(self) -> None:
-        """Take everything back; what went off stays off."""
+        """End all faults; torque that went off stays off."""
         self.active.clear()
-        self._silent.clear()
-        self._spoil.clear()
+        self._silent_ids.clear()
+        self._next_replies.clear()
         self._garbage = False
-        for servo, address, value in reversed(self._before):
+        for servo, address, value in reversed(self._original_values):
             servo.table[address] = value
-        self._before.clear()
+        self._original_values.clear()
         for servo in self._servos:
             servo.table[at.HARDWARE_ERROR] = 0
-        self._wire.give_back()
+        self._wire.unlock()
         self._wire.plug_in()
 
     def injected_ago_ms(self) -> float | None:
-        """Time since the last injection [ms]; None when there was none."""
+        """Time since the last injection [ms]; None without one."""
         return None if self._injected_s is None else 1000 * (self._clock() - self._injected_s)
 
-    def silenced(self, servo_id: int) -> bool:
-        """Whether this servo does not answer."""
-        return servo_id in self._silent
+    def is_silent(self, servo_id: int) -> bool:
+        """This servo does not answer."""
+        return servo_id in self._silent_ids
 
-    def noise(self, heard: bytes) -> bytes:
-        """What comes back at a wrong baud rate: nothing, or as many bytes of garbage."""
-        return bytes((byte * 37 + 11) % 256 for byte in heard) if self._garbage else b""
+    def noise(self, data: bytes) -> bytes:
+        """Answer at a wrong baud rate: nothing, or as much garbage as was received."""
+        return bytes((byte * 37 + 11) % 256 for byte in data) if self._garbage else b""
 
-    def spoiled(self, reply: bytes) -> tuple[float, bytes]:
-        """Delay [s] and bytes of an answer after the faults that are due."""
-        if not reply or not self._spoil:
+    def apply(self, reply: bytes) -> tuple[float, bytes]:
+        """Delay [s] and bytes of an answer, after the next fault of answers."""
+        if not reply or not self._next_replies:
             return 0.0, reply
-        fault, delay_s = self._spoil.pop(0)
+        fault, delay_s = self._next_replies.pop(0)
         if fault == "late_reply":
             return delay_s, reply
         if fault == "bad_crc":
@@ -133,5 +133,5 @@ class BusFaults:
     def _set(self, servo: EmulatedServo, address: int, value: int) -> None:
         if address not in servo.table:
             raise ValueError(f"no register at address {address}")
-        self._before.append((servo, address, servo.table[address]))
+        self._original_values.append((servo, address, servo.table[address]))
         servo.table[address] = value

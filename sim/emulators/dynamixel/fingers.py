@@ -1,13 +1,12 @@
-"""The fingers that emulated servos close, and what is between them.
+"""Fingers closed by emulated servos, and the load between them.
 
-Linear linkage: a servo's ticks give the opening of the fingers; of two servos each moves its own
-finger, as far as the other. Current gives force on a line: nothing until friction is overcome, then
-so many newtons a milliampere.
+The linkage is linear: a servo's ticks give the opening of the fingers; two servos move one finger
+each, both equally far. Force is linear in current: zero up to the friction, then a constant number
+of newtons per milliampere.
 
-What is between the fingers is asked once for every squeeze, in a thread of its own, since solving a
-contact takes time; meanwhile the fingers stand and the servo says that it is moving. The object
-follows at once when the force is changed: the friction of a real gear, which holds against it, is
-not emulated.
+The load is solved once per squeeze, in a thread of its own, since solving a contact takes time;
+meanwhile the fingers stand still and the servo reports that it is moving. The object follows at
+once when the force is changed: the friction of a real gear, which resists it, is not emulated.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ from sim.emulators.dynamixel.servo import EmulatedServo
 _log = logging.getLogger(__name__)
 
 LET_GO_M = 0.2e-3
-"""Opened by this much, the fingers have left what they held; our choice, a little over a tick."""
+"""Opening at which the fingers have left an object. Our choice: a little over a tick."""
 
 _SAME_M = 1e-5
 _STEP_S = 0.002
@@ -33,17 +32,17 @@ _LONGEST_S = 0.5
 
 
 class GripLoad(Protocol):
-    """What may be between the fingers."""
+    """The object between the fingers."""
 
     def width_under(self, force_n: float) -> float:
-        """Close, or adjust a grip, with this force as the gripper believes it [N].
+        """Close, or adjust a grip, with a commanded force [N].
 
-        Returns the opening [m] at which the fingers settle; 0 when nothing is between them.
+        Returns the opening [m] at which the fingers settle; 0 with nothing between them.
         """
         ...
 
-    def released(self) -> None:
-        """The fingers have left the object."""
+    def release(self) -> None:
+        """Note that the fingers have left the object."""
         ...
 
 
@@ -52,32 +51,31 @@ class SpringLoad:
     """A block on a spring, always between the fingers; ``GripLoad``.
 
     Attributes:
-        width_m: Uncompressed [m].
-        stiffness_n_m: Of the spring [N/m].
+        width_m: Width without a force [m].
+        stiffness_n_m: Stiffness of the spring [N/m].
     """
 
     width_m: float = 0.03
     stiffness_n_m: float = 2000.0
 
     def width_under(self, force_n: float) -> float:
-        """Hooke's law."""
         return max(0.0, self.width_m - force_n / self.stiffness_n_m)
 
-    def released(self) -> None:
-        """The spring doesn't mind."""
+    def release(self) -> None:
+        """Nothing to note: a spring has no state."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Linkage:
-    """From ticks and current to opening and force.
+    """Conversion of ticks and current to opening and force.
 
     Attributes:
         open_ticks, closed_ticks: Position of a servo with the fingers open and closed; the second
-            of two servos is mounted the other way round.
+            of two servos is mounted mirrored.
         open_width_m: Opening at ``open_ticks`` [m]; it is 0 at ``closed_ticks``.
         newtons_per_ma: Slope of force over current [N/mA]. Default: 1.15 N·m/A (XC330-T288) on
             levers of 40 mm that move both fingers.
-        friction_ma: Current at which the fingers just begin to press [mA].
+        friction_ma: Current at which the fingers begin to press [mA].
     """
 
     open_ticks: int = 2496
@@ -94,29 +92,29 @@ class Linkage:
 
     def ticks(self, index: int, width_m: float) -> float:
         """Position of servo 0 or 1 at an opening."""
-        share = width_m / self.open_width_m
-        first = self.closed_ticks + share * (self.open_ticks - self.closed_ticks)
+        fraction = width_m / self.open_width_m
+        first = self.closed_ticks + fraction * (self.open_ticks - self.closed_ticks)
         return first if index == 0 else 4096 - first
 
     def width_m(self, index: int, ticks: float) -> float:
-        """Opening that servo 0 or 1 stands for [m]."""
+        """Opening at a position of servo 0 or 1 [m]."""
         first = ticks if index == 0 else 4096 - ticks
         return (
             self.open_width_m * (first - self.closed_ticks) / (self.open_ticks - self.closed_ticks)
         )
 
     def force_n(self, current_ma: float) -> float:
-        """Force of a current [N]."""
+        """Force at a current [N]."""
         return max(0.0, abs(current_ma) - self.friction_ma) * self.newtons_per_ma
 
 
 class Fingers:
-    """One or two servos with fingers on them. Not thread-safe: the caller's lock guards it.
+    """One or two servos with fingers on them. Not thread-safe: the caller holds a lock.
 
     Attributes:
-        squeezes: How often the load was asked.
-        releases: How often it was told that it is free.
-        load_error: What the load raised, empty when nothing.
+        squeezes: Number of squeezes of the load.
+        releases: Number of releases of the load.
+        load_error: Error of the load; empty without one.
     """
 
     def __init__(
@@ -131,7 +129,7 @@ class Fingers:
         self.squeezes = self.releases = 0
         self.load_error = ""
         self._squeezed = False
-        self._asked = self._answered = 0
+        self._num_solved = 0
         self._now_s = now_s
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         for index, servo in enumerate(servos):
@@ -147,20 +145,20 @@ class Fingers:
 
     @property
     def force_n(self) -> float:
-        """Force with which the fingers press now [N]."""
+        """Grip force now [N]."""
         if not self._squeezed or not all(servo.torque for servo in self._servos):
             return 0.0
         return min(self._linkage.force_n(servo.current_ma) for servo in self._servos)
 
     @property
     def busy(self) -> bool:
-        """Whether something moves or will."""
+        """A servo moves, or is about to."""
         return any(servo.moving for servo in self._servos)
 
-    def written(self, addresses: frozenset[int]) -> None:
-        """Registers were written: squeeze, open or drop as they now say."""
+    def on_written(self, addresses: frozenset[int]) -> None:
+        """Squeeze, open or drop after a write to these registers."""
         if at.TORQUE in addresses and not all(servo.torque for servo in self._servos):
-            self.dropped()
+            self.drop()
         elif addresses & {at.GOAL_CURRENT, at.GOAL_POSITION}:
             goal_m = self._goal_m()
             if goal_m < self.width_m - _SAME_M or (
@@ -168,22 +166,22 @@ class Fingers:
             ):
                 self._squeeze()
             else:
-                self._wait(False)
+                self._set_waiting(False)
 
-    def dropped(self) -> None:
-        """Torque is gone: the fingers press no more."""
-        self._wait(False)
+    def drop(self) -> None:
+        """Stop pressing: torque is off."""
+        self._set_waiting(False)
         self._let_go()
 
     def step(self, now_s: float) -> None:
-        """Let the time until now pass."""
-        left_s = min(_LONGEST_S, now_s - self._now_s)
+        """Advance to a time."""
+        remaining_s = min(_LONGEST_S, now_s - self._now_s)
         self._now_s = now_s
-        while left_s > 0:
+        while remaining_s > 0:
             for servo in self._servos:
-                servo.step(min(_STEP_S, left_s))
-            left_s -= _STEP_S
-        if self._squeezed and self._has_left():
+                servo.step(min(_STEP_S, remaining_s))
+            remaining_s -= _STEP_S
+        if self._squeezed and self._is_released():
             self._let_go()
 
     def close(self) -> None:
@@ -205,27 +203,26 @@ class Fingers:
             return
         self._squeezed = True
         self.squeezes += 1
-        self._asked += 1
-        number = self._asked
-        self._wait(True)
-        self._jobs.put(lambda: self._ask(force_n, number))
+        number = self.squeezes
+        self._set_waiting(True)
+        self._jobs.put(lambda: self._solve(force_n, number))
 
-    def _ask(self, force_n: float, number: int) -> None:
+    def _solve(self, force_n: float, number: int) -> None:
         try:
             width_m = self._load.width_under(force_n)
-        except Exception as error:  # the load is anyone's: say it, and go on serving the bus
+        except Exception as error:  # any load, any error: report it and keep serving the bus
             _log.exception("the load failed")
             self.load_error = f"{type(error).__name__}: {error}"
             return
         with self._lock:
-            self._answered = number
-            if number == self._asked and self._squeezed:
+            self._num_solved = number
+            if number == self.squeezes and self._squeezed:
                 for index, servo in enumerate(self._servos):
                     servo.stop = self._linkage.ticks(index, width_m)
-                self._wait(False)
+                self._set_waiting(False)
 
-    def _has_left(self) -> bool:
-        if self._asked != self._answered:
+    def _is_released(self) -> bool:
+        if self.squeezes != self._num_solved:
             return False
         stops = [servo.stop for servo in self._servos]
         if any(stop is None for stop in stops):
@@ -243,11 +240,11 @@ class Fingers:
         self.releases += 1
         for servo in self._servos:
             servo.stop = None
-        self._jobs.put(self._load.released)
+        self._jobs.put(self._load.release)
 
-    def _wait(self, waits: bool) -> None:
+    def _set_waiting(self, waiting: bool) -> None:
         for servo in self._servos:
-            servo.waits = waits
+            servo.waiting = waiting
             servo.publish()
 
     def _work(self) -> None:

@@ -1,10 +1,10 @@
-"""Packets of the Dynamixel Protocol 2.0 as the servo's side reads and writes them.
+"""Packets of the Dynamixel Protocol 2.0, as servos read and write them.
 
-Source: ROBOTIS e-Manual, 'DYNAMIXEL Protocol 2.0': header FF FF FD 00, id, u16 length of all that
-follows, instruction, parameters, CRC-16 (polynomial 0x8005, start 0, not reflected). Where FF FF FD
-stands inside instruction or parameters another FD is stuffed in.
+Source: ROBOTIS e-Manual, 'DYNAMIXEL Protocol 2.0': header FF FF FD 00, id, u16 length of the
+rest, instruction, parameters, CRC-16 (polynomial 0x8005, start 0, not reflected). An FF FF FD
+inside instruction or parameters is followed by a stuffed FD.
 
-Not here: what the instructions do (``dynamixel_servo``).
+Not here: the effect of the instructions (``sim.emulators.dynamixel.servo``).
 """
 
 from __future__ import annotations
@@ -39,8 +39,13 @@ def _crc_table() -> tuple[int, ...]:
 _CRC = _crc_table()
 
 
+def u16(data: bytes) -> int:
+    """The number in the first two bytes."""
+    return int.from_bytes(data[:2], "little")
+
+
 def crc16(data: bytes) -> int:
-    """CRC of a packet up to, and without, its last two bytes."""
+    """CRC of a packet without its last two bytes."""
     value = 0
     for byte in data:
         value = ((value << 8) ^ _CRC[(value >> 8) ^ byte]) & 0xFFFF
@@ -48,11 +53,11 @@ def crc16(data: bytes) -> int:
 
 
 def packet(servo_id: int, body: bytes) -> bytes:
-    """A whole packet.
+    """A complete packet.
 
     Args:
         servo_id: Id in the header.
-        body: Instruction (``STATUS`` from a servo) and what follows it, up to the CRC, unstuffed.
+        body: Instruction (``STATUS`` from a servo) and parameters, before stuffing.
     """
     stuffed = body.replace(_HEADER, _HEADER + b"\xfd")
     head = _HEADER + bytes([0, servo_id]) + (len(stuffed) + 2).to_bytes(2, "little") + stuffed
@@ -60,14 +65,14 @@ def packet(servo_id: int, body: bytes) -> bytes:
 
 
 def status(servo_id: int, error: int, parameters: bytes = b"") -> bytes:
-    """The packet that a servo answers with."""
+    """The answer packet of a servo."""
     return packet(servo_id, bytes([STATUS, error]) + parameters)
 
 
 def fast_sync_status(parts: list[tuple[int, int, bytes]]) -> bytes:
-    """The one packet that several servos write together; each has (id, error, data).
+    """The one answer packet of several servos; each part is (id, error, data).
 
-    Every servo adds its error, id, data and a CRC over all that went before; data are not stuffed.
+    Every servo adds its error, id, data and a CRC over all bytes before; data are not stuffed.
     """
     length = 1 + sum(4 + len(data) for _, _, data in parts)
     line = _HEADER + bytes([0, BROADCAST]) + length.to_bytes(2, "little") + bytes([STATUS])
@@ -79,7 +84,7 @@ def fast_sync_status(parts: list[tuple[int, int, bytes]]) -> bytes:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PacketInstruction:
-    """An instruction packet as it came; ``intact`` is False when its CRC is wrong."""
+    """A received instruction packet; ``intact`` is False when its CRC is wrong."""
 
     servo_id: int
     code: int
@@ -88,36 +93,36 @@ class PacketInstruction:
 
 
 class PacketReader:
-    """Cuts a stream of bytes into instruction packets; rubbish between them is skipped."""
+    """Cuts a stream of bytes into instruction packets; other bytes between them are skipped."""
 
     def __init__(self) -> None:
-        self._left = b""
+        self._buffer = b""
 
     def feed(self, data: bytes) -> list[PacketInstruction]:
-        """The packets that are complete with these bytes."""
-        self._left += data
-        found = []
+        """Instruction packets that these bytes complete."""
+        self._buffer += data
+        instructions = []
         while (packet := self._next()) is not None:
-            if packet.code != STATUS:  # a servo hears the other servos' answers too
-                found.append(packet)
-        return found
+            if packet.code != STATUS:  # a servo receives the other servos' answers too
+                instructions.append(packet)
+        return instructions
 
     def _next(self) -> PacketInstruction | None:
         while True:
-            start = self._left.find(_HEADER)
+            start = self._buffer.find(_HEADER)
             if start < 0:
-                self._left = self._left[-2:]
+                self._buffer = self._buffer[-2:]
                 return None
-            self._left = self._left[start:]
-            if len(self._left) < 8:
+            self._buffer = self._buffer[start:]
+            if len(self._buffer) < 8:
                 return None
-            length = int.from_bytes(self._left[5:7], "little")
-            if self._left[3] == 0xFD or not 3 <= length <= _LONGEST:
-                self._left = self._left[3:]
+            length = int.from_bytes(self._buffer[5:7], "little")
+            if self._buffer[3] == 0xFD or not 3 <= length <= _LONGEST:
+                self._buffer = self._buffer[3:]
                 continue
-            if len(self._left) < 7 + length:
+            if len(self._buffer) < 7 + length:
                 return None
-            whole, self._left = self._left[: 7 + length], self._left[7 + length :]
+            whole, self._buffer = self._buffer[: 7 + length], self._buffer[7 + length :]
             body = whole[7:-2].replace(_HEADER + b"\xfd", _HEADER)
             return PacketInstruction(
                 servo_id=whole[4],

@@ -1,9 +1,9 @@
-"""One emulated servo: its control table, and how it moves.
+"""One emulated servo: its control table and its motion.
 
-Simple dynamics, honest where a driver could be fooled: limited speed and acceleration, a current
-that has to overcome friction before anything moves, goals that are reached after time, a stop
-where fingers meet something, and torque that goes off. Not emulated: gains, voltage sag, heating,
-multi-turn wrap.
+The dynamics are simple, but contain what a driver has to cope with: limited speed and acceleration,
+friction that the current must overcome before the servo moves, goals that are reached after time, a
+stop where the fingers meet an object, and torque that goes off. Not emulated: gains, voltage sag,
+heating, multi-turn wrap.
 """
 
 from __future__ import annotations
@@ -12,13 +12,22 @@ import math
 
 from sim.emulators.dynamixel import control_table as at
 from sim.emulators.dynamixel.control_table import ControlTable, EmulatedServoModel
-from sim.emulators.dynamixel.packets import NO_ACCESS, NO_INSTRUCTION, OK, PING, READ, REBOOT, WRITE
+from sim.emulators.dynamixel.packets import (
+    NO_ACCESS,
+    NO_INSTRUCTION,
+    OK,
+    PING,
+    READ,
+    REBOOT,
+    WRITE,
+    u16,
+)
 
 NO_LOAD_TICKS_S = 4800.0
-"""Fastest [ticks/s]; source: XC330-T288 at 11.1 V, 65 rev/min."""
+"""Largest speed [ticks/s]. Source: XC330-T288 at 11.1 V, 65 rev/min."""
 
 _ACCELERATION = 60_000.0  # ticks/s²
-_APPROACH_PER_S = 80.0  # speed towards a goal, per tick that is left
+_APPROACH_PER_S = 80.0  # speed towards a goal per remaining tick
 _CURRENT_RISE_S = 0.010
 _ARRIVED_TICKS = 0.3
 
@@ -27,12 +36,12 @@ class EmulatedServo:
     """A servo on the bus.
 
     Attributes:
-        model: What it is.
-        table: Its memory.
-        position: Of the horn [ticks].
-        current_ma: Signed as the position [mA].
-        waits: It is about to press and not yet told where the fingers will stop.
-        stop: Position at which the fingers meet something in closing direction; None: nowhere.
+        model: Data of its model.
+        table: Its registers.
+        position: Position of the horn [ticks].
+        current_ma: Current, with the sign of the position [mA].
+        waiting: It is about to press, and the position at which the fingers stop is being solved.
+        stop: Position at which the fingers meet an object on closing; None without an object.
         closing: Sign of the direction in which the fingers close.
     """
 
@@ -42,36 +51,35 @@ class EmulatedServo:
         self.model, self.closing = model, 1
         self.table = ControlTable(model, servo_id, baud, mode)
         self.position, self.current_ma = 0.0, 0.0
-        self.waits = False
+        self.waiting = False
         self.stop: float | None = None
         self._friction_ma = friction_ma
         self._velocity = 0.0
-        self._heard_s: float | None = None
+        self._fed_s: float | None = None
 
     @property
     def id(self) -> int:
-        """Its id on the bus."""
         return self.table[at.ID]
 
     @property
     def torque(self) -> bool:
-        """Whether it holds."""
+        """Torque is on."""
         return bool(self.table[at.TORQUE])
 
     @property
     def goal_current_ma(self) -> float:
-        """Largest current that it may use [mA]."""
+        """Limit of the current [mA]."""
         if self.table[at.MODE] != at.CURRENT_BASED_POSITION or at.GOAL_CURRENT not in self.table:
             return math.inf
         return abs(self.table[at.GOAL_CURRENT]) * self.model.unit_ma
 
     @property
     def moving(self) -> bool:
-        """Whether it is on its way, or about to be."""
-        return self.waits or abs(self._velocity) > self.table[at.MOVING_THRESHOLD]
+        """It moves, or is about to."""
+        return self.waiting or abs(self._velocity) > self.table[at.MOVING_THRESHOLD]
 
     def execute(self, code: int, parameters: bytes) -> tuple[int, bytes, frozenset[int]]:
-        """Carry out an instruction: error number, data, addresses that were written."""
+        """Carry out an instruction; returns error number, data and written addresses."""
         nothing: frozenset[int] = frozenset()
         if code == PING:
             return OK, bytes(self.table.read(at.MODEL, 2)[1]) + bytes([self.table[6]]), nothing
@@ -80,14 +88,14 @@ class EmulatedServo:
             self.position %= 4096  # the turn count is lost
             return OK, b"", frozenset({at.TORQUE})
         if code == READ and len(parameters) == 4:
-            address, length = _u16(parameters), _u16(parameters[2:])
+            address, length = u16(parameters), u16(parameters[2:])
             return *self.table.read(address, length), nothing
         if code == WRITE and len(parameters) > 2:
-            return self.write(_u16(parameters), parameters[2:])
+            return self.write(u16(parameters), parameters[2:])
         return NO_INSTRUCTION, b"", nothing
 
     def write(self, address: int, data: bytes) -> tuple[int, bytes, frozenset[int]]:
-        """Write registers; torque can't be switched on while a hardware error stands."""
+        """Write registers; torque can't be switched on during a hardware error."""
         turns_on = address == at.TORQUE and data[:1] == b"\x01"
         if turns_on and self.table[at.HARDWARE_ERROR] & self.table[at.SHUTDOWN]:
             return NO_ACCESS, b"", frozenset()
@@ -98,26 +106,26 @@ class EmulatedServo:
         return error, b"", written
 
     def fail(self, bits: int) -> None:
-        """A hardware error; torque goes off when the shutdown mask says so."""
+        """Set a hardware error; torque goes off where the shutdown mask has one of the bits."""
         self.table[at.HARDWARE_ERROR] = self.table[at.HARDWARE_ERROR] | bits
         if self.table[at.SHUTDOWN] & bits:
             self.table[at.TORQUE] = 0
 
-    def hear(self, now_s: float) -> None:
-        """Something was said on the bus: the watchdog is content."""
-        self._heard_s = now_s
+    def feed_watchdog(self, now_s: float) -> None:
+        """Restart the bus watchdog's time: an instruction was received."""
+        self._fed_s = now_s
 
-    def watch(self, now_s: float) -> None:
-        """Trip the bus watchdog when nothing was said for too long while torque is on."""
+    def check_watchdog(self, now_s: float) -> None:
+        """Trip the bus watchdog when no instruction came in time while torque is on."""
         limit = self.table[at.WATCHDOG]
-        if self._heard_s is None or not self.torque or not 1 <= limit <= 127:
+        if self._fed_s is None or not self.torque or not 1 <= limit <= 127:
             return
-        if now_s - self._heard_s > 0.020 * limit:
+        if now_s - self._fed_s > 0.020 * limit:
             self.table[at.WATCHDOG] = 0xFF
 
     def step(self, dt_s: float) -> None:
-        """Let time pass, at most a few milliseconds at once."""
-        if not self.torque or self.waits:
+        """Advance by a time of at most a few milliseconds."""
+        if not self.torque or self.waiting:
             self._velocity = 0.0
             if not self.torque:
                 self.current_ma = 0.0
@@ -127,44 +135,40 @@ class EmulatedServo:
 
     def _move(self, dt_s: float) -> None:
         goal, blocked = float(self.table[at.GOAL_POSITION]), False
-        if self._watchdog_holds():
+        if self._is_stopped_by_watchdog():
             goal = self.position
         if self.stop is not None and self.closing * (goal - self.stop) > 0:
             goal, blocked = self.stop, True
-        left = goal - self.position
-        arrived = abs(left) < _ARRIVED_TICKS
+        distance = goal - self.position
+        arrived = abs(distance) < _ARRIVED_TICKS
         if arrived or self.goal_current_ma <= self._friction_ma:
             self._velocity = 0.0
             if arrived:
                 self.position = goal
             pressing = blocked and arrived
-            wanted_ma = self.closing * self.goal_current_ma if pressing else 0.0
+            target_ma = self.closing * self.goal_current_ma if pressing else 0.0
         else:
-            self._velocity = self._speed_towards(left, dt_s)
+            self._velocity = self._speed_towards(distance, dt_s)
             step = self._velocity * dt_s
-            self.position += math.copysign(min(abs(step), abs(left)), step)
-            wanted_ma = math.copysign(min(self._friction_ma, self.goal_current_ma), left)
-        share = min(1.0, dt_s / _CURRENT_RISE_S)
-        self.current_ma += share * (wanted_ma - self.current_ma)
+            self.position += math.copysign(min(abs(step), abs(distance)), step)
+            target_ma = math.copysign(min(self._friction_ma, self.goal_current_ma), distance)
+        fraction = min(1.0, dt_s / _CURRENT_RISE_S)
+        self.current_ma += fraction * (target_ma - self.current_ma)
 
-    def _speed_towards(self, left: float, dt_s: float) -> float:
+    def _speed_towards(self, distance: float, dt_s: float) -> float:
         profile = self.table[at.PROFILE_VELOCITY] * at.VELOCITY_TICKS_S
         fastest = min(profile or NO_LOAD_TICKS_S, NO_LOAD_TICKS_S)
-        wanted = max(-fastest, min(fastest, _APPROACH_PER_S * left))
+        target = max(-fastest, min(fastest, _APPROACH_PER_S * distance))
         change = _ACCELERATION * dt_s
-        return self._velocity + max(-change, min(change, wanted - self._velocity))
+        return self._velocity + max(-change, min(change, target - self._velocity))
 
-    def _watchdog_holds(self) -> bool:
+    def _is_stopped_by_watchdog(self) -> bool:
         return self.table[at.WATCHDOG] == 0xFF and self.model.watchdog_stops and self.stop is None
 
     def publish(self) -> None:
-        """Let the registers say what is so now."""
+        """Write the present state to the registers."""
         table = self.table
         table[at.PRESENT_POSITION] = round(self.position)
         table[at.PRESENT_VELOCITY] = round(self._velocity / at.VELOCITY_TICKS_S)
         table[at.PRESENT_CURRENT] = round(self.current_ma / self.model.unit_ma)
         table[at.MOVING] = int(self.moving)
-
-
-def _u16(data: bytes) -> int:
-    return int.from_bytes(data[:2], "little")

@@ -1,7 +1,7 @@
-"""The serial line of the emulated servos: a pty under a name that stays.
+"""The serial line of the emulated servos: a pty under a constant name.
 
-A pty has no real baud rate, but it carries the one that a client sets: at another one than the
-servos' nothing is understood, as on a wire.
+A pty has no real baud rate, but it reports the one that a client sets. At a baud rate other than
+the servos' no instruction is understood, as on a real line.
 """
 
 from __future__ import annotations
@@ -20,54 +20,54 @@ from pathlib import Path
 class Wire:
     """A pty whose slave side a client opens.
 
-    One thread reads and writes; the plug may be pulled from any. The reader then closes the
-    descriptors, so that it never waits on a number that already means another file.
+    One thread reads and writes; any thread may unplug. The reading thread then closes the
+    descriptors, so that it never waits on a number that already belongs to another file.
 
     Attributes:
-        link: The name that stays; it points to the slave side, also after plugging in again.
-        plugged: Whether it is there.
+        link: Symbolic link to the slave side, at the same path after every plugging in.
+        plugged: The pty is open.
     """
 
     def __init__(self) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="dynamixel-")
         self.link = Path(self._folder.name) / "port"
-        self._taken: int | None = None
+        self._lock_fd: int | None = None
         self._master = self._slave = -1
         self.plugged = False
-        self._wanted = True
-        self._follow()
+        self._requested = True
+        self._update()
 
     def plug_in(self) -> None:
-        """Plug in, or in again: the name then means another pty. Idempotent."""
-        self._wanted = True
+        """Plug in, or plug in again: the link then points to another pty. Idempotent."""
+        self._requested = True
 
     def unplug(self) -> None:
-        """Pull the plug: a client that has it open gets errors. Idempotent."""
-        self.give_back()
-        self._wanted = False
+        """Unplug: a client that has the port open gets errors. Idempotent."""
+        self.unlock()
+        self._requested = False
 
-    def _follow(self) -> None:
-        """Do what was last wanted: open or close the pty."""
-        if self._wanted == self.plugged:
+    def _update(self) -> None:
+        """Open or close the pty, as last requested."""
+        if self._requested == self.plugged:
             return
         self.link.unlink(missing_ok=True)
-        if self._wanted:
+        if self._requested:
             self._master, self._slave = pty.openpty()
-            tty.setraw(self._slave)  # before a client sets it up, nothing must be echoed
+            tty.setraw(self._slave)  # nothing must be echoed before a client sets it up
             os.set_blocking(self._master, False)
             self.link.symlink_to(os.ttyname(self._slave))
         else:
             os.close(self._slave)
             os.close(self._master)
-        self.plugged = self._wanted
+        self.plugged = self._requested
 
-    def take(self) -> None:
-        """Hold the line as another program would.
+    def lock(self) -> None:
+        """Lock the port as another program would.
 
         Raises:
-            ValueError: A client has it already.
+            ValueError: A client has locked it.
         """
-        if self._taken is not None:
+        if self._lock_fd is not None:
             return
         descriptor = os.open(self.link, os.O_RDWR | os.O_NOCTTY)
         try:
@@ -75,28 +75,28 @@ class Wire:
         except OSError:
             os.close(descriptor)
             raise ValueError("the port can't be taken: a client has it") from None
-        self._taken = descriptor
+        self._lock_fd = descriptor
 
-    def give_back(self) -> None:
-        """Let others have the line. Idempotent."""
-        if self._taken is not None:
-            os.close(self._taken)
-            self._taken = None
+    def unlock(self) -> None:
+        """Unlock the port. Idempotent."""
+        if self._lock_fd is not None:
+            os.close(self._lock_fd)
+            self._lock_fd = None
 
     def baud(self) -> int:
-        """What the client has set [bit/s]; 0 when it is none that is known."""
+        """Baud rate that the client has set [bit/s]; 0 for an unknown one."""
         return _SPEEDS.get(termios.tcgetattr(self._slave)[5], 0)
 
     def read(self, wait_s: float) -> bytes:
-        """What has come within a while, empty when nothing has or nothing is plugged in."""
-        self._follow()
+        """Bytes received within ``wait_s``; empty without any, or when unplugged."""
+        self._update()
         if not self.plugged:
             return b""
         ready, _, _ = select.select([self._master], [], [], wait_s)
         return os.read(self._master, 4096) if ready else b""
 
     def write(self, data: bytes) -> None:
-        """Send; what a client that does not read leaves no room for is lost, as on a wire."""
+        """Send; bytes beyond the buffer of a client that does not read are lost, as on a line."""
         if not self.plugged:
             return
         try:
@@ -105,9 +105,9 @@ class Wire:
             return
 
     def close(self) -> None:
-        """Unplug for good, when nobody reads any more. Idempotent."""
+        """Unplug for good, once no thread reads any more. Idempotent."""
         self.unplug()
-        self._follow()
+        self._update()
         self._folder.cleanup()
 
 

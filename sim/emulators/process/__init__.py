@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Processes around the emulators: start and end them, announce their addresses, inject faults.
+
+Not here: the emulated devices themselves (``sim.emulators.ur``, ``dynamixel``, ``taxels``).
+"""

@@ -1,7 +1,7 @@
-"""The control channel of an emulator: inject faults, take them back, ask for the truth.
+"""The control channel of an emulator: inject faults, clear them, read the true state.
 
-JSON lines over TCP on 127.0.0.1, a request and an answer at a time. It is beside the emulated wire
-protocols and no driver knows of it: only tests, benchmarks and records use it.
+JSON lines over TCP on 127.0.0.1, one request and one answer at a time. The channel is separate
+from the emulated wire protocols. No driver uses it, only tests, benchmarks and records.
 """
 
 from __future__ import annotations
@@ -19,23 +19,23 @@ Facts = Mapping[str, float | str | bool | None]
 
 
 class Emulated(Protocol):
-    """What each emulator implements. Called from threads of the control channel."""
+    """An emulated device, as the control channel uses it from threads of its own."""
 
     def inject(self, fault: str, **details: float | str) -> None:
-        """Let a fault happen now; ``ValueError`` lists the names that are known."""
+        """Start a fault now; ``ValueError`` lists the known names."""
         ...
 
     def clear(self) -> None:
-        """Take all faults away."""
+        """End all faults."""
         ...
 
     def facts(self) -> Facts:
-        """What is true now, units in the names; ``injected_ago_ms`` among it."""
+        """The true state now, units in the names; a device with faults adds ``injected_ago_ms``."""
         ...
 
 
 class ControlServer:
-    """Answers requests about some emulated devices, each by its name, in threads of its own.
+    """Answers requests about emulated devices, each by its name, in threads of its own.
 
     Attributes:
         port: TCP port on 127.0.0.1.
@@ -52,7 +52,7 @@ class ControlServer:
         self._thread.start()
 
     def close(self) -> None:
-        """Answer no more. Idempotent."""
+        """Close the channel. Idempotent."""
         self._server.shutdown()
         self._server.server_close()
         self._thread.join(timeout=2)
@@ -74,26 +74,26 @@ class _Requests(socketserver.StreamRequestHandler):
     def _answer(self, line: bytes) -> dict[str, Any]:
         try:
             request = json.loads(line)
-            device, what = request["device"], request["do"]
+            device, action = request["device"], request["do"]
             if device not in self.server.emulated:
                 known = ", ".join(self.server.emulated)
                 raise ValueError(f"no emulated device {device!r} here; known: {known}")
             emulated = self.server.emulated[device]
-            if what == "inject":
+            if action == "inject":
                 emulated.inject(request["fault"], **request["details"])
-            elif what == "clear":
+            elif action == "clear":
                 emulated.clear()
-            elif what == "facts":
+            elif action == "facts":
                 return {"facts": dict(emulated.facts())}
             else:
-                raise ValueError(f"expected inject, clear or facts, got {what!r}")
+                raise ValueError(f"expected inject, clear or facts, got {action!r}")
         except (ValueError, KeyError, TypeError) as error:
             return {"error": f"{error}"}
         return {}
 
 
 class ControlClient:
-    """Asks an emulator's control channel; every call is bounded in time."""
+    """Client of an emulator's control channel; every call is bounded in time."""
 
     def __init__(self, port: int, timeout_s: float = 5.0) -> None:
         """Connect.
@@ -101,7 +101,6 @@ class ControlClient:
         Raises:
             RobotError: Nothing answers at this port.
         """
-        self.port = port
         self._lock = threading.Lock()
         try:
             self._socket = socket.create_connection(("127.0.0.1", port), timeout=timeout_s)
@@ -111,31 +110,28 @@ class ControlClient:
         self._answers = self._socket.makefile("rb")
 
     def inject(self, device: str, fault: str, **details: float | str) -> None:
-        """Let a fault of a device happen now.
+        """Start a fault of a device now.
 
         Raises:
-            ValueError: No such device or fault; the message lists those that are known.
+            ValueError: No such device or fault; the message lists the known ones.
             RobotError: The emulator does not answer.
         """
-        self._ask({"do": "inject", "device": device, "fault": fault, "details": details})
+        self._request({"do": "inject", "device": device, "fault": fault, "details": details})
 
     def clear(self, device: str) -> None:
-        """Take all faults of a device away. Raises as ``inject``."""
-        self._ask({"do": "clear", "device": device})
+        """End all faults of a device. Raises as ``inject``."""
+        self._request({"do": "clear", "device": device})
 
     def facts(self, device: str) -> dict[str, float | str | bool | None]:
-        """What is true of a device now. Raises as ``inject``."""
-        facts: dict[str, float | str | bool | None] = self._ask({"do": "facts", "device": device})[
-            "facts"
-        ]
-        return facts
+        """The true state of a device now. Raises as ``inject``."""
+        return dict(self._request({"do": "facts", "device": device})["facts"])
 
     def close(self) -> None:
-        """Hang up. Idempotent."""
+        """Close the connection. Idempotent."""
         self._answers.close()
         self._socket.close()
 
-    def _ask(self, request: Mapping[str, object]) -> dict[str, Any]:
+    def _request(self, request: Mapping[str, object]) -> dict[str, Any]:
         with self._lock:
             try:
                 self._socket.sendall(json.dumps(request).encode() + b"\n")

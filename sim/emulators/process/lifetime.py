@@ -1,4 +1,4 @@
-"""How long an emulator's process lives: one ready line, then until it is told to end.
+"""Lifetime of an emulator's process: one ready line, then service until the process is told to end.
 
 It ends on SIGTERM, on Ctrl-C and when its standard input closes, so that it never outlives the
 process that started it.
@@ -12,10 +12,24 @@ import signal
 import sys
 import threading
 from collections.abc import Mapping
+from contextlib import closing
 from types import FrameType
 
-Ready = Mapping[str, str | int | float | bool | None]
-"""What whoever started an emulator has to know: addresses, ports, by name."""
+from sim.emulators.process.control import ControlServer, Emulated
+
+Ready = Mapping[str, str | float]
+"""What the parent process has to know: addresses and ports, by name."""
+
+
+def serve(devices: Mapping[str, Emulated], ready: Ready) -> None:
+    """Open the control channel of some devices, announce it and wait until the process is to end.
+
+    Args:
+        devices: Emulated devices by name.
+        ready: Their addresses; the control channel's port is added as ``control_port``.
+    """
+    with closing(ControlServer(devices)) as control:
+        announce_and_wait({"control_port": control.port, **ready})
 
 
 def announce_and_wait(ready: Ready) -> None:
@@ -23,22 +37,22 @@ def announce_and_wait(ready: Ready) -> None:
 
     Call it from the main thread (it takes SIGTERM and SIGINT); the emulator's own threads run on.
     """
-    told = threading.Event()
+    ended = threading.Event()
 
-    def tell(signum: int, frame: FrameType | None) -> None:
-        told.set()
+    def end(signum: int, frame: FrameType | None) -> None:
+        ended.set()
 
-    signal.signal(signal.SIGTERM, tell)
-    signal.signal(signal.SIGINT, tell)
-    threading.Thread(target=_until_stdin_closes, args=(told,), daemon=True).start()
+    signal.signal(signal.SIGTERM, end)
+    signal.signal(signal.SIGINT, end)
+    threading.Thread(target=_wait_for_closed_stdin, args=(ended,), daemon=True).start()
     sys.stdout.write(json.dumps(dict(ready)) + "\n")
     sys.stdout.flush()
-    while not told.wait(0.2):  # a bare wait would not let the signal's Python code run at once
+    while not ended.wait(0.2):  # a bare wait would not let the signal's Python code run at once
         pass
 
 
-def _until_stdin_closes(told: threading.Event) -> None:
+def _wait_for_closed_stdin(ended: threading.Event) -> None:
     # os.read, not sys.stdin: a thread blocked inside a buffered reader hinders the exit
     while os.read(0, 4096):
         pass
-    told.set()
+    ended.set()

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 import tempfile
 import threading
 from collections.abc import Mapping
-from types import TracebackType
 
 from primitives.errors import RobotError
 from sim.emulators.process.control import ControlClient
@@ -23,23 +23,25 @@ class EmulatorProcess:
     """A running ``python -m sim.emulators KIND OPTIONS``; a context manager.
 
     Attributes:
-        ready: What the emulator announced: addresses and ports, by name.
-        control: Its control channel.
-        pid: Its process.
+        ready: Announced addresses and ports, by name.
+        control: Client of the emulator's control channel.
     """
 
     def __init__(self, kind: str, *options: str, ready_s: float = READY_S) -> None:
         """Start it and wait for its ready line.
 
         Raises:
-            RobotError: It ended or was silent for ``ready_s`` [s]; with what it said.
+            RobotError: It ended or was silent for ``ready_s`` [s]; with its last error line.
         """
         command = [sys.executable, "-m", "sim.emulators", kind, *options]
         self._errors = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the process
         self._child = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._errors
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+            env={**os.environ, "COLUMNS": "1000"},  # refused options are explained on one line
         )
-        self.pid = self._child.pid
         self.ready: Mapping[str, object] = {}
         try:
             self.ready = self._ready_line(kind, ready_s)
@@ -51,12 +53,7 @@ class EmulatorProcess:
     def __enter__(self) -> EmulatorProcess:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     @property
@@ -78,18 +75,19 @@ class EmulatorProcess:
         reader.start()
         reader.join(ready_s)
         if not lines or not lines[0].strip():
-            how = "ended at once" if lines else f"was silent for {ready_s:g} s"
-            raise RobotError(f"the {kind} emulator {how}: {self._said() or 'it said nothing'}")
+            failure = "ended at once" if lines else f"was silent for {ready_s:g} s"
+            raise RobotError(f"the {kind} emulator {failure}: {self._error() or 'no error text'}")
         ready = json.loads(lines[0])
         if not isinstance(ready, dict):
             raise RobotError(f"the {kind} emulator announced {ready!r}, expected an object")
         return ready
 
-    def _said(self) -> str:
-        """The last line that the emulator wrote to its standard error."""
+    def _error(self) -> str:
+        """The last line of the emulator's standard error, without frames and hints of its help."""
         self._errors.seek(0)
-        lines = self._errors.read().decode(errors="replace").split("\n")
-        return next((line.strip() for line in reversed(lines) if line.strip()), "")
+        lines = self._errors.read().decode(errors="replace").splitlines()
+        texts = (line.strip("╭╮╰╯│─ ") for line in reversed(lines))
+        return next((text for text in texts if text and "full helptext" not in text), "")
 
     def _end(self) -> None:
         for pipe in (self._child.stdin, self._child.stdout):

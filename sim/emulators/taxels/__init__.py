@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""An emulated serial taxel array: packets over a pty, with faults.
+
+Not here: the driver of an array (``tacgrasp.drivers.taxels``), the packet format
+(``cltp.sensing.taxel_packets``).
+"""

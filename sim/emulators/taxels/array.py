@@ -1,68 +1,62 @@
-"""A serial taxel array on a pty: sends what a gel is as packets, and can be made to fail.
+"""A serial taxel array on a pty: it sends the heights of a gel as packets, and can have faults.
 
-Speaks the format of ``cltp.sensing.taxel_packets``, unaltered, so that the driver of the real array
-reads it; only the port differs. A symbolic link stands for the stable id under /dev/serial/by-id:
-it goes when the array is unplugged and comes back with it.
+The packets are those of ``cltp.sensing.taxel_packets``, so the driver of the real array reads them;
+only the port differs. A symbolic link stands for the stable id under /dev/serial/by-id: it goes
+when the array is unplugged and comes back with it.
 
-Not here: the gel (a ``HeightSource``; a pressed ball when started alone), the emulated rig.
+Not here: the gel, a ``HeightSource`` (``sim.emulators.world``; a pressed ball in a process alone).
 """
 
 from __future__ import annotations
 
-import argparse
-import contextlib
 import os
 import select
 import tempfile
 import threading
 import time
 import tty
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from cltp.sensing.taxel_packets import (
-    PacketParser,
-    TaxelFrame,
-    TaxelMark,
-    counts_of,
-    encode_frame,
-)
-from sim.emulators.process.control import ControlServer, Facts
-from sim.emulators.process.lifetime import announce_and_wait
-from sim.emulators.process.real_time import ask_for_real_time
+from cltp.sensing.taxel_packets import PacketParser, TaxelFrame, TaxelMark, counts_of, encode_frame
+from sim.emulators.process.control import Facts
+from sim.emulators.process.lifetime import serve
+from sim.emulators.process.real_time import request_real_time
 from sim.emulators.taxels.ball import PressedBall
+from sim.emulators.taxels.options import TaxelOptions
 
 FAULTS = {
-    "unplugged": "the port goes, as when the cable is pulled; clear plugs it in again",
-    "stall": "no frame any more, the port stays",
+    "unplugged": "the port disappears, as when the cable is pulled; clear plugs it in again",
+    "stall": "frames stop, the port stays",
     "black": "every height is zero, as from a dead camera behind the gel",
-    "saturated": "every count is at its end",
+    "saturated": "every count is at its largest value",
     "torn": "the next packets (count=1) break off half-way",
     "flipped": "the next packets (count=1) have one bit wrong",
-    "repeated": "the next packets (count=1) come twice",
+    "repeated": "the next packets (count=1) are sent twice",
     "garbage": "bytes that are no packets, as from another device",
 }
-"""What can be injected."""
+"""Names and effects of the faults."""
 
-_PASSING = ("torn", "flipped", "repeated")
+_COUNTED = ("torn", "flipped", "repeated")
 _SATURATED = np.iinfo(np.int16).max
 _APPLIED_S = 2.0
 
 
 class HeightSource(Protocol):
-    """The gel that the array looks at. Called from the emulator's own thread."""
+    """The gel under the array. Called from the emulator's own thread."""
 
     def height_mm(self) -> NDArray[np.float32]:
-        """The gel as this sensor unit reconstructs it now, (rows, columns) [mm]."""
+        """Reconstructed heights of the gel now, shape (rows, columns) [mm]."""
         ...
 
 
 class TaxelEmulator:
-    """The array: one thread that alone owns the pty. An ``Emulated``.
+    """The array; one thread of its own owns the pty. An ``Emulated`` device.
 
     Attributes:
         port: Path of the link to the pty.
@@ -77,18 +71,18 @@ class TaxelEmulator:
         clock: Callable[[], float] = time.monotonic,
         seed: int = 0,
     ) -> None:
-        """Plug it in.
+        """Plug the array in.
 
         Args:
             source: The gel.
-            link: Path that is to lead to the pty while it is plugged in; must be free.
-            rate_hz: Frames a second.
+            link: Free path for the symbolic link to the pty.
+            rate_hz: Frames per second.
             clock: Monotonic [s].
-            seed: Of the garbage.
+            seed: Random seed of the garbage bytes.
 
         Raises:
             ValueError: The rate is not within 1 to 200 Hz.
-            OSError: The link can't be made.
+            OSError: The link can't be created.
         """
         if not 1 <= rate_hz <= 200:
             raise ValueError(f"an array sends 1 to 200 frames a second, got {rate_hz}")
@@ -97,7 +91,7 @@ class TaxelEmulator:
         self._rng = np.random.default_rng(seed)
         self._faults: dict[str, int] = {}
         self._injected_s: float | None = None
-        self._told = threading.Condition()  # guards faults; notified when they are in force
+        self._condition = threading.Condition()  # guards faults; notified once they apply
         self._changed = self._ending = False
         self._frames = self._marks = 0
         self._sequence = self._mark = 0
@@ -109,31 +103,30 @@ class TaxelEmulator:
         self._thread.start()
 
     def inject(self, fault: str, **details: float | str) -> None:
-        """Let one of ``FAULTS`` happen; returns when it is in force.
+        """Start one of ``FAULTS``; return once it applies.
 
         Raises:
-            ValueError: No such fault, or a detail that it does not have.
+            ValueError: No such fault, or a detail that it does not take.
         """
         if fault not in FAULTS:
             raise ValueError(f"unknown fault {fault!r} of the array; known: {', '.join(FAULTS)}")
-        count = details.pop("count", 1) if fault in _PASSING else 1
+        count = details.pop("count", 1) if fault in _COUNTED else 1
         if details or not isinstance(count, int | float) or count < 1:
             raise ValueError(f"{fault}: expected at most count >= 1, got {details or count}")
-        with self._told:
+        with self._condition:
             self._faults[fault] = int(count)
             self._injected_s = self._clock()
         self._apply()
 
     def clear(self) -> None:
-        """No fault any more; an unplugged array is plugged in again, under the same link."""
-        with self._told:
+        """End all faults; an unplugged array is plugged in again, under the same link."""
+        with self._condition:
             self._faults.clear()
         self._apply()
 
     def facts(self) -> Facts:
-        """What is true now."""
-        with self._told:
-            ago = None if self._injected_s is None else 1e3 * (self._clock() - self._injected_s)
+        with self._condition:
+            ago_s = None if self._injected_s is None else self._clock() - self._injected_s
             return {
                 "serial_port": self.port,
                 "plugged": self._master >= 0,
@@ -141,12 +134,12 @@ class TaxelEmulator:
                 "frames_sent": float(self._frames),
                 "marks_received": float(self._marks),
                 "faults": ", ".join(self._faults) or "none",
-                "injected_ago_ms": ago,
+                "injected_ago_ms": None if ago_s is None else 1e3 * ago_s,
             }
 
     def close(self) -> None:
         """Unplug for good. Idempotent."""
-        with self._told:
+        with self._condition:
             if self._ending:
                 return
             self._ending = True
@@ -156,19 +149,19 @@ class TaxelEmulator:
         os.close(self._wake_out)
 
     def _apply(self) -> None:
-        """Wake the thread, and wait until it knows what has changed."""
-        with self._told:
+        """Wake the thread and wait until the change of faults applies."""
+        with self._condition:
             if self._ending:
                 return
             self._changed = True
             os.write(self._wake_in, b"!")
-            self._told.wait_for(lambda: not self._changed, timeout=_APPLIED_S)
+            self._condition.wait_for(lambda: not self._changed, timeout=_APPLIED_S)
 
     def _run(self) -> None:
-        ask_for_real_time(with_threads=False)
+        request_real_time(inherited=False)
         due = self._clock()
         try:
-            while self._go_on(max(0.0, due - self._clock())):
+            while self._wait(max(0.0, due - self._clock())):
                 if self._clock() < due:
                     continue
                 due = max(due + 1 / self._rate_hz, self._clock() - 1 / self._rate_hz)
@@ -177,8 +170,8 @@ class TaxelEmulator:
         finally:
             self._unplug()
 
-    def _go_on(self, wait_s: float, *, to_write: bool = False) -> bool:
-        """Wait for the time, a mark, room to write or a change; False when it is to end."""
+    def _wait(self, wait_s: float, *, to_write: bool = False) -> bool:
+        """Wait for the time, a mark, room to write or a change; False at the end."""
         plugged = self._master >= 0
         reads = [self._wake_out, *([self._master] if plugged else [])]
         readable, _, _ = select.select(
@@ -188,23 +181,23 @@ class TaxelEmulator:
             os.read(self._wake_out, 64)
         if plugged and self._master in readable:
             self._read_marks()
-        with self._told:
+        with self._condition:
             if "unplugged" in self._faults:
                 self._unplug()
             elif self._master < 0 and not self._ending:
                 self._plug()
             self._changed = False
-            self._told.notify_all()
+            self._condition.notify_all()
             return not self._ending
 
     def _read_marks(self) -> None:
-        with contextlib.suppress(BlockingIOError):
+        with suppress(BlockingIOError):
             for packet in self._parser.feed(os.read(self._master, 4096)):
                 if isinstance(packet, TaxelMark):
                     self._mark, self._marks = packet.mark, self._marks + 1
 
     def _next_bytes(self) -> bytes:
-        """What goes out instead of, or as, the next frame."""
+        """The bytes to send for the next frame, after faults."""
         clock_us = int(self._clock() * 1e6)
         mark = self._mark  # before the capture: the frame is newer than the mark
         counts = counts_of(self._source.height_mm())
@@ -218,42 +211,40 @@ class TaxelEmulator:
         packet = encode_frame(
             TaxelFrame(sequence=self._sequence, mark=mark, clock_us=clock_us, counts_um=counts)
         )
-        if self._passes("torn"):
+        if self._take("torn"):
             return packet[: len(packet) // 2]
-        if self._passes("flipped"):
+        if self._take("flipped"):
             middle = len(packet) // 2
             return packet[:middle] + bytes([packet[middle] ^ 4]) + packet[middle + 1 :]
-        if self._passes("repeated"):
+        if self._take("repeated"):
             return 2 * packet
         return packet
 
-    def _passes(self, fault: str) -> bool:
-        """Whether a passing fault is in force; takes one off its count."""
-        with self._told:
-            left = self._faults.get(fault, 0)
-            if left == 1:
-                del self._faults[fault]
-            elif left:
-                self._faults[fault] = left - 1
-            return left > 0
+    def _take(self, fault: str) -> bool:
+        """Whether a counted fault applies to this packet; lowers its count by one."""
+        with self._condition:
+            remaining = self._faults.pop(fault, 0)
+            if remaining > 1:
+                self._faults[fault] = remaining - 1
+            return remaining > 0
 
     def _send(self, data: bytes) -> None:
-        """Write all of it, as fast as the host takes it; a pty holds 4 kB only."""
+        """Write all bytes as fast as the host reads them; a pty buffers only 4 kB."""
         rest, master = memoryview(data), self._master
         while len(rest) and self._master == master:
             try:
                 rest = rest[os.write(master, rest) :]
             except BlockingIOError:
-                if not self._go_on(0.05, to_write=True):
+                if not self._wait(0.05, to_write=True):
                     return
         self._frames += 1
 
     def _plug(self) -> None:
         self._master, self._slave = os.openpty()
-        tty.setraw(self._slave)  # bytes pass as they are
+        tty.setraw(self._slave)  # bytes pass unchanged
         os.set_blocking(self._master, False)
         self._link.symlink_to(os.ttyname(self._slave))
-        self._sequence = self._mark = 0  # it starts anew with the power
+        self._sequence = self._mark = 0  # counters restart with the power
 
     def _unplug(self) -> None:
         if self._master < 0:
@@ -264,24 +255,10 @@ class TaxelEmulator:
         self._master = self._slave = -1
 
 
-def main(argv: Sequence[str]) -> int:
-    """Run an array with a ball pressed into it."""
-    parser = argparse.ArgumentParser(prog="python -m sim.emulators taxels", description=__doc__)
-    parser.add_argument("--rows", type=int, default=60)
-    parser.add_argument("--columns", type=int, default=80)
-    parser.add_argument("--rate-hz", type=float, default=30.0)
-    parser.add_argument("--seed", type=int, default=0, help="of the noise")
-    options = parser.parse_args(list(argv))
+def run(options: TaxelOptions) -> None:
+    """Run an array with a ball pressed into it, until the process is to end."""
     with tempfile.TemporaryDirectory(prefix="taxels-") as folder:
-        array = TaxelEmulator(
-            PressedBall(options.rows, options.columns, options.seed),
-            link=Path(folder) / "taxel-array",
-            rate_hz=options.rate_hz,
-        )
-        control = ControlServer({"taxels": array})
-        try:
-            announce_and_wait({"control_port": control.port, "serial_port": array.port})
-        finally:
-            control.close()
-            array.close()
-    return 0
+        ball = PressedBall(options.rows, options.columns, options.seed)
+        link = Path(folder) / "taxel-array"
+        with closing(TaxelEmulator(ball, link=link, rate_hz=options.rate_hz)) as array:
+            serve({"taxels": array}, {"serial_port": array.port})

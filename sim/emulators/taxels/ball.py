@@ -1,6 +1,6 @@
-"""A ball that is pressed into a gel and lifted, over and over: what an array sees without a world.
+"""A ball pressed into a gel and lifted periodically: the height source of an array without a world.
 
-Not here: contact mechanics (``sim.gel.layer``); this is the bare sphere.
+Not here: contact mechanics (``sim.gel.layer``); the gel takes the bare shape of the sphere.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 
 
 class PressedBall:
-    """A ``sim.emulators.taxels.array.HeightSource``.
+    """A rigid ball of 3 mm radius; a ``sim.emulators.taxels.array.HeightSource``.
 
     Args:
-        rows: Of the grid.
-        columns: Of the grid.
-        seed: Of the fine noise.
+        rows: Rows of the grid.
+        columns: Columns of the grid.
+        seed: Random seed of the noise.
         clock: Monotonic [s].
     """
 
@@ -34,7 +34,7 @@ class PressedBall:
         self._rng, self._clock, self._began = np.random.default_rng(seed), clock, clock()
 
     def height_mm(self) -> NDArray[np.float32]:
-        """0.3 to 0.9 mm deep, with 5 µm of noise [mm]."""
+        """Heights [mm]: 0.3 to 0.9 mm deep, with 5 µm of noise."""
         phase = 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S
         clean = np.clip(self._ball_mm + 0.6 + 0.3 * np.sin(phase), 0, None)
         return (clean + self._rng.normal(0, 0.005, clean.shape)).astype(np.float32)

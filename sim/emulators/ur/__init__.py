@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""An emulated Universal Robots controller: dashboard, script and RTDE ports, motions, faults.
+
+Not here: the driver of a UR (``tacgrasp.drivers.ur``), contacts (``sim.emulators.world``).
+"""

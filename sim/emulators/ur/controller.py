@@ -1,8 +1,7 @@
-"""An emulated UR controller: modes, safety, registers, watchdog, and what its variables are.
+"""An emulated UR controller: modes, safety, registers, watchdog and output variables.
 
-Works on times that it is given and has no sockets (``ur_sessions``). What a real controller leaves
-open is chosen here and marked so: the decelerations of program and safety stops, and what becomes
-of the program then.
+Not here: sockets (``sim.emulators.ur.server``). Our choices, marked so below, are the decelerations
+of program and safety stops and the state of the program after them: Universal Robots states none.
 """
 
 from __future__ import annotations
@@ -10,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from sim.emulators.ur.kinematics import Floats
-from sim.emulators.ur.robot import Report, Robot
+from sim.emulators.ur.robot import Robot, SegmentListener
 from sim.emulators.ur.urscript import Program
 
 PROGRAM_STOP_M_S2 = 10.0
-"""Deceleration when a program ends in motion. Our choice: Universal Robots states none."""
+"""Deceleration when a program ends during a motion. Our choice: Universal Robots states none."""
 
 SAFETY_STOP_M_S2 = 10.0
 """Deceleration of protective, safeguard and emergency stops. Our choice, as above."""
@@ -45,23 +44,27 @@ class Controller:
 
     Attributes:
         robot: The arm.
-        program: The control script, None while none runs.
+        program: The running control script; None without one.
         robot_mode, safety_mode: As RTDE numbers them.
-        remote: Whether the pendant says remote control.
-        scripts_start: False for a version that takes a script and never runs it.
-        ended: Why the last program ended, '' when none has.
+        remote: The pendant is in remote control.
+        scripts_start: False for a version that accepts a script and never runs it.
+        end_reason: Reason for which the last program ended; '' before the first end.
     """
 
     def __init__(
-        self, tcp: Floats, tcp_offset: Floats, report: Report | None, clock: Callable[[], float]
+        self,
+        tcp: Floats,
+        tcp_offset: Floats,
+        listener: SegmentListener | None,
+        clock: Callable[[], float],
     ) -> None:
         self._clock = clock
         self._began_s = clock()
-        self.robot = Robot(tcp, tcp_offset, report, self._began_s)
+        self.robot = Robot(tcp, tcp_offset, listener, self._began_s)
         self.program: Program | None = None
         self.robot_mode, self.safety_mode, self.remote = RUNNING, NORMAL, True
         self.scripts_start = True
-        self.ended = ""
+        self.end_reason = ""
         self.num_programs = 0
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
         self.inputs: dict[str, float] = {f"input_int_register_{i}": 0 for i in range(48)}
@@ -74,7 +77,7 @@ class Controller:
     # -- time and inputs -------------------------------------------------------------------------
 
     def advance(self) -> None:
-        """Let time pass until now."""
+        """Advance to now."""
         now_s = self._clock()
         self.robot.advance(now_s)
         if self.program is None:
@@ -92,31 +95,31 @@ class Controller:
 
     @property
     def next_deadline_s(self) -> float | None:
-        """When the watchdog would trip, on the clock; None without one."""
+        """Time on the clock at which the watchdog will trip [s]; None without a watchdog."""
         if self.program is None or self.program.watchdog_hz <= 0:
             return None
         return self._kicked_s + 1.0 / self.program.watchdog_hz
 
-    def written(self, kicked: bool) -> None:
-        """Input registers were written; ``kicked``: the command register among them."""
+    def on_inputs(self, kicked: bool) -> None:
+        """React to written input registers; ``kicked``: the command register is among them."""
         self.advance()
         if kicked:
             self._kicked_s = self._clock()
         if self.program is not None and not self._paused:
-            self.program.inputs_changed()
+            self.program.read_inputs()
             self.advance()
 
     # -- programs --------------------------------------------------------------------------------
 
     @property
     def runtime_state(self) -> int:
-        """1 stopped, 2 playing, 4 paused."""
+        """Runtime state of RTDE: 1 stopped, 2 playing, 4 paused."""
         if self.program is None:
             return STOPPED
         return PAUSED if self._paused else PLAYING
 
     def start_program(self) -> None:
-        """The control script has been uploaded: it replaces what ran."""
+        """Start the uploaded control script; it replaces the running program."""
         self.stop_program("another script was uploaded")
         ready = self.robot_mode == RUNNING and self.safety_mode == NORMAL and self.remote
         if not (self.scripts_start and ready):
@@ -127,23 +130,23 @@ class Controller:
         self._kicked_s = self._clock()
         self.program = Program(self.robot, self.inputs, self.outputs, self.protective_stop)
 
-    def stop_program(self, why: str) -> None:
-        """End the program, if one runs; the arm comes to rest."""
+    def stop_program(self, reason: str) -> None:
+        """End the program, if one runs, and bring the arm to rest."""
         self.robot.advance(self._clock())
         if self.program is not None:
-            self.program, self.ended, self._paused = None, why, False
+            self.program, self.end_reason, self._paused = None, reason, False
             self.outputs["output_int_register_0"] = 0
             self.robot.halt(PROGRAM_STOP_M_S2)
 
     def stop_line(self, deceleration_m_s2: float) -> None:
-        """A one-line ``stopl`` script: it replaces the program and brings the arm to rest."""
+        """Run a one-line ``stopl`` script: it replaces the program and brings the arm to rest."""
         self.stop_program("a one-line script replaced it")
         self.robot.halt(deceleration_m_s2)
 
     # -- safety ----------------------------------------------------------------------------------
 
     def safety_stop(self, mode: int) -> None:
-        """Protective and safeguard stop pause the program, emergency stops end it (our choice)."""
+        """Stop the arm; a protective or safeguard stop pauses the program, others end it: our choice."""
         self.robot.advance(self._clock())
         self.safety_mode = mode
         self.robot.halt(SAFETY_STOP_M_S2)
@@ -154,16 +157,15 @@ class Controller:
             self.robot_mode = POWER_OFF
 
     def protective_stop(self) -> None:
-        """A protective stop."""
         self.safety_stop(PROTECTIVE)
 
     def unlock(self) -> None:
-        """Safety back to normal, program gone, power on."""
+        """Reset safety to normal, end the program, switch power on."""
         self.stop_program("unlocked after a safety stop")
         self.safety_mode, self.robot_mode = NORMAL, RUNNING
 
     def restart(self) -> None:
-        """Power goes; brakes hold the arm, and what was set is forgotten."""
+        """Restart: power goes off, brakes hold the arm, settings are lost."""
         self.stop_program("controller restart")
         self.robot.halt(SAFETY_STOP_M_S2)
         self.robot_mode, self._began_s = BOOTING, self._clock()
@@ -172,14 +174,14 @@ class Controller:
     # -- variables -------------------------------------------------------------------------------
 
     def values(self, name: str) -> list[float]:
-        """The numbers of an output variable; none for what is not emulated (currents and such)."""
+        """Numbers of an output variable; empty for one that is not emulated (currents and such)."""
         robot = self.robot
         if name in self.outputs:
             return [self.outputs[name]]
         if name in ("actual_TCP_pose", "target_TCP_pose"):
             return robot.tcp_pose()
         if name in ("actual_TCP_speed", "target_TCP_speed"):
-            return robot.place.twist.tolist()
+            return robot.tool.twist.tolist()
         if name in ("actual_q", "target_q"):
             return robot.joints().tolist()
         if name in ("actual_qd", "target_qd"):
@@ -190,9 +192,9 @@ class Controller:
             return robot.tcp_offset.tolist()
         if name == "payload_cog":
             return list(self.payload_cog_m)
-        return self._numbers(name)
+        return self._scalar(name)
 
-    def _numbers(self, name: str) -> list[float]:
+    def _scalar(self, name: str) -> list[float]:
         playing = self.runtime_state == PLAYING
         powered = self.robot_mode == RUNNING
         scalars: dict[str, float] = {

@@ -1,39 +1,30 @@
 """An emulator of a UR e-Series controller: dashboard, script and RTDE ports on a loopback address.
 
-It speaks to the unmodified ur_rtde, moves a tool in real time, and lets faults happen on command.
-``python -m sim.emulators ur --host 127.0.3.7``. What it is not: a simulation of dynamics, of
-contact, or of the URScript language (``ur_program`` behaves as ur_rtde's own script does).
+It speaks to the unmodified ur_rtde, moves a tool in real time and injects faults on command:
+``python -m sim.emulators ur --host 127.0.3.7``. Not emulated: dynamics, contact, and the URScript
+language (``sim.emulators.ur.urscript`` behaves as ur_rtde's own script does).
 """
 
 from __future__ import annotations
 
-import argparse
-import math
 import queue
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
+from contextlib import closing
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
-from sim.emulators.process.control import ControlServer, Facts
-from sim.emulators.process.lifetime import announce_and_wait
-from sim.emulators.process.real_time import ask_for_real_time
+from sim.emulators.process.control import Facts
+from sim.emulators.process.lifetime import serve
+from sim.emulators.process.real_time import request_real_time
 from sim.emulators.ur.child import RemoteWorld
 from sim.emulators.ur.controller import ROBOT_STOP, SAFEGUARD, Controller
-from sim.emulators.ur.robot import MotionSegment
-from sim.emulators.ur.server import PORTS, Server
-from sim.emulators.ur.sessions import DASHBOARD_PORT, RTDE_PORT, SCRIPT_PORT
-
-START_TCP = (0.45, -0.10, 0.20, math.pi, 0.0, 0.0)
-"""Where the tool centre point begins [m, rad]: the simulated rig's start pose."""
-
-TCP_OFFSET = (0.0, 0.0, 0.15, 0.0, 0.0, 0.0)
-"""Flange to tool centre point at the start [m, rad]."""
-
-VERSION = (5, 12)
+from sim.emulators.ur.motion import MotionSegment
+from sim.emulators.ur.options import UrOptions
+from sim.emulators.ur.server import Server
+from sim.emulators.ur.sessions import DASHBOARD_PORT, PORTS, RTDE_PORT, SCRIPT_PORT
 
 _REGISTERS = [f"input_int_register_{i}" for i in range(24)]
 
@@ -41,18 +32,11 @@ _REGISTERS = [f"input_int_register_{i}" for i in range(24)]
 class TcpListener(Protocol):
     """A world that follows the tool centre point."""
 
-    def moved(
-        self,
-        by_base_m: NDArray[np.float64],
-        rotvec_rad: NDArray[np.float64],
-        speed_m_s: float,
-        acceleration_m_s2: float,
-    ) -> None:
-        """A straight segment of the TCP has ended (arrived, or was cut short by a stop).
+    def follow(self, segment: MotionSegment) -> None:
+        """Follow a segment of the tool that has ended (arrived, or was cut short by a stop).
 
-        ``by_base_m`` and ``rotvec_rad`` are what was really covered; speed and acceleration are
-        those commanded. May take its time: the controller goes on, and says that the move has
-        finished when the world has followed.
+        It may take its time: the controller goes on, and reports the end of the move when the world
+        has followed.
         """
         ...
 
@@ -62,38 +46,33 @@ class UrEmulator:
 
     def __init__(
         self,
-        host: str,
-        *,
-        version: tuple[int, int] = VERSION,
-        stream_hz: float = 125.0,
-        start_tcp: Sequence[float] = START_TCP,
-        tcp_offset: Sequence[float] = TCP_OFFSET,
+        options: UrOptions,
         listener: TcpListener | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        """Listen on ``host`` and serve; streams run at ``stream_hz`` [Hz] at most.
+        """Listen on the host of the options and serve.
 
         Raises:
             OSError: The ports are taken on this address.
             ValueError: The start pose is out of reach.
         """
-        self.host = host
-        self._clock, self._listener, self._version = clock, listener, version
+        major, minor = (int(part) for part in options.version.split("."))
+        self._clock, self._listener, self._version = clock, listener, (major, minor)
         self._injected_s: float | None = None
-        self._ended: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
+        self._segments: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
             queue.SimpleQueue()
         )
         self._world: threading.Thread | None = None
         if listener is not None:
-            self._world = threading.Thread(target=self._tell_world, daemon=True)
+            self._world = threading.Thread(target=self._run_world, daemon=True)
             self._world.start()
         self.controller = Controller(
-            np.array(start_tcp, dtype=np.float64),
-            np.array(tcp_offset, dtype=np.float64),
-            None if listener is None else self._report,
+            np.array(options.start_tcp),
+            np.array(options.tcp_offset),
+            None if listener is None else self._queue_segment,
             clock,
         )
-        self.server = Server(host, self.controller, version, stream_hz, clock)
+        self.server = Server(options.host, self.controller, self._version, options.stream_hz, clock)
         self._faults: dict[str, Callable[..., None]] = {
             "mute": lambda: self._link(mute=True),
             "garbage": lambda: self._link(garbage=True),
@@ -112,14 +91,14 @@ class UrEmulator:
         }
 
     def close(self) -> None:
-        """Hang up. Idempotent."""
+        """Close all connections. Idempotent."""
         self.server.close()
-        self._ended.put(None)
+        self._segments.put(None)
 
     # -- Emulated --------------------------------------------------------------------------------
 
     def inject(self, fault: str, **details: float | str) -> None:
-        """Let a fault happen now.
+        """Start a fault now.
 
         Raises:
             ValueError: No such fault, or details that it does not take.
@@ -135,7 +114,7 @@ class UrEmulator:
                 raise ValueError(f"the fault {fault} does not take {sorted(details)}") from None
 
     def clear(self) -> None:
-        """All faults away; the program stays ended, as on a real controller."""
+        """End all faults; the program stays ended, as on a real controller."""
         with self.server.lock:
             controller = self.controller
             if controller.robot_mode != 7 or controller.safety_mode != 1:
@@ -148,22 +127,22 @@ class UrEmulator:
             self.server.restore()
 
     def facts(self) -> Facts:
-        """What is true now; times [ms] are measured here, from the last injection on."""
+        """True state now; times [ms] are measured from the last injection on."""
         with self.server.lock:
             self.controller.advance()
             controller, robot = self.controller, self.controller.robot
             ago_s = None if self._injected_s is None else self._clock() - self._injected_s
             after_s = robot.stopped_after_s
-            x, y, z, *turn = robot.tcp_pose()
+            x, y, z, *rotvec = robot.tcp_pose()
             return {
                 "injected_ago_ms": None if ago_s is None else 1e3 * ago_s,
                 "stopped_after_ms": None if after_s is None else 1e3 * after_s,
                 "tcp_speed_m_s": robot.speed_m_s,
                 "moving": robot.in_motion,
                 "tcp_x_m": x, "tcp_y_m": y, "tcp_z_m": z,
-                "tcp_rx_rad": turn[0], "tcp_ry_rad": turn[1], "tcp_rz_rad": turn[2],
+                "tcp_rx_rad": rotvec[0], "tcp_ry_rad": rotvec[1], "tcp_rz_rad": rotvec[2],
                 "program_running": controller.program is not None,
-                "program_ended": controller.ended,
+                "program_ended": controller.end_reason,
                 "num_programs": controller.num_programs,
                 "watchdog_hz": controller.program.watchdog_hz if controller.program else 0.0,
                 "stops_straight": bool(controller.program and controller.program.stops_straight),
@@ -187,11 +166,11 @@ class UrEmulator:
         self.controller.robot.speed_fraction = min(1.0, max(0.0, float(fraction)))
 
     def _link_drop(self, ports: str = "rtde") -> None:
-        known = {"rtde": (RTDE_PORT,), "all": PORTS, "control": (RTDE_PORT, SCRIPT_PORT),
+        groups = {"rtde": (RTDE_PORT,), "all": PORTS, "control": (RTDE_PORT, SCRIPT_PORT),
                  "dashboard": (DASHBOARD_PORT,)}  # fmt: skip
-        if ports not in known:
-            raise ValueError(f"ports must be one of {', '.join(known)}, got {ports!r}")
-        self.server.drop(known[ports])
+        if ports not in groups:
+            raise ValueError(f"ports must be one of {', '.join(groups)}, got {ports!r}")
+        self.server.drop(groups[ports])
 
     def _freeze(self, deaf: float = 1.0) -> None:
         self.server.link.frozen, self.server.link.deaf = True, bool(deaf)
@@ -205,54 +184,24 @@ class UrEmulator:
 
     # -- world -----------------------------------------------------------------------------------
 
-    def _report(self, stretch: MotionSegment) -> Callable[[], bool]:
+    def _queue_segment(self, segment: MotionSegment) -> Callable[[], bool]:
         followed = threading.Event()
-        self._ended.put((stretch, followed))
+        self._segments.put((segment, followed))
         return followed.is_set
 
-    def _tell_world(self) -> None:
-        while (told := self._ended.get()) is not None:
-            stretch, followed = told
+    def _run_world(self) -> None:
+        while (entry := self._segments.get()) is not None:
+            segment, followed = entry
             try:
                 if self._listener is not None:
-                    self._listener.moved(
-                        stretch.by_base_m,
-                        stretch.rotvec_rad,
-                        stretch.speed_m_s,
-                        stretch.acceleration_m_s2,
-                    )
+                    self._listener.follow(segment)
             finally:
                 followed.set()
 
 
-def main(argv: Sequence[str]) -> int:
-    """Run one emulated controller until told to end."""
-    parser = argparse.ArgumentParser(prog="python -m sim.emulators ur", description=__doc__)
-    parser.add_argument("--host", required=True, help="loopback address, 127.x.y.z")
-    parser.add_argument("--version", default="5.12", help="PolyScope version, major.minor")
-    parser.add_argument("--stream-hz", type=float, default=125.0, help="fastest data stream")
-    parser.add_argument(
-        "--start-tcp", type=float, nargs=6, default=START_TCP, help="pose at the start [m, rad]"
-    )
-    parser.add_argument(
-        "--tcp-offset", type=float, nargs=6, default=TCP_OFFSET, help="flange to TCP [m, rad]"
-    )
-    parser.add_argument(
-        "--world-port", type=int, default=None, help="local port of a world that follows (ur_child)"
-    )
-    chosen = parser.parse_args(argv)
-    major, minor = (int(part) for part in chosen.version.split("."))
-    ask_for_real_time()  # control channel too: a thread that waits for it must not wait long
-    emulator = UrEmulator(
-        chosen.host,
-        version=(major, minor),
-        stream_hz=chosen.stream_hz,
-        start_tcp=chosen.start_tcp,
-        tcp_offset=chosen.tcp_offset,
-        listener=None if chosen.world_port is None else RemoteWorld(chosen.world_port),
-    )
-    control = ControlServer({"ur": emulator})
-    announce_and_wait({"host": chosen.host, "control_port": control.port})
-    control.close()
-    emulator.close()
-    return 0
+def run(options: UrOptions) -> None:
+    """Run one emulated controller, until the process is to end."""
+    request_real_time()  # control channel too: a thread that waits for it must not wait long
+    world = None if options.world_port is None else RemoteWorld(options.world_port)
+    with closing(UrEmulator(options, world)) as emulator:
+        serve({"ur": emulator}, {"host": options.host})

@@ -1,7 +1,7 @@
-"""Where a UR5e's tool is, and which joints bring it there.
+"""Forward and inverse kinematics of a UR5e.
 
-Forward kinematics by Denavit-Hartenberg parameters, inverse kinematics by Newton steps from a
-nearby posture: good enough that a pose comes back as commanded. Not here: dynamics, joint limits.
+Forward by Denavit-Hartenberg parameters, inverse by Newton steps from a nearby posture, to an error
+below 1e-9: a pose is reported as commanded. Not here: dynamics, joint limits.
 
 Source: DH parameters of the UR5e, universal-robots.com, 'DH parameters for calculations of
 kinematics and dynamics'.
@@ -13,6 +13,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation
 
 Floats = NDArray[np.float64]
 
@@ -21,42 +22,20 @@ A_M = (0.0, -0.425, -0.3922, 0.0, 0.0, 0.0)
 ALPHA_RAD = (math.pi / 2, 0.0, 0.0, math.pi / 2, -math.pi / 2, 0.0)
 
 CLOSE_ENOUGH = 1e-9
-"""Newton stops below this error (metres and radians, together)."""
+"""Error below which the Newton steps end [m and rad, the largest component]."""
 
 READY_Q = np.array([2.6, -1.6, 2.0, -1.95, -math.pi / 2, 4.2])
-"""Elbow up, tool pointing down: the posture from which the first pose is sought [rad]."""
+"""Posture from which the first pose is solved [rad]: elbow up, tool pointing down."""
 
 
 def matrix(rotvec_rad: Floats) -> Floats:
-    """Rotation vector (3,) [rad] to rotation matrix (3, 3) (Rodrigues)."""
-    angle = math.sqrt(float(rotvec_rad @ rotvec_rad))
-    if angle < 1e-12:
-        return np.eye(3)
-    x, y, z = (float(v) for v in rotvec_rad / angle)
-    c, s = math.cos(angle), math.sin(angle)
-    t = 1.0 - c
-    return np.array([
-        [t * x * x + c, t * x * y - s * z, t * x * z + s * y],
-        [t * x * y + s * z, t * y * y + c, t * y * z - s * x],
-        [t * x * z - s * y, t * y * z + s * x, t * z * z + c],
-    ])  # fmt: skip
+    """Rotation vector (3,) [rad] to rotation matrix (3, 3)."""
+    return Rotation.from_rotvec(rotvec_rad).as_matrix()
 
 
-def rotvec(turn: Floats) -> Floats:
+def rotvec(rotation: Floats) -> Floats:
     """Rotation matrix (3, 3) to rotation vector (3,) [rad], of length 0 to pi."""
-    skew = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
-    sine = 0.5 * math.sqrt(float(skew @ skew))
-    cosine = 0.5 * (float(np.trace(turn)) - 1.0)
-    angle = math.atan2(sine, cosine)
-    if sine > 1e-6:
-        return skew * (0.5 * angle / sine)
-    if cosine > 0:
-        return 0.5 * skew
-    # Half a turn: the axis is what the rotation leaves alone, its sign that of the small skew part.
-    outer = 0.5 * (turn + np.eye(3))
-    axis = outer[int(np.argmax(np.diag(outer)))]
-    axis = axis / math.sqrt(float(axis @ axis))
-    return angle * axis * (-1.0 if float(axis @ skew) < 0 else 1.0)
+    return Rotation.from_matrix(rotation).as_rotvec()
 
 
 def as_frame(pose: Floats) -> Floats:
@@ -73,16 +52,15 @@ def as_pose(frame: Floats) -> Floats:
 
 
 def inverse(frame: Floats) -> Floats:
-    """The inverse of a homogeneous matrix (4, 4)."""
-    turn = frame[:3, :3].T
-    back = np.eye(4)
-    back[:3, :3] = turn
-    back[:3, 3] = -turn @ frame[:3, 3]
-    return back
+    """Inverse of a homogeneous matrix (4, 4)."""
+    inverted = np.eye(4)
+    inverted[:3, :3] = frame[:3, :3].T
+    inverted[:3, 3] = -frame[:3, :3].T @ frame[:3, 3]
+    return inverted
 
 
 def _joint_frames(q: Floats) -> list[Floats]:
-    """Frames of the base and of each joint's end, seven matrices (4, 4)."""
+    """Frames of the base and of the end of each joint, seven matrices (4, 4)."""
     frames = [np.eye(4)]
     for d, a, alpha, angle in zip(D_M, A_M, ALPHA_RAD, q.tolist(), strict=True):
         c, s, ca, sa = math.cos(angle), math.sin(angle), math.cos(alpha), math.sin(alpha)
@@ -102,7 +80,7 @@ def base_from_flange(q: Floats) -> Floats:
 
 
 def jacobian(q: Floats) -> Floats:
-    """From joint speeds [rad/s] to the flange's twist (v, w) in the base frame, (6, 6)."""
+    """Jacobian (6, 6) from joint speeds [rad/s] to the flange's twist (v, w) in the base frame."""
     frames = _joint_frames(q)
     end = frames[-1][:3, 3]
     columns = [
@@ -113,22 +91,22 @@ def jacobian(q: Floats) -> Floats:
 
 
 def joints_of(flange: Floats, near_q: Floats, num_steps: int = 60) -> Floats:
-    """Joint angles (6,) [rad] that bring the flange to a frame (4, 4), found from a nearby posture.
+    """Joint angles (6,) [rad] that bring the flange to a frame (4, 4), from a nearby posture.
 
     Raises:
-        ValueError: No posture was found: out of reach, or through a singularity.
+        ValueError: No posture was found: out of reach, or beyond a singularity.
     """
     q = np.array(near_q, dtype=np.float64)
     damping = 1e-10 * np.eye(6)
     for _ in range(num_steps):
         frames = _joint_frames(q)
-        now = frames[-1]
+        reached = frames[-1]
         error = np.concatenate([
-            flange[:3, 3] - now[:3, 3], rotvec(flange[:3, :3] @ now[:3, :3].T)
+            flange[:3, 3] - reached[:3, 3], rotvec(flange[:3, :3] @ reached[:3, :3].T)
         ])  # fmt: skip
         if float(np.abs(error).max()) < CLOSE_ENOUGH:
             return q
-        turn = jacobian(q)
-        step = turn.T @ np.linalg.solve(turn @ turn.T + damping, error)
+        j = jacobian(q)
+        step = j.T @ np.linalg.solve(j @ j.T + damping, error)
         q = q + step * min(1.0, 0.5 / max(1e-12, float(np.abs(step).max())))
     raise ValueError(f"no posture brings the flange to {flange[:3, 3].round(4).tolist()} m")

@@ -1,8 +1,8 @@
-"""Motions of a tool centre point in time: lines, ramps to a speed, stops, servoing.
+"""Motions of a tool centre point over time: lines, ramps to a speed, stops, servoing.
 
-Each is a pure function of the time since it began. Speeds change linearly (trapezoids), as a UR's
-interpreter plans them; no jerk limit and no following error. Not here: who starts and ends them
-(``ur_program``), joints (``ur_kinematics``).
+Each motion is a pure function of the time since it began. Speeds change linearly (trapezoids), as a
+UR's interpreter plans them, without jerk limit or following error. Not here: starting and ending
+motions (``sim.emulators.ur.urscript``), joints (``sim.emulators.ur.kinematics``).
 """
 
 from __future__ import annotations
@@ -21,29 +21,45 @@ AT_REST.setflags(write=False)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToolState:
-    """Where the tool centre point is and how it moves.
+    """Pose and velocity of the tool centre point.
 
     Attributes:
-        position_m: Shape (3,) [m, base].
-        turn: Rotation matrix (3, 3), base from TCP.
-        twist: Speed and angular speed (6,) [m/s, rad/s, base].
+        position_m: Position, shape (3,) [m, base].
+        rotation: Rotation matrix (3, 3), base from TCP.
+        twist: Velocity and angular velocity (6,) [m/s, rad/s, base].
     """
 
     position_m: Floats
-    turn: Floats
+    rotation: Floats
     twist: Floats
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MotionSegment:
+    """A straight motion of the tool centre point from rest to rest.
+
+    Attributes:
+        by_base_m: Actual displacement, shape (3,) [m, base].
+        rotvec_rad: Actual rotation, shape (3,) [rad, base].
+        speed_m_s, acceleration_m_s2: As commanded when it began.
+    """
+
+    by_base_m: Floats
+    rotvec_rad: Floats
+    speed_m_s: float
+    acceleration_m_s2: float
+
+
 class Motion(Protocol):
-    """A motion that began at time 0 of its own."""
+    """A motion that begins at its time 0."""
 
     @property
     def duration_s(self) -> float:
-        """When it ends [s]; infinite for one that goes on until it is ended."""
+        """Time of its end [s]; infinite for a motion that another one has to end."""
         ...
 
     def at(self, t_s: float) -> ToolState:
-        """The place at a time since the beginning [s]."""
+        """The state at a time [s]."""
         ...
 
 
@@ -51,31 +67,35 @@ class Motion(Protocol):
 class Rest:
     """Standing still."""
 
-    place: ToolState
+    state: ToolState
     duration_s: float = math.inf
 
     def at(self, t_s: float) -> ToolState:
-        """Always the same place."""
-        return self.place
+        return self.state
 
 
 class Line:
     """A straight line from rest to rest with a trapezoidal speed."""
 
     def __init__(
-        self, start: ToolState, position_m: Floats, turn: Floats, speed: float, acceleration: float
+        self,
+        start: ToolState,
+        position_m: Floats,
+        rotation: Floats,
+        speed: float,
+        acceleration: float,
     ) -> None:
-        """Plan it; speed [m/s] and acceleration [m/s²], in rad where only the tool turns.
+        """Plan the line; speed [m/s] and acceleration [m/s²], in rad where the tool only turns.
 
         Raises:
-            ValueError: A number is not finite, or speed or acceleration not above 0.
+            ValueError: A number is not finite, or speed or acceleration is not above 0.
         """
-        numbers = (*position_m.tolist(), *turn.ravel().tolist(), speed, acceleration)
+        numbers = (*position_m.tolist(), *rotation.ravel().tolist(), speed, acceleration)
         if not (all(math.isfinite(v) for v in numbers) and speed > 0 and acceleration > 0):
             raise ValueError(f"a line needs finite numbers and a speed above 0, got {numbers}")
-        self._start, self._position_m, self._turn = start, position_m, turn
+        self._start, self._position_m, self._rotation = start, position_m, rotation
         self._by_m = position_m - start.position_m
-        self._by_rad = rotvec(turn @ start.turn.T)
+        self._by_rad = rotvec(rotation @ start.rotation.T)
         length_m = math.sqrt(float(self._by_m @ self._by_m))
         self._length = length_m or math.sqrt(float(self._by_rad @ self._by_rad))
         self._acceleration = acceleration
@@ -84,33 +104,34 @@ class Line:
         self.duration_s = self._length / self._top + self._ramp_s if self._length > 0 else 0.0
 
     def at(self, t_s: float) -> ToolState:
-        """The place at ``t_s`` [s]."""
         if t_s >= self.duration_s:
-            return ToolState(position_m=self._position_m, turn=self._turn, twist=AT_REST)
-        left_s = self.duration_s - t_s
+            return ToolState(position_m=self._position_m, rotation=self._rotation, twist=AT_REST)
+        remaining_s = self.duration_s - t_s
         if t_s < self._ramp_s:
-            way, speed = 0.5 * self._acceleration * t_s**2, self._acceleration * t_s
-        elif left_s < self._ramp_s:
-            way = self._length - 0.5 * self._acceleration * left_s**2
-            speed = self._acceleration * left_s
+            path, speed = 0.5 * self._acceleration * t_s**2, self._acceleration * t_s
+        elif remaining_s < self._ramp_s:
+            path = self._length - 0.5 * self._acceleration * remaining_s**2
+            speed = self._acceleration * remaining_s
         else:
-            way = self._top * (t_s - 0.5 * self._ramp_s)
+            path = self._top * (t_s - 0.5 * self._ramp_s)
             speed = self._top
-        share = way / self._length
-        turn = self._start.turn
+        fraction = path / self._length
+        rotation = self._start.rotation
         if float(np.abs(self._by_rad).max()) > 1e-9:
-            turn = matrix(share * self._by_rad) @ turn
+            rotation = matrix(fraction * self._by_rad) @ rotation
         twist = np.concatenate([self._by_m, self._by_rad]) * (speed / self._length)
         return ToolState(
-            position_m=self._start.position_m + share * self._by_m, turn=turn, twist=twist
+            position_m=self._start.position_m + fraction * self._by_m,
+            rotation=rotation,
+            twist=twist,
         )
 
 
 class Ramp:
-    """A change of speed at a constant rate, then that speed for ever: ``speedl`` and every stop."""
+    """A change of velocity at a constant rate, then that velocity: ``speedl`` and every stop."""
 
     def __init__(self, start: ToolState, twist: Floats, seconds: float, until_s: float) -> None:
-        """Go over from the present speed to ``twist`` (6,) within ``seconds``; end at ``until_s``.
+        """Change from the present twist to ``twist`` (6,) within ``seconds``; end at ``until_s``.
 
         Raises:
             ValueError: A number is not finite.
@@ -121,24 +142,25 @@ class Ramp:
         self.duration_s = until_s
 
     def at(self, t_s: float) -> ToolState:
-        """The place at ``t_s`` [s]."""
         within = min(t_s, self._seconds)
-        share = within / self._seconds if self._seconds > 0 else 1.0
-        twist = self._start.twist + share * (self._twist - self._start.twist)
-        way = 0.5 * (self._start.twist + twist) * within + self._twist * (t_s - within)
-        turn = self._start.turn
-        if float(np.abs(way[3:]).max()) > 1e-12:
-            turn = matrix(way[3:]) @ turn
-        return ToolState(position_m=self._start.position_m + way[:3], turn=turn, twist=twist)
+        fraction = within / self._seconds if self._seconds > 0 else 1.0
+        twist = self._start.twist + fraction * (self._twist - self._start.twist)
+        path = 0.5 * (self._start.twist + twist) * within + self._twist * (t_s - within)
+        rotation = self._start.rotation
+        if float(np.abs(path[3:]).max()) > 1e-12:
+            rotation = matrix(path[3:]) @ rotation
+        return ToolState(
+            position_m=self._start.position_m + path[:3], rotation=rotation, twist=twist
+        )
 
 
 def stop_in(start: ToolState, seconds: float) -> Ramp:
-    """Come to rest within a time [s], on the present course."""
+    """Come to rest within a time [s], along the present course."""
     return Ramp(start, AT_REST, seconds, seconds)
 
 
 def stop_at(start: ToolState, deceleration: float) -> Ramp:
-    """Come to rest with a deceleration [m/s²] (of the turning [rad/s²] where only that is)."""
+    """Come to rest with a deceleration [m/s²], or [rad/s²] where the tool only turns."""
     speed = math.sqrt(float(start.twist[:3] @ start.twist[:3]))
     if speed == 0:
         speed = math.sqrt(float(start.twist[3:] @ start.twist[3:]))
@@ -146,32 +168,31 @@ def stop_at(start: ToolState, deceleration: float) -> Ramp:
 
 
 def run_at(start: ToolState, twist: Floats, acceleration: float, until_s: float) -> Ramp:
-    """Go over to a speed (6,) with an acceleration [m/s²]; end at ``until_s`` [s]."""
+    """Change to a twist (6,) with an acceleration [m/s²]; end at ``until_s`` [s]."""
     change = twist - start.twist
     size = math.sqrt(float(change[:3] @ change[:3])) or math.sqrt(float(change[3:] @ change[3:]))
     return Ramp(start, twist, size / acceleration, until_s)
 
 
 class ServoMotion:
-    """Approach a goal exponentially, as ``servoj`` does by its look-ahead."""
+    """An exponential approach to a goal, as ``servoj`` makes with its look-ahead time."""
 
     duration_s = math.inf
 
     def __init__(
-        self, start: ToolState, position_m: Floats, turn: Floats, lookahead_s: float
+        self, start: ToolState, position_m: Floats, rotation: Floats, lookahead_s: float
     ) -> None:
-        self._start, self._position_m, self._turn = start, position_m, turn
+        self._start, self._position_m, self._rotation = start, position_m, rotation
         self._tau_s = max(0.01, lookahead_s)
         self._by = np.concatenate([
-            position_m - start.position_m, rotvec(turn @ start.turn.T)
+            position_m - start.position_m, rotvec(rotation @ start.rotation.T)
         ])  # fmt: skip
 
     def at(self, t_s: float) -> ToolState:
-        """The place at ``t_s`` [s]."""
-        left = math.exp(-t_s / self._tau_s)
-        way = (1.0 - left) * self._by
+        remaining = math.exp(-t_s / self._tau_s)
+        path = (1.0 - remaining) * self._by
         return ToolState(
-            position_m=self._start.position_m + way[:3],
-            turn=matrix(way[3:]) @ self._start.turn,
-            twist=self._by * (left / self._tau_s),
+            position_m=self._start.position_m + path[:3],
+            rotation=matrix(path[3:]) @ self._start.rotation,
+            twist=self._by * (remaining / self._tau_s),
         )

@@ -1,7 +1,7 @@
-"""RTDE as a controller speaks it: packets, and the types of the variables that it knows.
+"""RTDE on the controller's side: packets, and types of the variables.
 
-Big-endian; a u16 size that counts its own three bytes of header, a u8 type, the payload. Not here:
-sockets (``ur_sessions``), what a variable's value is (``ur_controller``).
+Big-endian; a u16 size that includes the three bytes of header, a u8 type, the payload. Not here:
+connections (``sim.emulators.ur.sessions``), values (``sim.emulators.ur.controller``).
 
 Source: universal-robots.com, 'Real-Time Data Exchange (RTDE) Guide', protocol version 2.
 """
@@ -16,7 +16,7 @@ OUTPUTS, INPUTS, DATA, START, PAUSE = ord("O"), ord("I"), ord("U"), ord("S"), or
 
 HEADER = struct.Struct(">HB")
 LARGEST = 4096
-"""Longest packet that is believed [bytes]; recipes of the library stay far below."""
+"""Longest accepted packet [bytes]; recipes of the library stay far below."""
 
 FORMATS = {
     "BOOL": "?",
@@ -85,15 +85,15 @@ INPUT_TYPES: Mapping[str, str] = {
 
 
 def packet(kind: int, payload: bytes = b"") -> bytes:
-    """A whole packet."""
+    """A complete packet."""
     return HEADER.pack(HEADER.size + len(payload), kind) + payload
 
 
 def split(buffer: bytearray) -> list[tuple[int, bytes]]:
-    """Take all whole packets out of a buffer: (type, payload) each.
+    """Remove all complete packets from a buffer; returns (type, payload) of each.
 
     Raises:
-        ValueError: A size that no packet can have; the stream is lost.
+        ValueError: An impossible size; the stream is lost.
     """
     packets = []
     while len(buffer) >= HEADER.size:
@@ -113,10 +113,15 @@ def names_in(payload: bytes) -> list[str]:
 
 
 def types_of(names: Sequence[str], known: Mapping[str, str]) -> list[str]:
-    """The type of each name, NOT_FOUND for one that the controller does not know."""
+    """Type of each name, NOT_FOUND for an unknown one."""
     return [known.get(name, "NOT_FOUND") for name in names]
 
 
 def layout(types: Sequence[str]) -> struct.Struct:
-    """How a data packet of these types is laid out."""
+    """Layout of a data packet with these types."""
     return struct.Struct(">" + "".join(FORMATS[kind] for kind in types))
+
+
+def num_values(kind: str) -> int:
+    """Number of values of a type."""
+    return int(FORMATS[kind][:-1] or 1)

@@ -1,8 +1,8 @@
-"""The sockets of an emulated controller: one thread that serves all clients and lets time pass.
+"""The sockets of an emulated controller: one thread serves all clients and advances the controller.
 
-Here are also the faults of the link: a controller that accepts and is silent, one that answers
-garbage, one whose stream has stopped, connections that drop. Ports are those of a real controller,
-so every emulator has a loopback address of its own.
+It also emulates the faults of the link: a controller that accepts and is silent, garbage for an
+answer, a frozen stream, connections that drop. Ports are those of a real controller, so every
+emulator has its own loopback address.
 """
 
 from __future__ import annotations
@@ -15,21 +15,20 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from sim.emulators.process.real_time import ask_for_real_time
+from sim.emulators.process.real_time import request_real_time
 from sim.emulators.ur.controller import Controller
 from sim.emulators.ur.sessions import (
     DASHBOARD_PORT,
+    PORTS,
     RTDE_PORT,
-    SCRIPT_PORT,
     DashboardSession,
     RtdeSession,
     ScriptSession,
     Session,
 )
 
-PORTS = (DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT)
-TICK_S = 0.004
-"""Cycle while the arm moves; what happens in between is computed, not rounded to it."""
+CYCLE_S = 0.004
+"""Cycle while the arm moves [s]; events between two cycles are computed at their exact time."""
 
 IDLE_S = 0.02
 GARBAGE = bytes(range(256)) * 2
@@ -37,12 +36,13 @@ GARBAGE = bytes(range(256)) * 2
 
 @dataclass(slots=True)
 class Link:
-    """What is wrong with the connections.
+    """Faults of the connections.
 
     Attributes:
         mute: New connections are accepted and never answered.
-        garbage: New connections get nonsense.
-        frozen: No packet goes out; ``deaf``: what comes in is not read either.
+        garbage: New connections get bytes of no protocol.
+        frozen: No packet is sent.
+        deaf: No packet is read.
         refused: Ports that do not listen.
     """
 
@@ -66,9 +66,9 @@ class Server:
     """Serves a controller on one loopback address.
 
     Attributes:
-        link: What is wrong with the connections; change it under ``lock``.
+        link: Faults of the connections; change them under ``lock``.
         lock: Guards controller and link against the control channel.
-        fastest_hz: Bound on the rate of a client's stream [Hz].
+        fastest_hz: Highest rate of a client's stream [Hz].
     """
 
     def __init__(
@@ -103,7 +103,7 @@ class Server:
         self._thread.start()
 
     def close(self) -> None:
-        """Hang up everywhere. Idempotent."""
+        """Close all connections and ports. Idempotent."""
         self._ended = True
         self._thread.join(timeout=2)
         with self.lock:
@@ -111,11 +111,11 @@ class Server:
 
     @property
     def num_clients(self) -> int:
-        """Connections that are open."""
+        """Number of open connections."""
         return len(self._connections)
 
     def reserve(self, names: Sequence[str], *, taken: bool) -> None:
-        """Let another client have these inputs, or give them back."""
+        """Reserve these inputs for another client, or release them."""
         if taken:
             other = RtdeSession(self._controller, self.version, self._taken)
             self._taken |= dict.fromkeys(names, other)
@@ -124,10 +124,10 @@ class Server:
                 self._taken.pop(name, None)
 
     def drop(self, ports: Sequence[int], reopen_after_s: float | None = None) -> None:
-        """Reset all connections to some ports and refuse new ones, for a time or until told."""
+        """Reset all connections to some ports; refuse new ones for a time or until ``restore``."""
         self.link.refused |= set(ports)
         for connection in [c for c in self._connections if c.port in ports]:
-            with contextlib.suppress(OSError):  # a reset, not a farewell
+            with contextlib.suppress(OSError):  # a reset instead of an orderly end
                 connection.socket.setsockopt(
                     socket.SOL_SOCKET, socket.SO_LINGER, b"\x01\x00\x00\x00\x00\x00\x00\x00"
                 )
@@ -137,7 +137,7 @@ class Server:
         self._reopen_s = None if reopen_after_s is None else self._clock() + reopen_after_s
 
     def restore(self) -> None:
-        """No fault of the link any more; silent and garbling connections are ended."""
+        """End all faults of the link, and the connections that were opened under one."""
         for connection in [c for c in self._connections if c.session is None]:
             self._hang_up(connection)
         self.link, self._reopen_s = Link(), None
@@ -146,7 +146,7 @@ class Server:
     # -- the thread ------------------------------------------------------------------------------
 
     def _serve(self) -> None:
-        ask_for_real_time()
+        request_real_time()
         while not self._ended:
             ready = self._selector.select(self._pause_s())
             with self.lock:
@@ -156,23 +156,23 @@ class Server:
                 for key, _ in ready:
                     if isinstance(key.data, _Connection):
                         if key.data in self._connections:
-                            self._hear(key.data)
+                            self._receive(key.data)
                     elif key.data in self._listening:
                         self._accept(key.data)
                 self._controller.advance()
                 self._stream(self._clock())
             if self.link.deaf and ready:
-                time.sleep(TICK_S)  # unread input keeps the selector awake
+                time.sleep(CYCLE_S)  # unread input keeps the selector awake
 
     def _pause_s(self) -> float:
         with self.lock:
             now_s = self._clock()
-            due_s = [c.due_s for c in self._connections if _streaming(c)]
+            due_s = [c.due_s for c in self._connections if _is_streaming(c)]
             deadline_s = self._controller.next_deadline_s
             if deadline_s is not None:
                 due_s.append(deadline_s)
             pause_s = min(due_s, default=now_s + IDLE_S) - now_s
-            longest_s = TICK_S if self._controller.robot.moving else IDLE_S
+            longest_s = CYCLE_S if self._controller.robot.moving else IDLE_S
             return max(0.0, min(pause_s, longest_s))
 
     def _listen(self) -> None:
@@ -219,7 +219,7 @@ class Server:
             return DashboardSession(self._controller, self.version)
         return ScriptSession(self._controller)
 
-    def _hear(self, connection: _Connection) -> None:
+    def _receive(self, connection: _Connection) -> None:
         if self.link.deaf:
             return
         try:
@@ -232,7 +232,7 @@ class Server:
             self._hang_up(connection)
         elif connection.session is not None:
             try:
-                self._send(connection, connection.session.heard(data))
+                self._send(connection, connection.session.receive(data))
             except ValueError:
                 self._hang_up(connection)
         elif self.link.garbage:
@@ -269,7 +269,7 @@ class Server:
             self._selector.unregister(connection.socket)
             connection.socket.close()
             if connection.session is not None:
-                connection.session.closed()
+                connection.session.close()
 
     def _close_all(self) -> None:
         for connection in list(self._connections):
@@ -278,5 +278,5 @@ class Server:
             self._unlisten(port)
 
 
-def _streaming(connection: _Connection) -> bool:
+def _is_streaming(connection: _Connection) -> bool:
     return isinstance(connection.session, RtdeSession) and connection.session.streaming

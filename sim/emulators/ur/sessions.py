@@ -1,6 +1,7 @@
-"""What one client of an emulated controller says and hears: RTDE, dashboard, script port.
+"""Connections of clients to an emulated controller: RTDE, dashboard and script port.
 
-Bytes in, bytes out; sockets and faults of the link are elsewhere (``ur_server``).
+A session turns received bytes into answers. Not here: sockets and faults of the link
+(``sim.emulators.ur.server``).
 
 Source: Universal Robots' RTDE guide and dashboard server documentation (e-Series); what ur_rtde
 1.6.5 asks for.
@@ -17,18 +18,19 @@ from sim.emulators.ur import packets as rtde
 from sim.emulators.ur.controller import NORMAL, PROTECTIVE, ROBOT_MODES, SAFETY_MODES, Controller
 
 RTDE_PORT, DASHBOARD_PORT, SCRIPT_PORT = 30004, 29999, 30003
+PORTS = (DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT)
 LONGEST_TEXT = 1 << 20
 
 
 class Session(Protocol):
     """One connection."""
 
-    def heard(self, data: bytes) -> bytes:
-        """Take what the client sent; the answer. ``ValueError``: hang up."""
+    def receive(self, data: bytes) -> bytes:
+        """Take bytes of the client and return the answer; ``ValueError`` ends the connection."""
         ...
 
-    def closed(self) -> None:
-        """The connection is gone."""
+    def close(self) -> None:
+        """Release what the connection held."""
         ...
 
 
@@ -36,14 +38,14 @@ class RtdeSession:
     """RTDE protocol version 2.
 
     Attributes:
-        period_s: Time between data packets that the client asked for [s].
-        streaming: Data packets are wanted.
+        period_s: Requested time between data packets [s].
+        streaming: The client has started the data stream.
     """
 
     def __init__(
         self, controller: Controller, version: tuple[int, int], taken: dict[str, RtdeSession]
     ) -> None:
-        """``taken``: input variables in use, shared by all sessions of a controller."""
+        """``taken``: owners of the input variables, shared by all sessions of a controller."""
         self._controller, self._version, self._taken = controller, version, taken
         self._buffer = bytearray()
         self._recipes: list[tuple[list[str], struct.Struct, list[int]]] = []
@@ -52,28 +54,26 @@ class RtdeSession:
         self.period_s = 0.002
         self.streaming = False
 
-    def heard(self, data: bytes) -> bytes:
-        """Answers to all whole packets."""
+    def receive(self, data: bytes) -> bytes:
         self._buffer += data
         return b"".join(self._answer(kind, body) for kind, body in rtde.split(self._buffer))
 
-    def closed(self) -> None:
-        """Free the inputs that it had."""
+    def close(self) -> None:
         for name in [name for name, owner in self._taken.items() if owner is self]:
             del self._taken[name]
 
     def data(self) -> bytes:
-        """One data packet with what is true now."""
+        """A data packet with the present values."""
         values: list[float] = []
         for name, count in self._outputs:
-            now = self._controller.values(name)
-            values += now if len(now) == count else [0] * count
+            current = self._controller.values(name)
+            values += current if len(current) == count else [0] * count
         return rtde.packet(rtde.DATA, b"\x01" + self._layout.pack(*values))
 
     def _answer(self, kind: int, body: bytes) -> bytes:
         if kind == rtde.VERSION:
-            (asked,) = struct.unpack(">H", body)
-            return rtde.packet(kind, bytes([asked == 2]))
+            (version,) = struct.unpack(">H", body)
+            return rtde.packet(kind, bytes([version == 2]))
         if kind == rtde.CONTROLLER_VERSION:
             return rtde.packet(kind, struct.pack(">4I", *self._version, 0, 0))
         if kind == rtde.OUTPUTS:
@@ -96,9 +96,7 @@ class RtdeSession:
         types = rtde.types_of(names, rtde.OUTPUT_TYPES)
         if "NOT_FOUND" not in types:
             self._layout = rtde.layout(types)
-            sizes = [len(rtde.layout([kind]).unpack(bytes(rtde.layout([kind]).size)))
-                     for kind in types]  # fmt: skip
-            self._outputs = list(zip(names, sizes, strict=True))
+            self._outputs = list(zip(names, map(rtde.num_values, types), strict=True))
         return b"\x01" + ",".join(types).encode()
 
     def _set_inputs(self, body: bytes) -> bytes:
@@ -111,7 +109,7 @@ class RtdeSession:
             return b"\x00" + ",".join(types).encode()
         for name in names:
             self._taken[name] = self
-        sizes = [len(rtde.layout([kind]).unpack(bytes(rtde.layout([kind]).size))) for kind in types]
+        sizes = [rtde.num_values(kind) for kind in types]
         self._recipes.append((names, rtde.layout(types), sizes))
         return bytes([len(self._recipes)]) + ",".join(types).encode()
 
@@ -120,27 +118,27 @@ class RtdeSession:
             return
         names, layout, sizes = self._recipes[body[0] - 1]
         if len(body) - 1 != layout.size:
-            raise ValueError(f"a data packet of {len(body) - 1} bytes where {layout.size} belong")
+            raise ValueError(f"a data packet of {len(body) - 1} bytes, expected {layout.size}")
         values = list(layout.unpack_from(body, 1))
         for name, size in zip(names, sizes, strict=True):
             if size == 1:
                 self._controller.inputs[name] = values[0]
             del values[:size]
-        self._controller.written("input_int_register_0" in names)
+        self._controller.on_inputs("input_int_register_0" in names)
 
 
 class ScriptSession:
-    """Port 30003: a program (``def ... end``), or a one-line script. Its data stream is left out.
+    """Port 30003: a program (``def ... end``), or a one-line script. It has no data stream.
 
-    As on a real controller, whatever comes replaces the program that runs.
+    As on a real controller, any script replaces the running program.
     """
 
     def __init__(self, controller: Controller) -> None:
         self._controller = controller
         self._text = b""
 
-    def heard(self, data: bytes) -> bytes:
-        """Take lines; a program starts when its ``end`` at the margin has come."""
+    def receive(self, data: bytes) -> bytes:
+        """Take lines; a program starts at its ``end`` at the margin."""
         self._text += data
         if len(self._text) > LONGEST_TEXT:
             raise ValueError("a script without an end")
@@ -167,12 +165,12 @@ class ScriptSession:
         elif line:
             self._controller.stop_program(f"replaced by {line[:40]!r}")
 
-    def closed(self) -> None:
-        """Nothing is kept of it."""
+    def close(self) -> None:
+        """Nothing to release."""
 
 
 class DashboardSession:
-    """Port 29999: a line, an answer."""
+    """Port 29999: one answer per line."""
 
     GREETING = b"Connected: Universal Robots Dashboard Server\n"
 
@@ -195,21 +193,19 @@ class DashboardSession:
             "close popup": lambda: "closing popup",
         }
 
-    def heard(self, data: bytes) -> bytes:
-        """Answer each line."""
+    def receive(self, data: bytes) -> bytes:
         self._text += data
         *lines, self._text = self._text.split(b"\n")
         if len(self._text) > LONGEST_TEXT:
             raise ValueError("a line without an end")
         return b"".join(self._answer(line.decode("utf-8", "replace").strip()) for line in lines)
 
-    def closed(self) -> None:
-        """Nothing is kept of it."""
+    def close(self) -> None:
+        """Nothing to release."""
 
     def _answer(self, line: str) -> bytes:
-        answer = self._answers.get(line.lower())
-        said = answer() if answer is not None else f'could not understand: "{line}"'
-        return said.encode() + b"\n"
+        answer = self._answers.get(line.lower(), lambda: f'could not understand: "{line}"')
+        return answer().encode() + b"\n"
 
     def _polyscope(self) -> str:
         major, minor = self._version

@@ -1,9 +1,9 @@
-"""The control script that ur_rtde uploads, as its registers behave; the script itself is not run.
+"""Register behaviour of the control script that ur_rtde uploads; the script itself is not run.
 
-Commands come in ``input_int_register_0``; ``output_int_register_0`` says 1 (ready) or 2 (done,
-until the client sends 0). Known are the commands below; any other ends the program, as an error in
-a script would. Simplified: commands are taken when they arrive, not at the next 2 ms cycle; a new
-line begins from rest; force mode moves at its speed limits.
+Commands arrive in ``input_int_register_0``; ``output_int_register_0`` is 1 (ready) or 2 (done,
+until the client sends 0). A command other than those below ends the program, as an error in a
+script would. Simplifications: commands are taken when they arrive, not at the next 2 ms cycle; a
+new line begins from rest; force mode moves at its speed limits.
 
 Source: wire behaviour of ur_rtde 1.6.5.
 """
@@ -34,11 +34,11 @@ class Program:
 
     Attributes:
         running: False once it has ended.
-        watchdog_hz: Least rate of ``input_int_register_0`` that it asked for; 0 when none.
-        stops_straight: ``stopL`` brakes on the line; until the first asynchronous stop it brakes as
-            ``stopJ`` does.
-        payload_kg, payload_cog_m: As last set.
-        protective_stop: Called for a protective stop that the client asked for.
+        watchdog_hz: Requested lowest rate of ``input_int_register_0``; 0 without a watchdog.
+        stops_straight: ``stopL`` brakes along the line; until the first asynchronous stop it brakes
+            as ``stopJ`` does.
+        payload_kg, payload_cog_m: Payload as last set.
+        protective_stop: Function that performs a protective stop requested by the client.
     """
 
     def __init__(
@@ -55,11 +55,11 @@ class Program:
         self.protective_stop = protective_stop
         self._robot, self._in, self._out = robot, inputs, outputs
         self._executing = False
-        self._awaited: Callable[[], bool] | None = None
+        self._is_finished: Callable[[], bool] | None = None
         self._line: Line | None = None
         self.stops_straight = False
-        self._going: str | None = None
-        self._again: Callable[[], None] | None = None
+        self._realtime_mode: str | None = None
+        self._restart_motion: Callable[[], None] | None = None
         self._asynchronous = False
         self._writes, self._operation = 0, 0
         self._progress(running=False)
@@ -71,7 +71,7 @@ class Program:
         return np.array([self._in[f"input_double_register_{first + i}"] for i in range(count)])
 
     def _progress(self, *, running: bool) -> None:
-        """Bit 15 running, 16-22 writes, 24-30 operation."""
+        """Report progress: bit 15 running, bits 16-22 writes, bits 24-30 operation."""
         self._writes = (self._writes + 1) % 128
         if running:
             self._operation = (self._operation + 1) % 128
@@ -80,13 +80,13 @@ class Program:
 
     # -- time ------------------------------------------------------------------------------------
 
-    def inputs_changed(self) -> None:
-        """The client has written the input registers."""
-        if not self.running or self._awaited is not None:
+    def read_inputs(self) -> None:
+        """React to input registers that the client has written."""
+        if not self.running or self._is_finished is not None:
             return
         command = int(self._in["input_int_register_0"])
         if command in REALTIME:
-            self._in_real_time(command)
+            self._execute_realtime(command)
             self._out["output_int_register_0"] = READY
         elif command == 0:
             self._executing = False
@@ -94,77 +94,79 @@ class Program:
         elif not self._executing:
             self._executing = True
             try:
-                self._carry_out(command)
+                self._execute(command)
             except ValueError:
                 self.running = False  # a runtime error ends a script
-            if self.running and self._awaited is None:
+            if self.running and self._is_finished is None:
                 self._out["output_int_register_0"] = DONE
 
     def advance(self) -> None:
-        """After the robot has: finish what waited for it, go on with what a stop does not end."""
+        """Finish a command that waits for the robot; continue a motion that a stop does not end."""
         if not self.running or self._robot.moving:
             return
         if self._asynchronous:
             self._asynchronous = False
             self._progress(running=False)
-        if self._awaited is not None and self._awaited():
-            self._awaited = None
+        if self._is_finished is not None and self._is_finished():
+            self._is_finished = None
             self._out["output_int_register_0"] = DONE
-            self.inputs_changed()
-        if self._again is not None and not self._robot.moving:
-            self._again()
+            self.read_inputs()
+        if self._restart_motion is not None and not self._robot.moving:
+            self._restart_motion()
 
     # -- commands --------------------------------------------------------------------------------
 
-    def _in_real_time(self, command: int) -> None:
+    def _execute_realtime(self, command: int) -> None:
         first = self._doubles(0)
         if command in (SPEED_L, SPEED_J):
             acceleration = self._in["input_double_register_6"]
             if not (np.isfinite(first).all() and math.isfinite(acceleration) and acceleration > 0):
                 return
-            # The script repeats speedl for ever: its time argument does not end the motion.
-            self._keep("speed", lambda: self._speed(first, acceleration, joints=command == SPEED_J))
+            # The script repeats speedl: its time argument does not end the motion.
+            self._repeat(
+                "speed", lambda: self._speed(first, acceleration, joints=command == SPEED_J)
+            )
         elif command in (SERVO_L, SERVO_J):
             if command == SERVO_J:
                 goal = base_from_flange(first) @ as_frame(self._robot.tcp_offset)
-                position, turn = goal[:3, 3], goal[:3, :3]
+                position, rotation = goal[:3, 3], goal[:3, :3]
             else:
-                position, turn = first[:3], matrix(first[3:])
+                position, rotation = first[:3], matrix(first[3:])
             lookahead_s = self._in["input_double_register_9"]
-            self._keep(
+            self._repeat(
                 "servo",
                 lambda: self._robot.begin(
-                    ServoMotion(self._robot.place, position, turn, lookahead_s)
+                    ServoMotion(self._robot.tool, position, rotation, lookahead_s)
                 ),
             )
         else:
-            chosen = [int(self._in[f"input_int_register_{i}"]) for i in range(2, 8)]
+            selected = [int(self._in[f"input_int_register_{i}"]) for i in range(2, 8)]
             wrench, limits = self._doubles(6), self._doubles(12)
             frame = matrix(first[3:])
-            self._keep("force", lambda: self._force(np.array(chosen), wrench, limits, frame))
+            self._repeat("force", lambda: self._force(np.array(selected), wrench, limits, frame))
 
-    def _keep(self, name: str, motion: Callable[[], None]) -> None:
-        self._going, self._again = name, motion
+    def _repeat(self, name: str, motion: Callable[[], None]) -> None:
+        self._realtime_mode, self._restart_motion = name, motion
         motion()
 
     def _speed(self, target: Floats, acceleration: float, *, joints: bool) -> None:
         twist = jacobian(self._robot.joints()) @ target if joints else target
         speed = float(np.linalg.norm(twist[:3]))
-        motion = run_at(self._robot.place, twist, acceleration, math.inf)
+        motion = run_at(self._robot.tool, twist, acceleration, math.inf)
         self._robot.begin(motion, speed, acceleration)
 
-    def _force(self, chosen: Floats, wrench: Floats, limits: Floats, frame: Floats) -> None:
-        """Give way along the chosen axes, at their speed limits, until the forces balance."""
-        pushed = np.concatenate([
+    def _force(self, selected: Floats, wrench: Floats, limits: Floats, frame: Floats) -> None:
+        """Yield along the selected axes, at their speed limits, until the forces balance."""
+        load = np.concatenate([
             frame.T @ self._robot.contact[:3], frame.T @ self._robot.contact[3:]
         ])  # fmt: skip
-        left = wrench + pushed
-        local = np.where((chosen != 0) & (np.abs(left) > 0.5), np.sign(left) * limits, 0.0)
+        surplus = wrench + load
+        local = np.where((selected != 0) & (np.abs(surplus) > 0.5), np.sign(surplus) * limits, 0.0)
         twist = np.concatenate([frame @ local[:3], frame @ local[3:]])
-        motion = run_at(self._robot.place, twist, FORCE_ACCELERATION, math.inf)
+        motion = run_at(self._robot.tool, twist, FORCE_ACCELERATION, math.inf)
         self._robot.begin(motion, float(np.linalg.norm(twist[:3])), FORCE_ACCELERATION)
 
-    def _carry_out(self, command: int) -> None:
+    def _execute(self, command: int) -> None:
         if command in (MOVE_L, STOP_L, STOP_J, SPEED_STOP, SERVO_STOP, FORCE_STOP):
             self._move_or_stop(command)
         elif command == ZERO_FT:
@@ -192,16 +194,16 @@ class Program:
         if command == MOVE_L:
             pose = self._doubles(0)
             speed, acceleration = self._doubles(6, 2).tolist()
-            line = Line(self._robot.place, pose[:3], matrix(pose[3:]), speed, acceleration)
+            line = Line(self._robot.tool, pose[:3], matrix(pose[3:]), speed, acceleration)
             self._robot.begin(line, speed, acceleration)
         else:
             deceleration = self._in["input_double_register_0"]
             if not (math.isfinite(deceleration) and deceleration > 0):
                 raise ValueError(f"a stop needs a deceleration above 0, got {deceleration}")
-            ends = {SPEED_STOP: "speed", SERVO_STOP: "servo", FORCE_STOP: "force"}.get(command)
-            if ends is not None and ends == self._going:
-                self._going = self._again = None
-            asynchronous = asynchronous and ends is None
+            mode = {SPEED_STOP: "speed", SERVO_STOP: "servo", FORCE_STOP: "force"}.get(command)
+            if mode is not None and mode == self._realtime_mode:
+                self._realtime_mode = self._restart_motion = None
+            asynchronous = asynchronous and mode is None
             if command in (STOP_L, STOP_J) and asynchronous:
                 self.stops_straight = command == STOP_L
             if command == FORCE_STOP:
@@ -214,4 +216,4 @@ class Program:
             self._asynchronous = True
             self._progress(running=True)
         else:
-            self._awaited = lambda: not self._robot.in_motion
+            self._is_finished = lambda: not self._robot.in_motion

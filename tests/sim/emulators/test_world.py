@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from primitives.devices import Pose
+from sim.emulators.ur.motion import MotionSegment
 from sim.emulators.world import SLIDE_PERIOD_S, SharedWorld
 from sim.grasp.rig import build
 
@@ -19,6 +20,15 @@ class Clock:
 
     def __call__(self):
         return self.now_s
+
+
+def segment(by_m, rotvec_rad, speed_m_s, acceleration_m_s2):
+    return MotionSegment(
+        by_base_m=np.array(by_m),
+        rotvec_rad=np.array(rotvec_rad),
+        speed_m_s=speed_m_s,
+        acceleration_m_s2=acceleration_m_s2,
+    )
 
 
 @pytest.fixture
@@ -64,7 +74,7 @@ class Pair:
         target = Pose(position_m=before.position_m + by_m, rotvec_rad=before.rotvec_rad)
         self.rig.arm.move_to(target, speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2)
         self.clock.now_s += self.rig.clock.monotonic() - began_s
-        self.world.follow(np.array(by_m), np.zeros(3), speed_m_s, acceleration_m_s2)
+        self.world.follow(segment(by_m, np.zeros(3), speed_m_s, acceleration_m_s2))
 
     def wait(self, seconds):
         self.rig.clock.sleep(seconds)
@@ -106,7 +116,7 @@ def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
     rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
     world = SharedWorld(rig, clock)
     world.width_under(0.08)
-    world.follow(np.array([0, 0, 0.002]), np.zeros(3), 0.4, 2.5)
+    world.follow(segment([0, 0, 0.002], np.zeros(3), 0.4, 2.5))
     world.facts()
     before = world.height_mm()
     deadline = time.monotonic() + 20
@@ -119,8 +129,8 @@ def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
 
 def test_a_tool_that_has_turned_moves_along_the_axes_that_it_has_now(clock):
     world = SharedWorld(build("peg", 3, start_offset_mm=(1.0, 2.0)), clock)
-    world.follow(np.zeros(3), np.array([0, 0, np.pi / 2]), 0.1, 0.5)
-    world.follow(np.array([0, 0.005, 0]), np.zeros(3), 0.1, 0.5)
+    world.follow(segment(np.zeros(3), [0, 0, np.pi / 2], 0.1, 0.5))
+    world.follow(segment([0, 0.005, 0], np.zeros(3), 0.1, 0.5))
     facts = world.facts()
     world.close()
     assert (facts["offset_x_mm"], facts["offset_y_mm"]) == pytest.approx((-4.0, 2.0))

@@ -11,13 +11,14 @@ from dataclasses import replace
 import pytest
 import yaml
 
+from sim.emulators.__main__ import MODULES
+from sim.emulators.options import OPTIONS
 from sim.emulators.process.control import ControlClient
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import InjectionResult
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of
 from tacgrasp.benchmarks.loop.rigs import End, Pair
-from tacgrasp.cli.emulate import HELP, KINDS, EmulatedRigFlags, UrFlags, options_of
 from tests.fakes.patient_rig import fields, patient_rig
 from tests.paths import ROOT
 
@@ -61,14 +62,11 @@ def test_what_is_wrong_is_told_with_what_to_do(tmp_path, capsys):
 # -- emulate -----------------------------------------------------------------------------------
 
 
-def test_every_kind_of_emulator_is_explained():
-    assert KINDS.keys() == HELP.keys()
-
-
-def test_flags_become_the_emulators_own_options():
-    assert options_of(UrFlags()) == ["--host", "127.0.0.2", "--version", "5.12"]
-    options = options_of(EmulatedRigFlags(seed=3))
-    assert options == ["--object", "strawberry", "--seed", "3", "--sensor", "gelsight_mini"]
+def test_every_kind_of_emulator_is_explained(capsys):
+    assert OPTIONS.keys() == MODULES.keys()
+    assert main(["emulate", "--help"]) == 0
+    printed = capsys.readouterr().out
+    assert all(options.__doc__.splitlines()[0] in printed for options in OPTIONS.values())
 
 
 @pytest.mark.parametrize(
@@ -77,6 +75,8 @@ def test_flags_become_the_emulators_own_options():
         ([], "expects one of ur, dynamixel, taxels, rig"),
         (["toaster"], "got 'toaster'"),
         (["taxels", "--rate-hz", "9000"], "1 to 200 frames a second"),
+        (["dynamixel", "--servos", "3"], "1 or 2 servos, got 3"),
+        (["rig", "--colour", "red"], "--colour"),
     ],
 )
 def test_an_emulator_that_can_not_start_says_why_in_one_line(argv, expected, capsys):
@@ -93,6 +93,7 @@ def test_an_emulator_runs_until_ctrl_c_at_the_addresses_that_it_prints():
     found = dict(line.split(maxsplit=1) for line in lines[:2])
     control = ControlClient(int(found["control_port"]))
     assert control.facts("taxels")["plugged"]
+    assert control.facts("taxels")["rate_hz"] == 20  # flags become the emulator's own options
     control.close()
     assert os.path.lexists(found["serial_port"].strip())
     child.send_signal(signal.SIGINT)
@@ -163,7 +164,7 @@ def test_there_are_faults_of_every_device_in_every_phase():
         for device in ("UR", "gripper", "sensor")
     }
     assert phases["UR"] == {InjectionPhase.START, InjectionPhase.MOTION}
-    assert phases["gripper"] == phases["sensor"] == set(Phase)
+    assert phases["gripper"] == phases["sensor"] == set(InjectionPhase)
 
 
 def a_trial(**changes):

@@ -9,8 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from sim.emulators.dynamixel import control_table as at
-from sim.emulators.dynamixel.bus_process import DynamixelEmulator, ServoOptions
+from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import Linkage, SpringLoad
+from sim.emulators.dynamixel.options import ServoOptions
 from sim.emulators.dynamixel.packets import PacketReader, crc16, packet, status
 from sim.emulators.process.spawn import EmulatorProcess
 
@@ -31,7 +32,7 @@ class SlowLoad:
         self.events.append(round(force_n, 4))
         return 0.040
 
-    def released(self) -> None:
+    def release(self) -> None:
         self.events.append("released")
 
 

@@ -13,7 +13,7 @@ import pytest
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.ur import packets as ur_packets
 from sim.emulators.ur.controller import NORMAL, PROTECTIVE, SAFETY_BITS, Controller
-from sim.emulators.ur.controller_process import START_TCP, TCP_OFFSET, UrEmulator
+from sim.emulators.ur.controller_process import UrEmulator
 from sim.emulators.ur.kinematics import (
     READY_Q,
     as_frame,
@@ -26,6 +26,7 @@ from sim.emulators.ur.kinematics import (
     rotvec,
 )
 from sim.emulators.ur.motion import AT_REST, Line, ToolState, run_at, stop_at
+from sim.emulators.ur.options import START_TCP, TCP_OFFSET, UrOptions
 from sim.emulators.ur.robot import Robot
 
 START = np.array(START_TCP)
@@ -54,7 +55,7 @@ def send(machine, command, doubles=(), ints=()):
     machine.inputs |= {f"input_double_register_{i}": v for i, v in enumerate(doubles)}
     machine.inputs |= {f"input_int_register_{i + 1}": v for i, v in enumerate(ints)}
     machine.inputs["input_int_register_0"] = command
-    machine.written(kicked=True)
+    machine.on_inputs(kicked=True)
 
 
 def done(machine):
@@ -76,7 +77,7 @@ def moved_line(machine, clock, *, asynchronous=True, up_m=0.1, speed=0.4, accele
 
 
 def place(position=(0.0, 0.0, 0.0), twist=AT_REST):
-    return ToolState(position_m=np.array(position), turn=np.eye(3), twist=np.array(twist))
+    return ToolState(position_m=np.array(position), rotation=np.eye(3), twist=np.array(twist))
 
 
 def test_a_line_takes_the_time_of_its_trapezoid_and_ends_at_its_target():
@@ -144,7 +145,7 @@ def test_the_jacobian_is_the_derivative_of_the_pose():
 
 def test_joint_speeds_move_the_tool_at_its_speed():
     robot = Robot(START, np.array(TCP_OFFSET), None, 0.0)
-    robot.begin(run_at(robot.place, np.array([0.1, 0, 0.05, 0, 0, 0.2]), 10.0, math.inf))
+    robot.begin(run_at(robot.tool, np.array([0.1, 0, 0.05, 0, 0, 0.2]), 10.0, math.inf))
     robot.advance(0.5)
     q, qd = robot.joints().copy(), robot.joint_speeds()
     tool = as_frame(np.array(TCP_OFFSET))
@@ -182,11 +183,11 @@ def test_a_synchronous_line_trips_the_watchdog_since_nobody_can_kick():
     clock.now_s += 0.01
     machine.advance()
     assert machine.program is None
-    assert "watchdog" in machine.ended
+    assert "watchdog" in machine.end_reason
     clock.now_s += 0.1
     machine.advance()
     assert machine.robot.speed_m_s == 0
-    assert machine.robot.place.position_m[2] < START[2] + 0.099
+    assert machine.robot.tool.position_m[2] < START[2] + 0.099
 
 
 def test_a_speed_goes_on_after_its_time_until_the_watchdog_stops_it():
@@ -283,7 +284,7 @@ def test_a_line_cut_short_is_reported_with_what_was_really_covered():
     machine.protective_stop()
     clock.now_s += 1
     machine.advance()
-    assert told[0].by_base_m[2] == pytest.approx(machine.robot.place.position_m[2] - START[2])
+    assert told[0].by_base_m[2] == pytest.approx(machine.robot.tool.position_m[2] - START[2])
     assert 0.03 < told[0].by_base_m[2] < 0.09
 
 
@@ -310,10 +311,10 @@ def test_a_slider_at_half_makes_a_move_take_twice_as_long_and_at_zero_holds_it()
     moved_line(machine, clock, speed=0.1)
     assert machine.robot.speed_m_s == pytest.approx(0.05)
     machine.robot.speed_fraction = 0.0
-    here = machine.robot.place.position_m.copy()
+    here = machine.robot.tool.position_m.copy()
     clock.now_s += 1
     machine.advance()
-    assert machine.robot.place.position_m == pytest.approx(here)
+    assert machine.robot.tool.position_m == pytest.approx(here)
 
 
 def test_another_tool_moves_the_tool_centre_point_and_not_the_joints():
@@ -346,7 +347,7 @@ def test_force_mode_gives_way_along_the_chosen_axis_until_it_is_stopped():
     send(machine, 6, doubles, [2, 0, 0, 1, 0, 0, 0])
     clock.now_s += 1
     machine.advance()
-    assert machine.robot.place.twist == pytest.approx([0, 0, -0.02, 0, 0, 0])
+    assert machine.robot.tool.twist == pytest.approx([0, 0, -0.02, 0, 0, 0])
     send(machine, 7)
     clock.now_s += 1
     machine.advance()
@@ -398,7 +399,7 @@ def test_names_with_a_trailing_comma_add_none_and_unknown_ones_are_told():
 
 
 def test_an_unknown_fault_names_those_that_are_known():
-    emulator = UrEmulator(loopback(41))
+    emulator = UrEmulator(UrOptions(host=loopback(41)))
     try:
         with pytest.raises(ValueError, match="mute, garbage"):
             emulator.inject("gremlins")

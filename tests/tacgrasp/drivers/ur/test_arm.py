@@ -327,26 +327,26 @@ def test_a_slider_that_is_moved_to_zero_ends_the_move_as_a_fault_in_bounded_time
 
 
 def test_a_move_ends_only_when_the_world_of_a_child_has_followed_it():
-    told = []
+    segments = []
 
-    def moved(by_base_m, rotvec_rad, speed_m_s, acceleration_m_s2):
+    def follow(segment):
         time.sleep(0.3)
-        told.append((by_base_m, rotvec_rad, speed_m_s, acceleration_m_s2))
+        segments.append(segment)
 
-    child = UrChild(loopback(45), moved)
+    child = UrChild(loopback(45), follow)
     try:
         with pytest.raises(OSError, match="in use"):
-            UrChild(loopback(45), moved)
+            UrChild(loopback(45), follow)
         arm = connect_arm(
             emulated_arm(loopback(45)).model_copy(update={"watchdog_hz": 10.0, "stale_ms": 100.0})
         )
         began_s = time.monotonic()
         arm.move_to(above(arm.pose(), 0.01), speed_m_s=0.3, acceleration_m_s2=2.5)
         assert time.monotonic() - began_s > 0.3
-        assert len(told) == 1
-        assert told[0][0] == pytest.approx([0, 0, 0.01], abs=1e-9)
-        assert told[0][1] == pytest.approx([0, 0, 0], abs=1e-9)
-        assert told[0][2:] == (0.3, 2.5)
+        assert len(segments) == 1
+        assert segments[0].by_base_m == pytest.approx([0, 0, 0.01], abs=1e-9)
+        assert segments[0].rotvec_rad == pytest.approx([0, 0, 0], abs=1e-9)
+        assert (segments[0].speed_m_s, segments[0].acceleration_m_s2) == (0.3, 2.5)
         child.inject("local_control")
         assert child.facts()["injected_ago_ms"] >= 0
         child.clear()

@@ -1,0 +1,48 @@
+"""Options of every emulator, for ``python -m sim.emulators`` and ``tacgrasp emulate`` alike.
+
+Importing this module is cheap: it loads no emulator, no world and no torch.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from sim.emulators.dynamixel.options import DynamixelOptions
+from sim.emulators.taxels.options import TaxelOptions
+from sim.emulators.ur.options import UrOptions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RigOptions:
+    """Arm, gripper and taxel array around one object, for a rig file of your own.
+
+    Attributes:
+        object: object between the fingers
+        object_mesh: mesh file to use in place of the object [mm]
+        object_mass_g: mass of the mesh [g]; by default from its volume
+        seed: random seed of the object, its pose, the gripper and the sensor noise
+        sensor: sensor whose sensing area the taxels cover
+        first_force_n: first grip force [N]; by default drawn with the seed
+        held: start with the object gripped between the fingers
+        host: loopback address of the arm; by default one that is free
+    """
+
+    object: str = "strawberry"
+    object_mesh: Path | None = None
+    object_mass_g: float | None = None
+    seed: int = 0
+    sensor: str = "gelsight_mini"
+    first_force_n: float | None = None
+    held: bool = False
+    host: str | None = None
+
+
+OPTIONS: Mapping[str, type] = {
+    "ur": UrOptions,
+    "dynamixel": DynamixelOptions,
+    "taxels": TaxelOptions,
+    "rig": RigOptions,
+}
+"""Options of each kind of emulator."""

@@ -1,0 +1,35 @@
+"""Options of the emulated UR controller."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+Pose6 = tuple[float, float, float, float, float, float]
+
+START_TCP: Pose6 = (0.45, -0.10, 0.20, math.pi, 0.0, 0.0)
+"""Pose of the tool centre point at the start [m, rad]: the simulated rig's start pose."""
+
+TCP_OFFSET: Pose6 = (0.0, 0.0, 0.15, 0.0, 0.0, 0.0)
+"""Flange to tool centre point at the start [m, rad]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UrOptions:
+    """A UR controller: dashboard, script and RTDE ports on a loopback address.
+
+    Attributes:
+        host: loopback address, 127.x.y.z
+        version: PolyScope version, major.minor
+        stream_hz: fastest rate of the data stream [Hz]
+        start_tcp: pose of the tool centre point at the start [m, rad]
+        tcp_offset: flange to tool centre point at the start [m, rad]
+        world_port: local TCP port of a world that follows the arm; without one, no world follows
+    """
+
+    host: str = "127.0.0.2"
+    version: str = "5.12"
+    stream_hz: float = 125.0
+    start_tcp: Pose6 = START_TCP
+    tcp_offset: Pose6 = TCP_OFFSET
+    world_port: int | None = None
