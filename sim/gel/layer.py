@@ -1,12 +1,13 @@
-"""The gel of a tactile sensor: press a shape into it, get surface, pressure and force.
+"""The gel of a tactile sensor: presses a shape into it and returns surface, pressure and force.
 
-The gel is a linear elastic layer bonded to a rigid back; what presses may be rigid or a soft
-half-space of its own. Contact is frictionless and quasi-static.
+The gel is a linear elastic layer bonded to a rigid back. The pressing body is rigid or a soft
+half-space. Contact is frictionless and quasi-static.
 
-Inside mm, N and MPa (N/mm²); pressures go out in kPa. Surfaces are in the gel frame, positive
-into the gel; the gel that rises around a contact is negative.
+Computation is in mm, N and MPa (N/mm²); results give pressure in kPa. Surfaces are in the gel
+frame, positive into the gel; the gel that rises around a contact is negative.
 
-Not here: what presses (``sim.grasp.bodies``, ``sim.starter.shapes``), noise, points.
+Not here: the pressing bodies (``sim.grasp.bodies``, ``sim.starter.shapes``), sensor noise and point
+clouds (``cltp.tactile``).
 """
 
 from __future__ import annotations
@@ -18,21 +19,27 @@ from functools import cached_property
 import torch
 from torch import Tensor
 
+from cltp.tactile.sensors import SENSORS
 from sim.gel.compliance import GelMaterial, Spectrum, layer_compliance, spectrum_of
 from sim.gel.contact_solver import Solution, solve
 from sim.gel.gap import NO_BODY_MM
 
-_DEEPEST_GUESS_MM = 1e3  # where the search for a first guess begins at most
+MAX_ITERATIONS = 300
+"""Bound of the contact solver; ``Press.converged`` is False where it ends a contact."""
 
-# GelSight Mini: thickness and Poisson's ratio fitted to real presses of a 6.31 mm ball, modulus
-# as Tacchi uses for its elastomer (shared notes). DIGIT: not published, assumed alike. GelStereo:
-# modulus and Poisson's ratio as in TacFlex by its makers (github.com/Zhang-Chaofan/TacFlex),
-# thickness assumed.
+_DEEPEST_GUESS_MM = 1e3  # upper bound of the depth from which the first guess is searched
+
+# Young's modulus [MPa] and Poisson's ratio. GelSight Mini: Poisson's ratio fitted to real presses
+# of a 6.31 mm ball, modulus as Tacchi uses for its elastomer (shared notes). DIGIT: not published,
+# assumed alike. GelStereo: as in TacFlex by its makers (github.com/Zhang-Chaofan/TacFlex). The
+# thickness is the sensor's (``cltp.tactile.sensors``).
+_ELASTICITY = {"gelsight_mini": (0.145, 0.495), "digit": (0.145, 0.495), "gelstereo": (0.25, 0.47)}
+
 GEL_MATERIALS: dict[str, GelMaterial] = {
-    "gelsight_mini": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
-    "digit": GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
-    "gelstereo": GelMaterial(thickness_mm=4.0, young_mpa=0.25, poisson=0.47),
+    name: GelMaterial(thickness_mm=SENSORS[name].gel_mm, young_mpa=young_mpa, poisson=poisson)
+    for name, (young_mpa, poisson) in _ELASTICITY.items()
 }
+"""Gels by the name of their sensor."""
 
 
 def gel_of(sensor_name: str) -> GelMaterial:
@@ -50,18 +57,18 @@ def gel_of(sensor_name: str) -> GelMaterial:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Press:
-    """A batch of contacts, solved.
+    """A batch of solved contacts.
 
     Attributes:
         pressure_kpa: Normal pressure, (B, H, W) [kPa].
         height_mm: Surface of the gel, positive into the gel, (B, H, W) [mm].
-        force_n: Normal force, (B,) [N]. Less than asked for only where nothing lies over the
-            field: then 0.
-        depth_mm: Lowest point of the undeformed body below the undeformed surface, (B,) [mm];
-            where the body is soft it has flattened by part of this. +inf where no depth gives
-            the force; where the force is 0, the depth that just touches.
-        iterations: Of the contact solver, (B,) int64.
-        converged: (B,) bool. False: the iteration bound ended it, the residual is above ``tol``.
+        force_n: Normal force, (B,) [N]. It is below the requested force only where no body lies
+            over the grid: then it is 0.
+        depth_mm: Lowest point of the undeformed body below the undeformed surface, (B,) [mm]. A
+            soft body has flattened by part of this. +inf where no depth gives the force; where the
+            force is 0, the depth at which the body just touches.
+        iterations: Iterations of the contact solver, (B,) int64.
+        converged: (B,) bool. False where ``MAX_ITERATIONS`` ended it with a residual above ``tol``.
     """
 
     pressure_kpa: Tensor
@@ -72,21 +79,25 @@ class Press:
     converged: Tensor
 
 
+StartPressure = Press | Tensor | None
+"""First guess of a press: a similar press, or its pressure (B, H, W) [kPa]."""
+
+
 class ElasticLayer:
-    """A gel on one grid, ready to be pressed.
+    """A gel on one grid.
 
     Args:
         material: The gel; infinite thickness makes it a half-space.
         rows: Rows of the grid, H.
         columns: Columns of the grid, W.
         pitch_mm: Edge of a (square) element [mm].
-        body_modulus_mpa: E* = E / (1 - nu²) of the body that presses, as a half-space [MPa]:
-            None is rigid, a number holds for all, a tensor (B,) gives one for each of the batch.
+        body_modulus_mpa: E* = E / (1 - nu²) of the pressing body, as a half-space [MPa]. None is
+            rigid, one number holds for all bodies, a tensor (B,) gives one for each of the batch.
         dtype: float32 or float64.
-        device: Where to compute.
+        device: Torch device of the computation.
 
     Raises:
-        ValueError: A size, pitch, modulus or dtype makes no sense.
+        ValueError: A size, pitch, modulus or dtype is out of range.
     """
 
     def __init__(
@@ -112,7 +123,7 @@ class ElasticLayer:
         self._modulus = (
             None if body_modulus_mpa is None else self._checked_modulus(body_modulus_mpa)
         )
-        # Stiffness of the layer to a wave as long as itself (a half-space: as the grid), for
+        # Stiffness of the layer to a wave as long as its thickness (a half-space: as the grid), for
         # first guesses only.
         size = min(material.thickness_mm, 0.5 * pitch_mm * max(rows, columns))
         wave = torch.tensor(2.0 / size, dtype=torch.float64)
@@ -121,230 +132,149 @@ class ElasticLayer:
         else:
             self.stiffness = 1.0 / float(layer_compliance(wave, material))
 
-    def _checked_modulus(self, modulus_mpa: float | Tensor) -> Tensor:
-        modulus = torch.as_tensor(modulus_mpa, dtype=self.dtype, device=self.device)
-        if modulus.ndim > 1 or not bool((modulus > 0).all()):
-            raise ValueError(
-                f"body_modulus_mpa must be > 0, one number or (B,), got {modulus_mpa}; "
-                "None is a rigid body"
-            )
-        return modulus
-
-    def _spectrum(self, material: GelMaterial | None) -> Spectrum:
-        return spectrum_of(
-            material, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
+    def coarsened(self, factor: int) -> ElasticLayer:
+        """The same gel and bodies on a grid with elements ``factor`` times as large."""
+        return ElasticLayer(
+            self.material,
+            rows=self.rows // factor,
+            columns=self.columns // factor,
+            pitch_mm=self.pitch_mm * factor,
+            body_modulus_mpa=self._modulus,
+            dtype=self.dtype,
+            device=self.device,
         )
 
-    @cached_property
-    def _gel_spectrum(self) -> Spectrum:
-        """Made when first used: ``sim.gel.fine.fine`` needs it of few of its grids."""
-        return self._spectrum(self.material)
+    def moduli_mpa(self, batch: int) -> Tensor | None:
+        """E* of each of ``batch`` bodies, (B,) [MPa]; None for rigid ones.
 
-    @cached_property
-    def _combined_spectrum(self) -> Spectrum:
-        """Gel and body in series."""
-        if self._modulus is None:
-            return self._gel_spectrum
-        inverse = 1.0 / self._modulus
-        if inverse.ndim == 1:
-            inverse = inverse[:, None, None]
-        return replace(
-            self._gel_spectrum,
-            values=self._gel_spectrum.values + inverse * self._spectrum(None).values,
-        )
-
-    def surface(self, pressure_kpa: Tensor) -> Tensor:
-        """Displacement of the gel's surface, positive into the gel.
-
-        Args:
-            pressure_kpa: (B, H, W) [kPa].
-
-        Returns:
-            (B, H, W) [mm].
+        Raises:
+            ValueError: ``body_modulus_mpa`` was given for another number of bodies.
         """
-        return self._gel_spectrum.apply(self._as_grid(pressure_kpa, "pressure_kpa") * 1e-3)
+        if self._modulus is None:
+            return None
+        if self._modulus.numel() not in (1, batch):
+            raise ValueError(
+                f"body_modulus_mpa was given for {self._modulus.numel()} bodies, "
+                f"but {batch} are pressed; give as many of both"
+            )
+        return self._modulus.expand(batch)
 
     def press_to_force(
         self,
         gap_mm: Tensor,
-        force_n: Tensor,
+        force_n: Tensor | float,
         *,
-        start: Press | Tensor | None = None,
-        mask: Tensor | None = None,
+        start: StartPressure = None,
         tol: float = 1e-4,
-        max_iterations: int = 300,
     ) -> Press:
         """Press a body with a given normal force.
 
         Args:
             gap_mm: Height of the undeformed body above its lowest point, (B, H, W), >= 0 [mm];
-                +inf (or above ``NO_BODY_MM``) where there is no body.
+                ``NO_BODY_MM`` or more, +inf included, where there is no body.
             force_n: (B,) or one number, >= 0 [N].
-            start: A similar press, or its pressure (B, H, W) [kPa], to start from.
-            mask: Where the pad can carry pressure, bool (H, W) or (B, H, W); all if None.
+            start: First guess.
             tol: Residual gap over the mean displacement in contact, root mean square. The worst
                 height is then off by about 0.1 µm at 1e-4 and 1 µm at 1e-3, which takes half
                 the time (measured by ``tacgrasp bench gel``).
-            max_iterations: Bound of the solver; see ``Press.converged``.
 
         Raises:
-            ValueError: A shape, sign or value makes no sense.
+            ValueError: A shape, sign or value is out of range.
         """
-        gap, force = self.check_inputs(gap_mm, force_n, by_force=True, mask=mask)
-        target = force / self.pitch_mm**2
-        guess = self.first_pressure(start, gap, self._springs_depth(gap, target))
-        total = guess.flatten(1).sum(1).clamp(min=1e-30)
-        solution = solve(
-            self._compliance(gap.shape[0]),
-            gap,
-            target,
-            by_force=True,
-            start_mpa=guess * (target / total)[:, None, None],
-            stiffness=self.stiffness,
-            tol=tol,
-            max_iterations=max_iterations,
-        )
-        return self._press(solution)
+        return self._press(gap_mm, force_n, start, tol, by_force=True)
 
     def press_to_depth(
         self,
         gap_mm: Tensor,
-        depth_mm: Tensor,
+        depth_mm: Tensor | float,
         *,
-        start: Press | Tensor | None = None,
-        mask: Tensor | None = None,
+        start: StartPressure = None,
         tol: float = 1e-4,
-        max_iterations: int = 300,
     ) -> Press:
         """Press a body until its undeformed lowest point is ``depth_mm`` below the surface.
 
-        Args:
-            gap_mm: As for ``press_to_force``.
-            depth_mm: (B,) or one number [mm]; not touching where it is below the smallest gap.
-            start: As for ``press_to_force``.
-            mask: As for ``press_to_force``.
-            tol: As for ``press_to_force``.
-            max_iterations: As for ``press_to_force``.
-
-        Raises:
-            ValueError: A shape, sign or value makes no sense.
+        The arguments are those of ``press_to_force``, but for ``depth_mm``: (B,) or one number
+        [mm]; a body does not touch where it is below the smallest gap.
         """
-        gap, depth = self.check_inputs(gap_mm, depth_mm, by_force=False, mask=mask)
+        return self._press(gap_mm, depth_mm, start, tol, by_force=False)
+
+    def _press(
+        self,
+        gap_mm: Tensor,
+        load: Tensor | float,
+        start: StartPressure,
+        tol: float,
+        *,
+        by_force: bool,
+    ) -> Press:
+        gap, target = self.check_inputs(gap_mm, load, by_force=by_force)
+        self.moduli_mpa(len(gap))
+        if by_force:
+            target = target / self.pitch_mm**2
+            guess = self.first_pressure(start, gap, self._springs_depth(gap, target))
+            total = guess.flatten(1).sum(1).clamp(min=1e-30)
+            guess = guess * (target / total)[:, None, None]
+        else:
+            guess = self.first_pressure(start, gap, target)
         solution = solve(
-            self._compliance(gap.shape[0]),
+            self._combined_spectrum,
             gap,
-            depth,
-            by_force=False,
-            start_mpa=self.first_pressure(start, gap, depth),
+            target,
+            by_force=by_force,
+            start_mpa=guess,
             stiffness=self.stiffness,
             tol=tol,
-            max_iterations=max_iterations,
+            max_iterations=MAX_ITERATIONS,
         )
-        return self._press(solution)
+        return self.press_of(solution, self._gel_spectrum.apply(solution.pressure_mpa))
 
-    def check_inputs(
-        self, gap_mm: Tensor, load: Tensor | float, *, by_force: bool, mask: Tensor | None = None
-    ) -> tuple[Tensor, Tensor]:
-        """Gaps and loads of a press, checked, of this gel's dtype and on its device.
-
-        Args:
-            gap_mm: As for ``press_to_force``.
-            load: Forces [N] if ``by_force``, else depths [mm]; (B,) or one number.
-            by_force: Which of the two is given.
-            mask: As for ``press_to_force``.
-
-        Returns:
-            Gaps (B, H, W) [mm], ``NO_BODY_MM`` where no pressure can act, and loads (B,).
-
-        Raises:
-            ValueError: A shape, sign or value makes no sense.
-        """
-        gap = self._checked_gap(gap_mm, mask)
-        loads = self._per_contact(load, gap.shape[0], "force_n" if by_force else "depth_mm")
-        if by_force and not bool(((loads >= 0) & torch.isfinite(loads)).all()):
-            raise ValueError(f"force_n must be finite and >= 0 N, got {loads.tolist()}")
-        if not bool(torch.isfinite(loads).all()):
-            raise ValueError(f"depth_mm must be finite, got {loads.tolist()}")
-        return gap, loads
-
-    def _press(self, solution: Solution) -> Press:
+    def press_of(self, solution: Solution, height_mm: Tensor) -> Press:
+        """A solution on this grid, with its surface (B, H, W) [mm], in the units of a press."""
         pressure = solution.pressure_mpa
         return Press(
             pressure_kpa=pressure * 1e3,
-            height_mm=self._gel_spectrum.apply(pressure),
+            height_mm=height_mm,
             force_n=pressure.flatten(1).sum(1) * self.pitch_mm**2,
             depth_mm=solution.approach_mm,
             iterations=solution.iterations,
             converged=solution.converged,
         )
 
-    def _compliance(self, batch: int) -> Spectrum:
-        values = self._combined_spectrum.values
-        if values.ndim == 3 and values.shape[0] != batch:
-            raise ValueError(
-                f"body_modulus_mpa was given for {values.shape[0]} bodies, "
-                f"but {batch} are pressed; give as many of both"
-            )
-        return self._combined_spectrum
-
-    def _as_grid(self, value: Tensor, name: str) -> Tensor:
-        field = torch.as_tensor(value, dtype=self.dtype, device=self.device)
-        if field.ndim != 3 or tuple(field.shape[1:]) != (self.rows, self.columns):
-            raise ValueError(
-                f"{name} must have shape (B, {self.rows}, {self.columns}), got {tuple(field.shape)}"
-            )
-        return field
-
-    def _per_contact(self, value: Tensor | float, batch: int, name: str) -> Tensor:
-        values = torch.as_tensor(value, dtype=self.dtype, device=self.device)
-        if values.ndim > 1 or values.numel() not in (1, batch):
-            raise ValueError(f"{name} must be one number or ({batch},), got {tuple(values.shape)}")
-        return values.reshape(-1).expand(batch)
-
-    def _checked_gap(self, gap_mm: Tensor, mask: Tensor | None) -> Tensor:
-        """Checked gap, ``NO_BODY_MM`` where no pressure can act."""
-        gap = self._as_grid(gap_mm, "gap_mm")
-        batch = len(gap)
-        if gap.stride(0) == 0:  # one body, expanded
-            gap = gap[:1]
-        if not bool((gap >= -1e-5).all()):
-            raise ValueError(
-                "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
-                f"own lowest point; the smallest is {gap.min().item()} mm"
-            )
-        gap = gap.clamp(max=NO_BODY_MM)
-        if mask is not None:
-            field = torch.as_tensor(mask, device=self.device)
-            if field.dtype != torch.bool or tuple(field.shape[-2:]) != (self.rows, self.columns):
-                raise ValueError(
-                    f"mask must be bool (H, W) or (B, H, W) with H, W = {self.rows}, "
-                    f"{self.columns}; got {field.dtype} {tuple(field.shape)}"
-                )
-            gap = torch.where(field, gap, NO_BODY_MM)
-        return gap if len(gap) == batch else gap.expand(batch, -1, -1)
-
-    def _springs_depth(self, gap: Tensor, target: Tensor) -> Tensor:
-        """Depth at which springs of the guessed stiffness carry ``target``.
-
-        Newton's method from above, where it cannot overshoot: what springs carry is convex in
-        depth. Six steps are plenty for a guess.
-        """
-        flat = gap.flatten(1)
-        carried = target / self.stiffness
-        depth = (flat.amin(1) + carried).clamp(max=_DEEPEST_GUESS_MM)
-        for _ in range(6):
-            overlap = (depth[:, None] - flat).clamp_(min=0)
-            pressed = (overlap > 0).sum(1).clamp(min=1)
-            depth = depth - (overlap.sum(1) - carried).clamp(min=0) / pressed
-        return depth
-
-    def first_pressure(self, start: Press | Tensor | None, gap: Tensor, depth: Tensor) -> Tensor:
-        """First pressures (B, H, W) [MPa]: what was given where it presses at all, else springs.
+    def check_inputs(
+        self, gap_mm: Tensor, load: Tensor | float, *, by_force: bool
+    ) -> tuple[Tensor, Tensor]:
+        """Check gaps and loads of a press; convert them to this gel's dtype and device.
 
         Args:
-            start: As for ``press_to_force``.
-            gap: As ``checked`` gives it, (B, H, W) [mm].
-            depth: Of the springs, (B,) [mm].
+            gap_mm: As for ``press_to_force``.
+            load: Forces [N] if ``by_force``, else depths [mm]; (B,) or one number.
+            by_force: Whether the load is a force.
+
+        Returns:
+            Gaps (B, H, W) [mm], ``NO_BODY_MM`` where there is no body, and loads (B,).
+
+        Raises:
+            ValueError: A shape, sign or value is out of range.
+        """
+        gap = self._checked_gap(gap_mm)
+        name, batch = "force_n" if by_force else "depth_mm", len(gap)
+        loads = torch.as_tensor(load, dtype=self.dtype, device=self.device)
+        if loads.ndim > 1 or loads.numel() not in (1, batch):
+            raise ValueError(f"{name} must be one number or ({batch},), got {tuple(loads.shape)}")
+        loads = loads.reshape(-1).expand(batch)
+        if by_force and not bool(((loads >= 0) & torch.isfinite(loads)).all()):
+            raise ValueError(f"force_n must be finite and >= 0 N, got {loads.tolist()}")
+        if not bool(torch.isfinite(loads).all()):
+            raise ValueError(f"depth_mm must be finite, got {loads.tolist()}")
+        return gap, loads
+
+    def first_pressure(self, start: StartPressure, gap: Tensor, depth: Tensor) -> Tensor:
+        """First pressures (B, H, W) [MPa]: ``start`` where it has any, else that of springs.
+
+        Args:
+            start: First guess, or None.
+            gap: As returned by ``check_inputs``, (B, H, W) [mm].
+            depth: Depth of the springs, (B,) [mm].
 
         Raises:
             ValueError: ``start`` has another shape than ``gap``.
@@ -359,3 +289,69 @@ class ElasticLayer:
             raise ValueError(f"start has {start_mpa.shape[0]} presses, gap_mm has {gap.shape[0]}")
         pressed = (start_mpa > 0).flatten(1).any(1)
         return torch.where(pressed[:, None, None], start_mpa, springs)
+
+    def _checked_modulus(self, modulus_mpa: float | Tensor) -> Tensor:
+        modulus = torch.as_tensor(modulus_mpa, dtype=self.dtype, device=self.device)
+        if modulus.ndim > 1 or not bool((modulus > 0).all()):
+            raise ValueError(
+                f"body_modulus_mpa must be > 0, one number or (B,), got {modulus_mpa}; "
+                "None is a rigid body"
+            )
+        return modulus.reshape(()) if modulus.numel() == 1 else modulus
+
+    def _spectrum(self, material: GelMaterial | None) -> Spectrum:
+        return spectrum_of(
+            material, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
+        )
+
+    @cached_property
+    def _gel_spectrum(self) -> Spectrum:
+        """Made when first used: ``sim.gel.fine.fine`` needs it for few of its grids."""
+        return self._spectrum(self.material)
+
+    @cached_property
+    def _combined_spectrum(self) -> Spectrum:
+        """Gel and body in series."""
+        if self._modulus is None:
+            return self._gel_spectrum
+        inverse = 1.0 / self._modulus
+        if inverse.ndim == 1:
+            inverse = inverse[:, None, None]
+        values = self._gel_spectrum.values + inverse * self._spectrum(None).values
+        return replace(self._gel_spectrum, values=values)
+
+    def _as_grid(self, value: Tensor, name: str) -> Tensor:
+        grid = torch.as_tensor(value, dtype=self.dtype, device=self.device)
+        if grid.ndim != 3 or tuple(grid.shape[1:]) != (self.rows, self.columns):
+            raise ValueError(
+                f"{name} must have shape (B, {self.rows}, {self.columns}), got {tuple(grid.shape)}"
+            )
+        return grid
+
+    def _checked_gap(self, gap_mm: Tensor) -> Tensor:
+        gap = self._as_grid(gap_mm, "gap_mm")
+        batch = len(gap)
+        if gap.stride(0) == 0:  # one body, expanded
+            gap = gap[:1]
+        if not bool((gap >= -1e-5).all()):
+            raise ValueError(
+                "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
+                f"own lowest point; the smallest is {gap.min().item()} mm"
+            )
+        gap = gap.clamp(max=NO_BODY_MM)
+        return gap if len(gap) == batch else gap.expand(batch, -1, -1)
+
+    def _springs_depth(self, gap: Tensor, target: Tensor) -> Tensor:
+        """Depth at which springs of the guessed stiffness carry ``target``.
+
+        Newton's method from above cannot overshoot, since what springs carry is convex in depth.
+        Six steps are enough for a guess.
+        """
+        flat = gap.flatten(1)
+        carried = target / self.stiffness
+        depth = (flat.amin(1) + carried).clamp(max=_DEEPEST_GUESS_MM)
+        for _ in range(6):
+            overlap = (depth[:, None] - flat).clamp_(min=0)
+            pressed = (overlap > 0).sum(1).clamp(min=1)
+            depth = depth - (overlap.sum(1) - carried).clamp(min=0) / pressed
+        return depth

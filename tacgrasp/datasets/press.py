@@ -22,7 +22,7 @@ from cltp.texts.captions import caption, numeric_caption
 from cltp.torch_threads import torch_threads
 from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
-from sim.gel.layer import Press, gel_of
+from sim.gel.layer import ElasticLayer, Press, gel_of
 from sim.objects.catalogue import object_named
 from sim.objects.ray_casting import cast_pad_rays
 from sim.starter.probes import ProbeShape
@@ -105,7 +105,7 @@ def press(request: PressRequest) -> PressResult:
     sensor = _sensor(request)
     surface = _surface(request, sensor)
     columns, rows = request.grid or (sensor.columns, sensor.rows)
-    layer = FineLayer(
+    layer = ElasticLayer(
         gel_of(sensor.name),
         rows=rows,
         columns=columns,
@@ -114,7 +114,7 @@ def press(request: PressRequest) -> PressResult:
         device=usable_device(request.device),
     )
     with torch.inference_mode():
-        solved = layer.press_to_depth(torch.from_numpy(surface.gap_mm)[None], request.depth_mm)
+        solved = FineLayer(layer).press_to_depth(torch.from_numpy(surface.gap_mm)[None], request.depth_mm)
     if not bool(solved.converged.all()):
         raise TouchError(f"the press of {request.object} did not converge; try another --grid")
     return _read(solved, request, sensor, surface)

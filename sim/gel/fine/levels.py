@@ -19,12 +19,10 @@ from sim.gel.contact_solver import Solution, solve
 from sim.gel.fine.boxes import Box, by_size
 from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
 from sim.gel.gap import NO_BODY_MM
-from sim.gel.layer import ElasticLayer
+from sim.gel.layer import MAX_ITERATIONS, ElasticLayer
 
 TOLERANCE = 1e-3
 """Of every level: residual gap over the mean displacement in contact, root mean square."""
-
-_MOST_STEPS = 300
 
 
 @lru_cache(maxsize=32)
@@ -148,7 +146,7 @@ class GridLevel:
                 float(depth[index]),
                 start_mpa=box.crop(start[index]),
                 tol=TOLERANCE,
-                max_iterations=_MOST_STEPS,
+                max_iterations=MAX_ITERATIONS,
             )
             box.crop(pressure[index]).copy_(one.pressure_mpa)
             solved.append(one)
@@ -185,7 +183,7 @@ class GridLevel:
                 start_mpa=first,
                 stiffness=self.layer.stiffness,
                 tol=TOLERANCE,
-                max_iterations=_MOST_STEPS,
+                max_iterations=MAX_ITERATIONS,
             )
             for position, i in enumerate(indices):
                 boxes[i].crop(pressure[i]).copy_(solved.pressure_mpa[position])

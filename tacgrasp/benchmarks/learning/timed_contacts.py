@@ -20,7 +20,7 @@ from cltp.texts.captions import caption, numeric_caption
 from sim.gel.compliance import Spectrum
 from sim.gel.fine.fine import FineLayer
 from sim.gel.fine.single import Convolution
-from sim.gel.layer import Press
+from sim.gel.layer import ElasticLayer, Press
 from sim.tcl3d import series as tcl3d
 from sim.tcl3d.series import Scene, SeriesRequest, draw_scene, series_request
 
@@ -91,7 +91,7 @@ def scene_of(number: int, device: str) -> tuple[SeriesRequest, Scene, list[float
 def solved(order: SeriesRequest, scene: Scene, approach: list[float], device: str) -> Press:
     """Press a series at the resolution of its scene."""
     gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).to(device)
-    layer = FineLayer(
+    layer = ElasticLayer(
         order.gel,
         rows=gap.shape[0],
         columns=gap.shape[1],
@@ -100,7 +100,9 @@ def solved(order: SeriesRequest, scene: Scene, approach: list[float], device: st
         device=device,
     )
     with torch.inference_mode():
-        press = layer.press_to_depth(gap.expand(len(approach), -1, -1), torch.tensor(approach))
+        press = FineLayer(layer).press_to_depth(
+            gap.expand(len(approach), -1, -1), torch.tensor(approach)
+        )
         if device != "cpu":
             torch.cuda.synchronize()
     return press
