@@ -1,0 +1,51 @@
+"""The pre-training methods that are compared: one table, in the order of the paper's tables."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PretrainingMethod:
+    """One method.
+
+    Attributes:
+        title: Name in tables.
+        preset: Name of its usual encoder, out of ``cltp.encoder.encoder.PRESETS``.
+        is_aligned: Whether it learns from texts about all dimensions, so that zero-shot prompts
+            mean something to it.
+        sees_images: Whether its encoder takes rendered frames instead of points.
+    """
+
+    title: str
+    preset: str = "small"
+    is_aligned: bool = False
+    sees_images: bool = False
+
+
+METHODS: Mapping[str, PretrainingMethod] = {
+    "point_bert": PretrainingMethod(title="Point-BERT"),
+    "point_mae": PretrainingMethod(title="Point-MAE"),
+    "cltp_no_image": PretrainingMethod(
+        title="CLTP w/o image", preset="small_graded", is_aligned=True
+    ),
+    "cltp": PretrainingMethod(title="CLTP", preset="small_graded", is_aligned=True),
+    "unitouch": PretrainingMethod(title="UniTouch (image)", preset="small_image", sees_images=True),
+    "tvl": PretrainingMethod(title="TVL (image)", preset="small_image", sees_images=True),
+    "random": PretrainingMethod(title="random encoder"),
+}
+"""Encoders of points are ``small`` for all methods but CLTP, which is evaluated with it too, so that
+objectives are compared and not tokens; a step of ``small_pointbert`` takes eight times as long on a
+CPU."""
+
+ALIGNED_METHODS = tuple(name for name, method in METHODS.items() if method.is_aligned)
+IMAGE_METHODS = tuple(name for name, method in METHODS.items() if method.sees_images)
+
+TRAINING_ORDER = tuple(
+    sorted(
+        reversed(METHODS),
+        key=lambda name: (not METHODS[name].is_aligned, METHODS[name].sees_images),
+    )
+)
+"""Order in which ``train all-methods`` trains: what the paper is about first, images last."""
