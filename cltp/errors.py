@@ -1,4 +1,4 @@
-"""Errors of touch: what was felt, or read from a file, can't be used."""
+"""The error of sensing: an observation, or a file of observations or weights, can't be used."""
 
 
 class TouchError(Exception):

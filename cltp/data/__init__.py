@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Data sets of labelled contacts: the record, its files, and the batches that learning draws.
+
+Not here: simulating contacts (``sim``), commands on data sets (``tacgrasp.datasets``).
+"""

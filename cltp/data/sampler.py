@@ -1,12 +1,11 @@
-"""What learning sees of a data set: noisy clouds with their targets, drawn anew at every pass.
+"""Batches of noisy clouds with their labels, drawn from a data set anew at every pass.
 
-Not here: models and losses. Loads no torch.
+Loads no torch.
 """
 
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,24 +20,17 @@ from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Side, position_word
 
-MIRROR = {
-    Side.LEFT: Side.RIGHT,
-    Side.RIGHT: Side.LEFT,
-    Side.TOP: Side.BOTTOM,
-    Side.BOTTOM: Side.TOP,
-}
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Batch:
     """Samples for one step of learning.
 
     Attributes:
-        index: Shape (B,), the contacts in their data set.
-        points: Shape (B, 1024, 3), float32, scaled, in the order of ``cltp.tactile.encoder_input``;
-            as many as the sampler's ``sampling`` has.
-        height_mm: The clean heights behind each cloud, mirrored alike; for rendering.
-        states: Their labels, mirrored alike.
+        index: Shape (B,), indices of the contacts in their data set.
+        points: Shape (B, N, 3), float32, scaled, in lattice order; N is 1024 unless the sampler's
+            ``sampling`` has another number of points.
+        height_mm: Clean heights behind each cloud, mirrored and moved alike; for rendering.
+        states: Labels, mirrored and moved alike.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
         moved: Shape (B,), bool: shifted or turned after that.
     """
@@ -53,13 +45,13 @@ class Batch:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Augmentation:
-    """How contacts are varied.
+    """Random variation of contacts.
 
     Attributes:
-        noise_level: Of ``NoiseUnit.draw``; 0 leaves the heights clean.
-        uncalibrated: Share of samples whose unit also has unequal gradient gains.
+        noise_level: ``level`` of ``NoiseUnit.draw``; 0 leaves the heights clean.
+        uncalibrated: Fraction of samples whose unit also has unequal gradient gains.
         mirror: Whether contacts are mirrored along x, along y and along both.
-        clean: Share of samples that stay without noise, so that a perfect sensor is known too.
+        clean: Fraction of samples without noise, as of a perfect sensor.
     """
 
     noise_level: float = 1.0
@@ -70,18 +62,19 @@ class Augmentation:
 
 CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0, mirror=False)
 NOISY = Augmentation(uncalibrated=0.0, mirror=False)
-"""Noise of a calibrated unit, as the simulated sensor has it: for validation and evaluation."""
+"""Noise of a calibrated unit, as of the simulated sensor: for validation and evaluation."""
 
 
 class Sampler:
     """Draws batches from a data set; the same seed gives the same batches.
 
     Args:
-        dataset: Where contacts come from.
-        augmentation: How they are varied.
-        seed: Of everything that is drawn.
-        sampling: Where the points lie.
-        moved: Share of contacts that are shifted and turned on the pad (``cltp.data.placement``).
+        dataset: Source of the contacts.
+        augmentation: Variation of the contacts.
+        seed: Random seed of order, variation, noise and points.
+        sampling: Layout of the points.
+        moved: Fraction of contacts that are shifted and turned on the pad
+            (``cltp.data.placement``).
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
     """
 
@@ -104,12 +97,12 @@ class Sampler:
         self._orders: dict[int, NDArray[np.int64]] = {}
 
     def batch(self, indices: NDArray[np.int64], step: int) -> Batch:
-        """The samples of the given contacts, varied as step ``step`` of this seed varies them."""
+        """The samples of some contacts; their variation depends on the seed and ``step``."""
         rng = np.random.default_rng([self.seed, step])
         points, heights, states = [], [], []
         mirror = rng.random((len(indices), 2)) < (0.5 if self.augmentation.mirror else 0.0)
         moved = np.zeros(len(indices), dtype=np.bool_)
-        if self.moved > 0:  # no draw where none is: what is drawn after it must stay what it was
+        if self.moved > 0:  # else nothing is drawn: later draws must stay reproducible
             moved = rng.random(len(indices)) < self.moved
         for index, (along_x, along_y), is_moved in zip(indices, mirror, moved, strict=True):
             sensor = sensor_named(self.dataset.column("sensor")[index])
@@ -118,9 +111,9 @@ class Sampler:
             state = self.dataset.state(int(self._label[index]))
             state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
             if is_moved:
-                to = draw_placement(height_mm, state, sensor, rng)
-                there = move(height_mm, state, sensor, to)
-                height_mm, state = there.height_mm, there.state
+                placement = draw_placement(height_mm, state, sensor, rng)
+                result = move(height_mm, state, sensor, placement)
+                height_mm, state = result.height_mm, result.state
             points.append(self.cloud(height_mm, sensor, rng))
             heights.append(height_mm)
             states.append(state)
@@ -133,23 +126,11 @@ class Sampler:
             moved=moved,
         )
 
-    def training(self, batch_size: int, first_step: int = 0) -> Iterator[Batch]:
-        """Batches without end: every contact once in an order of its own, then again.
-
-        Args:
-            batch_size: Contacts in a batch.
-            first_step: Where to go on; step ``n`` is the same wherever one starts.
-        """
-        step = first_step
-        while True:
-            yield self.numbered(batch_size, step)
-            step += 1
-
     def numbered(self, batch_size: int, step: int) -> Batch:
-        """The batch of one step of ``training``."""
+        """The batch of step ``step`` of a training: each epoch is every contact once, shuffled."""
         size = len(self.dataset)
-        places = range(step * batch_size, (step + 1) * batch_size)
-        indices = np.array([self._order(place // size)[place % size] for place in places])
+        positions = range(step * batch_size, (step + 1) * batch_size)
+        indices = np.array([self._order(each // size)[each % size] for each in positions])
         return self.batch(indices, step)
 
     def _order(self, epoch: int) -> NDArray[np.int64]:
@@ -158,26 +139,20 @@ class Sampler:
             self._orders = {epoch: rng.permutation(len(self.dataset))}
         return self._orders[epoch]
 
-    def evaluation(self, batch_size: int, limit: int | None = None) -> Iterator[Batch]:
-        """Every contact once, in order; the last batch may be smaller."""
-        size = len(self.dataset) if limit is None else min(limit, len(self.dataset))
-        for step, start in enumerate(range(0, size, batch_size)):
-            yield self.batch(np.arange(start, min(start + batch_size, size)), step)
-
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
     ) -> NDArray[np.float32]:
         """One cloud of clean heights: shape (side², 3), scaled, in lattice order.
 
-        Noise takes the zero of heights away, as photometric sensors lose it; a cloud without noise
-        is a perfect sensor's, whose heights count from the untouched gel.
+        With noise the median height is 0, since photometric sensors lose the constant. A cloud
+        without noise is that of a perfect sensor, whose heights count from the untouched gel.
         """
-        how = self.augmentation
+        varied = self.augmentation
         spread = spread_of(sensor)
-        gain = spread.gain_log_ratio if rng.random() < how.uncalibrated else 0.0
+        gain = spread.gain_log_ratio if rng.random() < varied.uncalibrated else 0.0
         unit = None
-        if how.noise_level > 0 and not (how.clean > 0 and rng.random() < how.clean):
-            unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain, spread=spread)
+        if varied.noise_level > 0 and not (varied.clean > 0 and rng.random() < varied.clean):
+            unit = NoiseUnit.draw(rng, varied.noise_level, gain_log_ratio=gain, spread=spread)
         if sensor.markers is not None:
             sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
             dense = densified(sparse, rng=rng, num_points=self.sampling.side**2)
@@ -195,16 +170,13 @@ def mirrored(
         return state
     x_mm = -state.x_mm if along_x else state.x_mm
     y_mm = -state.y_mm if along_y else state.y_mm
-    flipped = set()
-    for side in state.cut:
-        turns = along_x if side in (Side.LEFT, Side.RIGHT) else along_y
-        flipped.add(MIRROR[side] if turns else side)
+    swapped = (Side.LEFT, Side.RIGHT) * along_x + (Side.TOP, Side.BOTTOM) * along_y
     return dataclasses.replace(
         state,
         x_mm=x_mm,
         y_mm=y_mm,
         position=position_word(x_mm, y_mm, sensor),
-        cut=frozenset(flipped),
+        cut=frozenset(side.opposite if side in swapped else side for side in state.cut),
     )
 
 
@@ -214,20 +186,20 @@ def sampled(
     sampling: Sampling,
     rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """Points of a height map over the whole field, shape (side², 3) [mm], in lattice order.
+    """Points of a height map of the whole sensing area, shape (side², 3) [mm], in lattice order.
 
     ``cltp.tactile.cloud.cloud_from_heights`` without its checks, in float32: it runs at every pass.
     """
     rows, columns = height_mm.shape
-    u, v = sampling.places(height_mm, rng)
+    u, v = sampling.positions(height_mm, rng)
     row = np.clip(v * rows - 0.5, 0, rows - 1)
     column = np.clip(u * columns - 0.5, 0, columns - 1)
     r0 = np.minimum(row.astype(np.int32), rows - 2)
     c0 = np.minimum(column.astype(np.int32), columns - 2)
     fr, fc = row - r0, column - c0
     flat = np.ascontiguousarray(height_mm).ravel()
-    at = r0 * columns + c0
-    top = flat[at] * (1 - fc) + flat[at + 1] * fc
-    bottom = flat[at + columns] * (1 - fc) + flat[at + columns + 1] * fc
+    corner = r0 * columns + c0
+    top = flat[corner] * (1 - fc) + flat[corner + 1] * fc
+    bottom = flat[corner + columns] * (1 - fc) + flat[corner + columns + 1] * fc
     z = top + (bottom - top) * fr
     return np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)

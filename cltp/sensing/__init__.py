@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""From a sensor's frames, packets and files to height maps and clouds, with its calibration.
+
+Not here: device drivers (``tacgrasp.drivers``), what a cloud means (``cltp.tactile``).
+"""

@@ -1,16 +1,17 @@
-"""Read one touch from a file: a cloud, a height map, or a camera's frame of the gel.
+"""Read one observation from a file: a cloud, a height map, or a camera's frame of the gel.
 
 Clouds (.ply .pcd .xyz .npy .npz) are (N, 3) in mm in the gel frame; height maps (.npy .npz) are
-(H, W) indentations in mm over the sensor's whole field, row 0 at the top; frames (.png .jpg .bmp)
+(H, W) indentations in mm over the whole sensing area, row 0 at the top; frames (.png .jpg .bmp)
 become heights by a calibration. Nothing is guessed, scaled or repaired.
 
-Not here: datasets of many contacts (``cltp.data.dataset``), episodes (``tacgrasp.episodes``).
+Not here: data sets of many contacts (``cltp.data.dataset``), episodes (``tacgrasp.episodes``).
 """
 
 from __future__ import annotations
 
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 
 ASPECT_TOLERANCE = 0.05
-"""A height map's aspect may differ this much from the sensor's; transposed, it is 80 % off."""
+"""Largest relative difference of a map's aspect from the sensor's; transposed, it is 80 %."""
 
 SURFACE_ROWS = 75
 """Rows of the map that a cloud becomes: 0.2 mm on a GelSight Mini, finer than its points."""
@@ -32,7 +33,7 @@ METRES_MM = 2e-3
 """A map whose whole relief is below this is in metres: a gel's own noise is 10 µm. Our choice."""
 
 
-def read_touch(
+def read_cloud(
     path: Path,
     sensor: SensorSpec,
     *,
@@ -42,26 +43,22 @@ def read_touch(
     """Read a cloud, or sample a height map or a frame's heights at the centres of 1024 cells.
 
     Args:
-        path: File; its suffix says the format.
-        sensor: Whose field and gel the numbers refer to.
-        background: Frame of the same unit untouched; a frame can't be read without.
-        calibration: Of that unit; None is the one that ships. For frames only.
+        path: File; its suffix gives the format.
+        sensor: The sensor that the numbers belong to.
+        background: Frame of the same unit with an untouched gel; a frame can't be read without.
+        calibration: Calibration of that unit; None is the shipped one. For frames only.
 
     Raises:
-        TouchError: Missing, empty, truncated or foreign file; no numbers where they should be;
-            numbers that can't be a touch of this sensor; or a frame without a background.
+        TouchError: Missing, empty, truncated or foreign file; not numbers; numbers that can't come
+            from this sensor; or a frame without a background.
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         heights = _frame_heights(path, sensor, background, calibration)
-        try:
+        with _path_in_errors(path):
             return cloud_from_heights(heights, sensor)
-        except TouchError as error:
-            raise TouchError(f"{path}: {error}") from None
-    array = _array(path)
-    try:
-        return _touch(array, sensor)
-    except TouchError as error:
-        raise TouchError(f"{path}: {error}") from None
+    array = _read_array(path)
+    with _path_in_errors(path):
+        return _cloud_of(array, sensor)
 
 
 def read_heights(
@@ -71,51 +68,52 @@ def read_heights(
     background: Path | None = None,
     calibration: Path | None = None,
 ) -> NDArray[np.float32]:
-    """Read the heights of a touch: a height map as it is, a frame's, or the surface of a cloud.
+    """Read heights: a height map as it is, a frame's, or the surface of a cloud.
 
-    A cloud becomes a map of 75 rows by linear interpolation between its points; where it has none
-    around, its nearest point's height.
+    A cloud becomes a map of 75 rows by linear interpolation between its points; outside their hull
+    the height is that of the nearest point.
 
     Args:
-        path: File; its suffix says the format.
-        sensor: Whose field and gel the numbers refer to.
-        background: As for ``read_touch``.
-        calibration: As for ``read_touch``.
+        path: As for ``read_cloud``.
+        sensor: As for ``read_cloud``.
+        background: As for ``read_cloud``.
+        calibration: As for ``read_cloud``.
 
     Returns:
         Shape (H, W), row 0 = top [mm].
 
     Raises:
-        TouchError: As ``read_touch``.
+        TouchError: As ``read_cloud``.
     """
     if path.suffix.lower() in FRAME_SUFFIXES:
         return _frame_heights(path, sensor, background, calibration)
-    array = _array(path)
-    try:
-        cloud = _touch(array, sensor)
+    array = _read_array(path)
+    with _path_in_errors(path):
+        cloud = _cloud_of(array, sensor)
         return array.astype(np.float32) if array.shape[1] != 3 else _surface(cloud)
+
+
+@contextmanager
+def _path_in_errors(path: Path) -> Iterator[None]:
+    try:
+        yield
     except TouchError as error:
         raise TouchError(f"{path}: {error}") from None
 
 
 def _surface(cloud: TactileCloud) -> NDArray[np.float32]:
-    """Heights on a grid over the whole field, through the points of a cloud."""
-    from scipy.interpolate import LinearNDInterpolator, NearestNDInterpolator
-    from scipy.spatial import QhullError
+    """Heights on a grid over the whole sensing area, through the points of a cloud."""
+    from scipy.interpolate import LinearNDInterpolator
+
+    from cltp.tactile.markers import interpolated
 
     columns = round(SURFACE_ROWS * cloud.sensor.columns / cloud.sensor.rows)
     x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, SURFACE_ROWS, columns))
-    points = cloud.points_mm.astype(np.float64)
-    try:
-        heights = LinearNDInterpolator(points[:, :2], points[:, 2])(x, y)
-    except QhullError:
-        raise TouchError("the points of the cloud lie on a line; they span no surface") from None
-    nearest = NearestNDInterpolator(points[:, :2], points[:, 2])(x, y)
-    return np.where(np.isfinite(heights), heights, nearest).astype(np.float32)
+    return interpolated(cloud, x, y, LinearNDInterpolator).astype(np.float32)
 
 
-def _array(path: Path) -> NDArray[np.float64]:
-    """The numbers in a file, as they stand."""
+def _read_array(path: Path) -> NDArray[np.float64]:
+    """The numbers in a file, unchanged."""
     readers: dict[str, Callable[[Path], NDArray[np.float64]]] = {
         ".ply": read_ply,
         ".pcd": read_pcd,
@@ -134,11 +132,10 @@ def _array(path: Path) -> NDArray[np.float64]:
     if path.stat().st_size == 0:
         raise TouchError(f"{path} is empty; expected a cloud or a height map")
     try:
-        return reader(path)
+        with _path_in_errors(path):
+            return reader(path)
     except OSError as error:
         raise TouchError(f"{path} can't be read: {error.strerror or error}") from None
-    except TouchError as error:
-        raise TouchError(f"{path}: {error}") from None
 
 
 def _frame_heights(
@@ -154,13 +151,11 @@ def _frame_heights(
             "give a frame of the same unit with nothing touching it as --background"
         )
     net = load_calibration(calibration or default_calibration(sensor), sensor).net
-    try:
+    with _path_in_errors(path):
         return Photometer(net, read_frame(background, sensor), sensor).heights(frame)
-    except TouchError as error:
-        raise TouchError(f"{path}: {error}") from None
 
 
-def _touch(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
+def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
     if array.ndim != 2:
         raise TouchError(
             f"expected a cloud (N, 3) or a height map (H, W), got an array of shape {array.shape}"
@@ -171,19 +166,21 @@ def _touch(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
     expected = sensor.columns / sensor.rows
     if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:
         raise TouchError(
-            f"a height map of {rows} × {columns} doesn't fit {sensor.name}, whose field is "
-            f"{sensor.rows} × {sensor.columns} px (rows × columns, or any map as wide as that)"
+            f"a height map of {rows} × {columns} doesn't fit {sensor.name}, whose sensing area is "
+            f"{sensor.rows} × {sensor.columns} px (rows × columns, or any map of that aspect)"
         )
-    if np.isfinite(array).all() and 0 < np.ptp(array) < METRES_MM:
-        raise TouchError(
-            f"the height map's whole relief is {np.ptp(array):.2g}, below a gel's noise in mm; "
-            "is it in metres? Multiply by 1000"
-        )
-    if np.isfinite(array).all() and np.abs(array).max() > sensor.gel_mm:
-        raise TouchError(
-            f"heights reach {np.abs(array).max():.3g} mm, more than the {sensor.gel_mm} mm gel of "
-            f"{sensor.name}; is it in mm, with the untouched gel at 0?"
-        )
+    if np.isfinite(array).all():
+        relief, highest = float(np.ptp(array)), float(np.abs(array).max())
+        if 0 < relief < METRES_MM:
+            raise TouchError(
+                f"the height map's whole relief is {relief:.2g}, below a gel's noise in mm; "
+                "is it in metres? Multiply by 1000"
+            )
+        if highest > sensor.gel_mm:
+            raise TouchError(
+                f"heights reach {highest:.3g} mm, more than the {sensor.gel_mm} mm gel of "
+                f"{sensor.name}; is it in mm, with the untouched gel at 0?"
+            )
     return cloud_from_heights(array, sensor)
 
 
@@ -198,13 +195,13 @@ def _read_npz(path: Path) -> NDArray[np.float64]:
     try:
         with np.load(path, allow_pickle=False) as archive:
             names = list(archive.files)
-            wanted = [n for n in ("points_mm", "height_mm") if n in names] or names
-            if len(wanted) != 1:
+            candidates = [n for n in ("points_mm", "height_mm") if n in names] or names
+            if len(candidates) != 1:
                 raise TouchError(
                     "expected one array, or one named points_mm or height_mm; the file has "
                     f"{', '.join(names) or 'none'}"
                 )
-            return _numbers(archive[wanted[0]], wanted[0])
+            return _numbers(archive[candidates[0]], candidates[0])
     except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
         raise TouchError(f"not a whole .npz of arrays of numbers: {error}") from None
 

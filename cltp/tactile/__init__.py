@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Clouds, sensors and their noise, contact states, and how a state is computed without learning.
+
+Not here: reading sensors and files (``cltp.sensing``), learned encoders (``cltp.encoder``).
+"""

@@ -1,4 +1,4 @@
-"""The tactile cloud: points on the deformed surface of a gel, and how one is sampled.
+"""The tactile cloud: points on the deformed surface of a gel, and how a height map is sampled.
 
 Not here: reading clouds from files (``cltp.sensing.touch_files``), what a cloud means
 (``cltp.tactile.states``).
@@ -15,16 +15,18 @@ from numpy.typing import NDArray
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec
 
+FloatArray = NDArray[np.float64]
+
 NUM_POINTS = 1024
 """Points of a cloud given to an encoder. Source: paper, section 5, 'Implementations'."""
 
 MIN_POINTS = 64
-"""Fewer points than this can't carry a contact state. Our choice: one per token of the encoder."""
+"""Fewest points that can carry a contact state. Our choice: one for each token of the encoder."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Stamp:
-    """When something was measured, on both clocks [s].
+    """Time of a measurement on both clocks [s].
 
     Attributes:
         monotonic_s: For durations and ordering; arbitrary origin, never jumps.
@@ -42,12 +44,12 @@ class TactileCloud:
     Attributes:
         points_mm: Shape (N, 3), float32, read-only, gel frame [mm]; z is the indentation, positive
             into the gel, with the undeformed gel near 0 (bulges around a contact are negative).
-        sensor: The sensor that it came from.
-        stamp: When it was captured; None for a cloud without a clock (a file).
+        sensor: The sensor that measured it.
+        stamp: Time of capture; None for a cloud without a clock (a file).
 
     Raises:
-        TouchError: Empty, wrong shape, not finite, fewer than ``MIN_POINTS`` points, not on the
-            sensor's field, deeper than its gel, or apparently in metres.
+        TouchError: Empty, wrong shape, not finite, fewer than ``MIN_POINTS`` points, outside the
+            sensing area, deeper than the gel, or apparently in metres.
     """
 
     points_mm: NDArray[np.float32]
@@ -66,9 +68,11 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
         raise TouchError(f"a cloud needs shape (N, 3), got {points.shape}")
     if len(points) == 0:
         raise TouchError("the cloud is empty; expected points on the gel's surface")
-    if not np.isfinite(points).all():
-        bad = int((~np.isfinite(points).all(axis=1)).sum())
-        raise TouchError(f"{bad} of {len(points)} points are NaN or infinite; drop them first")
+    finite = np.isfinite(points).all(axis=1)
+    if not finite.all():
+        raise TouchError(
+            f"{int((~finite).sum())} of {len(points)} points are NaN or infinite; drop them first"
+        )
     if len(points) < MIN_POINTS:
         raise TouchError(f"the cloud has {len(points)} points; at least {MIN_POINTS} are needed")
     half = np.array([sensor.width_mm / 2, sensor.height_mm / 2])
@@ -78,12 +82,12 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
             f"the cloud spans only {extent:.3g} in x and y where {sensor.name} sees "
             f"{sensor.width_mm:.1f}×{sensor.height_mm:.1f} mm; is it in metres? Multiply by 1000"
         )
-    outside = np.abs(points[:, :2]) > half + 0.05 * half
-    if outside.any():
+    if (np.abs(points[:, :2]) > half + 0.05 * half).any():
         x, y = np.abs(points[:, :2]).max(axis=0)
         raise TouchError(
-            f"the cloud reaches |x| {x:.1f}, |y| {y:.1f} mm, beyond the field of {sensor.name} "
-            f"(±{half[0]:.1f}, ±{half[1]:.1f} mm around the pad's centre); wrong sensor or frame?"
+            f"the cloud reaches |x| {x:.1f}, |y| {y:.1f} mm, beyond the sensing area of "
+            f"{sensor.name} (±{half[0]:.1f}, ±{half[1]:.1f} mm around its centre); wrong sensor or "
+            "frame?"
         )
     deepest = float(np.abs(points[:, 2]).max())
     if deepest > sensor.gel_mm:
@@ -92,10 +96,22 @@ def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
         )
 
 
-def grid_axes_mm(
-    sensor: SensorSpec, rows: int, columns: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Pixel centres of a ``rows`` × ``columns`` height map over the whole field.
+def checked_heights(height_mm: NDArray[np.floating]) -> FloatArray:
+    """A height map as float64, in the same unit.
+
+    Raises:
+        TouchError: Not of shape (H, W) with both at least 8, or not finite.
+    """
+    heights = np.asarray(height_mm, dtype=np.float64)
+    if heights.ndim != 2 or min(heights.shape) < 8:
+        raise TouchError(f"a height map needs shape (H, W), both at least 8; got {heights.shape}")
+    if not np.isfinite(heights).all():
+        raise TouchError("the height map has NaN or infinite values")
+    return heights
+
+
+def grid_axes_mm(sensor: SensorSpec, rows: int, columns: int) -> tuple[FloatArray, FloatArray]:
+    """Centres of ``rows`` × ``columns`` equal cells of the sensing area.
 
     Returns:
         x (columns,) ascending and y (rows,) descending [mm, gel frame]: row 0 is the top.
@@ -116,56 +132,39 @@ def cloud_from_heights(
     """Sample a height map at one point in each cell of a regular grid (stratified, uniform).
 
     Args:
-        height_mm: Shape (H, W), indentation [mm], row 0 = top, over the sensor's whole field.
-        sensor: Whose field it is.
+        height_mm: Shape (H, W), indentation [mm], row 0 = top, over the whole sensing area.
+        sensor: The sensor that measured it.
         rng: Jitters each point inside its cell; None puts it at the cell's centre.
-        num_points: How many points; the cells are as square as a grid of that many allows (1024
+        num_points: Number of points; the cells are as square as a grid of that many allows (1024
             is 32 × 32), and points are ordered row by row from the top left.
-        stamp: When the heights were captured.
+        stamp: Time of capture.
 
     Raises:
         TouchError: The map is not 2-D, too small, or not finite.
     """
-    heights = np.asarray(height_mm, dtype=np.float64)
-    if heights.ndim != 2 or min(heights.shape) < 8:
-        raise TouchError(f"a height map needs shape (H, W), both at least 8; got {heights.shape}")
-    if not np.isfinite(heights).all():
-        raise TouchError("the height map has NaN or infinite values")
+    heights = checked_heights(height_mm)
     u, v = stratified(num_points, rng)
-    points = np.stack(
-        [
-            (u - 0.5) * sensor.width_mm,
-            (0.5 - v) * sensor.height_mm,
-            _bilinear(heights, v * heights.shape[0] - 0.5, u * heights.shape[1] - 0.5),
-        ],
-        axis=1,
-    )
+    z = _bilinear(heights, v * heights.shape[0] - 0.5, u * heights.shape[1] - 0.5)
+    points = np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
 
 
-def stratified(
-    num_points: int, rng: np.random.Generator | None
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """One place in each cell of a regular grid, as shares of the field from its top left.
+def stratified(num_points: int, rng: np.random.Generator | None) -> tuple[FloatArray, FloatArray]:
+    """One point in each cell of a regular grid, as fractions of the sensing area from its top left.
+
+    The grid has the rows and columns, nearest to square, whose product is ``num_points``.
 
     Returns:
         u (num_points,) to the right and v (num_points,) downwards, row by row.
     """
-    down, across = _strata(num_points)
-    row, column = (a.ravel() for a in np.mgrid[0:down, 0:across])
+    rows = next(d for d in range(math.isqrt(num_points), 0, -1) if num_points % d == 0)
+    columns = num_points // rows
+    row, column = (a.ravel() for a in np.mgrid[0:rows, 0:columns])
     jitter = np.full((2, num_points), 0.5) if rng is None else rng.random((2, num_points))
-    return (column + jitter[0]) / across, (row + jitter[1]) / down
+    return (column + jitter[0]) / columns, (row + jitter[1]) / rows
 
 
-def _strata(num_points: int) -> tuple[int, int]:
-    """Rows and columns, nearest to square, whose product is ``num_points``."""
-    down = next(d for d in range(math.isqrt(num_points), 0, -1) if num_points % d == 0)
-    return down, num_points // down
-
-
-def _bilinear(
-    heights: NDArray[np.float64], row: NDArray[np.float64], column: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _bilinear(heights: FloatArray, row: FloatArray, column: FloatArray) -> FloatArray:
     row = np.clip(row, 0, heights.shape[0] - 1)
     column = np.clip(column, 0, heights.shape[1] - 1)
     r0 = np.minimum(row.astype(int), heights.shape[0] - 2)

@@ -16,7 +16,7 @@ from cltp.tactile.cloud import NUM_POINTS, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 
 LATTICE = math.isqrt(NUM_POINTS)
-"""Cells of the stratification along either side of the field: 32 × 32 hold 1024 points."""
+"""Cells of the stratification along either side of the sensing area: 32 × 32 hold 1024 points."""
 
 
 def encoder_input(cloud: TactileCloud) -> NDArray[np.float32]:
@@ -27,8 +27,8 @@ def encoder_input(cloud: TactileCloud) -> NDArray[np.float32]:
 def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.float32]:
     """Scale points [mm, gel frame], shape (..., 3), by constants of the sensor.
 
-    x and y by half the field's width, so that x fills -1 .. 1 and shapes keep their proportions; z
-    by the sensor's ``max_depth_mm``.
+    x and y are divided by half the width of the sensing area, so that x fills -1 .. 1 and shapes
+    keep their proportions; z is divided by the sensor's ``max_depth_mm``.
     """
     half = sensor.width_mm / 2
     factors = np.array([1 / half, 1 / half, 1 / sensor.max_depth_mm], dtype=np.float32)
@@ -36,10 +36,10 @@ def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.fl
 
 
 def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:
-    """One point in each of 32 × 32 cells of the field, from the top left row by row.
+    """One point in each of 32 × 32 cells of the sensing area, from the top left row by row.
 
     A cloud that is stratified already is returned as it is. Otherwise each cell takes the cloud's
-    own point nearest to its centre, and a cell without any takes, at its centre, the mean of the
+    own point nearest to its centre. A cell without a point takes, at its centre, the mean of the
     four nearest points weighted by inverse distance.
 
     Returns:
@@ -52,16 +52,16 @@ def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:
     if len(points) == NUM_POINTS and np.array_equal(cell, np.arange(NUM_POINTS)):
         return points
     centres = cell_centres(sensor)
-    away = ((points[:, :2] - centres[cell]) ** 2).sum(axis=1)
-    order = np.lexsort((away, cell))
+    squared_distance = ((points[:, :2] - centres[cell]) ** 2).sum(axis=1)
+    order = np.lexsort((squared_distance, cell))
     filled, first = np.unique(cell[order], return_index=True)
     result = np.concatenate([centres, np.zeros((NUM_POINTS, 1), np.float32)], axis=1)
     result[filled] = points[order[first]]
     empty = np.setdiff1d(np.arange(NUM_POINTS), filled)
     if len(empty):
-        distance, near = cKDTree(points[:, :2]).query(centres[empty], k=4)
+        distance, nearest = cKDTree(points[:, :2]).query(centres[empty], k=4)
         weights = 1 / np.maximum(distance, 1e-6)
-        result[empty, 2] = (points[near, 2] * weights).sum(axis=1) / weights.sum(axis=1)
+        result[empty, 2] = (points[nearest, 2] * weights).sum(axis=1) / weights.sum(axis=1)
     return result
 
 

@@ -1,9 +1,9 @@
 """Sensors that track markers: heights to a sparse cloud, and a sparse cloud to 1024 points.
 
-A GelStereo knows its surface at its markers alone, 1.1 mm apart. The encoder takes 1024 points in
-a lattice; they are read off the smooth surface through the markers (piecewise cubic with continuous
-slope; beyond the outermost markers, the nearest one's height). Nothing finer than the markers is
-made up, and nothing that a marker measured is lost.
+A GelStereo measures its surface at its markers alone, 1.1 mm apart. The encoder takes 1024 points
+in a lattice; they are read off the smooth surface through the markers (piecewise cubic with
+continuous slope; beyond the outermost markers, the nearest one's height). No detail finer than the
+markers is invented, and no marker's measurement is lost.
 
 Not here: noise figures (``cltp.tactile.sensor_noise``), sensors that see their whole surface
 (``cltp.tactile.cloud``).
@@ -11,30 +11,42 @@ Not here: noise figures (``cltp.tactile.sensor_noise``), sensors that see their 
 
 from __future__ import annotations
 
+import dataclasses
+
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CloughTocher2DInterpolator, NearestNDInterpolator
+from scipy.interpolate import (
+    CloughTocher2DInterpolator,
+    LinearNDInterpolator,
+    NearestNDInterpolator,
+)
 from scipy.ndimage import map_coordinates
 from scipy.spatial import QhullError
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import NUM_POINTS, Stamp, TactileCloud, stratified
+from cltp.tactile.cloud import (
+    NUM_POINTS,
+    FloatArray,
+    Stamp,
+    TactileCloud,
+    checked_heights,
+    grid_axes_mm,
+    stratified,
+)
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import SensorSpec
 
 
-def marker_places_mm(sensor: SensorSpec) -> NDArray[np.float64]:
-    """Where the markers of an untouched gel are, shape (N, 2) [mm], from the top left row by row.
+def marker_positions_mm(sensor: SensorSpec) -> FloatArray:
+    """Markers of an untouched gel, shape (N, 2) [mm], from the top left row by row.
 
     Raises:
         TouchError: The sensor has no markers.
     """
     if sensor.markers is None:
         raise TouchError(f"{sensor.name} has no markers: it sees its whole surface")
-    down, across = sensor.markers
-    x = ((np.arange(across) + 0.5) / across - 0.5) * sensor.width_mm
-    y = (0.5 - (np.arange(down) + 0.5) / down) * sensor.height_mm
-    return np.stack([np.tile(x, down), np.repeat(y, across)], axis=1)
+    x, y = np.meshgrid(*grid_axes_mm(sensor, *sensor.markers))
+    return np.stack([x.ravel(), y.ravel()], axis=1)
 
 
 def marker_cloud(
@@ -47,45 +59,39 @@ def marker_cloud(
 ) -> TactileCloud:
     """The sparse cloud that a sensor with markers reports.
 
-    Markers stay where they are along the surface: the press is without friction.
+    Markers do not move along the surface: the press is without friction.
 
     Args:
-        height_mm: Shape (H, W), true indentation over the sensor's whole field [mm].
-        sensor: One with markers.
-        unit: Its errors; None measures without any.
-        rng: Draws this frame's errors; needed with a ``unit``.
-        stamp: When the heights were captured.
+        height_mm: Shape (H, W), true indentation over the whole sensing area [mm].
+        sensor: A sensor with markers.
+        unit: Errors of the unit; None measures without any.
+        rng: Draws the errors of this frame; needed with a ``unit``.
+        stamp: Time of capture.
 
     Returns:
-        A point for each marker that was found; their median height is 0, as of every cloud that
+        A point for each marker that was detected; their median height is 0, as of every cloud that
         an encoder is given.
 
     Raises:
-        TouchError: No markers, a bad map, a unit without a generator, or too few markers found.
+        TouchError: No markers, a bad map, a unit without a generator, or too few markers detected.
     """
-    heights = np.asarray(height_mm, dtype=np.float64)
-    if heights.ndim != 2 or min(heights.shape) < 8 or not np.isfinite(heights).all():
-        raise TouchError(f"a height map needs finite (H, W), 8 or more; got {heights.shape}")
-    if unit is not None and rng is None:
-        raise TouchError("a noisy unit needs a generator to draw its frame from")
-    places = marker_places_mm(sensor)
-    if unit is not None and rng is not None:
-        smooth = NoiseUnit(
-            depth_scale=unit.depth_scale,
-            tilt_x=unit.tilt_x,
-            tilt_y=unit.tilt_y,
-            drift_mm=unit.drift_mm,
-            drift_length_mm=unit.drift_length_mm,
-        )
-        heights = smooth.apply(heights, sensor, rng).astype(np.float64)
-        found = places[rng.random(len(places)) >= unit.marker_loss]
-        depths = _at(heights, found, sensor) + rng.normal(0.0, unit.fine_mm, len(found))
-        depths -= np.median(depths) if len(depths) else 0.0
-        places = found + rng.normal(0.0, unit.marker_mm, found.shape)
-    else:
-        depths = _at(heights, places, sensor)
+    heights = checked_heights(height_mm)
+    positions = marker_positions_mm(sensor)
+    if unit is None:
+        depths = _heights_at(heights, positions, sensor)
         depths -= np.median(depths)
-    points = np.concatenate([places, depths[:, None]], axis=1)
+    elif rng is None:
+        raise TouchError("a noisy unit needs a generator to draw its frame from")
+    else:
+        # Per-pixel errors and dead borders are the camera's; markers have errors of their own.
+        surface = dataclasses.replace(unit, gain_x=1.0, gain_y=1.0, fine_mm=0.0, border_mm=0.0)
+        heights = surface.apply(heights, sensor, rng).astype(np.float64)
+        positions = positions[rng.random(len(positions)) >= unit.marker_loss]
+        depths = _heights_at(heights, positions, sensor)
+        depths += rng.normal(0.0, unit.fine_mm, len(positions))
+        depths -= np.median(depths) if len(depths) else 0.0
+        positions = positions + rng.normal(0.0, unit.marker_mm, positions.shape)
+    points = np.concatenate([positions, depths[:, None]], axis=1)
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
 
 
@@ -101,28 +107,51 @@ def densified(
         cloud: At least ``MIN_POINTS`` points, not all on a line.
         rng: Jitters each point inside its cell, as ``cloud_from_heights`` does; None puts it at the
             cell's centre.
-        num_points: How many, as in ``cloud_from_heights``.
+        num_points: Number of points, as in ``cloud_from_heights``.
 
     Raises:
         TouchError: The points are all on a line.
     """
-    known = cloud.points_mm.astype(np.float64)
     u, v = stratified(num_points, rng)
     x, y = (u - 0.5) * cloud.sensor.width_mm, (0.5 - v) * cloud.sensor.height_mm
-    try:
-        z = CloughTocher2DInterpolator(known[:, :2], known[:, 2])(x, y)
-    except QhullError:
-        raise TouchError("the points of the cloud lie on a line; they span no surface") from None
-    outside = ~np.isfinite(z)
-    z[outside] = NearestNDInterpolator(known[:, :2], known[:, 2])(x[outside], y[outside])
+    z = interpolated(cloud, x, y, CloughTocher2DInterpolator)
     points = np.stack([x, y, z], axis=1).astype(np.float32)
     return TactileCloud(points_mm=points, sensor=cloud.sensor, stamp=cloud.stamp)
 
 
-def _at(
-    heights: NDArray[np.float64], places: NDArray[np.float64], sensor: SensorSpec
-) -> NDArray[np.float64]:
+def interpolated(
+    cloud: TactileCloud,
+    x_mm: FloatArray,
+    y_mm: FloatArray,
+    interpolator: type[CloughTocher2DInterpolator | LinearNDInterpolator],
+) -> FloatArray:
+    """Heights of the surface through a cloud; outside its hull, those of the nearest points.
+
+    Args:
+        cloud: Points that are not all on a line.
+        x_mm: Any shape [mm].
+        y_mm: The same shape [mm].
+        interpolator: Class of the surface between the points.
+
+    Returns:
+        Shape of ``x_mm`` [mm].
+
+    Raises:
+        TouchError: The points are all on a line.
+    """
+    points = cloud.points_mm.astype(np.float64)
+    try:
+        z = interpolator(points[:, :2], points[:, 2])(x_mm, y_mm)
+    except QhullError:
+        raise TouchError("the points of the cloud lie on a line; they span no surface") from None
+    outside = ~np.isfinite(z)
+    nearest = NearestNDInterpolator(points[:, :2], points[:, 2])
+    z[outside] = nearest(x_mm[outside], y_mm[outside])
+    return np.asarray(z)
+
+
+def _heights_at(heights: FloatArray, positions_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
     rows, columns = heights.shape
-    row = (0.5 - places[:, 1] / sensor.height_mm) * rows - 0.5
-    column = (places[:, 0] / sensor.width_mm + 0.5) * columns - 0.5
+    row = (0.5 - positions_mm[:, 1] / sensor.height_mm) * rows - 0.5
+    column = (positions_mm[:, 0] / sensor.width_mm + 0.5) * columns - 0.5
     return np.asarray(map_coordinates(heights, [row, column], order=1, mode="nearest"))

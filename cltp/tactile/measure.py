@@ -1,7 +1,7 @@
 """From a cloud to a contact state, computed directly: depth, position, area, force. No learning.
 
-This is what ``rules`` decides from, what ``describe`` prints, and the direct computation that
-learned models are compared with. Shape and texture are not computed here. Loads no torch.
+The ``rules`` policy decides from this, ``describe`` prints it, and learned models are compared with
+it. Shape and texture are not computed here. Loads no torch.
 """
 
 from __future__ import annotations
@@ -12,27 +12,32 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
-
-FloatArray = NDArray[np.float64]
+from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
+from cltp.tactile.states import (
+    NO_CONTACT_STATE,
+    ContactState,
+    Side,
+    area_word,
+    depth_word,
+    position_word,
+)
 
 NO_CONTACT_MM = 0.10
 """A gel whose deepest points lie less than this deep is untouched.
 
 Our choice: with a drift of 0.04 mm about two of five untouched frames seem to be touched at this
 limit, and a tenth of the grasps with 0.15-0.3 N are missed (``tacgrasp bench touch`` prints both).
-A touch missed costs a second grasp, one imagined a step.
+A missed contact costs a second grasp, an imagined one costs a step.
 """
 
-FOOTPRINT_SHARE = 0.25
-"""A point counts as pressed from this share of the depth on. Fitted on noisy contacts of berries,
-tomatoes, eggs and pegs: the area class is then right most often (69 %). Flat punches would want 0.5
-and soft textures less; a learned encoder knows which is which, this does not."""
+FOOTPRINT_FRACTION = 0.25
+"""A point counts as in contact from this fraction of the depth on. Fitted on noisy contacts of
+berries, tomatoes, eggs and pegs: the area class is then right most often (69 %). Flat punches would
+want 0.5 and soft textures less; a learned encoder can tell them apart, this computation can't."""
 
-_BODY_SHARE = 0.5  # what lies above this share of the depth says where the contact is
-_REGION_SHARE = 0.3  # a region of less than this share of the largest one is drift, not contact
-_TOP = 3  # points whose mean is the depth: one alone is at the mercy of the noise
+_BODY_FRACTION = 0.5  # what is deeper than this fraction of the depth gives the position
+_REGION_FRACTION = 0.3  # a region of less than this fraction of the largest one is drift
+_DEEPEST_CELLS = 3  # cells whose mean is the depth: one alone is at the mercy of the noise
 _MAX_CELLS = 64
 
 
@@ -40,42 +45,33 @@ def contact_state(cloud: TactileCloud) -> ContactState:
     """Measure a contact.
 
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
-    is the mean of the three deepest cells; position the centroid of what is deeper than half of
-    that, weighted by how much; area the share of cells deeper than a quarter; force follows from
-    the volume displaced.
+    is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
+    that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
+    from the displaced volume.
     """
     depths, x, y = _cells(cloud)
-    depth = float(np.sort(depths[np.isfinite(depths)])[-_TOP:].mean())
+    depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
     if depth < NO_CONTACT_MM:
-        return ContactState(
-            depth_mm=0.0,
-            x_mm=0.0,
-            y_mm=0.0,
-            area_fraction=0.0,
-            force_n=0.0,
-            depth=None,
-            position=None,
-            area=None,
-        )
+        return NO_CONTACT_STATE
     filled = np.nan_to_num(depths, nan=0.0)
-    at_x, at_y = _place(filled, depth, x, y)
-    pressed = filled > FOOTPRINT_SHARE * depth
-    share = float(pressed.sum() / np.isfinite(depths).sum())
+    x_mm, y_mm = _centroid_mm(filled, depth, x, y)
+    footprint = filled > FOOTPRINT_FRACTION * depth
+    fraction = float(footprint.sum() / np.isfinite(depths).sum())
     return ContactState(
         depth_mm=depth,
-        x_mm=at_x,
-        y_mm=at_y,
-        area_fraction=share,
+        x_mm=x_mm,
+        y_mm=y_mm,
+        area_fraction=fraction,
         force_n=force_from(filled, depth, cloud.sensor.area_mm2),
         depth=depth_word(depth),
-        position=position_word(at_x, at_y, cloud.sensor),
-        area=area_word(share),
-        cut=_cut(filled, depth),
+        position=position_word(x_mm, y_mm, cloud.sensor),
+        area=area_word(fraction),
+        cut=cut_sides(filled > _BODY_FRACTION * depth, least=3, width=2),
     )
 
 
 def _cells(cloud: TactileCloud) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Mean indentation in n × n cells of the field, NaN where no point is, and their centres."""
+    """Mean indentation in n × n cells, NaN where no point is, and the cells' centres [mm]."""
     sensor, points = cloud.sensor, cloud.points_mm.astype(np.float64)
     n = min(_MAX_CELLS, math.isqrt(len(points)))
     column = np.clip(((points[:, 0] / sensor.width_mm + 0.5) * n).astype(int), 0, n - 1)
@@ -85,39 +81,44 @@ def _cells(cloud: TactileCloud) -> tuple[FloatArray, FloatArray, FloatArray]:
     total = np.bincount(index, weights=points[:, 2], minlength=n * n)
     with np.errstate(invalid="ignore"):
         mean = (total / count).reshape(n, n)
-    centres = (np.arange(n) + 0.5) / n - 0.5
-    return mean, centres * sensor.width_mm, -centres * sensor.height_mm
+    return mean, *grid_axes_mm(sensor, n, n)
 
 
-def _place(depths: FloatArray, depth: float, x: FloatArray, y: FloatArray) -> tuple[float, float]:
+def _centroid_mm(
+    depths: FloatArray, depth: float, x: FloatArray, y: FloatArray
+) -> tuple[float, float]:
     """Centroid [mm] of what is deeper than half, without the stray regions that drift makes."""
-    weight = np.clip(depths - _BODY_SHARE * depth, 0, None)
+    weight = np.clip(depths - _BODY_FRACTION * depth, 0, None)
     regions, count = ndimage.label(weight > 0, structure=np.ones((3, 3)))
     sums = ndimage.sum_labels(weight, regions, np.arange(1, count + 1))
-    stray = np.flatnonzero(sums < _REGION_SHARE * sums.max()) + 1
+    stray = np.flatnonzero(sums < _REGION_FRACTION * sums.max()) + 1
     weight[np.isin(regions, stray)] = 0
     total = weight.sum()
     return float((weight.sum(axis=0) @ x) / total), float((weight.sum(axis=1) @ y) / total)
 
 
-def _cut(depths: FloatArray, depth: float) -> frozenset[Side]:
-    """Sides along whose border the gel is pressed to at least half of the depth."""
+def cut_sides(footprint: NDArray[np.bool_], *, least: int, width: int = 1) -> frozenset[Side]:
+    """Sides of the pad that a contact runs over.
+
+    Args:
+        footprint: Shape (H, W), row 0 = top: where the gel is in contact.
+        least: Cells of a border that must be in contact.
+        width: Rows or columns that make up a border.
+    """
     borders = {
-        Side.TOP: depths[:2],
-        Side.BOTTOM: depths[-2:],
-        Side.LEFT: depths[:, :2],
-        Side.RIGHT: depths[:, -2:],
+        Side.TOP: footprint[:width],
+        Side.BOTTOM: footprint[-width:],
+        Side.LEFT: footprint[:, :width],
+        Side.RIGHT: footprint[:, -width:],
     }
-    return frozenset(
-        side for side, border in borders.items() if (border > _BODY_SHARE * depth).sum() >= 3
-    )
+    return frozenset(side for side, border in borders.items() if border.sum() >= least)
 
 
 STIFFNESS_N_PER_MM3 = 0.167
 """Force over displaced volume. Fitted; see ``force_from``."""
 
 
-def force_from(depths: FloatArray, depth: float, field_mm2: float) -> float:
+def force_from(depths: FloatArray, depth: float, sensing_mm2: float) -> float:
     """Normal force [N] that a displaced volume suggests, for a gel like a GelSight Mini's.
 
     F = k V, V [mm³] the volume above a fifth of the depth. Source: fit to simulated berries,
@@ -127,4 +128,4 @@ def force_from(depths: FloatArray, depth: float, field_mm2: float) -> float:
     ``tacgrasp bench touch`` prints it anew.
     """
     mean = float(np.clip(depths - max(0.2 * depth, 0.02), 0, None).mean())
-    return STIFFNESS_N_PER_MM3 * mean * field_mm2
+    return STIFFNESS_N_PER_MM3 * mean * sensing_mm2

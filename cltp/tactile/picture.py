@@ -1,8 +1,8 @@
-"""Pictures of contacts for people: the deformed gel as a mesh, seen from the sensor, in colour.
+"""Pictures of contacts for people: the deformed gel as the sensor's camera sees it, in colour.
 
-Light as in such a sensor: red from the left, green from the top, blue from the lower right, each
-low over the surface, and a weak white one from the camera. What is pressed in comes towards the
-viewer. Made on demand, never stored.
+The light is that of such a sensor: red from the left, green from the top, blue from the lower
+right, each low over the surface, and a weak white one from the camera. Indentations come towards
+the viewer. Pictures are made on demand, never stored.
 
 Not here: the image tower's input (``cltp.tactile.render``), on which trained weights depend.
 """
@@ -13,19 +13,17 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter, map_coordinates
 
-from cltp.errors import TouchError
+from cltp.tactile.cloud import FloatArray, checked_heights
 from cltp.tactile.sensors import SensorSpec
 
-FloatArray = NDArray[np.float64]
-
 WIDTH_PX = 320
-"""Width of a picture; its height follows from the sensor's field."""
+"""Width of a picture; its height follows from the sensing area."""
 
 RELIEF = 2.5
 """Slopes are drawn this much steeper than they are, the same for every contact. Our choice: a
-contact of 0.1 mm is seen, one of 1 mm is not yet black and white."""
+contact of 0.1 mm is visible, one of 1 mm is not yet black and white."""
 
-_LIGHTS = (  # direction from which it comes (x right, y up, z to the viewer), colour, strength
+_LIGHTS = (  # direction towards the lamp (x right, y up, z to the viewer), colour, strength
     ((-0.92, 0.10, 0.34), (1.00, 0.26, 0.20), 0.66),
     ((0.20, 0.90, 0.34), (0.24, 0.95, 0.38), 0.58),
     ((0.72, -0.60, 0.34), (0.22, 0.42, 1.00), 0.72),
@@ -37,60 +35,26 @@ _HOLLOW_MM = 1.2  # radius over which a valley is darkened
 _HOLLOW_GAIN = 2.5  # per mm below its surroundings
 
 
-def surface_mesh(
-    height_mm: NDArray[np.floating], sensor: SensorSpec
-) -> tuple[FloatArray, NDArray[np.int64]]:
-    """The deformed surface as triangles.
-
-    Args:
-        height_mm: Shape (H, W), indentation over the whole field [mm], row 0 = top.
-        sensor: Whose field it is.
-
-    Returns:
-        Vertices, shape (H·W, 3) [mm, gel frame], and faces, shape (2 (H-1)(W-1), 3), counter-
-        clockwise seen from the sensor (from +z).
-
-    Raises:
-        TouchError: It is no height map.
-    """
-    heights = _checked(height_mm)
-    rows, columns = heights.shape
-    x = ((np.arange(columns) + 0.5) / columns - 0.5) * sensor.width_mm
-    y = (0.5 - (np.arange(rows) + 0.5) / rows) * sensor.height_mm
-    at_x, at_y = np.meshgrid(x, y)
-    vertices = np.stack([at_x.ravel(), at_y.ravel(), heights.ravel()], axis=1)
-    number = np.arange(rows * columns).reshape(rows, columns)
-    top_left, top_right = number[:-1, :-1].ravel(), number[:-1, 1:].ravel()
-    low_left, low_right = number[1:, :-1].ravel(), number[1:, 1:].ravel()
-    faces = np.concatenate(
-        [
-            np.stack([top_left, low_left, top_right], axis=1),
-            np.stack([top_right, low_left, low_right], axis=1),
-        ]
-    )
-    return vertices, faces.astype(np.int64)
-
-
 def picture(
     height_mm: NDArray[np.floating], sensor: SensorSpec, width_px: int = WIDTH_PX
 ) -> NDArray[np.uint8]:
     """The surface as the sensor's camera sees it, shaded.
 
-    The camera looks straight at the pad, so the mesh's picture is that of its normals: no triangle
-    hides another. Heights are interpolated by cubic splines to the picture's pixels.
+    The camera looks straight at the pad, so no part of the surface hides another and the normals
+    give the shading. Heights are interpolated by cubic splines to the picture's pixels.
 
     Args:
         height_mm: Shape (H, W), clean or noisy [mm], row 0 = top.
-        sensor: Whose field it is.
+        sensor: The sensor that measured it.
         width_px: Width of the picture.
 
     Returns:
         Shape (rows, width_px, 3), sRGB.
 
     Raises:
-        TouchError: It is no height map.
+        TouchError: Not a height map.
     """
-    heights, pitch_mm = _fine(height_mm, sensor, width_px)
+    heights, pitch_mm = _resampled(height_mm, sensor, width_px)
     down, right = np.gradient(heights, pitch_mm)
     normal = np.stack([-RELIEF * right, RELIEF * down, np.ones_like(heights)], axis=-1)
     normal /= np.linalg.norm(normal, axis=-1, keepdims=True)
@@ -108,7 +72,7 @@ def picture(
 
 
 _DEPTH_COLOURS = np.array(
-    [  # below the untouched surface, at it, then deeper and deeper
+    [  # below the untouched surface, at it, then with growing depth
         (38, 70, 122),
         (24, 28, 38),
         (92, 38, 96),
@@ -127,34 +91,24 @@ def depth_picture(
 ) -> NDArray[np.uint8]:
     """The height map in colours that mean the same depth in every picture, shape as ``picture``.
 
-    Colours change at the limits of the depth classes; what rises around a contact is blue.
+    Colours change at the limits of the depth classes; the bulge around a contact is blue.
 
     Raises:
-        TouchError: It is no height map.
+        TouchError: Not a height map.
     """
-    heights, _ = _fine(height_mm, sensor, width_px)
+    heights, _ = _resampled(height_mm, sensor, width_px)
     channels = [np.interp(heights, _DEPTH_STOPS_MM, _DEPTH_COLOURS[:, i]) for i in range(3)]
     return np.rint(np.stack(channels, axis=-1)).astype(np.uint8)
 
 
-def _fine(
+def _resampled(
     height_mm: NDArray[np.floating], sensor: SensorSpec, width_px: int
 ) -> tuple[FloatArray, float]:
-    """Heights at a picture's pixels, and how far apart these are [mm]."""
-    heights = _checked(height_mm)
+    """Heights at a picture's pixels, and the distance between these [mm]."""
+    heights = checked_heights(height_mm)
     pitch_mm = sensor.width_mm / width_px
     rows = round(sensor.height_mm / pitch_mm)
     v = (np.arange(rows) + 0.5) / rows * heights.shape[0] - 0.5
     u = (np.arange(width_px) + 0.5) / width_px * heights.shape[1] - 0.5
-    at = np.stack(np.meshgrid(v, u, indexing="ij"))
-    fine = map_coordinates(heights, at, order=3, mode="nearest")
-    return np.asarray(fine, dtype=np.float64), pitch_mm
-
-
-def _checked(height_mm: NDArray[np.floating]) -> FloatArray:
-    heights = np.asarray(height_mm, dtype=np.float64)
-    if heights.ndim != 2 or min(heights.shape) < 8 or not np.isfinite(heights).all():
-        raise TouchError(
-            f"a picture needs finite heights of shape (H, W) from 8 × 8 up, got {heights.shape}"
-        )
-    return heights
+    pixels = np.stack(np.meshgrid(v, u, indexing="ij"))
+    return np.asarray(map_coordinates(heights, pixels, order=3, mode="nearest")), pitch_mm

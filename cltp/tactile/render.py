@@ -6,8 +6,6 @@ from the top (green), and its indentation is the third colour, so that slope and
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import torch
 import torch.nn.functional as F
@@ -17,18 +15,18 @@ from torch import Tensor
 from cltp.tactile.sensors import SensorSpec
 
 IMAGE_PX = 64
-"""Edge of an image; the whole field is stretched to a square."""
+"""Edge of an image; the whole sensing area is stretched to a square."""
 
 SLOPE_GAIN = 1.5
-"""A slope of 1/3, about the steepest that a gel keeps, spans the shading."""
+"""Shading per slope: ±1/3, about the steepest slope of a gel, spans the whole range."""
 
 
 def render(height_mm: NDArray[np.floating], sensor: SensorSpec) -> Tensor:
-    """The image of one height map.
+    """Shade one height map.
 
     Args:
         height_mm: Shape (H, W), clean or noisy [mm], row 0 = top.
-        sensor: Gives the size of a pixel, and the depth that is brightest.
+        sensor: Gives the size of a pixel and the depth of the brightest value.
 
     Returns:
         Shape (3, 64, 64), 0 to 1.
@@ -45,8 +43,3 @@ def render(height_mm: NDArray[np.floating], sensor: SensorSpec) -> Tensor:
             (0.1 + small / sensor.max_depth_mm).clamp(0, 1),
         ]
     )
-
-
-def render_batch(height_mm: Sequence[NDArray[np.floating]], sensor: SensorSpec) -> Tensor:
-    """Images of height maps, shape (B, 3, 64, 64)."""
-    return torch.stack([render(heights, sensor) for heights in height_mm])

@@ -1,7 +1,8 @@
-"""What a real sensor adds to the height map of a gel: unit errors, drift, fine noise, a lost zero.
+"""Errors of a real sensor on the height map of a gel: of the unit, drift, fine noise, a lost zero.
 
-Drawn whenever a contact is read and never baked into data. The simulated sensor and training use
-the same model. It is applied to the clean heights, before a cloud is sampled. Loads no torch.
+They are drawn whenever a contact is read and never stored in data. The simulated sensor and
+training use the same model. It is applied to clean heights, before a cloud is sampled. Loads no
+torch.
 
 Not here: the gel itself (``sim``), the sampling of points (``cltp.tactile.cloud``).
 
@@ -34,7 +35,7 @@ GAIN_LOG_RATIO = 0.6
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class NoiseSpread:
-    """How the units of one model of sensor differ, and their frames.
+    """Spread of errors among the units of one model of sensor, and among their frames.
 
     Attributes:
         depth_scale: Half width of the uniform distribution of the factor on heights, about 1.
@@ -42,11 +43,11 @@ class NoiseSpread:
         drift_mm: Standard deviation of the low-frequency error in a frame [mm].
         drift_length_mm: Range of its correlation length, uniform [mm].
         fine_mm: Standard deviation of the error of one pixel, or of one marker's depth [mm].
-        gain_log_ratio: Largest |ln| of the ratio of the gradients' gains, uniform, of a unit that
-            nobody calibrated; 0 where heights are not integrated from gradients.
-        border_mm: Largest width of the dead border, uniform from 0; no gradient is seen there [mm].
-        marker_mm: Standard deviation of a marker's place along x and along y [mm].
-        marker_loss: Chance that a marker is not found in a frame.
+        gain_log_ratio: Largest |ln| of the ratio of the gradients' gains, uniform, of an
+            uncalibrated unit; 0 where heights are not integrated from gradients.
+        border_mm: Largest width of the dead border, uniform from 0; its gradients are lost [mm].
+        marker_mm: Standard deviation of a marker's position along x and along y [mm].
+        marker_loss: Probability that a marker is not detected in a frame.
     """
 
     depth_scale: float
@@ -70,8 +71,8 @@ SPREADS: dict[str, NoiseSpread] = {
         fine_mm=FINE_MM,
         gain_log_ratio=GAIN_LOG_RATIO,
     ),
-    # Not measured. Our assumption: as the GelSight Mini, photometric too, but nobody calibrates
-    # it as well, and its curved gel is out of sight within up to 1 mm of the border.
+    # Not measured. Our assumption: like the GelSight Mini, which is photometric too, but less well
+    # calibrated, and its curved gel is out of sight within up to 1 mm of the border.
     "digit": NoiseSpread(
         depth_scale=0.20,
         tilt=0.005,
@@ -83,8 +84,8 @@ SPREADS: dict[str, NoiseSpread] = {
     ),
     # Stereo: 0.1 px of error in either view at f = 651 px, base 6.5 mm and 28.7 mm distance (as in
     # TacFlex) is 0.027 mm in depth and 0.004 mm along the surface. Loss: 93.9 % of the markers in
-    # contact are found (Marknet, arXiv 2211.13428), nearly all elsewhere; 3 % is our mean. Scale,
-    # tilt and drift are what a calibration through refracting layers leaves: assumed.
+    # contact are detected (Marknet, arXiv 2211.13428), nearly all elsewhere; 3 % is our mean.
+    # Scale, tilt and drift are assumed: what a calibration through refracting layers leaves.
     "gelstereo": NoiseSpread(
         depth_scale=0.05,
         tilt=0.001,
@@ -100,10 +101,10 @@ SPREADS: dict[str, NoiseSpread] = {
 
 
 def spread_of(sensor: SensorSpec) -> NoiseSpread:
-    """What is known or assumed of a sensor's noise.
+    """Measured or assumed noise of a sensor.
 
     Raises:
-        TouchError: Nothing is; the message lists the sensors of which something is.
+        TouchError: No noise is known for it; the message lists the sensors with known noise.
     """
     try:
         return SPREADS[sensor.name]
@@ -117,15 +118,15 @@ class NoiseUnit:
     """The errors of one sensor unit, which stay the same for an episode.
 
     Attributes:
-        depth_scale: Factor on every height; its calibration is off by that much.
-        tilt_x, tilt_y: Slope that the unit adds [mm per mm of the field].
+        depth_scale: Factor on every height: the error of its calibration.
+        tilt_x, tilt_y: Slope that the unit adds [mm per mm].
         gain_x, gain_y: Factors on the gradients along x and y before they are integrated.
         drift_mm: Standard deviation of the low-frequency error, new in every frame [mm].
         fine_mm: Standard deviation of the error of a single pixel, new in every frame [mm].
         drift_length_mm: Range of the correlation length of the low-frequency error [mm].
         border_mm: Width of the dead border: heights there are those at its inner edge [mm].
-        marker_mm: Standard deviation of the place of a marker, new in every frame [mm].
-        marker_loss: Chance that a marker is not found in a frame.
+        marker_mm: Standard deviation of a marker's position, new in every frame [mm].
+        marker_loss: Probability that a marker is not detected in a frame.
     """
 
     depth_scale: float = 1.0
@@ -152,11 +153,11 @@ class NoiseUnit:
         """Draw a unit.
 
         Args:
-            rng: Where the draws come from.
-            level: 1 is the sensor that was measured, 0 a perfect one; scales every spread.
-            gain_log_ratio: Largest |ln(gain_x / gain_y)|; ``spread.gain_log_ratio`` for units that
-                nobody calibrated. The product of both gains is 1.
-            spread: Of the model of sensor, from ``spread_of``.
+            rng: Source of the draws.
+            level: Factor on every spread: 1 is the measured sensor, 0 a perfect one.
+            gain_log_ratio: Largest |ln(gain_x / gain_y)|; ``spread.gain_log_ratio`` for
+                uncalibrated units. The product of both gains is 1.
+            spread: Spread of the model of sensor, from ``spread_of``.
 
         Raises:
             TouchError: ``level`` or ``gain_log_ratio`` is negative or not finite.
@@ -176,7 +177,7 @@ class NoiseUnit:
             drift_mm=level * spread.drift_mm,
             fine_mm=level * spread.fine_mm,
             drift_length_mm=spread.drift_length_mm,
-            # No draw where there is none: what is drawn after a unit must stay what it was.
+            # Without a border nothing is drawn: draws after the unit must stay reproducible.
             border_mm=level * rng.uniform(0, spread.border_mm) if spread.border_mm > 0 else 0.0,
             marker_mm=level * spread.marker_mm,
             marker_loss=min(1.0, level * spread.marker_loss),
@@ -188,8 +189,8 @@ class NoiseUnit:
         """Heights as this unit would report them in one frame.
 
         Args:
-            height_mm: Shape (H, W), true indentation over the sensor's whole field [mm].
-            sensor: Whose field it is.
+            height_mm: Shape (H, W), true indentation over the whole sensing area [mm].
+            sensor: The model of the unit.
             rng: Draws this frame's drift and fine noise.
 
         Returns:
@@ -217,7 +218,7 @@ class NoiseUnit:
 def _without_border(
     height_mm: NDArray[np.float32], sensor: SensorSpec, border_mm: float
 ) -> NDArray[np.float32]:
-    """Heights whose gradient is lost within ``border_mm`` of the border: they end at its edge."""
+    """Heights without gradient within ``border_mm`` of the border: those of its inner edge."""
     rows, columns = height_mm.shape
     dead_rows = min(round(border_mm / sensor.height_mm * rows), (rows - 1) // 2)
     dead_columns = min(round(border_mm / sensor.width_mm * columns), (columns - 1) // 2)
@@ -234,8 +235,8 @@ def smooth_field(
     along either axis: two small matrix products, whatever the size of the map.
 
     Args:
-        shape: (H, W) of the map over the whole field.
-        sensor: Whose field it is.
+        shape: (H, W) of the map over the whole sensing area.
+        sensor: Gives the size of the sensing area.
         length_mm: Distance at which the correlation has fallen to 1/e [mm].
         rng: Draws the nodes.
     """
@@ -267,7 +268,7 @@ def _plane(
 def integrated_with_gains(
     height_mm: NDArray[np.floating], sensor: SensorSpec, gain_x: float, gain_y: float
 ) -> NDArray[np.float32]:
-    """Heights that Poisson integration finds when the gradients are off by two gains.
+    """Heights that Poisson integration yields when the gradients are off by two gains.
 
     With free (Neumann) edges each cosine mode of wavenumbers (kx, ky) is multiplied by
     (gain_x kx² + gain_y ky²) / (kx² + ky²); the mean is kept.
@@ -281,7 +282,7 @@ def integrated_with_gains(
 
 @lru_cache(maxsize=8)
 def _gain_factor(shape: tuple[int, int], width_mm: float, height_mm: float) -> NDArray[np.float32]:
-    """Share kx² / (kx² + ky²) of every cosine mode, 0 for the mean."""
+    """kx² / (kx² + ky²) of every cosine mode, 0 for the mean."""
     ky = np.arange(shape[0])[:, None] / height_mm
     kx = np.arange(shape[1])[None, :] / width_mm
     total = kx**2 + ky**2

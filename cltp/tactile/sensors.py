@@ -1,7 +1,7 @@
-"""Geometry constants of the tactile sensors that we know, and the gel frame they share.
+"""Geometry constants of the supported tactile sensors, and the gel frame they share.
 
-Gel frame: origin at the pad's centre, seen as the sensor sees it; +x right, +y towards the palm
-('top'), -y towards the fingertip ('bottom'), z = indentation in mm, positive into the gel.
+Gel frame: origin at the centre of the sensing area, in the sensor's own view; +x right, +y towards
+the palm ('top'), -y towards the fingertip ('bottom'), z = indentation in mm, positive into the gel.
 Row 0 of a height map is the top (+y), column 0 the left (-x).
 
 Not here: materials and noise of a gel (``sim.gel.layer``, ``cltp.tactile.sensor_noise``), frame
@@ -17,17 +17,17 @@ from cltp.errors import TouchError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SensorSpec:
-    """What is fixed about one model of sensor.
+    """Constants of one model of sensor.
 
     Attributes:
         name: Identifier used in files and on the command line.
         columns: Width of its height map [px].
         rows: Height of its height map [px].
         mm_per_px: Edge of a (square) pixel on the gel [mm].
-        gel_mm: Thickness of the gel [mm]; nothing can be pressed deeper.
-        max_depth_mm: Indentation that the scaled z = 1 stands for [mm]; constant of the sensor.
-        markers: Rows and columns of tracked markers, in the middles of as many equal cells of the
-            field; None where the sensor sees its whole surface.
+        gel_mm: Thickness of the gel [mm], the limit of any indentation.
+        max_depth_mm: Indentation at which the scaled z is 1 [mm].
+        markers: Rows and columns of tracked markers, each in the middle of one of as many equal
+            cells of the sensing area; None where the sensor sees its whole surface.
     """
 
     name: str
@@ -40,23 +40,23 @@ class SensorSpec:
 
     @property
     def width_mm(self) -> float:
-        """Extent of the field along x [mm]."""
+        """Extent of the sensing area along x [mm]."""
         return self.columns * self.mm_per_px
 
     @property
     def height_mm(self) -> float:
-        """Extent of the field along y [mm]."""
+        """Extent of the sensing area along y [mm]."""
         return self.rows * self.mm_per_px
 
     @property
     def area_mm2(self) -> float:
-        """Area of the field [mm²]."""
+        """Size of the sensing area [mm²]."""
         return self.width_mm * self.height_mm
 
 
 # 320×240 px and 0.0634 mm/px: gsrobotics README (GelSight Mini); gel 3.6 mm: fit of the elastic
 # layer to real presses, shared notes. DIGIT: 320×240 at the value that gs_sdk uses; gel thickness
-# not published, ours assumed alike. GelStereo 2.0: about 530 tracked points and a square field of
+# not published, assumed like the Mini's. GelStereo 2.0: about 530 tracked points, a square area of
 # 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers, github.com/Zhang-Chaofan);
 # that the points are 23 × 23 in equal cells, and the gel's thickness, are assumed. Rows, columns
 # and mm_per_px are those of the grid that we simulate it on.

@@ -1,8 +1,10 @@
 """The vocabulary of contact states: 19 shapes, 5 textures, 4 depths, 9 positions, 5 areas.
 
 The paper (section 3.2) names the counts and some of the words; the others, and the limits between
-classes, are our completion and stand beside each class below. How a state is computed from a cloud
-is in ``cltp.tactile.measure``, how it is worded in ``cltp.texts.captions``. Loads no torch.
+classes, are our completion and stand beside each class below. Loads no torch.
+
+Not here: computing a state from a cloud (``cltp.tactile.measure``), wording it
+(``cltp.texts.captions``).
 """
 
 from __future__ import annotations
@@ -15,7 +17,7 @@ from cltp.tactile.sensors import SensorSpec
 
 
 class Shape(StrEnum):
-    """Local geometry of what touches the gel."""
+    """Local geometry of the object in contact."""
 
     SPHERE = "sphere"  # cap, ratio of principal curvatures below 1.4
     ELLIPSOID = "ellipsoid"  # cap, ratio 1.4 to 4
@@ -24,7 +26,7 @@ class Shape(StrEnum):
     HEXAGON = "hexagon"  # flat punch, hexagonal outline
     DISC = "disc"  # flat punch, circular outline
     PEAK = "peak"  # cone or pyramid tip, half-angle 20-60°
-    PLANE = "plane"  # flat, more than 80 % of the field
+    PLANE = "plane"  # flat, more than 80 % of the sensing area
     CYLINDER = "cylinder"  # side of a rod, radius at least 1.5 mm
     RING = "ring"  # annulus or torus
     CRESCENT = "crescent"  # part of one
@@ -39,7 +41,7 @@ class Shape(StrEnum):
 
 
 class Texture(StrEnum):
-    """Fine relief on the touching surface."""
+    """Fine relief on the surface in contact."""
 
     SMOOTH = "smooth"  # below 10 µm
     ROUGH = "rough"  # isotropic, σ 30-80 µm, correlation 0.3-0.6 mm
@@ -58,7 +60,7 @@ class Depth(StrEnum):
 
 
 class Position(StrEnum):
-    """Cell of the field, in thirds, where the contact is."""
+    """Cell of the sensing area, in thirds, that holds the contact."""
 
     TOP_LEFT = "top-left"
     TOP_CENTER = "top-center"
@@ -72,7 +74,7 @@ class Position(StrEnum):
 
 
 class Area(StrEnum):
-    """Share of the field in contact."""
+    """Fraction of the sensing area in contact."""
 
     TINY = "tiny"  # below 3 %
     SMALL = "small"  # 3-8 %
@@ -88,6 +90,18 @@ class Side(StrEnum):
     BOTTOM = "bottom"
     LEFT = "left"
     RIGHT = "right"
+
+    @property
+    def opposite(self) -> Side:
+        return _OPPOSITE[self]
+
+
+_OPPOSITE = {
+    Side.TOP: Side.BOTTOM,
+    Side.BOTTOM: Side.TOP,
+    Side.LEFT: Side.RIGHT,
+    Side.RIGHT: Side.LEFT,
+}
 
 
 DIMENSIONS: Mapping[str, type[StrEnum]] = {
@@ -113,19 +127,22 @@ NUMBERS = ("depth_mm", "x_mm", "y_mm", "area_fraction", "force_n")
 DEPTH_LIMITS_MM = (0.3, 0.6, 0.9)
 AREA_LIMITS = (0.03, 0.08, 0.15, 0.30)
 
+CUT_MM = 0.6
+"""Length of border in contact from which a side cuts a contact. Our choice: a point of a cloud."""
+
 
 def depth_word(depth_mm: float) -> Depth:
     """Class of an indentation [mm]."""
     return list(Depth)[sum(depth_mm >= limit for limit in DEPTH_LIMITS_MM)]
 
 
-def area_word(share: float) -> Area:
-    """Class of a share of the field, 0 to 1."""
-    return list(Area)[sum(share >= limit for limit in AREA_LIMITS)]
+def area_word(fraction: float) -> Area:
+    """Class of a fraction of the sensing area, 0 to 1."""
+    return list(Area)[sum(fraction >= limit for limit in AREA_LIMITS)]
 
 
 def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
-    """Cell, in thirds of the sensor's field, of a point [mm, gel frame]."""
+    """Cell, in thirds of the sensing area, of a point [mm, gel frame]."""
     column = sum(x_mm >= limit for limit in (-sensor.width_mm / 6, sensor.width_mm / 6))
     row = sum(y_mm <= limit for limit in (sensor.height_mm / 6, -sensor.height_mm / 6))
     return list(Position)[3 * row + column]
@@ -133,17 +150,17 @@ def position_word(x_mm: float, y_mm: float, sensor: SensorSpec) -> Position:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactState:
-    """What a contact is, in numbers and words.
+    """A contact in numbers and words.
 
     Attributes:
         depth_mm: Largest indentation [mm]; 0 without contact.
-        x_mm, y_mm: Where the contact is [mm, gel frame]: its deepest point, and for flat contacts
-            the centre of what is pressed; 0, 0 without contact.
-        area_fraction: Share of the field in contact, 0 to 1.
+        x_mm, y_mm: Position [mm, gel frame]: the deepest point, and for flat contacts the centre of
+            the footprint; 0, 0 without contact.
+        area_fraction: Fraction of the sensing area in contact, 0 to 1.
         force_n: Normal force that the gel's shape suggests [N]; an estimate.
-        depth, position, area: Their classes; None without contact.
+        depth, position, area: Classes of these numbers; None without contact.
         cut: Sides of the pad that the contact runs over.
-        shape, texture: None when nobody has named them (they need a learned encoder or a label).
+        shape, texture: Classes from a learned encoder or a label; None without either.
     """
 
     depth_mm: float
@@ -160,5 +177,16 @@ class ContactState:
 
     @property
     def in_contact(self) -> bool:
-        """Whether anything touches."""
         return self.depth is not None
+
+
+NO_CONTACT_STATE = ContactState(
+    depth_mm=0.0,
+    x_mm=0.0,
+    y_mm=0.0,
+    area_fraction=0.0,
+    force_n=0.0,
+    depth=None,
+    position=None,
+    area=None,
+)

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Texts about contacts: captions, paraphrases, prompts, questions, and their tokenizer.
+
+Not here: instructions and lessons for the language model (``tacgrasp.lessons``).
+"""

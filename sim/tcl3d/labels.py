@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.measure import cut_sides
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
+    CUT_MM,
     ContactState,
     Shape,
-    Side,
     Texture,
     area_word,
     depth_word,
@@ -35,9 +36,6 @@ from sim.tcl3d.masks import covered_fraction
 CLOSING_MM = 1.4
 """Gaps in contact narrower than this are closed. Our choice: just below the longest period (1.5 mm)
 of ridged and woven textures, well below the shortest pitch (2 mm) of dots."""
-
-CUT_MM = 0.6
-"""Length of border in contact from which a side cuts a contact. Our choice: a point of a cloud."""
 
 
 def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
@@ -109,18 +107,7 @@ def label(
         depth=depth_word(depth_mm),
         position=position_word(x_mm, y_mm, sensor),
         area=area_word(area_fraction),
-        cut=_cut(touching, sensor.width_mm / columns),
+        cut=cut_sides(touching, least=round(CUT_MM / (sensor.width_mm / columns))),
         shape=shape,
         texture=texture,
     )
-
-
-def _cut(touching: NDArray[np.bool_], pitch_mm: float) -> frozenset[Side]:
-    borders = {
-        Side.TOP: touching[0],
-        Side.BOTTOM: touching[-1],
-        Side.LEFT: touching[:, 0],
-        Side.RIGHT: touching[:, -1],
-    }
-    min_points = round(CUT_MM / pitch_mm)
-    return frozenset(side for side, border in borders.items() if border.sum() >= min_points)

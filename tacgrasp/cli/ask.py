@@ -32,17 +32,17 @@ class Ask:
 def main(argv: Sequence[str]) -> int:
     """Answer one question."""
     flags = parse(Ask, argv, prog="tacgrasp ask")
-    from cltp.sensing.touch_files import read_touch
+    from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.policy_factory import load_llm
 
-    touch = read_touch(flags.file, sensor_named(flags.sensor))
+    touch = read_cloud(flags.file, sensor_named(flags.sensor))
     policy = load_llm(flags.weights)
     try:
         policy.check(flags.question)
     except PolicyError as error:
         raise UsageError(str(error)) from None
-    console().print(policy.ask(touch, flags.question))
+    make_console().print(policy.ask(touch, flags.question))
     return 0

@@ -38,16 +38,16 @@ class Describe:
 def main(argv: Sequence[str]) -> int:
     """Describe one file."""
     flags = parse(Describe, argv, prog="tacgrasp describe")
-    from cltp.sensing.touch_files import read_touch
+    from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
     from tacgrasp.config.layers import load
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.playback.describe import describe, said
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
-    to = console()
-    touch = read_touch(
+    to = make_console()
+    touch = read_cloud(
         flags.file,
         sensor_named(flags.sensor),
         background=flags.background,

@@ -1,4 +1,4 @@
-"""Real touches to try encoders on: frames, height maps or clouds, and a table of labels.
+"""Real touches with labels: frames, height maps or clouds, and a table of their classes.
 
 The table is CSV with the columns ``file, shape, texture, depth, position, area``: a file relative
 to the folder, and words of ``cltp.tactile.states``, empty where unknown. Frames need a picture of
@@ -21,8 +21,8 @@ from torch import Tensor
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.sampler import sampled
 from cltp.errors import TouchError
-from cltp.evaluation.features import Observed
-from cltp.evaluation.probes import Judged, judge
+from cltp.evaluation.features import EncodedContacts
+from cltp.evaluation.scores import ClassScores, score_classes
 from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_heights, read_touch
 from cltp.tactile.cloud import TactileCloud
@@ -31,7 +31,6 @@ from cltp.tactile.point_layout import EVEN, Sampling
 from cltp.tactile.render import render
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NUMBERS
-from cltp.train.text_targets import NOTHING
 from tacgrasp.base.errors import UsageError
 
 COLUMNS = ("file", *CLASSES)
@@ -39,12 +38,12 @@ BACKGROUND = "background.png"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Labelled:
+class LabelledTouch:
     """One row of the table.
 
     Attributes:
-        file: Of the touch.
-        classes: Five class numbers, ``NOTHING`` where empty.
+        file: File of the touch.
+        classes: Five class numbers, -1 where empty.
     """
 
     file: Path
@@ -52,19 +51,19 @@ class Labelled:
 
 
 @dataclass(frozen=True, slots=True)
-class Predictions:
-    """What was said of real touches.
+class TouchPredictions:
+    """Predicted classes of real touches.
 
     Attributes:
-        rows: One for each file: what was said and how near it is, by dimension.
-        judged: Against the labels.
+        rows: One for each file: its classes with their cosines or probabilities, by column.
+        scores: Scores against the labels.
     """
 
     rows: list[dict[str, str]]
-    judged: Judged
+    scores: ClassScores
 
 
-def read_labels(folder: Path, table: Path) -> list[Labelled]:
+def read_labels(folder: Path, table: Path) -> list[LabelledTouch]:
     """Read the table.
 
     Raises:
@@ -86,7 +85,7 @@ def read_labels(folder: Path, table: Path) -> list[Labelled]:
     return [_labelled(folder, table, number, row) for number, row in enumerate(rows, start=2)]
 
 
-def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> Labelled:
+def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> LabelledTouch:
     path = folder / row["file"]
     if not row["file"] or not path.is_file():
         raise UsageError(f"{table}, row {number}: {path} does not exist")
@@ -96,18 +95,23 @@ def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> La
             raise UsageError(
                 f"{table}, row {number}: no {slot} {row[slot]!r}; known: {', '.join(names)}"
             )
-        classes.append(names.index(row[slot]) if row[slot] else NOTHING)
-    return Labelled(file=path, classes=tuple(classes))
+        classes.append(names.index(row[slot]) if row[slot] else -1)
+    return LabelledTouch(file=path, classes=tuple(classes))
+
+
+def labels_of(rows: Sequence[LabelledTouch]) -> Tensor:
+    """Class numbers of touches, shape (N, 5)."""
+    return torch.tensor([row.classes for row in rows])
 
 
 @dataclass(frozen=True, slots=True)
-class Touches:
-    """What encoders take of real touches.
+class TouchInputs:
+    """Inputs of encoders, made from real touches.
 
     Attributes:
-        clouds: Of 1024 points, evenly.
+        clouds: Clouds of 1024 evenly spaced points.
         heights_mm: Height maps, shape (H, W) each, with median 0.
-        frames: Rendered, shape (N, 3, 64, 64).
+        frames: Rendered frames, shape (N, 3, 64, 64).
     """
 
     clouds: Sequence[TactileCloud]
@@ -115,19 +119,21 @@ class Touches:
     frames: Tensor
 
     def points(self, sampling: Sampling) -> Tensor:
-        """Scaled points, shape (N, side², 3), as an encoder wants them to lie."""
+        """Scaled points, shape (N, side², 3), in the layout that an encoder takes."""
         if sampling == EVEN:
             return torch.from_numpy(np.stack([encoder_input(cloud) for cloud in self.clouds]))
         rng = np.random.default_rng(0)
-        found = []
+        points = []
         for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True):
             points_mm = sampled(heights_mm, cloud.sensor, sampling, rng)
-            found.append(scaled(points_mm, cloud.sensor))
-        return torch.from_numpy(np.stack(found))
+            points.append(scaled(points_mm, cloud.sensor))
+        return torch.from_numpy(np.stack(points))
 
 
-def read_inputs(rows: list[Labelled], sensor: SensorSpec, background: Path | None) -> Touches:
-    """What encoders take of touches.
+def read_inputs(
+    rows: Sequence[LabelledTouch], sensor: SensorSpec, background: Path | None
+) -> TouchInputs:
+    """Read touches and make the inputs of encoders.
 
     Raises:
         TouchError: A file is no touch of this sensor.
@@ -140,60 +146,64 @@ def read_inputs(rows: list[Labelled], sensor: SensorSpec, background: Path | Non
         heights = read_heights(row.file, sensor, background=untouched)
         maps.append(heights - np.float32(np.median(heights)))
         frames.append(render(maps[-1], sensor))
-    return Touches(clouds, maps, torch.stack(frames))
+    return TouchInputs(clouds, maps, torch.stack(frames))
 
 
-def observed(encoder: FrozenEncoder, rows: list[Labelled], touches: Touches) -> Observed:
-    """Features of touches with their labels; of numbers nothing is known.
+def encode_touches(
+    encoder: FrozenEncoder, rows: Sequence[LabelledTouch], touches: TouchInputs
+) -> EncodedContacts:
+    """Features of touches with their labels; their numbers are NaN.
 
     Raises:
         TouchError: A feature is not finite; it names the file.
     """
-    taken = touches.frames if encoder.sees_images else touches.points(encoder.sampling)
-    parts = [encoder.read(batch) for batch in taken.split(64)]
-    pooled, feature = (torch.cat(found).float() for found in zip(*parts, strict=True))
+    inputs = touches.frames if encoder.sees_images else touches.points(encoder.sampling)
+    parts = [encoder.read(batch) for batch in inputs.split(64)]
+    pooled, feature = (torch.cat(part).float() for part in zip(*parts, strict=True))
     if not feature.isfinite().all():
-        bad = int((~feature.isfinite().all(dim=1)).nonzero()[0, 0])
-        raise TouchError(f"{rows[bad].file}: its feature is not finite")
-    return Observed(
+        row = int((~feature.isfinite().all(dim=1)).nonzero()[0, 0])
+        raise TouchError(f"{rows[row].file}: its feature is not finite")
+    return EncodedContacts(
         pooled=pooled,
         feature=feature,
-        classes=torch.tensor([row.classes for row in rows]),
+        classes=labels_of(rows),
         numbers=torch.full((len(rows), len(NUMBERS)), math.nan),
         index=torch.arange(len(rows)),
     )
 
 
-def told(rows: list[Labelled], sure: Sequence[Tensor], measure: str) -> Predictions:
-    """Name the classes of every touch.
+def predict_touches(
+    rows: Sequence[LabelledTouch], scores: Sequence[Tensor], measure: str
+) -> TouchPredictions:
+    """Take the best class of every dimension.
 
     Args:
         rows: The touches.
-        sure: For each dimension, how sure of each class, shape (N, classes).
-        measure: What that is: ``cosine`` or ``probability``.
+        scores: Scores of each class by dimension, shape (N, classes).
+        measure: What scores are: ``cosine`` or ``probability``.
     """
-    said = torch.stack([found.argmax(1) for found in sure], dim=1)
+    predicted = torch.stack([of_dimension.argmax(1) for of_dimension in scores], dim=1)
     lines = []
     for number, row in enumerate(rows):
-        words, near = {}, {}
+        words, values = {}, {}
         for column, (slot, names) in enumerate(CLASSES.items()):
-            chosen = int(said[number, column])
-            words[slot] = names[chosen]
-            near[f"{slot}_{measure}"] = f"{float(sure[column][number, chosen]):.3f}"
-        lines.append({"file": str(row.file), **words, **near})
-    return Predictions(lines, judge(said, torch.tensor([row.classes for row in rows])))
+            best = int(predicted[number, column])
+            words[slot] = names[best]
+            values[f"{slot}_{measure}"] = f"{float(scores[column][number, best]):.3f}"
+        lines.append({"file": str(row.file), **words, **values})
+    return TouchPredictions(lines, score_classes(predicted, labels_of(rows)))
 
 
-def write_predictions(path: Path, found: Predictions) -> None:
-    """One row a prediction, CSV.
+def write_predictions(path: Path, predictions: TouchPredictions) -> None:
+    """Write a CSV file with a row for each touch.
 
     Raises:
         UsageError: It can't be written.
     """
     try:
         with path.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, fieldnames=list(found.rows[0]))
+            writer = csv.DictWriter(file, fieldnames=list(predictions.rows[0]))
             writer.writeheader()
-            writer.writerows(found.rows)
+            writer.writerows(predictions.rows)
     except OSError as error:
         raise UsageError(f"predictions can't be written to {path}: {error.strerror}") from None

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from cltp.errors import TouchError
 from cltp.sensing.frames import FRAME_SUFFIXES
-from cltp.sensing.touch_files import read_touch
+from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import NUM_POINTS, Stamp, TactileCloud
 from cltp.tactile.encoder_input import lattice_points
 from cltp.tactile.sensors import SensorSpec, sensor_named
@@ -148,7 +148,7 @@ def _folder_loaders(settings: RecordedSettings, sensor: SensorSpec) -> list[Load
     calibration = None if settings.calibration == "shipped" else settings.calibration
     return [
         partial(
-            read_touch,
+            read_cloud,
             path,
             sensor,
             background=background if background.is_file() else None,

@@ -14,15 +14,15 @@ from cltp.data.placement import (
     Placement,
     draw_placement,
     move,
-    random_cloud,
 )
-from cltp.data.sampler import mirrored
+from cltp.data.sampler import mirrored, sampled
 from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.point_layout import FINE
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     AREA_LIMITS,
     DEPTH_LIMITS_MM,
-    ContactState,
+    NO_CONTACT_STATE,
     Shape,
     Side,
     Texture,
@@ -65,28 +65,28 @@ def near_a_limit(value, limits, within):
 @given(inside_x, inside_y, turns, st.floats(-11, 11), st.floats(-8, 8), turns)
 def test_the_label_of_a_moved_contact_is_that_of_the_body_pressed_there(x, y, t, dx, dy, turn):
     heights, state = pressed(x, y, t)
-    to = Placement(x_mm=dx, y_mm=dy, turn_rad=turn)
-    at_x, at_y = to.moved(x, y)
+    placement = Placement(x_mm=dx, y_mm=dy, turn_rad=turn)
+    at_x, at_y = placement.moved(x, y)
     assume(abs(at_x) < MINI.width_mm / 2 and abs(at_y) < MINI.height_mm / 2)
     truth_heights, truth = pressed(at_x, at_y, t + turn)
-    moved = move(heights, state, MINI, to)
+    moved = move(heights, state, MINI, placement)
     np.testing.assert_allclose(moved.height_mm, truth_heights, atol=0.08)
-    found = moved.state
-    assert found.depth_mm == pytest.approx(truth.depth_mm, abs=0.01)
-    assert found.x_mm == pytest.approx(truth.x_mm, abs=0.1)
-    assert found.y_mm == pytest.approx(truth.y_mm, abs=0.1)
-    assert found.area_fraction == pytest.approx(truth.area_fraction, abs=0.003)
-    assert found.force_n == pytest.approx(truth.force_n, rel=0.05, abs=1.0)
-    assert (found.shape, found.texture) == (state.shape, state.texture)
-    if not near_a_limit(found.depth_mm, DEPTH_LIMITS_MM, 0.02):
-        assert found.depth is truth.depth
-    if not near_a_limit(found.area_fraction, AREA_LIMITS, 0.005):
-        assert found.area is truth.area
+    state_after = moved.state
+    assert state_after.depth_mm == pytest.approx(truth.depth_mm, abs=0.01)
+    assert state_after.x_mm == pytest.approx(truth.x_mm, abs=0.1)
+    assert state_after.y_mm == pytest.approx(truth.y_mm, abs=0.1)
+    assert state_after.area_fraction == pytest.approx(truth.area_fraction, abs=0.003)
+    assert state_after.force_n == pytest.approx(truth.force_n, rel=0.05, abs=1.0)
+    assert (state_after.shape, state_after.texture) == (state.shape, state.texture)
+    if not near_a_limit(state_after.depth_mm, DEPTH_LIMITS_MM, 0.02):
+        assert state_after.depth is truth.depth
+    if not near_a_limit(state_after.area_fraction, AREA_LIMITS, 0.005):
+        assert state_after.area is truth.area
     thirds_x, thirds_y = MINI.width_mm / 6, MINI.height_mm / 6
-    if not near_a_limit(abs(found.x_mm), [thirds_x], 0.15) and not near_a_limit(
-        abs(found.y_mm), [thirds_y], 0.15
+    if not near_a_limit(abs(state_after.x_mm), [thirds_x], 0.15) and not near_a_limit(
+        abs(state_after.y_mm), [thirds_y], 0.15
     ):
-        assert found.position is truth.position
+        assert state_after.position is truth.position
 
 
 @settings(max_examples=40)
@@ -94,10 +94,10 @@ def test_the_label_of_a_moved_contact_is_that_of_the_body_pressed_there(x, y, t,
 def test_what_stays_on_the_pad_keeps_depth_area_and_force_exactly(x, y, t, dx, dy):
     assume(max(abs(x), abs(x + dx)) < 6.8 and max(abs(y), abs(y + dy)) < 4.3)
     heights, state = pressed(x, y, t)
-    found = move(heights, state, MINI, Placement(x_mm=dx, y_mm=dy)).state
-    assert (found.x_mm, found.y_mm) == (state.x_mm + dx, state.y_mm + dy)
+    state_after = move(heights, state, MINI, Placement(x_mm=dx, y_mm=dy)).state
+    assert (state_after.x_mm, state_after.y_mm) == (state.x_mm + dx, state.y_mm + dy)
     for name in ("depth_mm", "area_fraction", "force_n", "depth", "area", "cut"):
-        assert getattr(found, name) == getattr(state, name)
+        assert getattr(state_after, name) == getattr(state, name)
 
 
 @settings(max_examples=30)
@@ -140,11 +140,9 @@ def test_a_contact_that_would_leave_the_pad_altogether_is_refused():
 
 
 def test_an_untouched_gel_stays_untouched():
-    nothing = ContactState(
-        depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
-    )
-    moved = move(np.zeros((ROWS, COLUMNS)), nothing, MINI, Placement(x_mm=3.0, turn_rad=1.0))
-    assert moved.state == nothing
+    placement = Placement(x_mm=3.0, turn_rad=1.0)
+    moved = move(np.zeros((ROWS, COLUMNS)), NO_CONTACT_STATE, MINI, placement)
+    assert moved.state == NO_CONTACT_STATE
     assert not moved.height_mm.any()
 
 
@@ -152,32 +150,30 @@ def test_an_untouched_gel_stays_untouched():
 @given(st.floats(-9, 9), st.floats(-6, 6), turns, st.integers(0, 1000))
 def test_drawn_moves_are_always_possible_and_leave_enough(x, y, t, seed):
     heights, state = pressed(x, y, t)
-    to = draw_placement(heights, state, MINI, np.random.default_rng(seed))
-    found = move(heights, state, MINI, to).state
-    assert found.area_fraction >= (LEAST_LEFT - 0.05) * state.area_fraction
-    assert to == draw_placement(heights, state, MINI, np.random.default_rng(seed))
+    placement = draw_placement(heights, state, MINI, np.random.default_rng(seed))
+    state_after = move(heights, state, MINI, placement).state
+    assert state_after.area_fraction >= (LEAST_LEFT - 0.05) * state.area_fraction
+    assert placement == draw_placement(heights, state, MINI, np.random.default_rng(seed))
 
 
 def test_drawn_moves_reach_all_over_the_pad():
     heights, state = pressed(0.0, 0.0)
     rng = np.random.default_rng(0)
     drawn = [draw_placement(heights, state, MINI, rng) for _ in range(200)]
-    found = [move(heights, state, MINI, to).state for to in drawn]
-    assert len({each.position for each in found}) == 9
-    assert 20 < sum(bool(each.cut) for each in found) < 180
-    assert 50 < sum(to.turn_rad != 0 for to in drawn) < 150
+    states = [move(heights, state, MINI, placement).state for placement in drawn]
+    assert len({each.position for each in states}) == 9
+    assert 20 < sum(bool(each.cut) for each in states) < 180
+    assert 50 < sum(placement.turn_rad != 0 for placement in drawn) < 150
 
 
-def test_random_points_lie_on_the_surface_and_are_never_centred_or_scaled():
+def test_sampled_points_lie_on_the_surface_and_are_never_centred_or_scaled():
     heights, state = pressed(4.0, 2.0)
-    cloud = random_cloud(heights, MINI, np.random.default_rng(0), 4000)
-    deepest = cloud.points_mm[cloud.points_mm[:, 2].argmax()]
-    np.testing.assert_allclose(deepest, [4.0, 2.0, 0.7], atol=0.3)
-    assert np.abs(cloud.points_mm[:, :2].mean(axis=0)).max() < 0.3
-    share = (cloud.points_mm[:, 2] > 0).mean()
-    assert share == pytest.approx(state.area_fraction, abs=0.015)
-    other = random_cloud(heights, MINI, np.random.default_rng(1), 4000)
-    assert not np.array_equal(cloud.points_mm, other.points_mm)
+    points = sampled(heights, MINI, FINE, np.random.default_rng(0))
+    np.testing.assert_allclose(points[points[:, 2].argmax()], [4.0, 2.0, 0.7], atol=0.3)
+    assert np.abs(points[:, :2].mean(axis=0)).max() < 0.3
+    assert (points[:, 2] > 0).mean() == pytest.approx(state.area_fraction, abs=0.015)
+    other = sampled(heights, MINI, FINE, np.random.default_rng(1))
+    assert not np.array_equal(points, other)
 
 
 @pytest.mark.parametrize("value", [math.nan, math.inf])

@@ -13,7 +13,7 @@ from cltp.sensing.photometric import (
     integrate,
     integrate_differences,
 )
-from cltp.sensing.touch_files import read_touch
+from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.sensors import SENSORS
 
 SENSOR = SENSORS["gelsight_mini"]
@@ -186,11 +186,11 @@ def test_a_frame_is_read_as_it_was_written(saved):
 def test_a_frame_file_needs_its_background(saved):
     file = saved("touch.png", photographed(bump(160, 120)))
     with pytest.raises(TouchError, match="--background"):
-        read_touch(file, SENSOR)
+        read_cloud(file, SENSOR)
 
 
 def test_a_frame_file_with_its_background_is_a_touch(saved):
-    cloud = read_touch(
+    cloud = read_cloud(
         saved("touch.png", photographed(bump(160, 120, depth_mm=0.2))),
         SENSOR,
         background=saved("background.png", BACKGROUND),

@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from cltp import TouchError
-from cltp.sensing.touch_files import read_touch
+from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.sensors import sensor_named
 
@@ -65,21 +65,21 @@ CLOUDS = {
 def test_the_same_cloud_is_read_from_every_format(name: str, tmp_path: Path) -> None:
     path = tmp_path / name
     path.write_bytes(CLOUDS[name])
-    np.testing.assert_allclose(read_touch(path, MINI).points_mm, points(), atol=1e-5)
+    np.testing.assert_allclose(read_cloud(path, MINI).points_mm, points(), atol=1e-5)
 
 
 def test_a_cloud_is_read_from_npy_and_npz(tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", points())
     np.savez(tmp_path / "a.npz", points_mm=points(), other=np.zeros(3))
     for name in ("a.npy", "a.npz"):
-        np.testing.assert_allclose(read_touch(tmp_path / name, MINI).points_mm, points(), atol=1e-6)
+        np.testing.assert_allclose(read_cloud(tmp_path / name, MINI).points_mm, points(), atol=1e-6)
 
 
 def test_a_height_map_becomes_1024_points_with_row_0_at_the_top(tmp_path: Path) -> None:
     heights = np.zeros((240, 320))
     heights[:120] = 0.5  # the upper half is pressed
     np.save(tmp_path / "h.npy", heights)
-    cloud = read_touch(tmp_path / "h.npy", MINI)
+    cloud = read_cloud(tmp_path / "h.npy", MINI)
     assert cloud.points_mm.shape == (1024, 3)
     upper = cloud.points_mm[:, 1] > 0.3
     np.testing.assert_allclose(cloud.points_mm[upper, 2], 0.5)
@@ -88,7 +88,7 @@ def test_a_height_map_becomes_1024_points_with_row_0_at_the_top(tmp_path: Path) 
 
 def touch_error(path: Path) -> str:
     with pytest.raises(TouchError) as caught:
-        read_touch(path, MINI)
+        read_cloud(path, MINI)
     message = str(caught.value)
     assert path.name in message
     assert "\n" not in message
@@ -119,7 +119,7 @@ BAD_FILES: dict[str, tuple[bytes, str]] = {
     "few.xyz": (xyz(points()[:10]), "at least 64"),
     "metres.xyz": (xyz(points() / 1000), "in metres"),
     "nan.xyz": (xyz(np.where(points() > 0.49, np.nan, points())), "NaN"),
-    "elsewhere.xyz": (xyz(points() + np.array([30, 0, 0])), "beyond the field"),
+    "elsewhere.xyz": (xyz(points() + np.array([30, 0, 0])), "beyond the sensing area"),
 }
 
 
@@ -170,6 +170,6 @@ def test_an_npz_with_two_unnamed_arrays_is_refused(tmp_path: Path) -> None:
 
 def test_reading_gives_a_tactile_cloud_without_a_clock(tmp_path: Path) -> None:
     np.save(tmp_path / "a.npy", points())
-    cloud = read_touch(tmp_path / "a.npy", MINI)
+    cloud = read_cloud(tmp_path / "a.npy", MINI)
     assert isinstance(cloud, TactileCloud)
     assert cloud.stamp is None

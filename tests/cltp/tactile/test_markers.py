@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from cltp.errors import TouchError
 from cltp.tactile.cloud import NUM_POINTS, TactileCloud, grid_axes_mm
 from cltp.tactile.encoder_input import encoder_input, lattice_points
-from cltp.tactile.markers import densified, marker_cloud, marker_places_mm
+from cltp.tactile.markers import densified, marker_cloud, marker_positions_mm
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SENSORS
 
@@ -23,12 +23,12 @@ def dent(at_x=0.0, at_y=0.0, depth=0.6, width=3.0):
 
 
 def test_markers_lie_in_equal_cells_from_the_top_left():
-    places = marker_places_mm(STEREO)
-    assert places.shape == (23 * 23, 2)
+    positions = marker_positions_mm(STEREO)
+    assert positions.shape == (23 * 23, 2)
     pitch = STEREO.width_mm / 23
-    np.testing.assert_allclose(places[0], [-11 * pitch, 11 * pitch])
-    np.testing.assert_allclose(places[1] - places[0], [pitch, 0], atol=1e-9)
-    np.testing.assert_allclose(places[23] - places[0], [0, -pitch], atol=1e-9)
+    np.testing.assert_allclose(positions[0], [-11 * pitch, 11 * pitch])
+    np.testing.assert_allclose(positions[1] - positions[0], [pitch, 0], atol=1e-9)
+    np.testing.assert_allclose(positions[23] - positions[0], [0, -pitch], atol=1e-9)
 
 
 def test_a_marker_reports_the_height_where_it_is():

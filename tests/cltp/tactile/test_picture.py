@@ -5,7 +5,7 @@ import pytest
 
 from cltp import TouchError
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.picture import depth_picture, picture, surface_mesh
+from cltp.tactile.picture import depth_picture, picture
 from cltp.tactile.sensors import SENSORS
 
 MINI = SENSORS["gelsight_mini"]
@@ -47,26 +47,12 @@ def test_what_is_deeper_looks_deeper_whatever_else_is_there():
 
 
 @pytest.mark.parametrize("width_px", [64, 200, 320])
-def test_a_picture_has_the_fields_proportions(width_px):
+def test_a_picture_has_the_proportions_of_the_sensing_area(width_px):
     assert picture(bump(), MINI, width_px).shape[:2] == (round(width_px * 0.75), width_px)
-
-
-def test_the_mesh_is_the_surface_and_faces_the_sensor():
-    heights = bump(0.5, 1.0, -2.0)
-    vertices, faces = surface_mesh(heights, MINI)
-    assert len(vertices) == 60 * 80
-    assert len(faces) == 2 * 59 * 79
-    deepest = vertices[vertices[:, 2].argmax()]
-    np.testing.assert_allclose(deepest, [1.0, -2.0, 0.5], atol=0.2)
-    a, b, c = (vertices[faces[:, i]] for i in range(3))
-    normals = np.cross(b - a, c - a)
-    assert (normals[:, 2] > 0).all()
-    area = normals[:, 2].sum() / 2
-    assert area == pytest.approx(MINI.area_mm2 * (59 / 60) * (79 / 80))
 
 
 @pytest.mark.parametrize("heights", [np.zeros(9), np.zeros((4, 4)), np.full((9, 9), np.nan)])
 def test_what_is_no_height_map_is_refused(heights):
-    for draw in (picture, depth_picture, surface_mesh):
-        with pytest.raises(TouchError, match="finite heights"):
+    for draw in (picture, depth_picture):
+        with pytest.raises(TouchError, match="height map"):
             draw(heights, MINI)

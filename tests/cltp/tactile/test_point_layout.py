@@ -13,13 +13,14 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.dataset import ContactDataset, DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler, sampled
-from cltp.encoder.encoder import LATTICES, EncoderConfig, TactileEncoder
+from cltp.encoder.class_token import height_quantiles
+from cltp.encoder.encoder import VARIANTS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
-from cltp.encoder.tokenizers import bearing_curve, cell_sizes, crowded_channels
+from cltp.encoder.tokenizers import adaptive_channels, cell_sizes
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import lattice_points, scaled
-from cltp.tactile.point_layout import EVEN, FINE, PRESSED, Sampling
+from cltp.tactile.point_layout import CONTACT_ADAPTIVE, EVEN, FINE, Sampling
 from cltp.tactile.sensors import SENSORS
 from tests.fakes.fake_contacts import fake_contact
 
@@ -49,7 +50,7 @@ def inside(points: np.ndarray, x_mm: float, y_mm: float, radius_mm: float) -> in
 
 def test_points_crowd_where_the_gel_is_pressed() -> None:
     heights = punch(4.0, -3.0, 2.0)
-    even, pressed = (points_mm(heights, how) for how in (EVEN, PRESSED))
+    even, pressed = (points_mm(heights, how) for how in (EVEN, CONTACT_ADAPTIVE))
     assert pressed.shape == even.shape == (1024, 3)
     assert inside(pressed, 4, -3, 2) > 4 * inside(even, 4, -3, 2)
     assert np.abs(pressed[:, 0]).max() <= MINI.width_mm / 2
@@ -59,7 +60,7 @@ def test_points_crowd_where_the_gel_is_pressed() -> None:
 
 
 def test_crowded_points_stay_in_the_order_of_a_lattice() -> None:
-    grid = points_mm(punch(-5.0, 2.0, 1.0), PRESSED).reshape(32, 32, 3)
+    grid = points_mm(punch(-5.0, 2.0, 1.0), CONTACT_ADAPTIVE).reshape(32, 32, 3)
     assert (np.diff(grid[..., 0].max(axis=0)) > 0).all()
     assert (grid[:, 1:, 0] > grid[:, :-1, 0].min(axis=0)).all()
     assert (grid[:, :-1, 0].max(axis=0) <= grid[:, 1:, 0].min(axis=0) + 1e-4).all()
@@ -68,12 +69,12 @@ def test_crowded_points_stay_in_the_order_of_a_lattice() -> None:
 
 @pytest.mark.parametrize("heights", [np.zeros((ROWS, COLUMNS), np.float32), punch(0, 0, 2, 0.05)])
 def test_an_untouched_field_is_sampled_evenly(heights: np.ndarray) -> None:
-    np.testing.assert_array_equal(points_mm(heights, PRESSED), points_mm(heights, EVEN))
+    np.testing.assert_array_equal(points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN))
 
 
 def test_a_field_that_is_pressed_all_over_is_sampled_evenly() -> None:
     heights = np.full((ROWS, COLUMNS), 0.5, np.float32)
-    np.testing.assert_allclose(points_mm(heights, PRESSED), points_mm(heights, EVEN), atol=1e-3)
+    np.testing.assert_allclose(points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN), atol=1e-3)
 
 
 def test_fine_points_are_four_times_as_many() -> None:
@@ -97,7 +98,7 @@ def test_a_sampling_out_of_range_is_refused(bad: dict[str, float]) -> None:
 
 def test_parts_of_the_field_are_known_from_crowded_points() -> None:
     field = 4 * MINI.height_mm / MINI.width_mm  # scaled: x fills -1 to 1
-    for sampling in (EVEN, PRESSED):
+    for sampling in (EVEN, CONTACT_ADAPTIVE):
         points = batch(punch(4.0, -3.0, 2.0), sampling)
         parts = cell_sizes(points)
         assert parts.sum().item() == pytest.approx(field, rel=0.1)
@@ -109,25 +110,25 @@ def test_parts_of_the_field_are_known_from_crowded_points() -> None:
 
 def test_the_bearing_curve_of_crowded_points_is_that_of_even_ones() -> None:
     heights = punch(4.0, -3.0, 2.0)
-    even = bearing_curve(batch(heights, EVEN), 64)
-    points = batch(heights, PRESSED)
-    weighed = bearing_curve(points, 64, cell_sizes(points))
-    unweighed = bearing_curve(points, 64)
+    even = height_quantiles(batch(heights, EVEN), 64)
+    points = batch(heights, CONTACT_ADAPTIVE)
+    weighed = height_quantiles(points, 64, cell_sizes(points))
+    unweighed = height_quantiles(points, 64)
     assert (weighed - even)[:, 32:].abs().mean() < 0.2 * (unweighed - even)[:, 32:].abs().mean()
 
 
 def test_crowded_channels_say_place_and_distance() -> None:
-    channels = crowded_channels(batch(np.zeros((ROWS, COLUMNS), np.float32), EVEN))
+    channels = adaptive_channels(batch(np.zeros((ROWS, COLUMNS), np.float32), EVEN))
     assert channels.shape == (1, 8, 32, 32)
     assert channels[0, 4].mean(dim=0).diff().min() > 0  # x rises along columns
     assert channels[0, 5].mean(dim=1).diff().max() < 0  # y falls down the rows
     assert channels[0, 6:, 2:-2, 2:-2].std() < 0.2
-    near = crowded_channels(batch(punch(0.0, 0.0, 1.0), PRESSED))
+    near = adaptive_channels(batch(punch(0.0, 0.0, 1.0), CONTACT_ADAPTIVE))
     assert near[0, 6, 16, 16] < -1 < channels[0, 6, 16, 16]  # more than e times denser
     assert near[0, 7, 16, 16] < -1
 
 
-@pytest.mark.parametrize("tokenizer", LATTICES)
+@pytest.mark.parametrize("tokenizer", [name for name, v in VARIANTS.items() if v.is_lattice])
 @pytest.mark.parametrize("num_groups", [16, 64, 256])
 def test_every_lattice_gives_a_token_for_each_group(tokenizer: str, num_groups: int) -> None:
     config = EncoderConfig(
@@ -146,7 +147,7 @@ def data(tmp_path: Path) -> ContactDataset:
 
 
 @pytest.mark.parametrize("noise", [CLEAN, NOISY])
-@pytest.mark.parametrize("sampling", [EVEN, PRESSED, FINE])
+@pytest.mark.parametrize("sampling", [EVEN, CONTACT_ADAPTIVE, FINE])
 def test_batches_have_the_points_asked_for(
     data: ContactDataset, noise: object, sampling: Sampling
 ) -> None:

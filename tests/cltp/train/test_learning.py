@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.checkpoints.frozen import frozen
 from cltp.checkpoints.tac3d_llm import (
     WeightsError,
     load_clip,
@@ -18,19 +19,22 @@ from cltp.checkpoints.tac3d_llm import (
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset, DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
+from cltp.encoder.class_token import (
+    HeightQuantiles,
+    encoded_ranks,
+    piecewise_linear,
+    quantile_ranks,
+)
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, restored, targets, transformed
 from cltp.encoder.losses import CltpLoss, ContrastiveLoss
-from cltp.encoder.tokenizers import (
-    BearingCurve,
-    bearing_ranks,
-    even_channels,
-    farthest_points,
-    graded,
-    graded_ranks,
-)
+from cltp.encoder.tokenizers import even_channels, farthest_points
 from cltp.errors import TouchError
-from cltp.evaluation.evaluate import batches, ceiling_scores, heads_scores, zero_shot_scores
+from cltp.evaluation.features import encode_batches, random_batches
+from cltp.evaluation.geometric_baseline import predict_geometrically
+from cltp.evaluation.probes import predict_with_heads
+from cltp.evaluation.scores import score_classes
+from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.encoder_input import cell_centres, encoder_input, lattice_points, scaled
@@ -200,7 +204,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
 
 def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     torch.manual_seed(0)
-    curve = BearingCurve(8, 16)
+    curve = HeightQuantiles(8, 16)
     points, none = torch.rand(2, 1024, 3), torch.zeros(2, 0, 8)
     moved = points.clone()
     moved[0, :, :2] += 0.3
@@ -211,20 +215,20 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     for before, after in zip(curve(points, none), curve(deeper, none), strict=True):
         assert not torch.equal(before[0], after[0])
         torch.testing.assert_close(before[1], after[1])
-    ranks = bearing_ranks(16, 1024)
+    ranks = quantile_ranks(16, 1024)
     assert ranks[:8].tolist() == list(range(8))
     assert (ranks.diff() > 0).all()
     assert ranks[-1] == 1023
 
 
 def test_graded_heights_fill_steps_one_after_the_other() -> None:
-    found = graded(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
+    found = piecewise_linear(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
     expected = [[1, 1, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0, 1, 1, 1, 0.5]]
     torch.testing.assert_close(found, torch.tensor(expected, dtype=torch.float32))
-    ranks = graded_ranks(64)
+    ranks = encoded_ranks(64)
     assert ranks == sorted(set(ranks))
     assert (ranks[0], ranks[-1]) == (0, 63)
-    assert BearingCurve(8, 64, grades=10).trunk[0].in_features == 64 + 10 * len(ranks)
+    assert HeightQuantiles(8, 64, grades=10).trunk[0].in_features == 64 + 10 * len(ranks)
 
 
 def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
@@ -282,12 +286,12 @@ def test_a_bump_is_lit_from_the_left_and_from_the_top() -> None:
 
 def test_samples_depend_on_seed_and_step_alone(data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TRAIN)
-    first = Sampler(data, seed=1).training(5)
-    steps = [next(first) for _ in range(5)]
-    later = next(Sampler(data, seed=1).training(5, first_step=3))
+    first = Sampler(data, seed=1)
+    steps = [first.numbered(5, step) for step in range(5)]
+    later = Sampler(data, seed=1).numbered(5, 3)
     np.testing.assert_array_equal(later.points, steps[3].points)
     assert sorted(np.concatenate([s.index for s in steps])[:12]) == list(range(12))
-    other = next(Sampler(data, seed=2).training(5))
+    other = Sampler(data, seed=2).numbered(5, 0)
     assert not np.array_equal(other.points, steps[0].points)
 
 
@@ -317,9 +321,10 @@ def test_an_error_while_making_a_batch_is_raised_in_its_place() -> None:
 def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TRAIN)
     encoder, heads = load_encoder(trained / "encoder")
-    samples = batches(data, 12, CLEAN)
-    scores = heads_scores(encoder.eval(), heads.eval(), samples)
-    assert min(scores.right.values()) >= 0.9
+    samples = random_batches(data, 12, CLEAN)
+    encoded = encode_batches(frozen(encoder), samples)
+    scores = score_classes(predict_with_heads(heads.eval(), encoded).classes, encoded.classes)
+    assert min(scores.accuracy.values()) >= 0.9
     talker = Talker(load_tac3d_llm(trained))
     states = [s for batch in samples for s in batch.states]
     points = np.concatenate([batch.points for batch in samples])
@@ -348,19 +353,21 @@ def test_shuffled_labels_do_not_generalise(data_dir: Path, trained: Path, tmp_pa
     )
     data = ContactDataset(data_dir, split=Split.TRAIN)
     encoder, heads = load_encoder(folder / "encoder")
-    shuffled = heads_scores(encoder.eval(), heads.eval(), batches(data, 12, CLEAN))
-    assert shuffled.right["shape"] < 0.5  # against the true labels
+    encoded = encode_batches(frozen(encoder), random_batches(data, 12, CLEAN))
+    shuffled = score_classes(predict_with_heads(heads.eval(), encoded).classes, encoded.classes)
+    assert shuffled.accuracy["shape"] < 0.5  # against the true labels
 
 
 def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TEST)
-    samples = batches(data, 6, NOISY)
+    samples = random_batches(data, 6, NOISY)
     encoder, _ = load_encoder(trained / "encoder")
-    zero = zero_shot_scores(encoder.eval(), load_clip(trained / "clip"), samples)
-    assert zero.count == 6
-    direct = ceiling_scores(data, samples)
-    assert direct.right["depth"] >= 0.5
-    assert direct.right["shape"] == 0.0  # nothing computes a shape directly
+    encoded = encode_batches(frozen(encoder), samples)
+    prompts = ClassPrompts(load_clip(trained / "clip"))
+    assert score_classes(prompts.classes(encoded.feature), encoded.classes).count == 6
+    direct = score_classes(predict_geometrically(data, samples).classes, encoded.classes)
+    assert direct.accuracy["depth"] >= 0.5
+    assert direct.accuracy["shape"] == 0.0  # nothing computes a shape directly
 
 
 def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -> None:

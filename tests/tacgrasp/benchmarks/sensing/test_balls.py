@@ -11,13 +11,13 @@ from PIL import Image
 from cltp.errors import TouchError
 from cltp.sensing.ball_presses import BallPress, slopes_of
 from cltp.sensing.calibration import load_calibration
-from cltp.sensing.touch_files import read_touch
+from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.sensors import SENSORS
 from cltp.train.photometric import train_gradients
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.sensing import balls as bench_balls
-from tacgrasp.bringup.ball_profiles import ball_profiles
 from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
+from tacgrasp.bringup.ball_profiles import ball_profiles
 from tacgrasp.playback.describe import describe
 from tests.paths import SHARED_DATA
 
@@ -83,7 +83,7 @@ def test_heights_of_a_folder_come_in_counting_order(folder, calibrated):
 
 def test_a_frame_is_described_as_deep_as_its_heights(folder, calibrated):
     name, height = frames_heights(folder, calibration=calibrated)[3]
-    touch = read_touch(
+    touch = read_cloud(
         folder / f"{name}.png",
         SENSOR,
         background=folder / "background.png",
