@@ -146,7 +146,10 @@ class Controller:
     # -- safety ----------------------------------------------------------------------------------
 
     def safety_stop(self, mode: int) -> None:
-        """Stop the arm; a protective or safeguard stop pauses the program, others end it: our choice."""
+        """Stop the arm.
+
+        Protective and safeguard stop pause the program, emergency stops end it. Our choice.
+        """
         self.robot.advance(self._clock())
         self.safety_mode = mode
         self.robot.halt(SAFETY_STOP_M_S2)

@@ -1,22 +1,24 @@
-"""The faults that drivers must survive, refuse or stop for: the rows of the fault matrix.
+"""The registry of the fault benchmark: one entry per fault, with its injection and expectation.
 
-Each names what an emulator is told to do and what the driver has to say about it. Not here:
-injecting and timing them (``tacgrasp.benchmarks.faults.injection``).
+A new fault needs its effect in the emulator of its device (``sim.emulators``), an entry here, and
+the driver's reaction, where the driver has none yet. Not here: injection and timing
+(``tacgrasp.benchmarks.faults.injection``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from enum import StrEnum
+from functools import partial
 from types import MappingProxyType
 
 
 class InjectionPhase(StrEnum):
-    """When a fault happens, and what must come of it."""
+    """When a fault is injected, and what is required then."""
 
     START = "start"  # before connecting: refused within 2 s, nothing moves
-    MOTION = "motion"  # while the arm moves: at rest within 150 ms, the driver says why
+    MOTION = "motion"  # while the arm moves: at rest within 150 ms, the driver names the reason
     TRANSIENT = "transient"  # passes: survived within 100 ms, counted, the arm moves on
 
 
@@ -25,53 +27,40 @@ class FaultCase:
     """One fault.
 
     Attributes:
-        name: Of the row.
-        device: Emulated device that it happens to: ur, dynamixel or taxels.
-        fault: As the emulator calls it.
-        phase: When it happens.
-        told: Words of which one must be in what the operator is told; for a transient fault, in
-            the count of what was survived.
-        details: Of the fault.
+        name: Row of the table.
+        phase: Time of the injection.
+        device: Device with the fault: ur, dynamixel or taxels, all emulated, or gelsight, with
+            a file for its only fault.
+        fault: Name of the fault in the device's emulator.
+        expected: Words, one of which must be in the message to the operator; for a transient fault,
+            in the driver's fault counts.
+        details: Details of the fault for the emulator.
     """
 
     name: str
+    phase: InjectionPhase
     device: str
     fault: str
-    phase: InjectionPhase
-    told: tuple[str, ...]
-    details: Mapping[str, float | str] = field(default_factory=lambda: MappingProxyType({}))
+    expected: tuple[str, ...]
+    details: Mapping[str, float | str]
 
 
-def _start(name: str, device: str, fault: str, *told: str, **details: float | str) -> FaultCase:
+def _case(
+    phase: InjectionPhase, name: str, device: str, fault: str, *expected: str, **details: float
+) -> FaultCase:
     return FaultCase(
         name=name,
+        phase=phase,
         device=device,
         fault=fault,
-        phase=InjectionPhase.START,
-        told=told,
-        details=details,
+        expected=expected,
+        details=MappingProxyType(details),
     )
 
 
-def _motion(name: str, device: str, fault: str, *told: str, **details: float | str) -> FaultCase:
-    return FaultCase(
-        name=name,
-        device=device,
-        fault=fault,
-        phase=InjectionPhase.MOTION,
-        told=told,
-        details=details,
-    )
-
-
-def _transient(name: str, device: str, fault: str, *told: str) -> FaultCase:
-    return FaultCase(
-        name=name, device=device, fault=fault, phase=InjectionPhase.TRANSIENT, told=told
-    )
-
-
-STALE_BACKGROUND = "sensor: stale background"
-"""Needs no emulator: a GelSight Mini whose background is too old, refused before it is opened."""
+_start = partial(_case, InjectionPhase.START)
+_motion = partial(_case, InjectionPhase.MOTION)
+_transient = partial(_case, InjectionPhase.TRANSIENT)
 
 CASES: tuple[FaultCase, ...] = (
     _start("UR: mute at connect", "ur", "mute", "said nothing", "silent"),
@@ -102,9 +91,9 @@ CASES: tuple[FaultCase, ...] = (
     _transient("gripper: late reply", "dynamixel", "late_reply", "late"),
     _transient("gripper: partial reply", "dynamixel", "partial_reply", "corrupt", "silent"),
     _start("sensor: unplugged at start", "taxels", "unplugged", "port", "no serial"),
-    _start(STALE_BACKGROUND, "", "", "ago, expected"),
+    _start("sensor: stale background", "gelsight", "stale_background", "ago, expected"),
     _motion("sensor: stall", "taxels", "stall", "no fresh frame"),
     _motion("sensor: black frames", "taxels", "black", "dead or dark"),
     _transient("sensor: torn packet", "taxels", "torn", "damaged"),
 )
-"""Every fault that an emulator can show, in the order of the table."""
+"""All faults, in the order of the table."""

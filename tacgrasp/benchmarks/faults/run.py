@@ -1,10 +1,11 @@
-"""Run the fault matrix on one emulated rig, with progress, and write its figures."""
+"""Run the fault benchmark on one emulated rig, with progress, and write its figures."""
 
 from __future__ import annotations
 
 import json
 import logging
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from dataclasses import asdict
 from pathlib import Path
 
@@ -16,7 +17,7 @@ from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
 from tacgrasp.benchmarks.faults.table import FaultRow, markdown_of, row_of, table_of
 from tacgrasp.config.layers import load
-from tacgrasp.console import console
+from tacgrasp.console import make_console
 
 log = logging.getLogger(__name__)
 
@@ -31,7 +32,7 @@ def run(
     """Inject every fault ``repeats`` times, print and write the table.
 
     Returns:
-        Whether every fault was dealt with every time as it must be.
+        True when every fault met the requirements in every repeat.
 
     Raises:
         RobotError: The emulators did not start.
@@ -39,19 +40,16 @@ def run(
     config, _ = load("strawberry", "emulated")
     if config.hardware is None:
         raise UsageError("rigs/emulated.yaml names no hardware")
-    out, rows = console(), []
-    logging.getLogger("tacgrasp.drivers").setLevel(logging.CRITICAL)  # faults are what is wanted
-    with EmulatorProcess("rig") as emulators, Progress(console=out, transient=True) as progress:
-        bench = FaultBench(config, config.hardware, emulators)
+    console, rows = make_console(), []
+    logging.getLogger("tacgrasp.drivers").setLevel(logging.CRITICAL)  # faults are intended here
+    with EmulatorProcess("rig") as emulators, Progress(console=console, transient=True) as progress:
         task = progress.add_task("faults", total=len(cases) * repeats)
-        try:
+        with closing(FaultBench(config, config.hardware, emulators)) as bench:
             for case in cases:
                 rows.append(_row(bench, case, repeats, lambda: progress.advance(task)))
-        finally:
-            bench.close()
-    out.print(table_of(rows))
+    console.print(table_of(rows))
     passed = sum(row.passed for row in rows)
-    out.print(f"{passed} of {len(rows)} faults were dealt with as they must be, every time")
+    console.print(f"{passed} of {len(rows)} faults met the requirements in every repeat")
     if json_path is not None:
         json_path.write_text(json.dumps({"faults": [asdict(r) for r in rows]}, indent=1), "utf-8")
     if markdown_path is not None:
@@ -61,9 +59,9 @@ def run(
 
 
 def _row(bench: FaultBench, case: FaultCase, repeats: int, advance: Callable[[], None]) -> FaultRow:
-    trials = []
+    results = []
     for repeat in range(repeats):
         in_episode = repeat == repeats - 1 and case.phase is not InjectionPhase.START
-        trials.append(bench.trial(case, in_episode=in_episode))
+        results.append(bench.inject(case, in_episode=in_episode))
         advance()
-    return row_of(case, trials)
+    return row_of(case, results)

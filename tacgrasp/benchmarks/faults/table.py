@@ -1,4 +1,4 @@
-"""The fault matrix: what every fault came to, as figures, on the screen and in docs/faults.md."""
+"""The table of the fault benchmark: figures per fault, on the screen and in docs/faults.md."""
 
 from __future__ import annotations
 
@@ -19,23 +19,23 @@ from tacgrasp.benchmarks.faults.injection import (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FaultRow:
-    """What the repeats of one fault came to.
+    """Figures of the repeats of one fault; the attributes are the keys of the JSON file.
 
     Attributes:
-        name: Of the fault.
+        name: Name of the fault.
         phase: start, motion or transient.
-        injected: How often.
-        detected: How often the driver said what it must, in time.
-        stop_ms_p50, stop_ms_max: From injection to rest [ms]; None where nothing moves, or where
-            the arm moves on.
-        hung: How often a call did not come back.
-        invented_value: How often a value was given that was not measured.
-        moved: How often something moved that must not, or did not stop; for a transient fault, how
-            often the move did not end where it should.
-        noticed_ms_p50, noticed_ms_max: Until the program knew, or, for a transient fault, until the
-            next good value [ms].
-        told: What the operator was told, the last time.
-        episode: What became of recorded episodes: 'intact', 'none begun', or what was wrong.
+        injected: Number of repeats.
+        detected: Number of repeats in which the driver reported the fault as expected, in time.
+        stop_ms_p50, stop_ms_max: Time from injection to rest [ms]; None where nothing moves, or
+            where the arm moves on.
+        hung: Number of calls that did not return.
+        invented_value: Number of returned values that were not measured.
+        moved: Number of repeats in which something moved although it must not, or did not stop; for
+            a transient fault, in which the move did not end at its target.
+        noticed_ms_p50, noticed_ms_max: Time until the program noticed, or, for a transient fault,
+            until the next good value [ms].
+        told: Last message to the operator.
+        episode: State of recorded episodes: 'intact', 'none begun', or their problem.
     """
 
     name: str
@@ -54,34 +54,34 @@ class FaultRow:
 
     @property
     def passed(self) -> bool:
-        """Whether the fault was dealt with every time as it must be."""
+        """The requirements were met in every repeat."""
         in_time = self.stop_ms_max is None or self.stop_ms_max <= STOPPED_MS
         clean = not (self.hung or self.invented_value or self.moved)
-        whole = self.episode in ("intact", "none begun")
-        return self.detected == self.injected and clean and in_time and whole
+        is_recorded = self.episode in ("intact", "none begun")
+        return self.detected == self.injected and clean and in_time and is_recorded
 
 
-def row_of(case: FaultCase, trials: Sequence[InjectionResult]) -> FaultRow:
-    """Sum up the repeats of one fault."""
-    stops = [t.stop_ms for t in trials if t.stop_ms is not None]
-    bare = [t for t in trials if not t.episode]  # an episode is noticed only when it has ended
-    noticed = [t.noticed_ms for t in (bare or trials)]
-    wrong = {t.episode for t in trials if t.episode} - {"intact"}
-    whole = "none begun" if case.phase is InjectionPhase.START else "intact"
+def row_of(case: FaultCase, results: Sequence[InjectionResult]) -> FaultRow:
+    """Figures of the repeats of one fault."""
+    stops = [r.stop_ms for r in results if r.stop_ms is not None]
+    timed = [r for r in results if not r.episode]  # an episode's fault is noticed only at its end
+    noticed = [r.noticed_ms for r in (timed or results)]
+    problems = {r.episode for r in results if r.episode} - {"intact"}
+    no_problem = "none begun" if case.phase is InjectionPhase.START else "intact"
     return FaultRow(
         name=case.name,
         phase=case.phase.value,
-        injected=len(trials),
-        detected=sum(t.detected for t in trials),
+        injected=len(results),
+        detected=sum(r.detected for r in results),
         stop_ms_p50=median(stops) if stops else None,
         stop_ms_max=max(stops, default=None),
-        hung=sum(t.hung for t in trials),
-        invented_value=sum(t.invented for t in trials),
-        moved=sum(t.moved for t in trials),
+        hung=sum(r.hung for r in results),
+        invented_value=sum(r.invented for r in results),
+        moved=sum(r.moved for r in results),
         noticed_ms_p50=median(noticed),
         noticed_ms_max=max(noticed),
-        told=trials[-1].told,
-        episode="; ".join(sorted(wrong)) or whole,
+        told=results[-1].message,
+        episode="; ".join(sorted(problems)) or no_problem,
     )
 
 
@@ -98,43 +98,43 @@ _COLUMNS = (
 
 
 def table_of(rows: Sequence[FaultRow]) -> Table:
-    """For the screen; rows that are not as they must be are red."""
+    """Table for the screen; rows of faults that did not pass are red."""
     table = Table(title="faults of the emulated rig: p50 / max")
     for column in _COLUMNS:
-        left = column in ("fault", "phase")
-        table.add_column(column, justify="left" if left else "right", no_wrap=column == "fault")
+        is_text = column in ("fault", "phase")
+        table.add_column(column, justify="left" if is_text else "right", no_wrap=column == "fault")
     for row in rows:
         table.add_row(*_cells(row), style="" if row.passed else "red")
     return table
 
 
 def markdown_of(rows: Sequence[FaultRow], command: str) -> str:
-    """The page docs/faults.md."""
+    """The text of docs/faults.md."""
     lines = [
         "# Faults",
         "",
         f"Written by `{command}`. Every fault is injected into the emulated rig through its",
         "control channel; drivers and device libraries are those of real hardware. Times to rest",
-        "are measured by the emulator, from the injection until the tool is below 1 mm/s, at",
-        f"0.4 m/s. Required: faults at the start are refused within {REFUSED_S:g} s and nothing",
-        f"moves; in motion the arm is at rest within {STOPPED_MS:g} ms; a passing fault is",
-        f"survived within {RECOVERED_MS:g} ms and counted. One repeat of every fault in motion,",
-        "and of every passing one, is inside a recorded episode. What real hardware alone can show",
-        "is listed in [hardware.md](hardware.md).",
+        "are measured by the emulator, from the injection at 0.4 m/s until the tool is below",
+        f"1 mm/s. Requirements: a fault at the start is refused within {REFUSED_S:g} s and nothing",
+        f"moves; after a fault in motion the arm is at rest within {STOPPED_MS:g} ms; a transient",
+        f"fault is survived within {RECOVERED_MS:g} ms and counted. One repeat of every fault in",
+        "motion and of every transient fault happens inside a recorded episode. Checks that need",
+        "real hardware are listed in [hardware.md](hardware.md).",
         "",
         "| " + " | ".join(_COLUMNS) + " |",
         "|---|---|" + "---:|" * 5 + "---|",
         *("| " + " | ".join(_cells(row)) + " |" for row in rows),
         "",
-        "## What the arm did, and what the operator was told",
+        "## Reaction of the arm and message to the operator",
         "",
     ]
     for row in rows:
-        lines += [f"- **{row.name}**: {_did(row)} “{row.told}”"]
+        lines += [f"- **{row.name}**: {_reaction(row)} “{row.told}”"]
     return "\n".join(lines) + "\n"
 
 
-def _did(row: FaultRow) -> str:
+def _reaction(row: FaultRow) -> str:
     if row.phase == InjectionPhase.START:
         return "nothing moved."
     if row.phase == InjectionPhase.TRANSIENT:

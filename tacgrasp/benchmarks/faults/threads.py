@@ -1,6 +1,6 @@
-"""What the fault benchmark runs beside itself: a move, an episode, a connection, each bounded.
+"""Threads of the fault benchmark: a move, an episode and a connection, each bounded in time.
 
-Not here: the faults (``tacgrasp.benchmarks.faults.cases``), what is made of them
+Not here: the faults (``tacgrasp.benchmarks.faults.cases``), their injection
 (``tacgrasp.benchmarks.faults.injection``).
 """
 
@@ -22,29 +22,29 @@ from tacgrasp.rig.hardware import HardwareRig
 from tacgrasp.run import run_recorded
 
 CONNECT_S = 10.0
-"""A connection that has not come back after so long hangs."""
+"""Time after which connecting counts as hung [s]."""
 
 SPEED_M_S, ACCELERATION_M_S2 = 0.4, 2.5
 
 
 class Move:
-    """A move at full speed in a thread of its own: what it came to.
+    """A move at full speed in a thread of its own.
 
     Attributes:
-        told: The error; '' without one.
-        reached: The pose at its end; None after an error.
-        ended_s: When, monotonic.
+        error: Message of the error; '' without one.
+        reached: Pose at the end; None after an error.
+        ended_s: Time of the end, monotonic [s].
     """
 
     def __init__(self, rig: HardwareRig, target: Pose) -> None:
-        """Begin it."""
-        self.told, self.ended_s = "", float("nan")
+        """Begin the move."""
+        self.error, self.ended_s = "", float("nan")
         self.reached: Pose | None = None
         self._thread = threading.Thread(target=self._run, args=(rig, target), daemon=True)
         self._thread.start()
 
     def wait(self, seconds: float) -> bool:
-        """Whether it has come back within so long."""
+        """Wait; True when the move has ended by then."""
         self._thread.join(seconds)
         return not self._thread.is_alive()
 
@@ -54,7 +54,7 @@ class Move:
                 target, speed_m_s=SPEED_M_S, acceleration_m_s2=ACCELERATION_M_S2
             )
         except RobotError as error:
-            self.told = str(error)
+            self.error = str(error)
         finally:
             self.ended_s = time.monotonic()
 
@@ -63,12 +63,12 @@ class RecordedEpisode:
     """A recorded episode in a thread of its own.
 
     Attributes:
-        message: What the operator was told at its end.
-        ended_s: When it ended, monotonic.
+        message: Message to the operator at the end.
+        ended_s: Time of the end, monotonic [s].
     """
 
     def __init__(self, rig: HardwareRig, config: RunConfig) -> None:
-        """Begin it."""
+        """Begin the episode."""
         self.message, self.ended_s = "", float("nan")
         self._reason, self._path = "", Path()
         self._thread = threading.Thread(target=self._run, args=(rig, config), daemon=True)
@@ -76,23 +76,23 @@ class RecordedEpisode:
 
     @property
     def ended(self) -> bool:
-        """Whether it has ended."""
+        """The episode has ended."""
         return not self._thread.is_alive()
 
     def wait(self, seconds: float) -> bool:
-        """Whether it has ended within so long."""
+        """Wait; True when the episode has ended by then."""
         self._thread.join(seconds)
         return self.ended
 
-    def intact(self, *, want_fault: bool) -> str:
-        """'intact', or what is wrong with the file."""
+    def check(self, *, expect_fault: bool) -> str:
+        """Read the recorded file: 'intact', or its problem."""
         try:
             episode = read_episode(self._path)
         except EpisodeError as error:
             return str(error)
         if not episode.complete or episode.end is None:
             return episode.problem or "it has no end"
-        if episode.end.reason != self._reason or (want_fault and self._reason != "fault"):
+        if episode.end.reason != self._reason or (expect_fault and self._reason != "fault"):
             return f"its end is {episode.end.reason}"
         return "intact"
 
@@ -103,17 +103,17 @@ class RecordedEpisode:
         self.ended_s = time.monotonic()
 
 
-def bounded(connect_one: Callable[[], None]) -> tuple[str, bool]:
-    """What connecting says, and whether it hangs."""
-    said: list[str] = []
+def bounded(connect: Callable[[], None]) -> tuple[str, bool]:
+    """Connect; returns the error message, '' without one, and whether the call hangs."""
+    errors: list[str] = []
 
     def run() -> None:
         try:
-            connect_one()
+            connect()
         except (RobotError, TouchError) as error:
-            said.append(str(error))
+            errors.append(str(error))
 
     thread = threading.Thread(target=run, daemon=True)
     thread.start()
     thread.join(CONNECT_S)
-    return (said[0] if said else ""), thread.is_alive()
+    return (errors[0] if errors else ""), thread.is_alive()

@@ -18,7 +18,7 @@ from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import InjectionResult
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of
-from tacgrasp.benchmarks.loop.rigs import End, Pair
+from tacgrasp.benchmarks.loop.rigs import RigEnd, RigPair
 from tests.fakes.patient_rig import fields, patient_rig
 from tests.paths import ROOT
 
@@ -168,7 +168,7 @@ def test_there_are_faults_of_every_device_in_every_phase():
 
 
 def a_trial(**changes):
-    values = {"detected": True, "told": "gone", "noticed_ms": 20.0, "stop_ms": 60.0} | changes
+    values = {"detected": True, "message": "gone", "noticed_ms": 20.0, "stop_ms": 60.0} | changes
     return InjectionResult(**values)
 
 
@@ -208,13 +208,13 @@ def test_the_page_names_every_fault_with_what_was_told_and_no_row_is_broken():
 
 
 def test_seeds_agree_when_end_and_truth_do():
-    one = End(reason="success", facts=("held",), steps=3, message="a")
+    one = RigEnd(reason="success", facts=("held",), steps=3, message="a")
     for changes, agree in (
         ({"steps": 4, "message": "b"}, True),
         ({"facts": ("held", "bruised")}, False),
         ({"reason": "fault"}, False),
     ):
-        assert Pair(seed=0, simulated=one, emulated=replace(one, **changes)).agree is agree
+        assert RigPair(seed=0, simulated=one, emulated=replace(one, **changes)).agree is agree
 
 
 @pytest.mark.parametrize(
