@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Benchmarks: measure the system, print figures, write them as JSON.
+
+Not here: what has one right answer (``tests``), and the flags (``tacgrasp.cli.bench``).
+"""

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Benchmarks of the cost of models and data: encoders, decisions, simulated contacts.
+
+Not here: how right models are (``tacgrasp.training``, ``tacgrasp.pretraining``).
+"""

@@ -43,27 +43,28 @@ def run(
     """Measure and print.
 
     Args:
-        preset: Whose sizes; its own encoder, ours with groups, and the reference are timed.
-        repeats: Of batch 1; a tenth of it for batch 64 and for steps of training.
-        scales: Points and groups to time besides.
+        preset: Name of the encoder. Its own tokenizer, ours with groups, and the reference design
+            of the same size are timed.
+        repeats: Number of encodings at batch 1; a tenth of it at batch 64 and for training.
+        scales: Numbers of points and groups to time as well.
         json_path: File for the figures.
-        clock: Of what is timed [s].
+        clock: Time source [s].
 
     Raises:
-        UsageError: No such preset, or it is for images.
+        UsageError: An unknown preset, or one that takes images.
     """
     if preset not in PRESETS:
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     config = PRESETS[preset]
-    if config.tokenizer == "image":
+    if config.takes_images:
         raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
     groups = dataclasses.replace(config, tokenizer="fps", bearing=0, grades=0)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)
-    found: dict[str, dict[str, float]] = {}
+    figures: dict[str, dict[str, float]] = {}
     for name, model in models.items():
-        found[name] = {
+        figures[name] = {
             "parameters": float(sum(p.numel() for p in model.parameters())),
             **_latency(model, 1, repeats, clock),
             **_latency(model, 64, max(3, repeats // 10), clock),
@@ -73,15 +74,15 @@ def run(
         f"{points} points, {num} groups": _scaling(groups, points, num, repeats, clock)
         for points, num in scales
     }
-    _show(preset, found, scaling)
+    _show(preset, figures, scaling)
     if json_path is not None:
         threads = torch.get_num_threads()
-        whole = {"preset": preset, "threads": threads, "encoders": found, "scaling": scaling}
-        json_path.write_text(json.dumps(whole, indent=1) + "\n", encoding="utf-8")
+        report = {"preset": preset, "threads": threads, "encoders": figures, "scaling": scaling}
+        json_path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 
 def clouds(count: int, num_points: int = 1024) -> Tensor:
-    """Scaled points of gentle bumps in lattice order, shape (count, num_points, 3)."""
+    """Scaled points of smooth bumps in lattice order, shape (count, num_points, 3)."""
     side = round(num_points**0.5)
     if side * side != num_points:
         raise TouchError(f"clouds to time need a square number of points, got {num_points}")
@@ -90,9 +91,11 @@ def clouds(count: int, num_points: int = 1024) -> Tensor:
     rng = torch.Generator().manual_seed(0)
     steps = (torch.arange(side) + 0.5) / side * 2 - 1
     x, y = steps.repeat(side), -aspect * steps.repeat_interleave(side)
-    at = torch.rand(count, 2, generator=rng) - 0.5
-    away = (x - at[:, :1]) ** 2 + (y - at[:, 1:]) ** 2
-    return torch.stack([x.expand(count, -1), y.expand(count, -1), 0.4 * (-8 * away).exp()], dim=-1)
+    centre = torch.rand(count, 2, generator=rng) - 0.5
+    squared = (x - centre[:, :1]) ** 2 + (y - centre[:, 1:]) ** 2
+    return torch.stack(
+        [x.expand(count, -1), y.expand(count, -1), 0.4 * (-8 * squared).exp()], dim=-1
+    )
 
 
 @torch.inference_mode()
@@ -101,16 +104,20 @@ def _latency(
 ) -> dict[str, float]:
     model.eval()
     points = clouds(batch, _points_of(model))
-    taken = []
+    p50, p99 = np.percentile(_times_ms(model, points, repeats, clock), [50, 99])
+    return {f"batch_{batch}_p50_ms": float(p50), f"batch_{batch}_p99_ms": float(p99)}
+
+
+def _times_ms(
+    model: nn.Module, points: Tensor, repeats: int, clock: Callable[[], float]
+) -> list[float]:
+    times = []
     for number in range(WARM_UP + repeats):
         began = clock()
         model(points)
         if number >= WARM_UP:
-            taken.append(1e3 * (clock() - began))
-    return {
-        f"batch_{batch}_p50_ms": float(np.percentile(taken, 50)),
-        f"batch_{batch}_p99_ms": float(np.percentile(taken, 99)),
-    }
+            times.append(1e3 * (clock() - began))
+    return times
 
 
 def _points_of(model: nn.Module) -> int:
@@ -139,35 +146,30 @@ def _scaling(
     config: EncoderConfig, points: int, groups: int, repeats: int, clock: Callable[[], float]
 ) -> dict[str, float]:
     sized = dataclasses.replace(config, num_groups=groups)
-    found = {}
+    figures = {}
     for name, model in (("ours", TactileEncoder(sized)), ("plain", PlainPointBert(sized))):
         model.eval()
-        cloud, taken = clouds(1, points), []
-        for number in range(WARM_UP + max(3, repeats // 10)):
-            began = clock()
-            model(cloud)
-            if number >= WARM_UP:
-                taken.append(1e3 * (clock() - began))
-        found[f"{name}_ms"] = float(np.median(taken))
-    return found
+        times = _times_ms(model, clouds(1, points), max(3, repeats // 10), clock)
+        figures[f"{name}_ms"] = float(np.median(times))
+    return figures
 
 
-def _show(preset: str, found: Mapping[str, Figures], scaling: Mapping[str, Figures]) -> None:
-    to = Console()
-    to = to if to.is_terminal else Console(width=140)
-    shown = Table(title=f"encoders at the size of {preset}, {torch.get_num_threads()} threads")
-    columns = list(next(iter(found.values())))
+def _show(preset: str, encoders: Mapping[str, Figures], scaling: Mapping[str, Figures]) -> None:
+    console = Console()
+    console = console if console.is_terminal else Console(width=140)
+    table = Table(title=f"encoders at the size of {preset}, {torch.get_num_threads()} threads")
+    columns = list(next(iter(encoders.values())))
     for column in ("", *columns):
-        shown.add_column(column.replace("_", " "), justify="right" if column else "left")
-    for name, figures in found.items():
-        shown.add_row(name, *(_number(figures[column]) for column in columns))
-    to.print(shown)
-    grown = Table(title="one cloud, fps: median ms")
+        table.add_column(column.replace("_", " "), justify="right" if column else "left")
+    for name, figures in encoders.items():
+        table.add_row(name, *(_number(figures[column]) for column in columns))
+    console.print(table)
+    table = Table(title="one cloud, fps: median ms")
     for column in ("", "ours ms", "plain ms"):
-        grown.add_column(column, justify="right" if column else "left")
+        table.add_column(column, justify="right" if column else "left")
     for name, figures in scaling.items():
-        grown.add_row(name, *(f"{value:.2f}" for value in figures.values()))
-    to.print(grown)
+        table.add_row(name, *(f"{value:.2f}" for value in figures.values()))
+    console.print(table)
 
 
 def _number(value: float) -> str:

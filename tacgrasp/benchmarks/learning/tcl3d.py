@@ -32,11 +32,11 @@ from tacgrasp.benchmarks.learning.timed_contacts import (
     COLUMNS,
     ROWS,
     STAGES,
-    Made,
+    StageTimes,
     make,
     resolution,
     scene_of,
-    solved,
+    solve,
 )
 
 LIMIT_PER_S, DEVICE_LIMIT_PER_S = 40.0, 2000.0
@@ -45,36 +45,36 @@ _COUNTS = (4, 8, 16, 32)
 _WARM_UP = 6
 
 
-def _worker(numbers: list[int], device: str) -> Made:
+def _worker(numbers: list[int], device: str) -> StageTimes:
     torch.set_num_threads(1)
-    make(numbers[:_WARM_UP], device)  # kernels, and a library's first calls
+    make(numbers[:_WARM_UP], device)  # the first calls of libraries take longer
     return make(numbers, device)
 
 
-def throughput(series: int, workers: int, device: str) -> tuple[float, list[Made]]:
-    """Contacts per second while all processes work, and what each made."""
-    shares = [list(range(first, series, workers)) for first in range(workers)]
+def throughput(series: int, workers: int, device: str) -> tuple[float, list[StageTimes]]:
+    """Contacts per second while all processes work, and each one's times."""
+    parts = [list(range(first, series, workers)) for first in range(workers)]
     spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
     with ProcessPoolExecutor(workers, mp_context=spawn) as pool:
-        made = list(pool.map(_worker, shares, [device] * workers))
-    # From the last one's begin to the first one's end all of them were at work.
-    span = min(one.end_s for one in made) - max(one.begin_s for one in made)
+        times = list(pool.map(_worker, parts, [device] * workers))
+    # All processes were at work from the last begin to the first end.
+    span = min(each.end_s for each in times) - max(each.begin_s for each in times)
     if span <= 0:
         raise UsageError(f"{series} series are too few for {workers} workers; make more --series")
-    return sum(one.contacts / (one.end_s - one.begin_s) for one in made), made
+    return sum(each.contacts / (each.end_s - each.begin_s) for each in times), times
 
 
-def floors_ms(made: Made, repeats: int = 5) -> dict[str, float]:
-    """Time per contact that each stage can't go below, measured here [ms].
+def floors_ms(times: StageTimes, repeats: int = 5) -> dict[str, float]:
+    """Least possible time of each stage per contact, measured here [ms].
 
-    Geometry: writing the gap map once. Solve: bare FFTs, there and back, of the sizes and numbers
-    that the solver used, rows that hold nothing left out. Labels: reading heights and pressures
-    once. Caption: none.
+    Geometry: writing the gap map once. Solve: bare forward and inverse FFTs of the sizes and
+    numbers that the solver used, without empty rows. Labels: reading heights and pressures once.
+    Caption: 0.
     """
-    field = torch.rand(ROWS, COLUMNS)
-    copy_ms = _best_ms(lambda: field.clone(), 50)
+    gap_map = torch.rand(ROWS, COLUMNS)
+    copy_ms = _best_ms(lambda: gap_map.clone(), 50)
     fft_ms = 0.0
-    for (rows, padded_rows, padded_columns), count in made.transforms.items():
+    for (rows, padded_rows, padded_columns), count in times.transforms.items():
         along = torch.rand(rows, padded_columns)
         half = torch.fft.rfft(along)
         down = torch.rand(half.shape[1], padded_rows, dtype=half.dtype)
@@ -87,7 +87,7 @@ def floors_ms(made: Made, repeats: int = 5) -> dict[str, float]:
             fft_ms += count * _best_ms(transform, repeats)
     return {
         "geometry": copy_ms,
-        "solve": fft_ms / made.contacts,
+        "solve": fft_ms / times.contacts,
         "labels": 2 * copy_ms,
         "caption": 0.0,
     }
@@ -103,18 +103,18 @@ def _best_ms(call: Callable[[], object], repeats: int) -> float:
 
 
 def shortcut_error_um(series: int) -> dict[str, float]:
-    """How far heights are from the solve on the whole grid, of ``series`` series [µm]."""
+    """Errors of the heights of some series against a solve on the whole grid [µm]."""
     worst, spread, area = [], [], []
     with resolution(ROWS, COLUMNS):
         for number in range(series):
-            order, scene, approach = scene_of(number, "cpu")
-            press = solved(order, scene, approach, "cpu")
+            request, scene, approach = scene_of(number, "cpu")
+            press = solve(request, scene, approach, "cpu")
             whole = ElasticLayer(
-                order.gel,
+                request.gel,
                 rows=ROWS,
                 columns=COLUMNS,
-                pitch_mm=order.sensor.width_mm / COLUMNS,
-                body_modulus_mpa=order.obj.modulus_mpa,
+                pitch_mm=request.sensor.width_mm / COLUMNS,
+                body_modulus_mpa=request.obj.modulus_mpa,
             )
             gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(approach), -1, -1)
             with torch.inference_mode():
@@ -134,7 +134,7 @@ def shortcut_error_um(series: int) -> dict[str, float]:
 
 
 def exponents(series: int) -> dict[str, float]:
-    """Powers by which time grows with contacts, and with n log n of n pixels."""
+    """Exponents of the growth of time with contacts, and with n log n of n pixels."""
     make(list(range(_COUNTS[-1])), grid=_GRIDS[0])
     by_count = [_seconds(count, (120, 160)) for count in _COUNTS]
     by_grid = []
@@ -149,7 +149,7 @@ def exponents(series: int) -> dict[str, float]:
 
 
 def _seconds(series: int, grid: tuple[int, int]) -> float:
-    """Processor time of this thread for as many series, each as heavy as the others on average."""
+    """Processor time of this thread for some series [s]."""
     begin = time.process_time()
     make(list(range(series)), grid=grid)
     return time.process_time() - begin
@@ -163,15 +163,15 @@ def tacto_frame(python: Path) -> dict[str, float]:
     """Time of one frame of TACTO's own renderer [ms], in the interpreter where it is installed.
 
     Raises:
-        UsageError: It does not run there; with its last line.
+        UsageError: It does not run there; the message holds its last line.
     """
     script = Path(__file__).with_name("tacto_frame.py")
     done = subprocess.run(
         [str(python), str(script)], capture_output=True, text=True, timeout=300, check=False
     )
     if done.returncode != 0:
-        said = (done.stderr or done.stdout).strip().splitlines() or ["nothing"]
-        raise UsageError(f"TACTO does not run in {python}: {said[-1]}")
+        lines = (done.stderr or done.stdout).strip().splitlines() or ["nothing"]
+        raise UsageError(f"TACTO does not run in {python}: {lines[-1]}")
     times = json.loads(done.stdout.strip().splitlines()[-1])
     return {f"tacto_{name}": float(value) for name, value in times.items()}
 
@@ -179,17 +179,17 @@ def tacto_frame(python: Path) -> dict[str, float]:
 def run(
     *, series: int, workers: int, device: str, tacto: Path | None, json_path: Path | None
 ) -> bool:
-    """Measure, print, write ``json_path`` if given; whether the limit was kept.
+    """Measure, print, write ``json_path`` if given; returns whether the limit was kept.
 
     Raises:
         UsageError: Too few series, or TACTO does not run.
         OSError: The file can't be written.
     """
-    rate, made = throughput(series, workers, device)
+    rate, times = throughput(series, workers, device)
     limit = LIMIT_PER_S if device == "cpu" else DEVICE_LIMIT_PER_S
     torch.set_num_threads(1)
-    contacts = sum(one.contacts for one in made)
-    stages = {s: 1e3 * sum(one.stage_s[s] for one in made) / contacts for s in STAGES}
+    contacts = sum(each.contacts for each in times)
+    stages = {s: 1e3 * sum(each.stage_s[s] for each in times) / contacts for s in STAGES}
     figures = {
         "contacts": float(contacts),
         "workers": float(workers),
@@ -198,38 +198,38 @@ def run(
     }
     figures |= {f"{stage}_ms": value for stage, value in stages.items()}
     figures["processor_ms"] = sum(stages.values())
-    floors = floors_ms(made[0])
+    floors = floors_ms(times[0])
     figures |= {f"{stage}_floor_ms": value for stage, value in floors.items()}
     figures |= shortcut_error_um(max(2, series // 8)) | exponents(max(4, series // 8))
     if tacto is not None:
         figures |= tacto_frame(tacto)
     _print(figures, device, limit)
     if json_path is not None:
-        report = {"device": device, "made": [_plain(one) for one in made], **figures}
+        report = {"device": device, "made": [_plain(each) for each in times], **figures}
         json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     return rate >= limit
 
 
-def _plain(made: Made) -> dict[str, object]:
-    plain = asdict(made)
-    plain["transforms"] = [[*size, count] for size, count in sorted(made.transforms.items())]
+def _plain(times: StageTimes) -> dict[str, object]:
+    plain = asdict(times)
+    plain["transforms"] = [[*size, count] for size, count in sorted(times.transforms.items())]
     return plain
 
 
 def _print(f: dict[str, float], device: str, limit: float) -> None:
-    table = Table("what", "value", "floor", "note", title=f"TCL3D at {COLUMNS}×{ROWS}, {device}")
+    table = Table("figure", "value", "floor", "note", title=f"TCL3D at {COLUMNS}×{ROWS}, {device}")
     table.add_row(
         "contacts a second",
         f"{f['contacts_per_s']:.1f}",
         "",
         f"{f['workers']:.0f} processes of one thread; limit {limit:g}",
     )
-    if device == "cpu":  # there is no processor time of an accelerator
+    if device == "cpu":  # an accelerator has no processor time
         table.add_row(
             "the same, on free cores",
             f"{f['contacts_per_s_on_free_cores']:.1f}",
             "",
-            "from the processor time below; as much unless others compute here too",
+            "from the processor time below; equal on an idle machine",
         )
     notes = ("writing the map", "bare FFTs of the same sizes", "reading both maps", "")
     for stage, note in zip(STAGES, notes, strict=True):
@@ -243,7 +243,10 @@ def _print(f: dict[str, float], device: str, limit: float) -> None:
         f"contact's {f['worst_um_p50']:.1f}; against the whole grid at tol 1e-5",
     )
     table.add_row(
-        "error of area", f"{f['area_points_max']:.2f} points", "", "share of the field, worst"
+        "error of area",
+        f"{f['area_points_max']:.2f} points",
+        "",
+        "percent of the sensing area, worst",
     )
     table.add_row("grows with contacts", f"n^{f['contacts_exponent']:.2f}", "", "1 is linear")
     table.add_row(

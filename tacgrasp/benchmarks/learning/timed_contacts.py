@@ -1,8 +1,4 @@
-"""Series of TCL3D made from object to caption at any resolution, each stage timed.
-
-Not here: what the figures are held to (``tacgrasp.benchmarks.learning.tcl3d``), the data set's
-files (``tacgrasp.datasets.generate``).
-"""
+"""Series of TCL3D made from object to caption at any resolution, each stage timed."""
 
 from __future__ import annotations
 
@@ -27,19 +23,18 @@ from sim.tcl3d.series import Scene, SeriesRequest, draw_scene, series_request
 ROWS, COLUMNS = 240, 320
 SEED = 0
 STAGES = ("geometry", "solve", "labels", "caption")
-_SOFT_SHARE_MPA = 0.35  # as in ``sim.tcl3d.series``: how much deeper a soft body has to go
+_SOFT_SHARE_MPA = 0.35  # as in ``sim.tcl3d.series``: extra depth for a soft body
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Made:
-    """What one process made.
+class StageTimes:
+    """Durations of one process that made contacts.
 
     Attributes:
-        contacts: How many.
-        begin_s, end_s: On the machine's clock, which all processes share.
-        stage_s: Seconds of processor time in each of ``STAGES``, which no neighbour can stretch.
-        transforms: Sizes of the convolutions, and how many of each: rows that hold anything, and
-            padded rows and columns.
+        contacts: Number of contacts.
+        begin_s, end_s: On the machine's monotonic clock, which all processes share [s].
+        stage_s: Processor time of each of ``STAGES``; other processes don't lengthen it [s].
+        transforms: Number of convolutions by size: non-empty rows, padded rows, padded columns.
     """
 
     contacts: int
@@ -51,7 +46,7 @@ class Made:
 
 @contextmanager
 def resolution(rows: int, columns: int) -> Iterator[None]:
-    """The data set's own code on a grid of another size."""
+    """Run the data set's own code on a grid of another size."""
     with patch.object(tcl3d, "ROWS", rows), patch.object(tcl3d, "COLUMNS", columns):
         yield
 
@@ -59,18 +54,18 @@ def resolution(rows: int, columns: int) -> Iterator[None]:
 @contextmanager
 def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
     """Count convolutions by their sizes, those of batches and those of single contacts."""
-    of_batches, of_one = Spectrum.apply, Convolution.apply
+    apply_batch, apply_one = Spectrum.apply, Convolution.apply
 
     def count(size: tuple[int, int, int], num: int) -> None:
         transforms[size] = transforms.get(size, 0) + num
 
     def counting(self: Spectrum, pressure_mpa: Tensor) -> Tensor:
         count((self.rows, self.padded_rows, self.padded_columns), len(pressure_mpa))
-        return of_batches(self, pressure_mpa)
+        return apply_batch(self, pressure_mpa)
 
     def counting_one(self: Convolution, field: Tensor) -> Tensor:
         count((field.shape[0], *self.padded), 1)
-        return of_one(self, field)
+        return apply_one(self, field)
 
     with (
         patch.object(Spectrum, "apply", counting),
@@ -80,23 +75,24 @@ def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
 
 
 def scene_of(number: int, device: str) -> tuple[SeriesRequest, Scene, list[float]]:
-    """What a series is, what lies over the pad, and how deep it is pressed [mm]."""
-    order = series_request(SEED, number)
+    """A series, the scene over the pad, and the depths of its presses [mm]."""
+    request = series_request(SEED, number)
     rng = np.random.default_rng([SEED, number, 1])
-    scene, depths = draw_scene(order, rng, device)
-    soft = order.obj.modulus_mpa
-    return order, scene, [d * (1 + (_SOFT_SHARE_MPA / soft if soft else 0.0)) for d in depths]
+    scene, depths = draw_scene(request, rng, device)
+    modulus_mpa = request.obj.modulus_mpa
+    extra = _SOFT_SHARE_MPA / modulus_mpa if modulus_mpa else 0.0
+    return request, scene, [depth * (1 + extra) for depth in depths]
 
 
-def solved(order: SeriesRequest, scene: Scene, approach: list[float], device: str) -> Press:
+def solve(request: SeriesRequest, scene: Scene, approach: list[float], device: str) -> Press:
     """Press a series at the resolution of its scene."""
     gap = torch.from_numpy(scene.gap_mm.astype(np.float32)).to(device)
     layer = ElasticLayer(
-        order.gel,
+        request.gel,
         rows=gap.shape[0],
         columns=gap.shape[1],
-        pitch_mm=order.sensor.width_mm / gap.shape[1],
-        body_modulus_mpa=order.obj.modulus_mpa,
+        pitch_mm=request.sensor.width_mm / gap.shape[1],
+        body_modulus_mpa=request.obj.modulus_mpa,
         device=device,
     )
     with torch.inference_mode():
@@ -108,7 +104,9 @@ def solved(order: SeriesRequest, scene: Scene, approach: list[float], device: st
     return press
 
 
-def make(numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS, COLUMNS)) -> Made:
+def make(
+    numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS, COLUMNS)
+) -> StageTimes:
     """Make series of contacts from object to caption, one after the other, and time each stage."""
     stage_s = dict.fromkeys(STAGES, 0.0)
     transforms: dict[tuple[int, int, int], int] = {}
@@ -116,20 +114,20 @@ def make(numbers: list[int], device: str = "cpu", grid: tuple[int, int] = (ROWS,
     with resolution(*grid), _counted(transforms):
         for number in numbers:
             times = [time.process_time()]
-            order, scene, approach = scene_of(number, device)
+            request, scene, approach = scene_of(number, device)
             times.append(time.process_time())
-            press = solved(order, scene, approach, device)
+            press = solve(request, scene, approach, device)
             times.append(time.process_time())
-            made = tcl3d.label_presses(SEED, order, scene, approach, press)
+            labelled = tcl3d.label_presses(SEED, request, scene, approach, press)
             times.append(time.process_time())
-            for contact in made:
+            for contact in labelled:
                 caption(contact.state)
                 numeric_caption(contact.state, contact.sensor)
             times.append(time.process_time())
-            contacts += len(made)
+            contacts += len(labelled)
             for stage, begun, ended in zip(STAGES, times, times[1:], strict=False):
                 stage_s[stage] += ended - begun
-    return Made(
+    return StageTimes(
         contacts=contacts,
         begin_s=begin,
         end_s=time.monotonic(),

@@ -1,1 +1,1 @@
-"""TODO: what this folder is for, what it may import."""
+"""Benchmarks of whole episodes, and of the rigs and drivers that they run on."""

@@ -1,7 +1,7 @@
-"""``tacgrasp bench drivers``: how regular the supervision is, and how soon commands take effect.
+"""``tacgrasp bench drivers``: period of supervision, and delay of commands and readings.
 
-On the emulated rig, through the real libraries, with all devices at work at once: the arm moves to
-and fro under supervision at 125 Hz, the gripper grips and opens, the gel is read.
+The emulated rig is driven through the real libraries with all devices at work: the arm moves to and
+fro under supervision at 125 Hz, the gripper grips and opens, the sensor is read.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.console import console
+from tacgrasp.console import make_console
 from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper, connect_gripper
 from tacgrasp.drivers.ur.arm import UrArm, connect_arm
 from tacgrasp.drivers.ur.shared_state import Distribution
@@ -34,12 +34,12 @@ from tacgrasp.rig.protocols import WatchedSensor
 
 STEP_M = 0.003
 STATE_READS = 20
-_WHAT = {
-    "supervision": "period of the arm's supervision, 8 ms is meant",
-    "command to motion": "arm: from an order to a speed above 1 mm/s",
+_DESCRIPTIONS = {
+    "supervision": "period of the arm's supervision, nominally 8 ms",
+    "command to motion": "arm: from a command to a speed above 1 mm/s",
     "gripper state": "gripper: opening read on the wire",
-    "grip": "gripper: from the order until the fingers rest",
-    "open": "gripper: 5 mm, from the order until the fingers rest",
+    "grip": "gripper: from the command until the fingers rest",
+    "open": "gripper: 5 mm, from the command until the fingers rest",
     "touch": "sensor: a cloud captured after the call, 20 ms a frame",
 }
 
@@ -52,20 +52,20 @@ class _Devices:
 
 
 def run(*, minutes: float, json_path: Path | None) -> Mapping[str, Distribution]:
-    """Work for some minutes, print the distributions and write them.
+    """Drive the rig for some minutes, print the distributions and write them.
 
     Raises:
         RobotError: The emulators did not start, or a device failed on the way.
     """
     config, _ = load("strawberry", "emulated")
-    out = console()
+    console = make_console()
     with ExitStack() as stack:
-        devices = _connected(config, stack)
-        progress = stack.enter_context(Progress(console=out, transient=True))
+        devices = _connect(config, stack)
+        progress = stack.enter_context(Progress(console=console, transient=True))
         task = progress.add_task("drivers", total=60 * minutes)
-        times_ms = _work(devices, 60 * minutes, lambda s: progress.update(task, completed=s))
+        times_ms = _drive(devices, 60 * minutes, lambda s: progress.update(task, completed=s))
         timing = devices.arm.timing()
-        survived = devices.gripper.transients
+        transients = devices.gripper.transients
     figures = {
         "supervision": timing.period,
         "command to motion": timing.command_to_motion,
@@ -74,18 +74,18 @@ def run(*, minutes: float, json_path: Path | None) -> Mapping[str, Distribution]
     table = Table(title=f"{minutes:g} minutes on the emulated rig, ms")
     for column in ("", "count", "p50", "p99", "max"):
         table.add_column(column, justify="left" if not column else "right")
-    for name, one in figures.items():
-        cells = (f"{value:.1f}" for value in (one.p50_ms, one.p99_ms, one.max_ms))
-        table.add_row(_WHAT[name], str(one.count), *cells)
-    out.print(table)
-    out.print(f"survived on the gripper's bus: {survived}")
+    for name, times in figures.items():
+        cells = (f"{value:.1f}" for value in (times.p50_ms, times.p99_ms, times.max_ms))
+        table.add_row(_DESCRIPTIONS[name], str(times.count), *cells)
+    console.print(table)
+    console.print(f"errors survived on the gripper's bus: {transients}")
     if json_path is not None:
-        report = {"minutes": minutes} | {name: asdict(one) for name, one in figures.items()}
+        report = {"minutes": minutes} | {name: asdict(times) for name, times in figures.items()}
         json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
     return figures
 
 
-def _connected(config: RunConfig, stack: ExitStack) -> _Devices:
+def _connect(config: RunConfig, stack: ExitStack) -> _Devices:
     if config.hardware is None:
         raise UsageError("rigs/emulated.yaml names no hardware")
     emulators = stack.enter_context(EmulatorProcess("rig"))
@@ -100,10 +100,10 @@ def _connected(config: RunConfig, stack: ExitStack) -> _Devices:
     return _Devices(arm=arm, gripper=gripper, sensor=sensor)
 
 
-def _work(
+def _drive(
     devices: _Devices, seconds: float, report: Callable[[float], None]
 ) -> Mapping[str, list[float]]:
-    """Move, grip, open and read in turn for so long; returns times by name [ms]."""
+    """Move, grip, open and read in turn; returns durations by name [ms]."""
     times: dict[str, list[float]] = defaultdict(list)
 
     def timed(name: str, call: Callable[[], object]) -> None:
@@ -112,8 +112,8 @@ def _work(
         times[name].append(1e3 * (time.perf_counter() - began_s))
 
     start, began_s, sign = devices.arm.pose(), time.monotonic(), 1.0
-    while (passed_s := time.monotonic() - began_s) < seconds:
-        report(passed_s)
+    while (elapsed_s := time.monotonic() - began_s) < seconds:
+        report(elapsed_s)
         target = Pose(
             position_m=start.position_m + np.array([sign * STEP_M, 0.0, 0.0]),
             rotvec_rad=start.rotvec_rad,

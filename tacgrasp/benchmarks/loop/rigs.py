@@ -1,7 +1,7 @@
-"""``tacgrasp bench rigs``: does the emulated rig come to the same ends as the simulated one?
+"""``tacgrasp bench rigs``: compare the ends of episodes on the emulated and the simulated rig.
 
-Every seed is run twice with the same policy: simulated, and on emulators through the real drivers,
-several rigs side by side. Compared are the end's reason and the truth.
+Each seed is run twice with the same policy: simulated, and on emulators through the real drivers,
+several rigs side by side. The reason of the end and the truth are compared.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from rich.progress import Progress
 from primitives import RobotError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.console import console
+from tacgrasp.console import make_console
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.factory import make_executor, make_rig
-from tacgrasp.runtime.tick import NoRecorder
+from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
 
 COMPARED = ("held", "slipped", "dropped", "bruised", "bruised_at_start")
-"""Facts of the truth that must agree beside the end's reason."""
+"""Facts of the truth that must agree, beside the reason of the end."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class End:
-    """What one episode came to.
+class RigEnd:
+    """End of one episode on one rig.
 
     Attributes:
-        reason: The named end; 'not started' when the rig could not be had.
+        reason: The named end; 'not started' when the rig could not be built.
         facts: The facts of ``COMPARED`` that are true.
-        steps: Actions carried out.
-        message: For people.
+        steps: Number of actions carried out.
+        message: The end in words.
     """
 
     reason: str
@@ -48,18 +48,18 @@ class End:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pair:
+class RigPair:
     """The ends of one seed on both rigs."""
 
     seed: int
-    simulated: End
-    emulated: End
+    simulated: RigEnd
+    emulated: RigEnd
 
     @property
     def agree(self) -> bool:
-        """Same reason, same truth."""
-        one, other = self.simulated, self.emulated
-        return (one.reason, one.facts) == (other.reason, other.facts)
+        """Whether both rigs came to the same reason and truth."""
+        simulated, emulated = self.simulated, self.emulated
+        return (simulated.reason, simulated.facts) == (emulated.reason, emulated.facts)
 
 
 def run(
@@ -70,8 +70,8 @@ def run(
     parallel: int,
     weights: Path | None,
     json_path: Path | None,
-) -> list[Pair]:
-    """Run every seed on both rigs, print where they differ and how many agree.
+) -> list[RigPair]:
+    """Run each seed on both rigs; print the seeds that differ, and how many agree.
 
     Raises:
         UsageError: An unknown policy, or weights that can't be used.
@@ -80,11 +80,11 @@ def run(
         load("strawberry", rig)[0].model_copy(update={"policy": policy, "weights": weights})
         for rig in ("sim", "emulated")
     ]
-    make_policy(policy, configs[0])  # refused here, not in a worker
-    out, pairs = console(), []
+    make_policy(policy, configs[0])  # an error shows here, not in a worker
+    console, pairs = make_console(), []
     with (
         ProcessPoolExecutor(parallel, get_context("spawn"), initializer=_one_thread) as pool,
-        Progress(console=out, transient=True) as progress,
+        Progress(console=console, transient=True) as progress,
     ):
         task = progress.add_task("episodes", total=seeds)
         numbers = range(first_seed, first_seed + seeds)
@@ -92,10 +92,10 @@ def run(
             pairs.append(pair)
             progress.advance(task)
             if not pair.agree:
-                out.print(f"seed {pair.seed}: {_words(pair.simulated)} simulated")
-                out.print(f"{'':5}{'':{len(str(pair.seed))}}  {_words(pair.emulated)} emulated")
+                console.print(f"seed {pair.seed}: {_words(pair.simulated)} simulated")
+                console.print(f"{'':5}{'':{len(str(pair.seed))}}  {_words(pair.emulated)} emulated")
     agree = sum(pair.agree for pair in pairs)
-    out.print(f"{agree} of {len(pairs)} seeds agree in end and truth ({policy})")
+    console.print(f"{agree} of {len(pairs)} seeds agree in end and truth ({policy})")
     if json_path is not None:
         report = {
             "policy": policy,
@@ -108,18 +108,18 @@ def run(
     return pairs
 
 
-def run_seed(simulated: RunConfig, emulated: RunConfig, seed: int) -> Pair:
-    """One seed on both rigs, without records."""
+def run_seed(simulated: RunConfig, emulated: RunConfig, seed: int) -> RigPair:
+    """Run one seed on both rigs, without records."""
     ends = [_end(c.model_copy(update={"seed": seed})) for c in (simulated, emulated)]
-    return Pair(seed=seed, simulated=ends[0], emulated=ends[1])
+    return RigPair(seed=seed, simulated=ends[0], emulated=ends[1])
 
 
-def _end(config: RunConfig) -> End:
+def _end(config: RunConfig) -> RigEnd:
     policy = make_policy(config.policy, config)
     try:
         rig = make_rig(config)
     except RobotError as error:
-        return End(reason="not started", facts=(), steps=0, message=str(error))
+        return RigEnd(reason="not started", facts=(), steps=0, message=str(error))
     try:
         outcome = run_episode(
             rig,
@@ -132,15 +132,15 @@ def _end(config: RunConfig) -> End:
     finally:
         rig.disconnect()
     truth = outcome.truth or {}
-    return End(
+    return RigEnd(
         reason=outcome.reason.value,
         facts=tuple(name for name in COMPARED if truth.get(name)),
-        steps=outcome.steps,
+        steps=outcome.num_actions,
         message=outcome.message,
     )
 
 
-def _words(end: End) -> str:
+def _words(end: RigEnd) -> str:
     return f"{end.reason}, {', '.join(end.facts) or 'nothing true'}, {end.steps} actions"
 
 

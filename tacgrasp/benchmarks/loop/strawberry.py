@@ -1,7 +1,7 @@
-"""``tacgrasp bench strawberry``: every policy in the same simulated episodes, against the truth.
+"""``tacgrasp bench strawberry``: each policy in the same simulated episodes, against the truth.
 
-The rules of the benchmark are in the README. Beside the policies it sweeps the best single force,
-so that the figures say whether touch was needed, and prints Wilson intervals.
+The README has the rules. ``fixed_force`` is the best single force of a sweep: it shows whether
+touch was needed. Rates have Wilson intervals.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.factory import make_executor
-from tacgrasp.runtime.tick import NoRecorder
+from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
 
 FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
@@ -39,23 +39,23 @@ FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
 
 
 Contestant = tuple[str, float | None]
-"""A policy's name, and the first force that it chose itself [N] (``fixed_force`` alone does)."""
+"""A policy's name, and the first force [N] where the policy chooses it (``fixed_force`` alone)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EpisodeResult:
-    """What one episode came to.
+    """End of one episode, with the truth.
 
     Attributes:
-        seed: Its seed.
+        seed: Random seed of the episode.
         reason: The named end.
-        declared: The policy declared success.
-        verified_by_touch: The lift's verdict; None when it was not tried.
-        actions: Actions carried out after the first grasp.
-        truth: What really happened.
-        slip_minimum_n: Smallest force that would have held the body, centred [N].
-        chose_first_force: The policy chose the force of the first grasp (``fixed_force``), so that
-            a bruise of that grasp is its own.
+        declared: Whether the policy declared success.
+        verified_by_touch: Result of the lift; None when nothing was lifted.
+        actions: Number of actions after the first grasp.
+        truth: The simulator's truth.
+        slip_minimum_n: Smallest force that would have held the centred body [N].
+        chose_first_force: Whether the policy chose the force of the first grasp (``fixed_force``);
+            a bruise of that grasp is then the policy's.
     """
 
     seed: int
@@ -79,7 +79,7 @@ class EpisodeResult:
 
 
 def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
-    """Accelerations (x, y of the pad) [m/s²] that a held body is put to in the verification."""
+    """Accelerations of a held body in the verification, (x, y) of the pad [m/s²]."""
     shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
     return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
 
@@ -87,11 +87,11 @@ def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
 def run_seed(
     config: RunConfig, contestants: Sequence[Contestant], seed: int
 ) -> list[EpisodeResult]:
-    """Run every contestant in the same episode, without records."""
+    """Run each contestant in the same episode, without records."""
     config = config.model_copy(update={"seed": seed, "on_failure": "hold"})  # a release is no drop
-    drawn = build(config.object, seed, sensor_name=config.sensor)
-    slip_minimum = drawn.grasp.fingers.slip_minimum_n(accelerations(config.verify))
-    return [_run_one(config, one, slip_minimum) for one in contestants]
+    rig = build(config.object, seed, sensor_name=config.sensor)
+    slip_minimum = rig.grasp.fingers.slip_minimum_n(accelerations(config.verify))
+    return [_run_one(config, contestant, slip_minimum) for contestant in contestants]
 
 
 def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -> EpisodeResult:
@@ -110,7 +110,7 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
         reason=outcome.reason.value,
         declared=outcome.declared,
         verified_by_touch=outcome.verified,
-        actions=outcome.steps,
+        actions=outcome.num_actions,
         truth=rig.truth(),
         slip_minimum_n=slip_minimum_n,
         chose_first_force=force_n is not None,
@@ -138,7 +138,7 @@ def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) ->
 
 @lru_cache(maxsize=1)
 def _language_model(weights: Path | None, instruction: str) -> Policy:
-    """Read once a process: it judges every touch by itself, so that episodes can share it."""
+    """The policy ``llm``, read once a process: it has no memory, so episodes can share it."""
     policy = load_llm(weights)
     try:
         policy.check(instruction)
@@ -189,20 +189,20 @@ def run(
     policies: Sequence[str],
     json_path: Path | None,
 ) -> dict[str, Any]:
-    """Run the benchmark, print its table, and return (and write) its figures.
+    """Run the benchmark, print its table, and return and write its figures.
 
     Raises:
         UsageError: An unknown policy, or nothing to run.
     """
-    known = [*POLICIES, "oracle"]
-    unknown = [name for name in policies if name not in known]
+    names = [*POLICIES, "oracle"]
+    unknown = [name for name in policies if name not in names]
     if unknown or not policies or episodes < 1:
         raise UsageError(
-            f"bench needs at least one episode and policies out of {', '.join(known)}; "
+            f"bench needs at least one episode and policies out of {', '.join(names)}; "
             f"got {episodes} episodes and {', '.join(policies) or 'no policy'}"
         )
     if "llm" in policies:
-        _language_model(config.weights, config.instruction)  # refused here, not in a worker
+        _language_model(config.weights, config.instruction)  # an error shows here, not in a worker
     contestants: list[Contestant] = []
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
@@ -213,11 +213,11 @@ def run(
     details: dict[str, list[dict[str, Any]]] = {}
     sweep: dict[str, float] = {}
     for name in policies:
-        tried = {force_n: results[name, force_n] for n, force_n in contestants if n == name}
-        best = max(tried.values(), key=lambda tries: sum(one.verified for one in tries))
-        figures[name], details[name] = summary(best), [_flat(one) for one in best]
+        by_force = {force_n: results[name, force_n] for n, force_n in contestants if n == name}
+        best = max(by_force.values(), key=lambda episodes: sum(e.verified for e in episodes))
+        figures[name], details[name] = summary(best), [_flat(result) for result in best]
         if name == "fixed_force":
-            sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in tried.items()}
+            sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in by_force.items()}
     report = {
         "task": config.task,
         "first_seed": first_seed,
@@ -235,15 +235,15 @@ def run(
 def _all_episodes(
     console: Console, config: RunConfig, contestants: Sequence[Contestant], seeds: range
 ) -> dict[Contestant, list[EpisodeResult]]:
-    results: dict[Contestant, list[EpisodeResult]] = {one: [] for one in contestants}
+    results: dict[Contestant, list[EpisodeResult]] = {contestant: [] for contestant in contestants}
     # spawned, not forked: torch's threads don't survive a fork
     with (
         ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=_one_thread) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task("episodes", total=len(seeds))
-        for of_seed in pool.map(partial(run_seed, config, contestants), seeds):
-            for contestant, result in zip(contestants, of_seed, strict=True):
+        for seed_results in pool.map(partial(run_seed, config, contestants), seeds):
+            for contestant, result in zip(contestants, seed_results, strict=True):
                 results[contestant].append(result)
             progress.advance(task)
     return results
@@ -288,5 +288,5 @@ def _print(
         )
     console.print(table)
     if sweep:
-        swept = ", ".join(f"{force} N {100 * rate:.0f} %" for force, rate in sweep.items())
-        console.print(f"fixed_force is the best of a sweep (verified): {swept}")
+        rates = ", ".join(f"{force} N {100 * rate:.0f} %" for force, rate in sweep.items())
+        console.print(f"fixed_force is the best of a sweep (verified): {rates}")

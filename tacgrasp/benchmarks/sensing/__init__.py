@@ -1,1 +1,1 @@
-"""TODO: what this folder is for, what it may import."""
+"""Benchmarks of the gel, and of what is read from its shape, against truth and real frames."""

@@ -1,7 +1,4 @@
-"""What is said of one press of a known ball, by direct measurement, encoder and language model.
-
-Not here: shares and orders over many presses (``tacgrasp.benchmarks.sensing.ball_captions``).
-"""
+"""Readings of one press of a known ball: direct measurement, encoder heads, language model."""
 
 from __future__ import annotations
 
@@ -30,22 +27,23 @@ from tacgrasp.policy_factory import load_llm
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Said:
-    """What was said of one press, and what is known of it.
+class BallReading:
+    """Readings of one press, and its geometry.
 
     Attributes:
-        name: Of the frame.
-        depth_mm: Of the ball, from the radius of its circle [mm].
-        fitted_mm: Of the ball, from its slopes [mm].
-        x_mm, y_mm: Of the ball's centre [mm, gel frame].
-        measured_mm: Depth that the direct measurement gives; 0 without contact [mm].
-        off_mm: Distance of the measured place from the ball's [mm]; None without contact.
-        text: The model's reply.
-        shape: Named in its caption; None when it named none.
-        depth: Named in its caption.
-        said_mm: Depth in numbers beside the caption; None when it gave none [mm].
-        heads_shape: What the encoder's heads call it.
-        heads_mm: Depth of the encoder's heads [mm].
+        name: Name of the frame.
+        depth_mm: Depth of the ball, from the radius of its circle [mm].
+        fitted_mm: Depth of the ball, from its slopes [mm].
+        x_mm, y_mm: Centre of the ball [mm, gel frame].
+        measured_mm: Depth by direct measurement; 0 without contact [mm].
+        position_error_mm: Distance of the measured position from the ball's centre [mm]; None
+            without contact.
+        text: Reply of the language model.
+        shape: Shape in its caption; None when it named none.
+        depth: Depth class in its caption.
+        caption_mm: Depth in numbers beside the caption [mm]; None when it gave none.
+        heads_shape: Shape by the encoder's heads.
+        heads_mm: Depth by the encoder's heads [mm].
     """
 
     name: str
@@ -54,25 +52,25 @@ class Said:
     x_mm: float
     y_mm: float
     measured_mm: float
-    off_mm: float | None
+    position_error_mm: float | None
     text: str
     shape: Shape | None
     depth: Depth | None
-    said_mm: float | None
+    caption_mm: float | None
     heads_shape: Shape
     heads_mm: float
 
 
-def asker(
+def make_reader(
     weights: Path, sensor: SensorSpec, profiles: ProfileTable
-) -> Callable[[str, BallPress, NDArray[np.float32]], Said]:
-    """What asks a model and its encoder's heads about one press."""
+) -> Callable[[str, BallPress, NDArray[np.float32]], BallReading]:
+    """A function that reads one press with a model and its encoder's heads."""
     model = load_llm(weights)
     encoder, heads = load_encoder(weights / "encoder")
     encoder.eval(), heads.eval()
 
     @torch.inference_mode()
-    def ask(name: str, press: BallPress, height_mm: NDArray[np.float32]) -> Said:
+    def read(name: str, press: BallPress, height_mm: NDArray[np.float32]) -> BallReading:
         cloud = cloud_from_heights(height_mm, sensor)
         state = contact_state(cloud)
         x_mm = (press.column - (sensor.columns - 1) / 2) * sensor.mm_per_px
@@ -81,28 +79,28 @@ def asker(
             text = model.ask(cloud, CAPTION_REQUEST)
         except PolicyError as error:
             text = f"nothing: {error}"
-        shape, depth = _named(text)
+        shape, depth = _caption_words(text)
         numbers = numbers_said(text)
         logits, values, _, _ = heads(encoder(torch.from_numpy(encoder_input(cloud))[None]).pooled)
-        return Said(
+        return BallReading(
             name=name,
             depth_mm=press.depth_mm,
             fitted_mm=_fitted_mm(press, height_mm, sensor, profiles),
             x_mm=x_mm,
             y_mm=y_mm,
             measured_mm=state.depth_mm,
-            off_mm=(
+            position_error_mm=(
                 float(np.hypot(state.x_mm - x_mm, state.y_mm - y_mm)) if state.in_contact else None
             ),
             text=text,
             shape=shape,
             depth=depth,
-            said_mm=None if numbers is None else numbers[0],
+            caption_mm=None if numbers is None else numbers[0],
             heads_shape=Shape(CLASSES["shape"][int(logits[0].argmax())]),
             heads_mm=float(restored(values)[0, 0]),
         )
 
-    return ask
+    return read
 
 
 def _fitted_mm(
@@ -116,7 +114,7 @@ def _fitted_mm(
     return fitted.depth_mm
 
 
-def _named(text: str) -> tuple[Shape | None, Depth | None]:
+def _caption_words(text: str) -> tuple[Shape | None, Depth | None]:
     try:
         slots = parse_caption(text.split(".")[0])
     except TouchError:

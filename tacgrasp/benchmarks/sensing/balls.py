@@ -1,7 +1,7 @@
-"""``tacgrasp bench balls``: how right the heights of real frames are, and what they cost.
+"""``tacgrasp bench balls``: error and cost of the heights of real frames.
 
-Presses of a ball of known diameter. Each press is measured by a calibration made from nothing
-without it (in folds), and the sphere fitted to its heights is told nothing about the ball.
+The frames show presses of a ball of known diameter. A calibration that was made without a press (in
+folds) measures it, and a sphere of free diameter is fitted to its heights.
 """
 
 from __future__ import annotations
@@ -33,18 +33,18 @@ PROFILE = "profile_6.31mm.csv"
 DIAMETER_LIMIT_PERCENT = 4.0
 TIME_LIMIT_MS = 25.0
 
-_FLAT_MM = 5.0  # farther from a ball the gel rises or sinks by less than 0.03 mm
-_CENTRED = 20  # presses whose profile is averaged: those farthest from the border
+_FLAT_MM = 5.0  # beyond this distance from a ball, the gel rises or sinks by less than 0.03 mm
+_CENTRED = 20  # number of presses whose profile is averaged: those farthest from the border
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Held:
-    """A press measured by a calibration that never saw it.
+class HeldOutPress:
+    """A press measured by a calibration that was made without it.
 
     Attributes:
-        name: Of the frame.
-        ball: What was fitted; None where no ball could be.
-        height_mm: (rows, columns) [mm].
+        name: Name of the frame.
+        ball: The fitted ball; None where the fit failed.
+        height_mm: Shape (rows, columns), heights [mm].
     """
 
     name: str
@@ -59,7 +59,7 @@ def measure_held_out(
     folds: int,
     *,
     bare_sphere: bool = False,
-) -> list[Held]:
+) -> list[HeldOutPress]:
     """Calibrate ``folds`` times, each time without every ``folds``-th press, and measure those.
 
     ``bare_sphere`` leaves out what the gel does around the contact.
@@ -68,21 +68,21 @@ def measure_held_out(
         TouchError: Too few presses are left to calibrate on.
     """
     profiles = None if bare_sphere else ball_profiles(sensor.name, diameter_mm)
-    held: dict[int, Held] = {}
+    presses: dict[int, HeldOutPress] = {}
     with Bar(sys.stderr) as bar:
         for fold in range(folds):
-            kept = [f for i, f in enumerate(balls.frames) if i % folds != fold]
+            frames = [f for i, f in enumerate(balls.frames) if i % folds != fold]
             trained = train_gradients(
-                kept, balls.background, sensor, diameter_mm, profiles=profiles
+                frames, balls.background, sensor, diameter_mm, profiles=profiles
             )
             photometer = Photometer(trained.net, balls.background, sensor)
             for index in range(fold, len(balls.frames), folds):
                 height = photometer.heights(balls.frames[index])
-                held[index] = Held(
+                presses[index] = HeldOutPress(
                     name=balls.names[index], ball=_fit(height, sensor), height_mm=height
                 )
             bar("calibrating without", fold + 1, folds, {})
-    return [held[index] for index in sorted(held)]
+    return [presses[index] for index in sorted(presses)]
 
 
 def _fit(height_mm: NDArray[np.float32], sensor: SensorSpec) -> FittedBall | None:
@@ -92,36 +92,38 @@ def _fit(height_mm: NDArray[np.float32], sensor: SensorSpec) -> FittedBall | Non
         return None
 
 
-def profile_rmse(held: list[Held], sensor: SensorSpec, file: Path) -> tuple[float, float] | None:
-    """How far the median radial profile of the centred presses is from a file's.
+def profile_rmse(
+    presses: list[HeldOutPress], sensor: SensorSpec, file: Path
+) -> tuple[float, float] | None:
+    """Compare the median radial profile of the centred presses with a stored one.
 
     Returns:
-        Root mean square difference [mm], as it is and after the best scaling; None without file.
+        Root mean square difference [mm], plain and after the best scaling; None without file.
     """
     if not file.is_file():
         return None
-    r_mm, known = np.loadtxt(file, delimiter=",", comments=("#", "r_mm")).T
+    r_mm, stored = np.loadtxt(file, delimiter=",", comments=("#", "r_mm")).T
     row, column = np.mgrid[0 : sensor.rows, 0 : sensor.columns]
-    found = [(one.ball, one.height_mm) for one in held if one.ball is not None]
-    found.sort(key=lambda one: _to_border_px(one[0], sensor), reverse=True)
+    fits = [(p.ball, p.height_mm) for p in presses if p.ball is not None]
+    fits.sort(key=lambda fit: _to_border_px(fit[0], sensor), reverse=True)
     profiles = []
-    for ball, height_mm in found[:_CENTRED]:
+    for ball, height_mm in fits[:_CENTRED]:
         r = np.hypot(column - ball.column, row - ball.row) * sensor.mm_per_px
         profiles.append([np.median(height_mm[np.abs(r - at) <= 0.1]) for at in r_mm])
     ours = np.median(profiles, axis=0)
-    scale = float(ours @ known / (ours @ ours))
-    errors = [float(np.sqrt(np.mean((s * ours - known) ** 2))) for s in (1.0, scale)]
+    scale = float(ours @ stored / (ours @ ours))
+    errors = [float(np.sqrt(np.mean((s * ours - stored) ** 2))) for s in (1.0, scale)]
     return errors[0], errors[1]
 
 
-def drift_mm(held: list[Held], sensor: SensorSpec) -> float:
+def drift_mm(presses: list[HeldOutPress], sensor: SensorSpec) -> float:
     """Standard deviation of the heights where the gel is nearly flat, median over presses [mm]."""
     row, column = np.mgrid[0 : sensor.rows, 0 : sensor.columns]
     spreads = []
-    for one in held:
-        if one.ball is not None:
-            r = np.hypot(column - one.ball.column, row - one.ball.row) * sensor.mm_per_px
-            spreads.append(float(one.height_mm[r > _FLAT_MM].std()))
+    for press in presses:
+        if (ball := press.ball) is not None:
+            r = np.hypot(column - ball.column, row - ball.row) * sensor.mm_per_px
+            spreads.append(float(press.height_mm[r > _FLAT_MM].std()))
     return median(spreads)
 
 
@@ -137,7 +139,7 @@ def reconstruction_ms(
     repeats: int = 100,
     clock: Callable[[], float] = time.perf_counter,
 ) -> list[float]:
-    """Time of single frames, colours in, heights out [ms], ascending."""
+    """Durations from the colours of one frame to its heights [ms], ascending."""
     photometer.heights(balls.frames[0])
     times = []
     for index in range(repeats):
@@ -156,26 +158,26 @@ def run(
     bare_sphere: bool = False,
     json_path: Path | None,
 ) -> bool:
-    """Measure, print, write ``json_path`` if given; whether both limits are kept.
+    """Measure, print, write ``json_path`` if given; returns whether both limits are kept.
 
     Raises:
         TouchError: The folder can't be used, or no ball was found in any press.
         OSError: The file can't be written.
     """
-    sensor, to = sensor_named("gelsight_mini"), Console()
+    sensor = sensor_named("gelsight_mini")
     balls = read_ball_frames(folder, sensor, background)
     folds = min(folds, len(balls.frames))
-    held = measure_held_out(balls, sensor, diameter_mm, folds, bare_sphere=bare_sphere)
-    fitted = [one.ball for one in held if one.ball is not None]
+    presses = measure_held_out(balls, sensor, diameter_mm, folds, bare_sphere=bare_sphere)
+    fitted = [press.ball for press in presses if press.ball is not None]
     if not fitted:
-        raise TouchError(f"{folder}: no ball could be fitted in any of {len(held)} presses")
+        raise TouchError(f"{folder}: no ball could be fitted in any of {len(presses)} presses")
     net = load_calibration(default_calibration(sensor), sensor).net
     times = reconstruction_ms(Photometer(net, balls.background, sensor), balls)
     diameters = sorted(ball.diameter_mm for ball in fitted)
-    profile = profile_rmse(held, sensor, folder / PROFILE)
+    profile = profile_rmse(presses, sensor, folder / PROFILE)
     error = 100 * (median(diameters) / diameter_mm - 1)
     figures = {
-        "presses": len(held),
+        "presses": len(presses),
         "fitted": len(fitted),
         "folds": folds,
         "diameter_mm": diameter_mm,
@@ -184,40 +186,40 @@ def run(
         "diameter_mm_p90": float(np.percentile(diameters, 90)),
         "diameter_error_percent": error,
         "fit_residual_mm_p50": median(ball.residual_mm for ball in fitted),
-        "drift_mm_p50": drift_mm(held, sensor),
+        "drift_mm_p50": drift_mm(presses, sensor),
         "profile_rmse_mm": None if profile is None else profile[0],
         "profile_rmse_scaled_mm": None if profile is None else profile[1],
         "reconstruction_ms_p50": median(times),
         "reconstruction_ms_p95": float(np.percentile(times, 95)),
     }
-    _print(to, held, figures)
+    _print(Console(), presses, figures)
     if json_path is not None:
-        presses = [
-            {"name": one.name, **(asdict(one.ball) if one.ball else {"diameter_mm": None})}
-            for one in held
+        per_press = [
+            {"name": press.name, **(asdict(press.ball) if press.ball else {"diameter_mm": None})}
+            for press in presses
         ]
-        report = {**figures, "per_press": presses}
+        report = {**figures, "per_press": per_press}
         json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
     return abs(error) <= DIAMETER_LIMIT_PERCENT and median(times) <= TIME_LIMIT_MS
 
 
-def _print(to: Console, held: list[Held], figures: dict[str, float | None]) -> None:
-    presses = Table("press", "diameter mm", "depth mm", "x px", "y px", "residual µm")
-    for one in held:
-        if one.ball is None:
-            presses.add_row(one.name, "no ball", "", "", "", "")
+def _print(console: Console, presses: list[HeldOutPress], figures: dict[str, float | None]) -> None:
+    table = Table("press", "diameter mm", "depth mm", "x px", "y px", "residual µm")
+    for press in presses:
+        if press.ball is None:
+            table.add_row(press.name, "no ball", "", "", "", "")
             continue
-        ball = one.ball
-        presses.add_row(
-            one.name,
+        ball = press.ball
+        table.add_row(
+            press.name,
             f"{ball.diameter_mm:.2f}",
             f"{ball.depth_mm:.3f}",
             f"{ball.column:.0f}",
             f"{ball.row:.0f}",
             f"{1e3 * ball.residual_mm:.0f}",
         )
-    to.print(presses)
-    table = Table("what", "value", "note", title="Real frames to heights, presses held out")
+    console.print(table)
+    table = Table("figure", "value", "note", title="Real frames to heights, presses held out")
     f = {key: float("nan") if value is None else value for key, value in figures.items()}
     table.add_row(
         "fitted diameter, median",
@@ -249,4 +251,4 @@ def _print(to: Console, held: list[Held], figures: dict[str, float | None]) -> N
         f"p50 {f['reconstruction_ms_p50']:.1f}, p95 {f['reconstruction_ms_p95']:.1f} ms",
         f"limit {TIME_LIMIT_MS:g} ms for p50",
     )
-    to.print(table)
+    console.print(table)

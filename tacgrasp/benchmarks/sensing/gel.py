@@ -1,7 +1,7 @@
-"""``tacgrasp bench gel``: how far the gel is from closed forms and real presses, and what it costs.
+"""``tacgrasp bench gel``: errors of the gel against closed forms and real presses, and its cost.
 
-Every error is measured here, on this machine, as it runs. The tests hold the same figures to
-limits (``tests/sim/test_gel.py``); timing is only ever printed.
+Each error is measured when the benchmark runs. The tests hold the same figures to limits
+(``tests/sim/gel/test_layer.py``); durations are only printed.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from rich.console import Console
 from rich.table import Table
 from torch import Tensor
 
+from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     FIT_DIAMETER_MM,
@@ -41,10 +42,10 @@ class Figure:
 
     Attributes:
         key: Name in the JSON file.
-        what: What was measured, in words.
-        value: The result; None where it could not be measured.
+        what: The measured quantity in words.
+        value: The result; None where it was not measured.
         unit: Its unit, empty for a ratio.
-        note: Setting, limit or the reason why there is no value.
+        note: Setting, limit, or the reason why there is no value.
     """
 
     key: str
@@ -137,12 +138,12 @@ def volume() -> list[Figure]:
 
 
 def profiles(folder: Path | None) -> list[Figure]:
-    """Real balls: the gel fitted on one of them, the preset, TACTO and Taxim on all.
+    """Real balls: the gel's fit on one of them; the preset, TACTO and Taxim on all.
 
-    Source: ``tacgrasp.benchmarks.sensing.radial_profiles`` has the protocol.
+    The protocol is in ``tacgrasp.benchmarks.sensing.radial_profiles``.
     """
-    known = [] if folder is None else read_profiles(folder)
-    if not known:
+    measured = [] if folder is None else read_profiles(folder)
+    if not measured:
         note = "give --data DIR" if folder is None else f"no profile_*mm.csv in {folder}"
         return [
             Figure(
@@ -151,10 +152,9 @@ def profiles(folder: Path | None) -> list[Figure]:
         ]
     preset = gel_of("gelsight_mini")
     figures = []
-    for one in known:
-        if one.diameter_mm == FIT_DIAMETER_MM:
-            figures += _fitted(one, preset)
-        where = f"ball {one.diameter_mm:g} mm"
+    for profile in measured:
+        if profile.diameter_mm == FIT_DIAMETER_MM:
+            figures += _fit(profile, preset)
         rows: list[tuple[str, Simulator, float]] = [
             ("gel preset", gel(preset), 0.2),
             ("gel preset", gel(preset), 0.127),
@@ -162,24 +162,24 @@ def profiles(folder: Path | None) -> list[Figure]:
             ("TACTO", tacto, 0.0634),
             ("Taxim", taxim, 0.0634),
         ]
-        for who, simulator, pitch in rows:
-            best = match(simulator, one, pitch)
+        for name, simulator, pitch in rows:
+            best = match(simulator, profile, pitch)
             figures.append(
                 Figure(
-                    key=f"{who.split()[0].lower()}_rmse_mm_{one.diameter_mm:g}mm_at_{pitch}",
-                    what=f"RMSE of {who}, {where}, {pitch} mm grid",
+                    key=f"{name.split()[0].lower()}_rmse_mm_{profile.diameter_mm:g}mm_at_{pitch}",
+                    what=f"RMSE of {name}, ball {profile.diameter_mm:g} mm, {pitch} mm grid",
                     value=best.rmse_mm,
                     unit="mm",
                     note=f"at {best.depth_mm:.2f} mm depth"
-                    + ("; limit 0.007" if who == "gel preset" and pitch < 0.2 else ""),
+                    + ("; limit 0.007" if name == "gel preset" and pitch < 0.2 else ""),
                 )
             )
     return figures
 
 
-def _fitted(profile: Profile, preset: GelMaterial) -> list[Figure]:
-    best, near = fit(profile)
-    note = f"RMSE {near.rmse_mm:.5f} mm; the preset is "
+def _fit(profile: Profile, preset: GelMaterial) -> list[Figure]:
+    best, error = fit(profile)
+    note = f"RMSE {error.rmse_mm:.5f} mm; the preset is "
     note += "the fit" if best == preset else "NOT the fit"
     return [
         Figure(
@@ -194,13 +194,13 @@ def _fitted(profile: Profile, preset: GelMaterial) -> list[Figure]:
             what="Fitted Poisson's ratio",
             value=best.poisson,
             unit="",
-            note=f"on nothing but the {profile.diameter_mm:g} mm ball, 0.127 mm grid",
+            note=f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid",
         ),
     ]
 
 
 def discretisation() -> list[Figure]:
-    """What grid, tolerance and precision cost on a ball of R 5 mm and a soft one of R 15 mm."""
+    """Errors by grid, tolerance and precision, of a ball of R 5 mm and a soft one of R 15 mm."""
     forces: dict[float, float] = {}
     for pitch, size in ((0.4, 38), (0.2, 76), (0.1, 152)):
         gel = _square(gel_of("gelsight_mini"), size, pitch)
@@ -255,24 +255,11 @@ def _median_ms(call: Callable[[], object], repeats: int) -> float:
     return float(np.median(times))
 
 
+@torch_threads()
 def cost() -> list[Figure]:
-    """Time per solve, alone and batched, on one thread.
-
-    One, because the fields are too small to share: on a busy machine more threads wait for each
-    other, and a solve has been seen to take twenty times as long.
-    """
-    threads = torch.get_num_threads()
-    torch.set_num_threads(1)
-    try:
-        return _cost()
-    finally:
-        torch.set_num_threads(threads)
-
-
-def _cost() -> list[Figure]:
-    """``cost`` on the threads that there are, and what bare FFTs would need of it."""
+    """Time per solve on one thread, alone and batched, and the time of its FFTs alone."""
     gel, gap = _mini(torch.float32), _ball(15.0, ROWS, COLUMNS, PITCH_MM).float()
-    where = f"{ROWS}×{COLUMNS} at {PITCH_MM} mm, soft ball R 15 mm, 1 N, one thread"
+    setting = f"{ROWS}×{COLUMNS} at {PITCH_MM} mm, soft ball R 15 mm, 1 N, one thread"
     force = torch.tensor(1.0)
     press = gel.press_to_force(gap, force)
     single = _median_ms(lambda: gel.press_to_force(gap, force), 20)
@@ -280,7 +267,7 @@ def _cost() -> list[Figure]:
     warm = _median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
     many = gap.expand(32, -1, -1)
     batched = _median_ms(lambda: gel.press_to_force(many, force), 5) / 32
-    # Two convolutions an iteration, one to find out that it is done, one for the surface.
+    # Two convolutions an iteration, one for the last residual, one for the surface.
     convolutions = 2 * int(press.iterations.item()) + 2
     padded = (2 * ROWS, 2 * COLUMNS)
     waves = torch.fft.rfft2(gap.clamp(max=1.0), s=padded)
@@ -289,7 +276,7 @@ def _cost() -> list[Figure]:
     )
     floor = f"{convolutions} plain convolutions, padded to double; above 1: ours are faster"
     return [
-        Figure(key="ms_single", what="One solve", value=single, unit="ms", note=where),
+        Figure(key="ms_single", what="One solve", value=single, unit="ms", note=setting),
         Figure(key="ms_loose", what="One solve, tol 1e-3", value=loose, unit="ms", note=""),
         Figure(
             key="ms_warm", what="One solve, warm start", value=warm, unit="ms", note="+5 % force"
@@ -322,7 +309,7 @@ def run(data: Path | None, json_path: Path | None) -> None:
         OSError: The file cannot be written.
     """
     figures = measure(data)
-    table = Table("what", "value", "unit", "note", title="Elastic-layer gel")
+    table = Table("figure", "value", "unit", "note", title="Elastic-layer gel")
     for figure in figures:
         value = "not measured" if figure.value is None else f"{figure.value:.4g}"
         table.add_row(figure.what, value, figure.unit, figure.note)

@@ -1,12 +1,11 @@
-"""Radial height profiles of real ball presses, and how near simulators come to them.
+"""Radial height profiles of real ball presses, and the errors of simulators against them.
 
-The protocol is the notes': 28 bins of 0.2 mm, the median in each; the median of the whole frame
-subtracted on both sides; the press depth free within 0.06 mm about what was measured (0.79-0.85 mm
-for the 6.31 mm ball), everything else fixed. The gel's two parameters are fitted on that ball
-alone, and are the preset.
+The protocol: 28 bins of 0.2 mm, the median in each; the median of the whole frame subtracted on
+both sides; the press depth free within 0.06 mm of the measured one (0.79-0.85 mm for the 6.31 mm
+ball), everything else fixed. The gel's two parameters are fitted on that ball alone, and the fit is
+the preset.
 
-TACTO's and Taxim's surfaces are our own code after their publications. Not here: the gel (``sim``),
-printing (``tacgrasp.benchmarks.sensing.gel``).
+TACTO's and Taxim's surfaces are our own code after their publications.
 """
 
 from __future__ import annotations
@@ -29,25 +28,25 @@ from sim.gel.layer import GEL_MATERIALS, ElasticLayer, GelMaterial, Press
 
 FloatArray = NDArray[np.float64]
 
-FIELD_MM = (15.2, 20.3)
+SENSING_AREA_MM = (15.2, 20.3)
 BIN_MM, NUM_BINS = 0.2, 28
 FIT_DIAMETER_MM = 6.31
 FIT_PITCH_MM = 0.127
 THICKNESSES_MM = tuple(round(0.1 * k, 1) for k in range(30, 45))
 POISSONS = (0.47, 0.475, 0.48, 0.485, 0.49, 0.495)
-"""What a fit may choose from: silicone gels are nearly incompressible, and the profile tells
-thicknesses 0.1 mm apart by 0.0001 to 0.001 mm RMSE, Poisson's ratios 0.005 apart by 0.0002."""
+"""Values that a fit may choose. Silicone gels are nearly incompressible. Thicknesses 0.1 mm apart
+differ by 0.0001 to 0.001 mm RMSE in the profile, Poisson's ratios 0.005 apart by 0.0002 mm."""
 
 _FILE = re.compile(r"profile_(\d+(?:\.\d+)?)mm\.csv")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Profile:
-    """What a sensor saw of a ball.
+    """Measured radial profile of a pressed ball.
 
     Attributes:
-        diameter_mm: Of the ball.
-        height_mm: Median height in each bin, (28,) [mm].
+        diameter_mm: Diameter of the ball [mm].
+        height_mm: Shape (28,), median height in each bin [mm].
     """
 
     diameter_mm: float
@@ -55,29 +54,29 @@ class Profile:
 
     @property
     def depths_mm(self) -> FloatArray:
-        """Depths that the press may have had: seven, from 0.04 mm below the peak to 0.02 above."""
+        """Seven possible depths of the press, from 0.04 mm below the peak to 0.02 mm above [mm]."""
         peak = round(float(self.height_mm[0]), 2)
         return np.linspace(peak - 0.04, peak + 0.02, 7)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Match:
-    """How near a simulated profile comes: root mean square error and the depth of least error."""
+    """Least root mean square error of a simulated profile, and the depth at which it has it."""
 
     rmse_mm: float
     depth_mm: float
 
 
 def read_profiles(folder: Path) -> list[Profile]:
-    """Every ``profile_<diameter>mm.csv`` of a folder, smallest ball first; none if none is there.
+    """Read each ``profile_<diameter>mm.csv`` of a folder, smallest ball first.
 
     Raises:
         TouchError: A file does not hold 28 radii and heights.
     """
     profiles = []
     for path in folder.glob("profile_*mm.csv"):
-        named = _FILE.fullmatch(path.name)
-        if named is None:
+        name = _FILE.fullmatch(path.name)
+        if name is None:
             continue
         try:
             r_mm, height_mm = np.loadtxt(path, delimiter=",", comments=("#", "r_mm")).T
@@ -86,13 +85,13 @@ def read_profiles(folder: Path) -> list[Profile]:
         expected = (np.arange(NUM_BINS) + 0.5) * BIN_MM
         if r_mm.shape != expected.shape or not np.allclose(r_mm, expected, atol=1e-3):
             raise TouchError(f"{path}: expected {NUM_BINS} bins of {BIN_MM} mm from 0 on")
-        profiles.append(Profile(diameter_mm=float(named[1]), height_mm=height_mm))
+        profiles.append(Profile(diameter_mm=float(name[1]), height_mm=height_mm))
     return sorted(profiles, key=lambda profile: profile.diameter_mm)
 
 
 def radius_mm(pitch_mm: float) -> FloatArray:
-    """Distance of every element of the field from its middle, (H, W) [mm]."""
-    rows, columns = (round(extent / pitch_mm) for extent in FIELD_MM)
+    """Distance of each element of the sensing area from its centre, (H, W) [mm]."""
+    rows, columns = (round(extent / pitch_mm) for extent in SENSING_AREA_MM)
     y = (np.arange(rows) - (rows - 1) / 2) * pitch_mm
     x = (np.arange(columns) - (columns - 1) / 2) * pitch_mm
     return np.asarray(np.hypot(y[:, None], x[None, :]))
@@ -104,15 +103,15 @@ Simulator = Callable[[float, FloatArray, float], Surfaces]
 
 
 def match(simulator: Simulator, profile: Profile, pitch_mm: float) -> Match:
-    """Compare a simulator with a profile, at the depth that suits it best."""
+    """Compare a simulator with a profile at the depth of least error."""
     r, depths = radius_mm(pitch_mm), profile.depths_mm
     bins = np.floor(r / BIN_MM).astype(int)
     rings = [bins == k for k in range(NUM_BINS)]
     errors = []
     for height in simulator(profile.diameter_mm, depths, pitch_mm):
         flat = height - np.median(height)
-        seen = np.array([np.median(flat[ring]) for ring in rings])
-        errors.append(float(np.sqrt(np.mean((seen - profile.height_mm) ** 2))))
+        medians = np.array([np.median(flat[ring]) for ring in rings])
+        errors.append(float(np.sqrt(np.mean((medians - profile.height_mm) ** 2))))
     best = int(np.argmin(errors))
     return Match(rmse_mm=errors[best], depth_mm=float(depths[best]))
 
@@ -125,21 +124,21 @@ def gel(material: GelMaterial) -> Simulator:
         gap = torch.from_numpy(_ball(r, diameter_mm))[None]
         layer = ElasticLayer(material, rows=r.shape[0], columns=r.shape[1], pitch_mm=pitch_mm)
         for depth in depths_mm:
-            start = _pressed(layer, gap, float(depth), start)
+            start = _press(layer, gap, float(depth), start)
             yield start.height_mm[0].numpy()
 
     return surfaces
 
 
 @torch_threads()
-def _pressed(layer: ElasticLayer, gap: torch.Tensor, depth: float, start: Press | None) -> Press:
+def _press(layer: ElasticLayer, gap: torch.Tensor, depth: float, start: Press | None) -> Press:
     return layer.press_to_depth(gap, torch.tensor(depth), start=start, tol=1e-3)
 
 
 def tacto(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surfaces:
-    """TACTO: what the sensor renders is the object's own surface where it is inside the gel.
+    """TACTO: the sensor renders the part of the object's surface that is inside the gel.
 
-    Source: Wang et al. (2022), TACTO, section III: the gel does not deform; the object is drawn.
+    Source: Wang et al. (2022), TACTO, section III: the gel does not deform.
     """
     gap = _ball(radius_mm(pitch_mm), diameter_mm)
     for depth in depths_mm:
@@ -153,10 +152,10 @@ TAXIM_CONTACT = 0.4
 
 
 def taxim(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surfaces:
-    """Taxim: the penetrating shape blurred by ever narrower Gaussians, restored where it is deep.
+    """Taxim: the penetrating shape, blurred by ever narrower Gaussians and restored where deep.
 
     Source: Si & Yuan (2022), Taxim, section III-B (a pyramid of Gaussian kernels around the
-        contact); kernel sizes, share of the depth (0.4) and pixel as in their published
+        contact); kernel sizes, fraction of the depth (0.4) and pixel as in their published
         parameters. The width of a kernel of k pixels is 0.3 ((k - 1) / 2 - 1) + 0.8, OpenCV's rule.
     """
     gap = _ball(radius_mm(pitch_mm), diameter_mm)
@@ -165,11 +164,11 @@ def taxim(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surface
         touching = shape > TAXIM_CONTACT * depth
         height = shape
         for kernel in TAXIM_KERNELS:
-            height = np.where(touching, shape, _blurred(height, kernel, pitch_mm))
-        yield _blurred(height, TAXIM_LAST_KERNEL, pitch_mm)
+            height = np.where(touching, shape, _blur(height, kernel, pitch_mm))
+        yield _blur(height, TAXIM_LAST_KERNEL, pitch_mm)
 
 
-def _blurred(height: FloatArray, kernel: int, pitch_mm: float) -> FloatArray:
+def _blur(height: FloatArray, kernel: int, pitch_mm: float) -> FloatArray:
     sigma_px = 0.3 * ((kernel - 1) / 2 - 1) + 0.8
     sigma = sigma_px * TAXIM_PIXEL_MM / pitch_mm
     return np.asarray(gaussian_filter(height, sigma, truncate=(kernel - 1) / 2 / sigma_px))
@@ -182,9 +181,9 @@ def _ball(r_mm: FloatArray, diameter_mm: float) -> FloatArray:
 
 
 def fit(profile: Profile) -> tuple[GelMaterial, Match]:
-    """Thickness and Poisson's ratio that come nearest to a profile, on a 0.127 mm grid.
+    """Fit thickness and Poisson's ratio to a profile on a 0.127 mm grid.
 
-    Young's modulus scales forces alone and is not seen in heights; it stays the preset's.
+    Young's modulus scales forces alone and does not change heights; it stays the preset's.
     """
     young = GEL_MATERIALS["gelsight_mini"].young_mpa
     matches = {}

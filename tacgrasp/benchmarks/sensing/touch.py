@@ -1,8 +1,8 @@
-"""``tacgrasp bench touch``: what measuring a contact directly from a cloud is worth.
+"""``tacgrasp bench touch``: errors of the direct measurement of a contact.
 
-Compares ``cltp.tactile.measure`` with the truth of simulated grasps, with the noise of a real
-sensor: the force law, depth, place, area, and how often contact is missed or imagined. Seeds below
-the benchmark's.
+It compares ``cltp.tactile.measure`` with the truth of simulated grasps under a real sensor's noise:
+force, depth, position, area, and the rates of missed and of falsely detected contacts. Seeds lie
+below the benchmark's.
 """
 
 from __future__ import annotations
@@ -31,54 +31,52 @@ FORCES_N = {
 """Range of true forces by object."""
 
 FIRM_N = 0.4
-"""Forces from here on count for the force law."""
+"""Smallest true force that counts for the force law [N]."""
 
 GRASPS_PER_BODY = 4
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Felt:
-    """One grasp: truth and measurement.
+class GraspSample:
+    """Truth and measurement of one grasp.
 
     Attributes:
-        force_n: True force.
-        depth_mm: True largest indentation.
-        offset_mm: True place of the body's nearest point.
-        area_share: True share of the field under pressure.
-        state: What was measured.
+        force_n: True force [N].
+        depth_mm: True largest indentation [mm].
+        offset_mm: True position of the body's nearest point [mm].
+        area_fraction: True fraction of the sensing area under pressure.
+        state: The measurement.
     """
 
     force_n: float
     depth_mm: float
     offset_mm: tuple[float, float]
-    area_share: float
+    area_fraction: float
     state: ContactState
 
     @property
-    def whole(self) -> bool:
-        """Whether the contact lies well inside the pad, so that its place can be known.
+    def is_inside(self) -> bool:
+        """Whether the contact lies well inside the pad, so that its position can be measured.
 
-        A peg is longer than the pad: the y of its middle can't be felt, and is not meant to be.
+        A peg is longer than the pad: the y of its middle does not show.
         """
         return abs(self.offset_mm[0]) < 7 and abs(self.offset_mm[1]) < 4.5
 
 
 def run(bodies: int, json_path: Path | None) -> dict[str, Any]:
-    """Measure ``bodies`` bodies of every kind, print the table, return (and write) the figures."""
+    """Measure ``bodies`` bodies of each kind; print, return and write the figures."""
     console = Console()
     figures: dict[str, Any] = {"objects": {}}
-    felt: list[Felt] = []
+    samples: list[GraspSample] = []
     for name in OBJECTS:
-        of_object: list[Felt] = []
-        hidden = not console.is_terminal
-        for seed in track(range(bodies), name, console=console, disable=hidden):
-            of_object += _feel(name, seed)
+        seeds = track(range(bodies), name, console=console, disable=not console.is_terminal)
+        of_object = [sample for seed in seeds for sample in _samples(name, seed)]
         figures["objects"][name] = _figures(of_object)
-        felt += of_object
+        samples += of_object
     untouched = [_untouched(seed) for seed in range(10 * bodies)]
     figures["imagined_share"] = float(np.mean([state.in_contact for state in untouched]))
     figures["missed_share"] = {
-        f"{low}-{high} N": _missed([f for f in felt if low <= f.force_n < high])
+        f"{low}-{high} N": _missed([s for s in samples if low <= s.force_n < high])
         for low, high in ((0.1, 0.15), (0.15, 0.22), (0.22, 0.33), (0.33, 0.5), (0.5, 0.8))
     }
     _print(console, figures)
@@ -87,7 +85,7 @@ def run(bodies: int, json_path: Path | None) -> dict[str, Any]:
     return figures
 
 
-def _feel(name: str, seed: int) -> list[Felt]:
+def _samples(name: str, seed: int) -> list[GraspSample]:
     rig = build(name, seed)
     rng = np.random.default_rng([seed, 9])
     offsets = [
@@ -95,18 +93,20 @@ def _feel(name: str, seed: int) -> list[Felt]:
         for _ in range(GRASPS_PER_BODY)
     ]
     forces = [FORCES_N[name].quantile(rng.random()) for _ in offsets]
-    return [_felt(rig, i, offsets[i], forces[i]) for i in range(len(offsets))]
+    return [_sample(rig, i, offsets[i], forces[i]) for i in range(len(offsets))]
 
 
-def _felt(rig: SimRig, number: int, offset_mm: tuple[float, float], force_n: float) -> Felt:
+def _sample(
+    rig: SimRig, number: int, offset_mm: tuple[float, float], force_n: float
+) -> GraspSample:
     grasp = rig.grasp
     grasp.contacts = number  # a drift of its own
     grasp.patch = patch = grasp.fingers.press(offset_mm, force_n)
-    return Felt(
+    return GraspSample(
         force_n=force_n,
         depth_mm=float(patch.height_mm.max()),
         offset_mm=offset_mm,
-        area_share=float((patch.pressure_kpa > 0).mean()),
+        area_fraction=float((patch.pressure_kpa > 0).mean()),
         state=contact_state(rig.sensor.read()),
     )
 
@@ -115,23 +115,21 @@ def _untouched(seed: int) -> ContactState:
     return contact_state(build("cherry_tomato", seed).sensor.read())
 
 
-def _missed(felt: list[Felt]) -> float:
-    return float(np.mean([not one.state.in_contact for one in felt])) if felt else float("nan")
+def _missed(samples: list[GraspSample]) -> float:
+    return float(np.mean([not s.state.in_contact for s in samples])) if samples else float("nan")
 
 
-def _figures(felt: list[Felt]) -> dict[str, float]:
-    seen = [one for one in felt if one.state.in_contact]
-    firm = [one for one in seen if one.force_n >= FIRM_N]
-    force = np.array([np.log(one.state.force_n / one.force_n) for one in firm])
-    depth = np.array([one.state.depth_mm - one.depth_mm for one in seen])
-    area = np.array([np.log(one.state.area_fraction / one.area_share) for one in firm])
-    inside = [one for one in firm if one.whole]
-    x, y = (
-        np.array([abs(place(one) - one.offset_mm[axis]) for one in inside])
-        for axis, place in ((0, lambda one: one.state.x_mm), (1, lambda one: one.state.y_mm))
-    )
+def _figures(samples: list[GraspSample]) -> dict[str, float]:
+    touching = [s for s in samples if s.state.in_contact]
+    firm = [s for s in touching if s.force_n >= FIRM_N]
+    force = np.array([np.log(s.state.force_n / s.force_n) for s in firm])
+    depth = np.array([s.state.depth_mm - s.depth_mm for s in touching])
+    area = np.array([np.log(s.state.area_fraction / s.area_fraction) for s in firm])
+    inside = [s for s in firm if s.is_inside]
+    x = np.array([abs(s.state.x_mm - s.offset_mm[0]) for s in inside])
+    y = np.array([abs(s.state.y_mm - s.offset_mm[1]) for s in inside])
     return {
-        "grasps": len(felt),
+        "grasps": len(samples),
         "force_ln_bias": float(np.median(force)),
         "force_ln_spread": float(force.std()),
         "depth_error_mm": float(np.median(np.abs(depth))),
@@ -166,6 +164,6 @@ def _print(console: Console, figures: dict[str, Any]) -> None:
             f"{row['y_error_mm']:.2f}",
         )
     console.print(table)
-    console.print(f"contact imagined on an untouched gel: {figures['imagined_share']:.0%}")
-    missed = ", ".join(f"{band} {share:.0%}" for band, share in figures["missed_share"].items())
+    console.print(f"contact falsely detected on an untouched gel: {figures['imagined_share']:.0%}")
+    missed = ", ".join(f"{band} {rate:.0%}" for band, rate in figures["missed_share"].items())
     console.print(f"contact missed at a true force of {missed}")

@@ -11,7 +11,7 @@ from cltp.sensing.photometric import COLOUR_SCALE, GradientNet
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import Depth, Shape
 from tacgrasp.__main__ import main
-from tacgrasp.benchmarks.sensing.ball_answers import Said
+from tacgrasp.benchmarks.sensing.ball_answers import BallReading
 from tacgrasp.benchmarks.sensing.ball_captions import depth_order, figures_of
 from tests.fakes.tiny_weights import make_weights
 
@@ -55,13 +55,13 @@ def calibration(tmp_path_factory):
     return path
 
 
-def said(depth_mm, **changed):
+def reading(depth_mm, **changed):
     known = {
         "name": "ball", "depth_mm": depth_mm, "fitted_mm": depth_mm, "x_mm": 0.0, "y_mm": 0.0,
-        "measured_mm": depth_mm, "off_mm": 0.1, "text": "", "shape": Shape.SPHERE,
-        "depth": Depth.DEEP, "said_mm": None, "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
+        "measured_mm": depth_mm, "position_error_mm": 0.1, "text": "", "shape": Shape.SPHERE,
+        "depth": Depth.DEEP, "caption_mm": None, "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
     }  # fmt: skip
-    return Said(**(known | changed))
+    return BallReading(**(known | changed))
 
 
 def test_every_press_is_measured_named_and_counted(folder, calibration, tmp_path, capsys):
@@ -81,7 +81,7 @@ def test_every_press_is_measured_named_and_counted(folder, calibration, tmp_path
     depths = [press["depth_mm"] for press in figures["per_press"]]
     np.testing.assert_allclose(depths, [0.4, 0.6, 0.8, 1.0], atol=0.1)
     assert figures["position_off_mm_p50"] < 0.5
-    assert "What a ball is called" in capsys.readouterr().out
+    assert "Shape of the ball" in capsys.readouterr().out
 
 
 def test_folds_and_a_calibration_exclude_each_other(capsys):
@@ -95,10 +95,10 @@ def test_folds_and_a_calibration_exclude_each_other(capsys):
 def test_shares_and_orders_are_those_of_the_presses():
     figures = figures_of(
         [
-            said(0.5, depth=Depth.MODERATE, said_mm=0.4),
-            said(0.7, shape=None, depth=None),
-            said(0.9, shape=Shape.PEAK, depth=Depth.VERY_DEEP, said_mm=0.3),
-            said(1.0, shape=Shape.ELLIPSOID, depth=Depth.VERY_DEEP, off_mm=None),
+            reading(0.5, depth=Depth.MODERATE, caption_mm=0.4),
+            reading(0.7, shape=None, depth=None),
+            reading(0.9, shape=Shape.PEAK, depth=Depth.VERY_DEEP, caption_mm=0.3),
+            reading(1.0, shape=Shape.ELLIPSOID, depth=Depth.VERY_DEEP, position_error_mm=None),
         ]
     )
     assert figures["sphere"] == {"caption": 0.25, "heads": 0.0}
