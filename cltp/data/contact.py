@@ -1,7 +1,7 @@
-"""One labelled contact, as data sets hold it, and how its height map is packed into bytes.
+"""One labelled contact of a data set, and the packing of its height map into bytes.
 
-Not here: files of contacts (``cltp.data.dataset``), noise (``cltp.tactile.sensor_noise``): what is
-stored is clean.
+Not here: files of contacts (``cltp.data.dataset``), noise (``cltp.tactile.sensor_noise``): stored
+heights are clean.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from cltp.errors import TouchError
+from cltp.tactile.cloud import checked_heights
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import ContactState
 
@@ -29,20 +30,20 @@ _ZSTD = pa.Codec("zstd", compression_level=3)
 
 
 class Split(StrEnum):
-    """What a contact may be used for: to train on, to choose by, or a test of one kind."""
+    """Use of a contact: training, validation, or a test of one kind."""
 
     TRAIN = "train"
     VALIDATION = "validation"
     TEST = "test"  # other contacts of the same objects, under the same gels: the paper's
-    OBJECT = "object"  # objects that training never shows
-    PHYSICS = "physics"  # gels that training never shows
+    OBJECT = "object"  # objects that are not in training
+    PHYSICS = "physics"  # gels that are not in training
     GELSTEREO = "gelstereo"  # like the paper's GelStereo contacts
     GELSIGHT = "gelsight"  # like the paper's GelSight contacts
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Gel:
-    """Properties of the gel under which a contact was made.
+    """Properties of the gel that was pressed.
 
     Attributes:
         thickness_mm: Thickness [mm].
@@ -68,20 +69,20 @@ class Contact:
     """A labelled contact.
 
     Attributes:
-        height_mm: Shape (H, W), float32, read-only; indentation without noise over the sensor's
-            whole field [mm], row 0 = top, 0 = the undeformed gel.
-        sensor: Whose field it is.
-        state: The truth in numbers and words; shape and texture None where nobody named them.
-        object: What touches, by name; splits are made by object or by series, never by contact.
-        series: Contacts of one object in one pose share a series: a press, deeper and deeper.
-        split: What it may be used for.
-        gel: Under which gel it was made; None for a real contact.
-        seed: What it can be made again from; 0 for a real contact.
-        unsure: Which of shape, texture, depth, position and area are so near another class that a
-            careful person might say that instead; None where nobody looked.
-        measured: Which labels and numbers nobody gave, so that they were read off the heights,
-            noise and all; only a person's own touches have such.
-        approach_mm: How far the undeformed body was moved into the undeformed gel [mm].
+        height_mm: Shape (H, W), float32, read-only; indentation without noise over the whole
+            sensing area [mm], row 0 = top, 0 = the undeformed gel.
+        sensor: Model of the sensor.
+        state: The truth in numbers and words; shape and texture None if not named.
+        object: Name of the object; splits are made by object or by series, never by contact.
+        series: Contacts of one object in one pose share a series: presses of growing depth.
+        split: Use of the contact.
+        gel: The gel that was pressed; None for a real contact.
+        seed: Random seed that reproduces the contact; 0 for a real contact.
+        unsure: Dimensions so near another class that a careful person might choose that one; None
+            if this was not determined.
+        measured: Columns without a given label, which were measured from the noisy heights; only
+            imported contacts have such.
+        approach_mm: Path of the undeformed body into the undeformed gel [mm].
         peak_kpa: Largest pressure [kPa].
 
     Raises:
@@ -102,11 +103,7 @@ class Contact:
     measured: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
-        heights = np.array(self.height_mm, dtype=np.float32)
-        if heights.ndim != 2 or min(heights.shape) < 8:
-            raise TouchError(f"a height map needs shape (H, W) from 8 × 8 up, got {heights.shape}")
-        if not np.isfinite(heights).all():
-            raise TouchError("the height map has NaN or infinite values; nothing was stored")
+        heights = checked_heights(self.height_mm).astype(np.float32)
         if np.abs(heights).max() > LARGEST_MM:
             raise TouchError(f"heights beyond ±{LARGEST_MM} mm can't be stored; are they in µm?")
         if self.series < 0:
@@ -118,14 +115,14 @@ class Contact:
 def pack_heights(height_mm: NDArray[np.float32]) -> bytes:
     """Compress heights [mm] to bytes: steps of ``UNIT_MM``, differences, byte planes, zstd."""
     steps = np.rint(height_mm / np.float32(UNIT_MM)).astype(np.int16)
-    steps[:, 1:] -= steps[:, :-1].copy()  # wraps around where it must, and back when it is read
+    steps[:, 1:] -= steps[:, :-1].copy()  # may wrap around, and wraps back when it is read
     steps[1:] -= steps[:-1].copy()
     planes = np.ascontiguousarray(steps).view(np.uint8).reshape(-1, 2).T
     return bytes(_ZSTD.compress(np.ascontiguousarray(planes).tobytes(), asbytes=True))
 
 
 def unpack_heights(packed: bytes | memoryview, rows: int, columns: int) -> NDArray[np.float32]:
-    """Heights [mm], shape (rows, columns), from what ``pack_heights`` made.
+    """Heights [mm], shape (rows, columns), from the bytes of ``pack_heights``.
 
     Raises:
         TouchError: The bytes are damaged.

@@ -1,4 +1,4 @@
-"""Measure a ball in a height map: the check that a calibration's scale is right.
+"""Measure a ball in a height map, to check the scale of a calibration.
 
 Not here: presses that a calibration learns from (``cltp.sensing.ball_presses``).
 """
@@ -21,10 +21,9 @@ class FittedBall:
     """A sphere fitted to heights.
 
     Attributes:
-        diameter_mm: Its diameter [mm].
-        depth_mm: Its lowest point below the frame's median [mm].
-        column: Of its centre [px].
-        row: Of its centre [px].
+        diameter_mm: Diameter [mm].
+        depth_mm: Depth of the lowest point below the frame's median [mm].
+        column, row: Centre [px].
         residual_mm: Misfit, root mean square [mm].
     """
 
@@ -36,13 +35,10 @@ class FittedBall:
 
 
 def fit_ball(height_mm: NDArray[np.floating], mm_per_px: float) -> FittedBall:
-    """Fit a sphere to the deepest region, as far as it is deeper than half: there the gel follows.
+    """Fit a sphere of unknown size to the deepest region of a height map (H, W) [mm].
 
-    Nothing is told about the ball: this measures it.
-
-    Args:
-        height_mm: (H, W) [mm].
-        mm_per_px: Pixel pitch [mm].
+    Only pixels deeper than half of the depth count: there the gel follows the ball. ``mm_per_px``
+    is the pixel pitch [mm].
 
     Raises:
         TouchError: Fewer than 50 pixels are deeper than half.

@@ -1,11 +1,10 @@
-"""Presses of a ball into a gel: where they are in a frame, and what slopes they must have.
+"""Presses of a ball into a gel: their position in a frame, and the slopes that they must have.
 
-A frame alone is not enough to know the slopes, but a ball is known: under it the gel follows the
-sphere. Around it the gel comes off the ball long before the geometric circle; what it does there is
-either left out (``SphericalCap``) or given as profiles by whoever can compute them
-(``ProfileTable``).
+A frame alone does not give slopes, but the ball does: under it the gel follows the sphere. The gel
+comes off the ball long before the geometric circle; the slopes around it are either left out
+(``SphericalCap``) or interpolated from simulated profiles (``ProfileTable``).
 
-Pixels are (column, row) of a frame, pixel centres at whole numbers; slopes as
+Pixels are (column, row) of a frame, pixel centres at whole numbers; slopes are those of
 ``cltp.sensing.photometric``.
 
 Not here: the network that learns from them (``cltp.train.photometric``).
@@ -27,13 +26,13 @@ from cltp.tactile.sensors import SensorSpec
 FloatArray = NDArray[np.float64]
 
 MIN_LEVELS = 8.0
-"""Change of colour of the 0.5 % most changed pixels (blurred) below which nothing presses. Our
+"""Change of colour of the 0.5 % most changed pixels (blurred) below which there is no press. Our
 choice: untouched frames are at 2 to 3, the faintest press that we have at 30."""
 
 _BLUR_PX = 2.0
 _RAYS = 90
-_GEL_LEAVES = 0.72  # the gel follows a ball to 0.76 of the geometric circle (elastic layer); inside
-_GEL_FLAT = 1.7  # ... and is flat within 0.1 mm per mm from here on
+_FOLLOWS = 0.72  # of the geometric circle; the elastic layer follows a ball to 0.76 of it
+_FLAT = 1.7  # of the geometric circle; slopes outside are below 0.1 mm per mm
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -41,9 +40,8 @@ class BallPress:
     """One press.
 
     Attributes:
-        column: Of the ball's centre [px]; may lie off the frame.
-        row: Of the ball's centre [px].
-        depth_mm: Of the ball's lowest point below the untouched gel [mm].
+        column, row: Centre of the ball [px]; may lie off the frame.
+        depth_mm: Depth of the ball's lowest point below the untouched gel [mm].
     """
 
     column: float
@@ -55,30 +53,27 @@ class PressShape(Protocol):
     """The gel around a ball of one diameter."""
 
     def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """How steeply the gel sinks towards the ball's centre at distance ``r_mm``, mm per mm.
-
-        NaN where it isn't known.
-        """
+        """Slope towards the ball's centre at distance ``r_mm``, mm per mm; NaN where unknown."""
         ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SphericalCap:
-    """The bare geometry: the sphere where the gel surely follows it, flat far off, NaN between.
+    """Bare geometry: the sphere where the gel certainly follows it, flat far off, NaN between.
 
     Attributes:
-        diameter_mm: Of the ball [mm].
+        diameter_mm: Diameter of the ball [mm].
     """
 
     diameter_mm: float
 
     def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """As ``PressShape``: r / √(R² - r²) inside."""
+        """R / √(R² - r²) inside."""
         radius = self.diameter_mm / 2
         circle = np.sqrt(max(depth_mm * (2 * radius - depth_mm), 0.0))
-        inside = r_mm < _GEL_LEAVES * circle
+        inside = r_mm < _FOLLOWS * circle
         root = np.sqrt(np.where(inside, radius**2 - r_mm**2, 1.0))
-        return np.where(inside, r_mm / root, np.where(r_mm > _GEL_FLAT * circle, 0.0, np.nan))
+        return np.where(inside, r_mm / root, np.where(r_mm > _FLAT * circle, 0.0, np.nan))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,19 +105,19 @@ class ProfileTable:
             raise ValueError("a profile table needs (D, K) heights, depths ascending, r from 0")
 
     def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """As ``PressShape``; linear in depth (clamped to the table) and in r."""
+        """Linear in depth (clamped to the table) and in r."""
         slopes = -np.gradient(self.height_mm, self.r_mm, axis=1)
         slopes[:, 0] = 0
-        at = np.interp(depth_mm, self.depths_mm, np.arange(len(self.depths_mm)))
-        low = min(int(at), len(self.depths_mm) - 2)
-        slope = slopes[low] + (at - low) * (slopes[low + 1] - slopes[low])
+        index = np.interp(depth_mm, self.depths_mm, np.arange(len(self.depths_mm)))
+        low = min(int(index), len(self.depths_mm) - 2)
+        slope = slopes[low] + (index - low) * (slopes[low + 1] - slopes[low])
         return np.interp(r_mm, self.r_mm, slope, right=0.0)
 
 
 def slopes_of(
     press: BallPress, shape: PressShape, column: FloatArray, row: FloatArray, mm_per_px: float
 ) -> FloatArray:
-    """Slopes that a press must have in some pixels, (N, 2): dz/dx, dz/d(down); NaN: not known."""
+    """Slopes of a press in some pixels, (N, 2): dz/dx, dz/d(down); NaN where unknown."""
     x = (column - press.column) * mm_per_px
     down = (row - press.row) * mm_per_px
     r = np.hypot(x, down)
@@ -135,13 +130,13 @@ def find_press(
 ) -> BallPress:
     """Find a ball's circle from the change of colour alone.
 
-    Along rays from the middle of the changed region, the last place where the change is still half
-    of that ray's greatest lies near the geometric circle, whichever lamp lights that side. A circle
-    is fitted to those places, forgiving a few that dirt has moved, and the rays are drawn again
-    from its centre. Good to a pixel or two: a start for ``fit_press``.
+    On each ray from the middle of the changed region, the last point where the change is still half
+    of the ray's maximum lies near the geometric circle, whichever lamp lights that side. A circle
+    is fitted to these points, robust to a few that dirt has moved, and the rays are drawn again
+    from its centre. Accurate to a pixel or two: a start for ``fit_press``.
 
     Raises:
-        TouchError: Nothing presses, or it isn't round.
+        TouchError: No press in the frame, or the object isn't round.
     """
     change = frame.astype(np.float32) - background.astype(np.float32)
     blurred = ndimage.gaussian_filter(change, (_BLUR_PX, _BLUR_PX, 0))
@@ -159,21 +154,19 @@ def find_press(
     largest = 0.6 * diameter_mm / sensor.mm_per_px
     circle = np.array([middle[1], middle[0], 0.5 * largest])
     for _ in range(8):
-        places = _half_way(size, circle[0], circle[1], 2 * largest)
-        if len(places) < _RAYS / 4:
+        edge = _edge_points(size, circle[0], circle[1], 2 * largest)
+        if len(edge) < _RAYS / 4:
             raise TouchError(
-                f"no ball in the frame: an edge was found on {len(places)} of {_RAYS} rays, "
+                f"no ball in the frame: an edge was found on {len(edge)} of {_RAYS} rays, "
                 f"expected {_RAYS // 4}; the ball must show with more than a quarter of its rim"
             )
-        moved = _fit_circle(places, circle, largest)
-        done = np.hypot(*(moved - circle)[:2]) < 0.2
-        circle = moved
-        if done:
+        previous, circle = circle, _fit_circle(edge, circle, largest)
+        if np.hypot(*(circle - previous)[:2]) < 0.2:
             break
-    off = float(np.median(np.abs(_misfit(circle, places))))
-    if off > 0.15 * circle[2]:
+    misfit = float(np.median(np.abs(_misfit(circle, edge))))
+    if misfit > 0.15 * circle[2]:
         raise TouchError(
-            f"what presses isn't round (edge {off:.1f} px off a circle of {circle[2]:.1f} px); "
+            f"the object isn't round (edge {misfit:.1f} px off a circle of {circle[2]:.1f} px); "
             "expected one ball; leave the frame out"
         )
     ball = diameter_mm / 2
@@ -192,39 +185,39 @@ def _largest(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return ndimage.binary_fill_holes(closed)[8:-8, 8:-8]
 
 
-def _half_way(size: NDArray[np.float32], column: float, row: float, reach: float) -> FloatArray:
-    """Where the change has fallen to half on each ray, (N, 2).
+def _edge_points(size: NDArray[np.float32], column: float, row: float, reach: float) -> FloatArray:
+    """Points where the change has fallen to half on each ray, (N, 2).
 
-    Rays that leave the frame before that say nothing.
+    Rays that leave the frame before that give none.
     """
     rows, columns = size.shape
     r = np.arange(0, reach, 0.5)
-    places = []
+    points = []
     for angle in np.linspace(0, 2 * np.pi, _RAYS, endpoint=False):
         x, y = column + r * np.cos(angle), row + r * np.sin(angle)
-        seen = (x >= 0) & (x <= columns - 1) & (y >= 0) & (y <= rows - 1)
-        if seen.sum() < 10:
+        inside = (x >= 0) & (x <= columns - 1) & (y >= 0) & (y <= rows - 1)
+        if inside.sum() < 10:
             continue
-        x, y = x[seen], y[seen]
+        x, y = x[inside], y[inside]
         along = ndimage.map_coordinates(size, [y, x], order=1)
         if along.max() <= 0:
             continue
         last = int(np.flatnonzero(along > 0.5 * along.max())[-1])
         if last < len(along) - 2:
-            places.append((x[last], y[last]))
-    return np.array(places).reshape(-1, 2)
+            points.append((x[last], y[last]))
+    return np.array(points).reshape(-1, 2)
 
 
-def _misfit(circle: FloatArray, places: FloatArray) -> FloatArray:
-    return np.hypot(places[:, 0] - circle[0], places[:, 1] - circle[1]) - circle[2]
+def _misfit(circle: FloatArray, points: FloatArray) -> FloatArray:
+    return np.hypot(points[:, 0] - circle[0], points[:, 1] - circle[1]) - circle[2]
 
 
-def _fit_circle(places: FloatArray, start: FloatArray, largest: float) -> FloatArray:
-    low, high = places.min(axis=0) - largest, places.max(axis=0) + largest
+def _fit_circle(points: FloatArray, start: FloatArray, largest: float) -> FloatArray:
+    low, high = points.min(axis=0) - largest, points.max(axis=0) + largest
     fitted = optimize.least_squares(
         _misfit,
         np.clip(start, [*low, 5.1], [*high, largest - 0.1]),
-        args=(places,),
+        args=(points,),
         loss="soft_l1",
         bounds=([*low, 5.0], [*high, largest]),
     )
@@ -240,25 +233,25 @@ def fit_press(
     mm_per_px: float,
     max_depth_mm: float,
 ) -> BallPress:
-    """Place and depth whose slopes are nearest to those that a calibration sees.
+    """Position and depth whose slopes are nearest to measured ones.
 
     Args:
         start: A guess, within a few pixels.
         slope_x: (H, W), mm per mm.
         slope_down: (H, W), mm per mm.
-        shape: Must know the slopes everywhere (``ProfileTable``).
+        shape: Gives the slopes everywhere (``ProfileTable``).
         mm_per_px: Pixel pitch [mm].
-        max_depth_mm: The deepest press that ``shape`` knows [mm].
+        max_depth_mm: Largest depth that ``shape`` covers [mm].
     """
     rows, columns = slope_x.shape
     row, column = (a.ravel().astype(float) for a in np.mgrid[0:rows:2, 0:columns:2])
     near = np.hypot(column - start.column, row - start.row) * mm_per_px < 3.5
     row, column = row[near], column[near]
-    seen = np.stack([slope_x[::2, ::2].ravel()[near], slope_down[::2, ::2].ravel()[near]], axis=-1)
+    measured = np.stack([slope[::2, ::2].ravel()[near] for slope in (slope_x, slope_down)], axis=-1)
 
     def misfit(guess: FloatArray) -> FloatArray:
         press = BallPress(column=guess[0], row=guess[1], depth_mm=guess[2])
-        return (slopes_of(press, shape, column, row, mm_per_px) - seen).ravel()
+        return (slopes_of(press, shape, column, row, mm_per_px) - measured).ravel()
 
     low = [start.column - 15, start.row - 15, 0.02]
     high = [start.column + 15, start.row + 15, max_depth_mm]

@@ -1,4 +1,4 @@
-"""A sensor's photometric calibration: one small safetensors file with what it was made from.
+"""A sensor's photometric calibration: one small safetensors file with a record of its origin.
 
 Loading is strict: another version, another sensor or a missing number is refused, never repaired.
 
@@ -29,21 +29,21 @@ _MAX_BYTES = 1_000_000  # ours has 8 kB; a file far beyond that is something els
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Calibration:
-    """What was measured, and from what.
+    """A trained network and its origin.
 
     Attributes:
         net: The network.
         sensor: Name of the sensor's model.
-        unit: Which one, as the person who calibrated it calls it.
-        date: Of the calibration, ISO 8601.
-        ball_diameter_mm: Of the ball that was pressed [mm].
-        num_frames: Presses that it was trained on.
+        unit: Name that the person who calibrated the unit gave it.
+        date: Day of the calibration, ISO 8601.
+        ball_diameter_mm: Diameter of the pressed ball [mm].
+        num_frames: Presses in the training.
         residual: Misfit of the slopes under the ball, root mean square [mm per mm].
-        seed: Of the training.
-        source: Where the frames are from.
+        seed: Random seed of the training.
+        source: Origin of the frames.
 
     Raises:
-        TouchError: A value makes no sense.
+        TouchError: A value is out of its range.
     """
 
     net: GradientNet
@@ -72,12 +72,11 @@ class Calibration:
             raise TouchError(f"calibration: num_frames must be >= 1, got {self.num_frames}")
 
     def age_days(self, today: datetime.date) -> int:
-        """Days since it was made."""
         return (today - datetime.date.fromisoformat(self.date)).days
 
 
 def default_calibration(sensor: SensorSpec) -> Path:
-    """The calibration that ships for a sensor's model: another unit's, so heights are rough.
+    """File of the shipped calibration of a sensor's model: another unit's, so heights are rough.
 
     Raises:
         TouchError: None ships for this model.
@@ -105,8 +104,8 @@ def load_calibration(path: Path, sensor: SensorSpec, unit: str | None = None) ->
 
     Args:
         path: File that ``save_calibration`` wrote.
-        sensor: The model that it must be for.
-        unit: The unit that it must be for; None takes any.
+        sensor: Model that it must be for.
+        unit: Unit that it must be for; None takes any.
 
     Raises:
         TouchError: Missing, damaged, not a calibration, of another version, sensor or unit.
@@ -142,10 +141,10 @@ def _calibration(
             f"calibration of version {version}, expected {VERSION}; calibrate anew with this "
             "version of tacgrasp"
         )
-    wanted = {f.name: f.type for f in fields(Calibration) if f.name != "net"}
-    if record.keys() != wanted.keys():
-        raise TouchError(f"calibration: expected fields {sorted(wanted)}, got {sorted(record)}")
-    for name, kind in wanted.items():
+    types = {f.name: f.type for f in fields(Calibration) if f.name != "net"}
+    if record.keys() != types.keys():
+        raise TouchError(f"calibration: expected fields {sorted(types)}, got {sorted(record)}")
+    for name, kind in types.items():
         value = record[name]
         if type(value).__name__ != kind and not (kind == "float" and type(value) is int):
             raise TouchError(f"calibration: {name} must be {kind}, got {value!r}")

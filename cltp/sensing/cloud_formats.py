@@ -1,7 +1,6 @@
 """Readers of three small formats of point clouds: PLY, PCD and plain columns of x, y and z.
 
-They return points as written, (N, 3) float64; ``cltp.sensing.touch_files`` checks what the points
-mean.
+They return points as written, (N, 3) float64; ``cltp.sensing.touch_files`` checks them.
 Sources: Turk, 'The PLY polygon file format' (1994); pointclouds.org, 'The PCD file format', v0.7.
 """
 
@@ -37,14 +36,14 @@ _PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">
 
 
 def read_ply(path: Path) -> NDArray[np.float64]:
-    """Vertices of a PLY file (ascii or binary); faces and other elements are not read.
+    """Vertices of a PLY file (ascii or binary); faces and other elements are ignored.
 
     Raises:
-        TouchError: Not PLY, no x, y, z of the vertices, truncated, or vertices not first.
+        TouchError: Not PLY, vertices without x, y, z, truncated, or vertices not first.
     """
     data = path.read_bytes()
-    head, mark, body = data.partition(b"end_header")
-    if not data.startswith(b"ply") or not mark:
+    head, separator, body = data.partition(b"end_header")
+    if not data.startswith(b"ply") or not separator:
         raise TouchError("expected a PLY file ('ply' … 'end_header'), got something else")
     body = body[2:] if body.startswith(b"\r\n") else body[1:]
     order, count, fields = _ply_header(head.decode("ascii", errors="replace").split("\n"))
@@ -125,7 +124,7 @@ def read_xyz(path: Path) -> NDArray[np.float64]:
     """Rows of x, y, z in text, separated by spaces or commas; '#' begins a comment.
 
     Raises:
-        TouchError: Something that is not a number, or fewer than three in a row.
+        TouchError: Not numbers, or fewer than three in a row.
     """
     try:
         text = path.read_text("utf-8").replace(",", " ")

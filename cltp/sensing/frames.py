@@ -1,6 +1,6 @@
-"""Frames of a camera behind a gel: read from image files, refused when they can't be one.
+"""Frames of a camera behind a gel: reading image files, and checks that a frame is plausible.
 
-Not here: what a frame means (``cltp.sensing.photometric``), live capture (drivers).
+Not here: heights from frames (``cltp.sensing.photometric``), live capture (``tacgrasp.drivers``).
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec
 
 FRAME_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp")
-"""Images that can hold a frame."""
+"""Formats of image files."""
 
 DARK_LEVEL = 10.0
-"""A frame whose mean is below this (of 255) was taken without light. Our choice: the frames that
-we have are at 92; without light a camera is at 0 to 3."""
+"""Mean (of 255) below which a frame was taken without light. Our choice: the frames that we have
+are at 92; without light a camera is at 0 to 3."""
 
 Frame = NDArray[np.uint8]
 
@@ -56,7 +56,7 @@ def read_frame(path: Path, sensor: SensorSpec) -> Frame:
 
 
 def check_frame(frame: NDArray[np.generic], sensor: SensorSpec, name: str = "the frame") -> Frame:
-    """Return ``frame`` if it can be one of ``sensor``.
+    """Return ``frame`` if it can come from ``sensor``.
 
     Raises:
         TouchError: Wrong shape, type or size, or black.
@@ -77,5 +77,5 @@ def _check_size(size: tuple[int, ...], sensor: SensorSpec, name: str) -> None:
     if tuple(size) != (sensor.rows, sensor.columns):
         raise TouchError(
             f"{name} has {size[1]} × {size[0]} px, expected {sensor.columns} × {sensor.rows} "
-            f"of {sensor.name}; scale and crop it the way that the calibration's frames were"
+            f"of {sensor.name}; scale and crop it as the calibration's frames were"
         )

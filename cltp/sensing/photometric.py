@@ -1,13 +1,14 @@
 """Frames to heights: colours become gradients, gradients become a surface. Loads no torch.
 
-Three coloured lamps light the gel from its sides, so the colour at a pixel says how the gel is
-tilted there, in a way that varies over the field. A small network, calibrated on presses of a ball,
-gives for each pixel a matrix M of 2 × 3, and
+Three coloured lamps light the gel from its sides, so the colour at a pixel depends on the tilt of
+the gel there, in a way that varies over the sensing area. A small network, calibrated on presses of
+a ball, gives for each pixel a matrix M of 2 × 3, and
 
-    (dz/dx, dz/dy) = M(colour change, place) · colour change,
+    (dz/dx, dz/dy) = M(colour change, position) · colour change,
 
-so that where nothing changed the gradient is exactly zero (our choice: a plain network has to learn
-that, and drifts by what it did not). The surface is the least-squares integral of the gradients.
+so that the gradient is exactly zero where the colour did not change (our choice: a plain network
+has to learn that, and drifts by its error). The surface is the least-squares integral of the
+gradients.
 
 Source: R. J. Woodham, Photometric method for determining surface orientation (1980); a network per
 pixel as customary for GelSight sensors; the form above and the integration are ours.
@@ -32,13 +33,13 @@ from cltp.tactile.sensors import SensorSpec
 FloatArray = NDArray[np.float32]
 
 COLOUR_SCALE = 50.0
-"""Grey levels of change that count as 1 for the network. Fixed: part of a calibration's version."""
+"""Grey levels of change that are 1 for the network. Fixed: part of a calibration's version."""
 
 STALE_LEVELS = 20.0
-"""Median change of a frame against its background from which on the two don't belong together.
-Our choice: 2 levels on the frames that we have, though a ball presses; a lamp lost gives 30."""
+"""Median change of a frame against its background above which the background is stale. Our choice:
+it is 2 levels on the frames of ball presses that we have; a failed lamp gives 30."""
 
-_BLOCK = 400  # pixels at a time: below what BLAS would share among threads, which here only wait
+_BLOCK = 400  # pixels at a time: small enough that BLAS does not start threads, which only wait
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -46,7 +47,7 @@ class GradientNet:
     """The network: 3 colours and 2 coordinates -> H -> H -> 6, rectified.
 
     Attributes:
-        w1: (5, H). Rows: red, green, blue change in ``COLOUR_SCALE``; x and y in half-fields.
+        w1: (5, H). Rows: red, green, blue change in ``COLOUR_SCALE``; x and y in [-1, 1].
         b1: (H,).
         w2: (H, H).
         b2: (H,).
@@ -66,9 +67,9 @@ class GradientNet:
 
     def __post_init__(self) -> None:
         hidden = self.b1.size
-        wanted = ((5, hidden), (hidden,), (hidden, hidden), (hidden,), (hidden, 6), (6,))
-        for field, shape in zip(fields(self), wanted, strict=True):
-            # in C order: safetensors writes a transposed array as it lies in memory
+        shapes = ((5, hidden), (hidden,), (hidden, hidden), (hidden,), (hidden, 6), (6,))
+        for field, shape in zip(fields(self), shapes, strict=True):
+            # in C order: safetensors writes the memory of a transposed array unchanged
             value = np.array(getattr(self, field.name), dtype=np.float32, order="C")
             if hidden == 0 or value.shape != shape or not np.isfinite(value).all():
                 raise TouchError(
@@ -79,8 +80,8 @@ class GradientNet:
             object.__setattr__(self, field.name, value)
 
 
-def place_inputs(sensor: SensorSpec) -> FloatArray:
-    """Each pixel's place, (rows × columns, 2): x to the right, y to the bottom, in [-1, 1]."""
+def position_inputs(sensor: SensorSpec) -> FloatArray:
+    """Position of each pixel, (rows × columns, 2): x to the right, y to the bottom, in [-1, 1]."""
     x = (np.arange(sensor.columns) + 0.5) / sensor.columns * 2 - 1
     y = (np.arange(sensor.rows) + 0.5) / sensor.rows * 2 - 1
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2).astype(np.float32)
@@ -96,19 +97,19 @@ class Photometer:
     """Turns the frames of one unit into heights.
 
     Args:
-        net: Of the unit's calibration.
+        net: Network of the unit's calibration.
         background: Frame of the untouched gel, (rows, columns, 3) uint8.
-        sensor: Whose field and pixels they are.
+        sensor: The model of the unit.
 
     Raises:
-        TouchError: The background is no frame of this sensor.
+        TouchError: The background is not a frame of this sensor.
     """
 
     def __init__(self, net: GradientNet, background: Frame, sensor: SensorSpec) -> None:
         self.sensor = sensor
         self._net = net
         self._background = check_frame(background, sensor, "the background")
-        self._placed = place_inputs(sensor) @ net.w1[3:] + net.b1  # the same for every frame
+        self._position_terms = position_inputs(sensor) @ net.w1[3:] + net.b1  # of every frame
 
     def gradients(self, frame: Frame) -> tuple[FloatArray, FloatArray]:
         """Slope of the gel in every pixel.
@@ -134,7 +135,7 @@ class Photometer:
             part = slice(start, start + _BLOCK)
             colours = change[part]
             hidden = colours @ net.w1[:3]
-            hidden += self._placed[part]
+            hidden += self._position_terms[part]
             np.maximum(hidden, 0, out=hidden)
             hidden = hidden @ net.w2
             hidden += net.b2
@@ -149,7 +150,7 @@ class Photometer:
     def heights(self, frame: Frame) -> FloatArray:
         """Surface of the gel, (rows, columns), float32 [mm]: positive into the gel, median zero.
 
-        The zero is the frame's median: a frame alone can't tell a gel that is sunk all over.
+        The zero is the frame's median: a frame alone does not show a gel that is sunk all over.
 
         Raises:
             TouchError: As ``gradients``.
@@ -161,18 +162,18 @@ class Photometer:
         """The frame as a cloud of 1024 points.
 
         Raises:
-            TouchError: As ``gradients``, or heights that no gel can have.
+            TouchError: As ``gradients``, or heights outside the gel.
         """
         return cloud_from_heights(self.heights(frame), self.sensor, stamp=stamp)
 
 
 def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> FloatArray:
-    """The surface whose slopes are nearest to these, root mean square; its mean is zero.
+    """The surface whose slopes are nearest to these in the root mean square; its mean is zero.
 
-    Differences between neighbouring pixels are taken as the mean of their two slopes. Minimising
-    the squared misfit of all differences gives a Poisson equation whose natural edges carry the
-    slopes across (Neumann, not zero), so a contact cut by the border isn't bent flat there; the
-    type-II cosine transform diagonalises it exactly.
+    The difference between neighbouring pixels is the mean of their two slopes. Minimising the
+    squared misfit of all differences gives a Poisson equation whose natural boundary conditions
+    carry the slopes across (Neumann, not zero), so a contact cut by the border isn't bent flat
+    there; the type-II cosine transform diagonalises it exactly.
 
     Args:
         slope_x: (H, W), mm per mm, along the columns.
@@ -180,7 +181,7 @@ def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> 
         mm_per_px: Pixel pitch [mm].
 
     Returns:
-        (H, W) [mm], of the slopes' type.
+        (H, W) [mm], with the dtype of the slopes.
     """
     across = 0.5 * mm_per_px * (slope_x[:, 1:] + slope_x[:, :-1])
     down = 0.5 * mm_per_px * (slope_down[1:] + slope_down[:-1])
@@ -188,7 +189,7 @@ def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> 
 
 
 def integrate_differences(across: FloatArray, down: FloatArray) -> FloatArray:
-    """The surface with these differences between neighbours, by least squares; mean zero.
+    """The surface with these differences between neighbours, by least squares; its mean is zero.
 
     Args:
         across: (H, W - 1), each pixel's right neighbour minus itself [mm].
@@ -208,6 +209,6 @@ def integrate_differences(across: FloatArray, down: FloatArray) -> FloatArray:
     eigen_y = 2 * np.cos(np.pi * np.arange(rows) / rows) - 2
     eigen = eigen_y[:, None] + eigen_x[None, :]
     eigen[0, 0] = 1
-    waves[0, 0] = 0  # the mean, which no difference knows
+    waves[0, 0] = 0  # the mean, which differences do not determine
     waves /= eigen.astype(waves.dtype)
     return fft.idctn(waves, type=2, overwrite_x=True)

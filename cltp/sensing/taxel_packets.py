@@ -1,10 +1,10 @@
-"""Packets of a serial taxel array: heights of a gel, framed and checksummed, both ways.
+"""Packets of a serial taxel array, encoded and parsed: framed and checksummed heights of a gel.
 
-The format is ours (``docs/taxels.md`` has it for whoever writes firmware): any sensor that can be
-made to send heights can be used. A frame says which mark of the host the sensor had seen before it
-captured, so that the host knows a new touch from an old one without comparing clocks.
+The format is ours (``docs/taxels.md`` describes it for authors of firmware): any sensor that can
+send heights can be used. A frame carries the last mark of the host that the sensor had received
+before the capture, so that the host can tell a new frame from an old one without comparing clocks.
 
-Not here: the serial port (``tacgrasp.drivers.taxels.connect``), what heights mean
+Not here: the serial port (``tacgrasp.drivers.taxels.connect``), clouds from heights
 (``cltp.tactile.cloud``).
 """
 
@@ -26,10 +26,10 @@ FRAME, MARK = 1, 2
 """Kinds of packets: heights from the sensor; a mark from the host."""
 
 MAX_TAXELS = 131_072
-"""Most taxels of a frame: 320 × 240 fit; a header that claims more is damage."""
+"""Most taxels of a frame: 320 × 240 fit; a header with more is foreign."""
 
 UM_LIMIT = 32_000
-"""Counts of one taxel reach this far, ± [µm]; beyond lie marks such as a saturated converter's."""
+"""Largest count of a taxel, ± [µm]; values beyond stand for faults such as saturation."""
 
 _HEADER = struct.Struct("<4sBBHHIIQ")  # sync, version, kind, rows, columns, sequence, mark, clock
 _CHECKSUM = struct.Struct("<I")
@@ -42,13 +42,13 @@ class TaxelFrame:
     """One frame of heights, as it was sent.
 
     Attributes:
-        sequence: Counts frames, modulo 2**32.
-        mark: Of the last mark packet that came before the capture began; 0 when none did.
+        sequence: Number of the frame, modulo 2**32.
+        mark: Number in the last mark packet received before the capture began; 0 for none.
         clock_us: Sensor's own clock when the capture began [µs].
         counts_um: (rows, columns) int16, indentation [µm], row 0 at the top; read-only.
 
     Raises:
-        TouchError: Not such a grid, too many taxels, or a number out of its range.
+        TouchError: Another shape or type, too many taxels, or a number out of its range.
     """
 
     sequence: int
@@ -78,10 +78,10 @@ class TaxelFrame:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TaxelMark:
-    """What the host sends: frames captured from now on are to carry this number.
+    """The packet of the host: frames captured after it carry its number.
 
     Attributes:
-        mark: 1 to 2**32 - 1; 0 is what frames carry before the first one.
+        mark: 1 to 2**32 - 1; frames carry 0 before the first one.
     """
 
     mark: int
@@ -89,12 +89,12 @@ class TaxelMark:
 
 @dataclass(slots=True)
 class WireCounts:
-    """What a parser has seen.
+    """Packets and damage in a stream.
 
     Attributes:
-        packets: Whole ones.
-        damaged: Packets whose checksum was wrong, or that were cut off.
-        foreign: Whole headers of a version or kind that isn't known.
+        packets: Whole packets.
+        damaged: Packets with a wrong checksum, or cut off.
+        foreign: Whole headers of an unknown version or kind.
         garbage_bytes: Bytes that belong to no packet.
     """
 
@@ -105,7 +105,7 @@ class WireCounts:
 
 
 def counts_of(height_mm: NDArray[np.floating]) -> NDArray[np.int16]:
-    """Heights [mm] as counts [µm], rounded.
+    """Heights [mm] as rounded counts [µm].
 
     Raises:
         TouchError: Not finite, or beyond ± ``UM_LIMIT``.
@@ -142,23 +142,23 @@ def _header(kind: int, rows: int, columns: int, sequence: int, mark: int, clock_
 
 @dataclass(slots=True)
 class PacketParser:
-    """Finds packets in a stream that arrives in pieces, and goes on behind whatever is damaged.
+    """Finds packets in a stream that arrives in pieces, and continues after damage.
 
-    The header has a checksum of its own: a damaged size can't make it wait for bytes that never
-    come. Behind a damaged packet it searches from the byte after its start, so a packet that began
-    inside a torn one is not lost.
+    The header has a checksum of its own: a damaged size can't make the parser wait for bytes that
+    never come. After a damaged packet the search continues at the byte after its start, so a packet
+    that began inside a torn one is not lost.
 
     Attributes:
-        counts: What was seen so far.
+        counts: Packets and damage so far.
     """
 
     counts: WireCounts = field(default_factory=WireCounts)
     _buffer: bytearray = field(default_factory=bytearray)
 
     def feed(self, data: bytes) -> list[TaxelFrame | TaxelMark]:
-        """Take the next bytes; returns the packets that are whole by now, in order."""
+        """Take the next bytes; returns the packets that they complete, in order."""
         self._buffer += data
-        found: list[TaxelFrame | TaxelMark] = []
+        packets: list[TaxelFrame | TaxelMark] = []
         while self._find_sync() and len(self._buffer) >= HEADER_BYTES:
             size = self._packet_size()
             if size is None:
@@ -167,25 +167,25 @@ class PacketParser:
                 break
             packet = self._packet(size)
             if packet is not None:
-                found.append(packet)
-        return found
+                packets.append(packet)
+        return packets
 
     def _find_sync(self) -> bool:
-        """Drop what stands before the next sync; False when none is there."""
-        place = self._buffer.find(SYNC)
-        if place < 0:
-            kept = next(n for n in (3, 2, 1, 0) if self._buffer.endswith(SYNC[:n]))
-            self._drop(len(self._buffer) - kept)
-            return False
-        self._drop(place)
-        return True
+        """Drop the bytes before the next sync; False if there is none."""
+        start = self._buffer.find(SYNC)
+        if start >= 0:
+            self._drop(start)
+            return True
+        partial = next(n for n in (3, 2, 1, 0) if self._buffer.endswith(SYNC[:n]))
+        self._drop(len(self._buffer) - partial)
+        return False
 
     def _drop(self, count: int) -> None:
         self.counts.garbage_bytes += count
         del self._buffer[:count]
 
     def _packet_size(self) -> int | None:
-        """Size of the packet at the start of the buffer; None: it is none, and its sync is gone."""
+        """Size of the packet at the start of the buffer; None drops the sync of a bad header."""
         (checksum,) = _CHECKSUM.unpack_from(self._buffer, _HEADER.size)
         _, version, kind, rows, columns, *_ = _HEADER.unpack_from(self._buffer)
         if zlib.crc32(self._buffer[: _HEADER.size]) != checksum:
@@ -218,12 +218,12 @@ class PacketParser:
 
 @dataclass(slots=True)
 class SequenceCount:
-    """Follows the numbers of frames.
+    """Checks the sequence numbers of frames.
 
     Attributes:
-        missing: Numbers that never came.
-        repeated: Frames that came again.
-        restarts: Times that the numbers began anew: the sensor was switched off and on.
+        missing: Numbers that were left out.
+        repeated: Frames with the number of the frame before.
+        restarts: Steps backwards: the sensor was switched off and on.
     """
 
     missing: int = 0
@@ -232,7 +232,7 @@ class SequenceCount:
     _last: int | None = None
 
     def is_new(self, sequence: int) -> bool:
-        """Take the next number; False when it is that of the frame before."""
+        """Take the next number; False if it is that of the frame before."""
         if self._last is None:
             self._last = sequence
             return True

@@ -31,7 +31,7 @@ from cltp.sensing.ball_presses import (
     slopes_of,
 )
 from cltp.sensing.frames import Frame, check_frame
-from cltp.sensing.photometric import GradientNet, Photometer, colour_change, place_inputs
+from cltp.sensing.photometric import GradientNet, Photometer, colour_change, position_inputs
 from cltp.tactile.sensors import SensorSpec
 from cltp.torch_threads import torch_threads
 
@@ -197,7 +197,7 @@ def _samples(
     far: int = _FAR_SAMPLES,
 ) -> tuple[Tensor, Tensor]:
     """Pixels of all frames whose slope is known: inputs (N, 5), slopes (N, 2)."""
-    place = place_inputs(sensor)
+    place = position_inputs(sensor)
     row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
     inputs, targets = [], []
     for change, press in zip(changes, presses, strict=True):

@@ -21,7 +21,8 @@ import torch
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError

@@ -28,7 +28,8 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from cltp.data.contact import Contact, Split
-from cltp.data.dataset import NUMBER_COLUMNS, DatasetWriter
+from cltp.data.dataset import NUMBER_COLUMNS
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensing.touch_files import read_heights
 from cltp.tactile.measure import NO_CONTACT_MM, contact_state

@@ -3,7 +3,7 @@
 import numpy as np
 
 from cltp.data.contact import Contact, Gel, Split
-from cltp.data.dataset import DatasetWriter
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import Shape, Texture

@@ -7,7 +7,7 @@ import torch
 
 from cltp.checkpoints.tac3d_llm import save_clip, save_encoder, save_tac3d_llm
 from cltp.data.contact import Contact, Split
-from cltp.data.dataset import DatasetWriter
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.clip_towers import small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
 from cltp.data.contact import Contact, Gel, Split, pack_heights, unpack_heights
-from cltp.data.dataset import SCHEMA, ContactDataset, DatasetWriter
+from cltp.data.dataset import SCHEMA, ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import ContactState

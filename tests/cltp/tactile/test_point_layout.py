@@ -11,7 +11,8 @@ from cltp.checkpoints.tac3d_llm import (
     load_touching_encoder,
     save_encoder,
 )
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler, sampled
 from cltp.encoder.class_token import height_quantiles
 from cltp.encoder.encoder import VARIANTS, EncoderConfig, TactileEncoder
@@ -74,7 +75,9 @@ def test_an_untouched_field_is_sampled_evenly(heights: np.ndarray) -> None:
 
 def test_a_field_that_is_pressed_all_over_is_sampled_evenly() -> None:
     heights = np.full((ROWS, COLUMNS), 0.5, np.float32)
-    np.testing.assert_allclose(points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN), atol=1e-3)
+    np.testing.assert_allclose(
+        points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN), atol=1e-3
+    )
 
 
 def test_fine_points_are_four_times_as_many() -> None:
@@ -90,9 +93,11 @@ def test_even_sampling_is_that_of_live_clouds() -> None:
     np.testing.assert_array_equal(lattice_points(cloud), points)
 
 
-@pytest.mark.parametrize("bad", [{"side": 1}, {"pressed": 1.0}, {"pressed": -0.1}])
+@pytest.mark.parametrize(
+    "bad", [{"side": 1}, {"contact_fraction": 1.0}, {"contact_fraction": -0.1}]
+)
 def test_a_sampling_out_of_range_is_refused(bad: dict[str, float]) -> None:
-    with pytest.raises(TouchError, match="side of 2 and a share"):
+    with pytest.raises(TouchError, match="side of 2 and a fraction"):
         Sampling(**bad)  # type: ignore[arg-type]
 
 

@@ -9,7 +9,8 @@ import torch
 from cltp.checkpoints.frozen import frozen, load_frozen, noisy_frames, save_frozen
 from cltp.checkpoints.tac3d_llm import WeightsError, save_clip, save_encoder
 from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
@@ -25,9 +26,9 @@ from cltp.encoder.masked_modelling import (
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.tokenizer import Words
-from cltp.train.baselines import METHODS, felt_texts, train_baseline
+from cltp.train.baselines import BASELINES, surface_texts, train_baseline
 from cltp.train.curves import read_curves
-from cltp.train.stage import Schedule
+from cltp.train.recipes import Schedule
 from tests.fakes.fake_contacts import fake_contact
 
 MINI = SENSORS["gelsight_mini"]
@@ -143,7 +144,7 @@ def test_patches_that_differ_get_words_that_differ(points: torch.Tensor) -> None
     assert words.logits(seen).shape == (4, 64, 8)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", BASELINES)
 def test_every_method_trains_and_is_read_back(
     method: str, data_dir: Path, clip_dir: Path, tmp_path: Path
 ) -> None:
@@ -172,17 +173,19 @@ def test_a_method_refuses_an_encoder_that_cannot_see_it(data_dir: Path, tmp_path
             train_baseline(method, data_dir, tmp_path, config=SIZES[tokenizer], schedule=schedule)
     with pytest.raises(TouchError, match="name a CLIP"):
         train_baseline("tvl", data_dir, tmp_path, config=SIZES["image"], schedule=schedule)
-    with pytest.raises(TouchError, match="known: point_mae"):
-        train_baseline("simclr", data_dir, tmp_path, schedule=schedule)
+    with pytest.raises(TouchError, match="known: random, point_mae"):
+        train_baseline("simclr", data_dir, tmp_path, config=SIZES["lattice"], schedule=schedule)
 
 
 def test_vision_hears_of_touch_and_material_alone(data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TRAIN)
     batch = Sampler(data, CLEAN).batch(np.arange(3), 0)
     state = batch.states[0]
-    assert felt_texts("tvl", data, batch)[0] == f"The surface feels {state.texture} to the touch."
-    assert str(data.column("object")[0]) in felt_texts("unitouch", data, batch)[0]
-    for text in (*felt_texts("tvl", data, batch), *felt_texts("unitouch", data, batch)):
+    assert (
+        surface_texts("tvl", data, batch)[0] == f"The surface feels {state.texture} to the touch."
+    )
+    assert str(data.column("object")[0]) in surface_texts("unitouch", data, batch)[0]
+    for text in (*surface_texts("tvl", data, batch), *surface_texts("unitouch", data, batch)):
         assert not any(str(word) in text for word in (state.position, state.area))
 
 

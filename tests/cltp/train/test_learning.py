@@ -17,7 +17,8 @@ from cltp.checkpoints.tac3d_llm import (
     size_bytes,
 )
 from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.encoder.class_token import (
     HeightQuantiles,
@@ -47,8 +48,9 @@ from cltp.texts.tokenizer import Words
 from cltp.train.alignment import train_cltp
 from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
-from cltp.train.prefetch import ahead
-from cltp.train.stage import Schedule, Stage
+from cltp.train.prefetch import prefetched
+from cltp.train.recipes import Schedule
+from cltp.train.stage import Stage
 from tests.fakes.fake_contacts import fake_contact
 
 MINI = SENSORS["gelsight_mini"]
@@ -103,7 +105,11 @@ def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
         folder,
         words,
         Sayings(),
-        schedules=(schedule(40, 12, 5e-3), schedule(30, 12, 5e-3), schedule(130, 12, 5e-3)),
+        schedules={
+            "text": schedule(40, 12, 5e-3),
+            "projector": schedule(30, 12, 5e-3),
+            "joint": schedule(130, 12, 5e-3),
+        },
         dim=48,
         layers=2,
         augmentation=CLEAN,
@@ -232,7 +238,7 @@ def test_graded_heights_fill_steps_one_after_the_other() -> None:
 
 
 def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
-    with pytest.raises(TouchError, match="60 grades are for a bearing curve"):
+    with pytest.raises(TouchError, match="60 grades need height quantiles"):
         EncoderConfig(grades=60)
     plain, told = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
     assert plain != told
@@ -311,11 +317,11 @@ def test_an_error_while_making_a_batch_is_raised_in_its_place() -> None:
         yield 1
         raise TouchError("damaged")
 
-    made = ahead(items())  # type: ignore[arg-type]
+    made = prefetched(items())  # type: ignore[arg-type]
     assert next(made) == 1
     with pytest.raises(TouchError, match="damaged"):
         next(made)
-    assert list(ahead([1, 2, 3])) == [1, 2, 3]
+    assert list(prefetched([1, 2, 3])) == [1, 2, 3]
 
 
 def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path) -> None:

@@ -14,19 +14,20 @@ import torch
 
 from cltp.checkpoints.tac3d_llm import save_clip
 from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import PRESETS
 from cltp.encoder.heads import targets
 from cltp.errors import TouchError
 from cltp.texts.tokenizer import Words
-from cltp.train.alignment import Recipe, train_cltp
+from cltp.train.alignment import train_cltp
 from cltp.train.clip_feature_cache import FrozenFeatures, rendered
 from cltp.train.curves import CurveFile, plot_curves, read_curves, smoothed
-from cltp.train.distributed import Workers, joined
+from cltp.train.distributed import Workers, joined_workers
 from cltp.train.finite_check import check_batch
-from cltp.train.stage import Schedule
+from cltp.train.recipes import CltpRecipe, Schedule
 from tests.cltp.train.killed_training import train_a_little
 from tests.fakes.fake_contacts import fake_contact
 from tests.paths import ROOT
@@ -92,9 +93,15 @@ def test_without_images_and_heads_language_alone_is_learned(
     data_dir: Path, towers_dir: Path, tmp_path: Path
 ) -> None:
     schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
-    recipe = Recipe(with_images=False, head_weight=0.0)
+    recipe = CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0)
     train_cltp(
-        data_dir, tmp_path, config=TINY, schedule=schedule, recipe=recipe, clip_dir=towers_dir
+        data_dir,
+        tmp_path,
+        config=TINY,
+        schedule=schedule,
+        recipe=recipe,
+        with_images=False,
+        clip_dir=towers_dir,
     )
     assert set(read_curves(tmp_path / ".training/cltp.csv")) == {
         "step",
@@ -111,15 +118,15 @@ def test_features_are_computed_once_and_read_again(
     batch = Sampler(data, seed=3).numbered(8, 0)
     first = FrozenFeatures(towers, data, tmp_path)
     images, texts = first.images(batch), first.texts(["Contact is deep."])
-    assert first.computed == 4 * 8 + 1  # all mirror images of eight contacts, and a text
+    assert first.num_computed == 4 * 8 + 1  # all mirror images of eight contacts, and a text
     first.save()
     again = FrozenFeatures(towers, data, tmp_path)
     torch.testing.assert_close(again.images(batch), images, rtol=0, atol=0)
     torch.testing.assert_close(again.texts(["Contact is deep."]), texts, rtol=0, atol=0)
-    assert again.computed == 0
+    assert again.num_computed == 0
     mirrored = dataclasses.replace(batch, mirror=~batch.mirror)
     other = again.images(mirrored)
-    assert again.computed == 0
+    assert again.num_computed == 0
     assert not torch.equal(other, images)
     pixels = rendered(data, batch)  # mirrored by the sampler, not by us
     torch.testing.assert_close(towers.images(pixels), images, rtol=0, atol=1e-3)
@@ -140,7 +147,7 @@ def test_images_of_moved_contacts_are_those_of_where_they_came_to(
     assert [s.shape for s in moved.states] == [s.shape for s in stayed.states]
     features = FrozenFeatures(towers, data)
     found = features.images(moved)
-    assert features.computed == 0  # nothing of them is kept
+    assert features.num_computed == 0  # nothing of them is kept
     torch.testing.assert_close(found, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
     half = dataclasses.replace(moved, moved=np.arange(8) < 4)
     torch.testing.assert_close(features.images(half)[:4], found[:4], rtol=0, atol=1e-5)
@@ -152,9 +159,9 @@ def test_moved_contacts_are_another_training(
 ) -> None:
     schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
     kwargs = {"config": TINY, "schedule": schedule, "clip_dir": towers_dir}
-    train_cltp(data_dir, tmp_path, recipe=Recipe(moved=0.5), **kwargs)  # type: ignore[arg-type]
+    train_cltp(data_dir, tmp_path, recipe=CltpRecipe(moved=0.5), **kwargs)  # type: ignore[arg-type]
     with pytest.raises(TouchError, match="other data, seed or sizes"):
-        train_cltp(data_dir, tmp_path, recipe=Recipe(), **kwargs)  # type: ignore[arg-type]
+        train_cltp(data_dir, tmp_path, recipe=CltpRecipe(), **kwargs)  # type: ignore[arg-type]
 
 
 def test_damaged_features_are_refused(data_dir: Path, towers_dir: Path, tmp_path: Path) -> None:
@@ -225,13 +232,13 @@ def test_smoothing_is_a_mean_over_the_last_values() -> None:
 
 def test_workers_share_a_batch_evenly() -> None:
     second = Workers(index=1, count=2)
-    assert second.share(8) == 4
+    assert second.per_process(8) == 4
     assert [second.part(step) for step in range(3)] == [1, 3, 5]
     assert not second.is_first
     with pytest.raises(TouchError, match="can't be shared by 2"):
-        second.share(7)
+        second.per_process(7)
     with pytest.raises(TouchError, match="known: no, bf16"):
-        joined("fp8")
+        joined_workers("fp8")
 
 
 @pytest.mark.slow
@@ -241,11 +248,11 @@ def test_two_accelerated_processes_train_together(
     shutil.copytree(towers_dir, tmp_path / "clip")
     code = (
         "import sys; from pathlib import Path; from cltp.encoder.encoder import PRESETS\n"
-        "from cltp.train.alignment import train_cltp; from cltp.train.stage import Schedule\n"
-        "from cltp.train.distributed import joined\n"
+        "from cltp.train.alignment import train_cltp; from cltp.train.recipes import Schedule\n"
+        "from cltp.train.distributed import joined_workers\n"
         "s = Schedule(steps=3, batch_size=8, learning_rate=1e-3)\n"
         "train_cltp(Path(sys.argv[1]), Path(sys.argv[2]), config=PRESETS['tiny'], schedule=s,\n"
-        "           workers=joined('bf16'))\n"
+        "           workers=joined_workers('bf16'))\n"
     )
     script = tmp_path / "together.py"
     script.write_text(code)

@@ -14,20 +14,31 @@ import torch
 
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
 from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset, DatasetWriter
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.evaluation.probes import SCHEDULE
+from cltp.evaluation.scores import ClassScores
+from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import CLASSES
-from cltp.train.stage import Schedule
+from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining import evaluate as trying
-from tacgrasp.pretraining import geometric_baseline as ceilings
+from tacgrasp.pretraining import evaluate, geometric_baseline
 from tacgrasp.pretraining import run_all as all_methods
+from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
 from tacgrasp.pretraining.report.report import report
-from tacgrasp.pretraining.report.store import METHODS, grouped, load, mean, nested, save, spread
+from tacgrasp.pretraining.report.store import (
+    TITLES,
+    grouped,
+    load_results,
+    mean,
+    nested,
+    save_result,
+    spread,
+)
 from tests.fakes.fake_contacts import fake_contact
 from tests.fakes.fake_results import fake_result
 
@@ -76,7 +87,7 @@ def places(out: Path, data: Path, tmp_path: Path) -> list[str]:
 
 @pytest.fixture
 def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
-    for probe in (trying.ClassProbes, trying.NumberProbe):
+    for probe in (evaluate.ClassProbes, evaluate.NumberProbe):
         keywords = {**probe.__init__.__kwdefaults__}
         keywords["schedule"] = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
         monkeypatch.setattr(probe.__init__, "__kwdefaults__", keywords)
@@ -110,16 +121,18 @@ def test_tables_are_measured_stored_and_reported(
     figures = tmp_path / "figures.json"
     assert main(["eval", "zero-shot", *places, "--json", str(figures)]) == 0
     zero = json.loads(figures.read_text())["zero_shot"]
-    assert set(zero) == {"cltp", "ceiling"}
+    assert set(zero) == {"cltp", "geometric_baseline"}
     assert set(zero["cltp"]["contact"]) == set(CLASSES)
-    assert zero["ceiling"]["contact"]["shape"] is None
-    assert zero["ceiling"]["contact"]["depth"] > 30
+    assert zero["geometric_baseline"]["contact"]["shape"] is None
+    assert zero["geometric_baseline"]["contact"]["depth"] > 30
     assert main(["eval", "probe", *places, "--seeds", "2", "--json", str(figures)]) == 0
     found = json.loads(figures.read_text())
-    assert set(found["probe"]) == {"cltp", "random", "ceiling"}
+    assert set(found["probe"]) == {"cltp", "random", "geometric_baseline"}
     assert {"depth_mm", "coverage_depth"} <= set(found["numbers"]["contact_noisy"])
     results = tmp_path / "results"
-    alone = [r for r in load(results) if r.variant == "heights alone" and r.trial == "contact"]
+    alone = [
+        r for r in load_results(results) if r.variant == "heights alone" and r.split == "contact"
+    ]
     assert {slot for slot, v in alone[0].values.items() if v is not None} == {"depth", "area"}
     assert main(["eval", "retrieval", *places]) == 0
     argv = ["eval", "report", "--results", str(results), "--json", str(figures)]
@@ -139,28 +152,30 @@ def test_tables_are_measured_stored_and_reported(
     assert "spread over 2 seeds of probes for CLTP, random encoder" in text
 
 
-def test_ceilings_are_measured_once(
+def test_baselines_are_measured_once(
     places: list[str], tmp_path: Path, quick_probes: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[int | None] = []
-    whole = ceilings.measured
+    whole = geometric_baseline.score_geometry
 
-    def counted(*args: object, limit: int | None, **kwargs: object) -> object:
-        calls.append(limit)
-        return whole(*args, limit=limit, **kwargs)  # type: ignore[arg-type]
+    def counted(run: EvaluationRun, split: EvaluationSplit) -> ClassScores:
+        calls.append(run.limit)
+        return whole(run, split)
 
-    monkeypatch.setattr(ceilings, "measured", counted)
+    monkeypatch.setattr(geometric_baseline, "score_geometry", counted)
     few = ["eval", "zero-shot", *places, "--limit", "4"]
     assert main(few) == main(["eval", "probe", *places]) == 0
-    trials = len(calls) // 2
-    assert calls == [4] * trials + [None] * trials
-    alone = next((tmp_path / "results").glob("probe-ceiling-heights alone-contact-s0.json"))
+    splits = len(calls) // 2
+    assert calls == [4] * splits + [None] * splits
+    alone = next(
+        (tmp_path / "results").glob("probe-geometric_baseline-heights alone-contact-s0.json")
+    )
     before = alone.stat().st_mtime_ns
     assert main(few) == main(["eval", "probe", *places]) == 0
-    assert len(calls) == 2 * trials
+    assert len(calls) == 2 * splits
     assert alone.stat().st_mtime_ns == before
     assert main(["eval", "zero-shot", *places]) == 0  # of other contacts
-    assert calls[2 * trials :] == [None] * trials
+    assert calls[2 * splits :] == [None] * splits
 
 
 def test_text_finds_contacts_and_a_contact_finds_texts(
@@ -201,8 +216,8 @@ def test_real_touches_are_named_from_a_table(
     (stored,) = (tmp_path / "results").glob("*cltp*real*.json")
     judged = json.loads(stored.read_text())
     assert sum(map(sum, judged["confusion"]["depth"])) == 1
-    (ceiling,) = (tmp_path / "results").glob("*ceiling*real*.json")
-    assert json.loads(ceiling.read_text())["values"]["shape"] is None
+    (baseline,) = (tmp_path / "results").glob("*geometric_baseline*real*.json")
+    assert json.loads(baseline.read_text())["values"]["shape"] is None
     table.write_text(head + "0.npy,blob,,,,\n")
     assert "row 2: no shape 'blob'" in complaint(["eval", "zero-shot", *places, *real], capsys)
     table.write_text(head + "9.npy,,,,,\n")
@@ -221,7 +236,7 @@ def test_encoders_of_other_points_name_real_touches(
     wide = load_clip(out / "clip").feature_dim
     encoder = TactileEncoder(dataclasses.replace(config, feature_dim=wide))
     save_encoder(tmp_path / "weights" / "encoder", encoder, StateHeads(48))
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     said = tmp_path / "said.csv"
@@ -261,14 +276,14 @@ def test_contacts_are_moved_by_a_share(
 def test_probes_name_real_touches_by_points_and_by_frames(
     places: list[str], tmp_path: Path, quick_probes: None
 ) -> None:
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     figures, said = tmp_path / "figures.json", tmp_path / "said.csv"
     real = ["--real", str(tmp_path), "--labels", str(table), "--out", str(said)]
     assert main(["eval", "probe", *places, *real, "--json", str(figures)]) == 0
     found = json.loads(figures.read_text())["probe"]
-    assert set(found) == {"cltp", "random", "ceiling"}
+    assert set(found) == {"cltp", "random", "geometric_baseline"}
     assert found["cltp"]["real"]["shape"] in (0.0, 100.0)
     assert found["cltp"]["real"]["depth"] is None
     (row,) = csv.DictReader((tmp_path / "said-random.csv").open())
@@ -292,7 +307,7 @@ def test_weights_that_come_along_name_real_touches_and_store_nothing(
 ) -> None:
     for part in ("clip", "cltp/encoder"):
         shutil.copytree(out / part, tmp_path / "weights" / Path(part).name)
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(tmp_path / "said.csv")]
@@ -303,21 +318,21 @@ def test_weights_that_come_along_name_real_touches_and_store_nothing(
 
 
 def test_results_come_back_as_they_were(tmp_path: Path) -> None:
-    save(tmp_path, fake_result())
-    save(tmp_path, fake_result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
-    save(tmp_path, fake_result(seed=1))
-    found = load(tmp_path)
+    save_result(tmp_path, fake_result())
+    save_result(tmp_path, fake_result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
+    save_result(tmp_path, fake_result(seed=1))
+    found = load_results(tmp_path)
     assert len(found) == 2
     assert found[0].values["shape"] == 60.0
-    assert nested(found)["probe"]["cltp"]["contact"]["shape"] == 55.0
+    assert nested(grouped(found))["probe"]["cltp"]["contact"]["shape"] == 55.0
     (rows,) = grouped(found).values()
     assert spread([row.values["shape"] for row in rows]) == 10.0
     assert mean([None, None]) is None
 
 
 def test_a_report_never_mixes_data(tmp_path: Path) -> None:
-    save(tmp_path, fake_result())
-    save(tmp_path, fake_result(method="random", data="def"))
+    save_result(tmp_path, fake_result())
+    save_result(tmp_path, fake_result(method="random", data="def"))
     with pytest.raises(TouchError, match="different data sets"):
         report(tmp_path, tmp_path)
     assert not list(tmp_path.glob("*.html"))
@@ -326,27 +341,27 @@ def test_a_report_never_mixes_data(tmp_path: Path) -> None:
 def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     argv = ["eval", "report", "--results", str(tmp_path)]
     assert "no results" in complaint(argv, capsys)
-    path = save(tmp_path, fake_result())
-    path.write_text(path.read_text().replace('"version": 1', '"version": 9'))
-    assert "no result of this version" in complaint(argv, capsys)
+    path = save_result(tmp_path, fake_result())
+    path.write_text(path.read_text().replace('"version": 2', '"version": 1'))
+    assert "of version 1, not tacgrasp-result of version 2" in complaint(argv, capsys)
     path.write_text("{")
     assert "is damaged" in complaint(argv, capsys)
 
 
 def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
-    for method in reversed(METHODS):
-        save(tmp_path, fake_result(method=method))
+    for method in reversed(TITLES):
+        save_result(tmp_path, fake_result(method=method))
     (page, _) = report(tmp_path, tmp_path)
     lines = [line.split(" | ")[0][2:] for line in page.read_text().splitlines()]
     first = lines.index("CLTP, probe") if "CLTP, probe" in lines else 0
-    named = [line for line in lines[first:] if line in METHODS.values()]
-    assert named[-len(METHODS) :] == list(METHODS.values())
+    named = [line for line in lines[first:] if line in TITLES.values()]
+    assert named[-len(TITLES) :] == list(TITLES.values())
     assert "one budget for all methods: 10 × 4" in page.read_text()
 
 
 def test_the_papers_numbers_have_five_dimensions() -> None:
     assert all(len(row) == len(CLASSES) for row in PAPER.values())
-    assert {method for _, method, _ in PAPER} <= set(METHODS)
+    assert {method for _, method, _ in PAPER} <= set(TITLES)
 
 
 def test_encoders_of_other_data_are_not_tried(
@@ -364,7 +379,7 @@ def test_encoders_of_other_data_are_not_tried(
     [
         (["eval", "zero-shot", "--methods", "random"], "no prompts for contact states"),
         (["eval", "probe", "--methods", "tvl"], "do `tacgrasp train tvl"),
-        (["eval", "probe", "--trials", "moon"], "it has contact, contact_noisy"),
+        (["eval", "probe", "--splits", "moon"], "it has contact, contact_noisy"),
         (["eval", "probe", "--limit", "0"], "--limit must be at least 1"),
         (["eval", "probe", "--checkpoint", "."], "--methods tvl or unitouch"),
         (["eval", "probe", "--methods", "cltp", "--checkpoint", "."], "is for tvl or unitouch"),
@@ -439,7 +454,7 @@ def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
     counts = [[0] * len(names) for _ in names]
     triangle, peak = names.index("triangle"), names.index("peak")
     counts[triangle][triangle], counts[triangle][peak], counts[peak][peak] = 3, 1, 5
-    save(tmp_path, fake_result(confusion={"shape": counts}))
+    save_result(tmp_path, fake_result(confusion={"shape": counts}))
     page = report(tmp_path, tmp_path)[0].read_text()
     assert (
         "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small_graded | triangle as peak (1) |"

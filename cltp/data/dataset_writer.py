@@ -1,0 +1,148 @@
+"""Writing data sets of contacts, shard by shard; their format is in ``cltp.data.dataset``."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import json
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from cltp.atomic_write import write_atomically
+from cltp.data.contact import Contact, checksum, pack_heights
+from cltp.data.dataset import (
+    FORMAT,
+    IMPORTED,
+    NUMBER_COLUMNS,
+    SCHEMA,
+    SIMULATED,
+    VERSION,
+    read_header,
+)
+from cltp.errors import TouchError
+from cltp.tactile.states import DIMENSIONS
+
+
+class DatasetWriter:
+    """Appends contacts to a folder, a shard at a time. A context manager.
+
+    Contacts that don't fill a shard are written when the ``with`` block ends normally; when it ends
+    by an exception they are dropped, and ``num_written`` counts the contacts on disk.
+
+    Args:
+        folder: Created if missing; an existing data set is appended to.
+        part: Part of the shards' names: each of several writing processes needs its own.
+        shard_size: Contacts in a shard.
+        about: Content of ``dataset.json`` for a new data set: command, seed, versions.
+
+    Raises:
+        TouchError: The folder holds something else, or a data set of another version.
+    """
+
+    def __init__(
+        self,
+        folder: Path,
+        *,
+        part: str = "0",
+        shard_size: int = 1024,
+        about: Mapping[str, str] | None = None,
+    ) -> None:
+        if not re.fullmatch(r"[A-Za-z0-9_]+", part) or shard_size < 1:
+            raise TouchError(f"bad part {part!r} or shard size {shard_size} of a data set")
+        self._folder = Path(folder)
+        self._part = part
+        self._shard_size = shard_size
+        self._contacts: list[Contact] = []
+        self.num_written = 0
+        self._folder.mkdir(parents=True, exist_ok=True)
+        if (self._folder / "dataset.json").exists():
+            read_header(self._folder)
+        elif any(self._folder.glob("shard-*")):
+            raise TouchError(f"{self._folder} has shards but no dataset.json; use another folder")
+        else:
+            header = {"format": FORMAT, "version": VERSION, "about": dict(about or {})}
+            text = json.dumps(header, indent=2) + "\n"
+            write_atomically(self._folder / "dataset.json", text)
+
+    def add(self, contact: Contact) -> None:
+        """Append one contact; it is on disk once its shard is full or the writer is closed."""
+        self._contacts.append(contact)
+        if len(self._contacts) >= self._shard_size:
+            self.flush()
+
+    def flush(self) -> None:
+        """Write the contacts since the last shard as a shard of their own."""
+        if not self._contacts:
+            return
+        number = len(list(self._folder.glob(f"shard-{self._part}-*.parquet")))
+        stem = self._folder / f"shard-{self._part}-{number:05d}"
+        packed = [pack_heights(contact.height_mm) for contact in self._contacts]
+        offsets = np.cumsum([0, *(len(p) for p in packed)])
+        rows = [
+            _row(contact, int(offset), data)
+            for contact, offset, data in zip(self._contacts, offsets[:-1], packed, strict=True)
+        ]
+        blob = b"".join(packed)
+        write_atomically(stem.with_suffix(".heights"), blob)
+        digest = hashlib.sha256(blob).hexdigest()
+        schema = _schema_of(self._contacts)
+        table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
+        index = io.BytesIO()
+        pq.write_table(table, index, compression="zstd")
+        write_atomically(stem.with_suffix(".parquet"), index.getvalue())
+        self.num_written += len(rows)
+        self._contacts.clear()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self.flush()
+
+
+def _schema_of(contacts: list[Contact]) -> pa.Schema:
+    parts = [SCHEMA]
+    if any(contact.unsure is not None for contact in contacts):
+        parts.append(SIMULATED)
+    if any(contact.measured for contact in contacts):
+        parts.append(IMPORTED)
+    return pa.unify_schemas(parts)
+
+
+def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
+    state, gel = contact.state, contact.gel
+    return {
+        "offset": offset,
+        "size": len(packed),
+        "crc32": checksum(packed),
+        "rows": contact.height_mm.shape[0],
+        "columns": contact.height_mm.shape[1],
+        "sensor": contact.sensor.name,
+        "object": contact.object,
+        "series": contact.series,
+        "split": contact.split.value,
+        "seed": contact.seed,
+        **{column: getattr(state, name) for name, column in NUMBER_COLUMNS.items()},
+        **{name: getattr(state, name) for name in DIMENSIONS},
+        "cut": " ".join(sorted(state.cut)),
+        "gel_thickness_mm": gel and gel.thickness_mm,
+        "gel_young_mpa": gel and gel.young_mpa,
+        "gel_poisson": gel and gel.poisson,
+        "unsure": None if contact.unsure is None else " ".join(sorted(contact.unsure)),
+        "approach_mm": contact.approach_mm,
+        "peak_kpa": contact.peak_kpa,
+        "measured": " ".join(sorted(contact.measured)) or None,
+    }
