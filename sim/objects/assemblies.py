@@ -1,4 +1,4 @@
-"""Assemblies: solids of several pieces for single objects of the catalogue, in mm.
+"""Solids of several pieces for single objects of the catalogue, in mm.
 
 Not here: pieces that more than one object uses (``sim.objects.primitives``).
 """
@@ -18,11 +18,10 @@ from sim.objects.primitives import (
     bumps,
     cone,
     crossing,
+    hexagonal,
     lattice,
     oval,
     parallel,
-    polygon,
-    prism,
     rod,
 )
 from sim.objects.skins import SMOOTH, ridged, rough
@@ -47,12 +46,12 @@ def lemon() -> Solid:
 
 
 def pear() -> Solid:
-    """Two balls grown together."""
+    """Two blended balls."""
     return Blend((ball(62), moved(ball(38), z=40)), 12.0)
 
 
 def strawberry() -> Solid:
-    """Round above, pointed below."""
+    """Round at the top, pointed below."""
     return Blend((oval(32, 32, 30), moved(ball(14), z=-13)), 6.0)
 
 
@@ -153,6 +152,6 @@ def phillips_driver() -> tuple[Part, ...]:
 def bolt() -> tuple[Part, ...]:
     """A hexagonal head on a threaded shank."""
     return (
-        Part(prism(polygon(6, 13.8), 7.5, Shape.HEXAGON, 0.4), SMOOTH),
+        Part(hexagonal(13.8, 7.5, 0.4), SMOOTH),
         Part(moved(rod(9, 45), z=-7.4), ridged(0.2, 1.5)),
     )

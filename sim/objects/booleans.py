@@ -1,7 +1,6 @@
-"""Solids made of solids: grown into one, hollowed out, set around an axis.
+"""Solids made of solids: blended into one, hollowed out, copied around an axis.
 
-Not here: what they are made of (``sim.objects.solids``), turning and moving
-(``sim.objects.placing``).
+Not here: the basic solids (``sim.objects.solids``), turning and moving (``sim.objects.placing``).
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from sim.objects.solids import Solid, stacked_as
 
 @dataclass(frozen=True, slots=True)
 class Blend:
-    """Several solids grown into one, their joints rounded by about ``radius`` [mm]; 0: a union.
+    """Union of several solids, their joints rounded by about ``radius`` [mm].
 
     Source: polynomial smooth minimum (Quilez); it is 1-Lipschitz where the parts are.
     """
@@ -28,21 +27,17 @@ class Blend:
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """Those of its parts, in order."""
         return tuple(cell for part in self.parts for cell in part.cells)
 
     @property
     def reach_mm(self) -> float:
-        """Of the furthest part."""
         return max(part.reach_mm for part in self.parts)
 
     @property
     def max_slope(self) -> float:
-        """Of the steepest part."""
         return max(part.max_slope for part in self.parts)
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         total = self.parts[0].distance(points)
         for part in self.parts[1:]:
             other = part.distance(points)
@@ -54,7 +49,6 @@ class Blend:
         return total
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         distances = torch.stack([part.distance(points) for part in self.parts])
         cells = torch.stack([part.cell(points) for part in self.parts])
         counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])
@@ -64,32 +58,27 @@ class Blend:
 
 @dataclass(frozen=True, slots=True)
 class Hollow:
-    """A solid without what another takes away."""
+    """A solid less another one."""
 
     solid: Solid
     without: Solid
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """Those of the solid, then those of the cavity, as curved ones."""
         return (*self.solid.cells, *(Cell(form=Form.CURVED) for _ in self.without.cells))
 
     @property
     def reach_mm(self) -> float:
-        """Of the solid."""
         return self.solid.reach_mm
 
     @property
     def max_slope(self) -> float:
-        """Of the steeper one."""
         return max(self.solid.max_slope, self.without.max_slope)
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return torch.maximum(self.solid.distance(points), -self.without.distance(points))
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         cavity = -self.without.distance(points) > self.solid.distance(points)
         inner = self.without.cell(points) + len(self.solid.cells)
         return torch.where(cavity, inner, self.solid.cell(points))
@@ -97,24 +86,21 @@ class Hollow:
 
 @dataclass(frozen=True, slots=True)
 class Around:
-    """Copies of a solid that lies about +x, ``count`` of them evenly about z."""
+    """Copies of a solid that lies about +x, ``count`` of them spread evenly about z."""
 
     solid: Solid
     count: int
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """Those of each copy."""
         return self.solid.cells * self.count
 
     @property
     def reach_mm(self) -> float:
-        """Of the solid."""
         return self.solid.reach_mm
 
     @property
     def max_slope(self) -> float:
-        """Of the solid."""
         return self.solid.max_slope
 
     def _fold(self, points: Tensor) -> tuple[Tensor, Tensor]:
@@ -126,10 +112,8 @@ class Around:
         return stacked_as(points, x, y, points[..., 2]), copy.long() % self.count
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return self.solid.distance(self._fold(points)[0])
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         folded, copy = self._fold(points)
         return self.solid.cell(folded) + copy * len(self.solid.cells)

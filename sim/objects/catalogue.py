@@ -1,6 +1,6 @@
-"""The objects of TCL3D: 55 small and 62 large ones, by name, and which of them are held out.
+"""The objects of TCL3D by name, 55 small and 62 large ones, and the ones that are held out.
 
-Not here: what they are built of (``sim.objects.primitives``, ``sim.objects.assemblies``).
+Not here: their solids (``sim.objects.primitives``, ``sim.objects.assemblies``).
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ UNSEEN: frozenset[str] = frozenset(
         "golf_ball",
     }
 )
-"""Objects that no training contact shows: 16 of all kinds and textures. Our choice."""
+"""Held-out objects, in no training contact: 16 of all kinds and textures. Our choice."""
 
 
 def object_named(name: str) -> SolidObject:

@@ -1,12 +1,14 @@
 """The large objects: 36 from a household and 26 from a workshop, in mm.
 
-Sizes follow everyday things; where the YCB set has the object, its published size to a few mm, as
-far as analytic solids go. Our choice of what stands in for the paper's scans, which aren't public.
+They stand for the paper's scans, which are not public. Our choice: sizes are those of everyday
+objects; where the YCB set has the object, its published size to a few mm, as far as analytic solids
+allow.
 """
 
 from __future__ import annotations
 
-from cltp.tactile.states import Shape
+from dataclasses import replace
+
 from sim.objects.assemblies import (
     angle_bar,
     apple,
@@ -40,10 +42,9 @@ from sim.objects.primitives import (
     box,
     cone,
     flat_bar,
+    hexagonal,
     lengthwise,
     oval,
-    polygon,
-    prism,
     rod,
     rounded,
     taper,
@@ -55,10 +56,7 @@ from sim.objects.solids import Hoop, Solid
 
 
 def _in_family(family: Family, *rows: SolidObject) -> tuple[SolidObject, ...]:
-    return tuple(
-        SolidObject(r.name, family, r.features, r.parts, r.mounts, r.mount_fraction, r.modulus_mpa)
-        for r in rows
-    )
+    return tuple(replace(row, family=family) for row in rows)
 
 
 def _make(
@@ -73,7 +71,7 @@ def _make(
 ) -> SolidObject:
     """An object of solids with one skin, or of parts with their own.
 
-    ``shown``: how often the side ``towards`` is held to the pad on purpose.
+    ``mounted`` is the fraction of its presses in which the side ``mount_towards`` faces the pad.
     """
     parts = tuple(one if isinstance(one, Part) else Part(one, skin) for one in solids)
     mounts = (Mount(mount_towards, mount_at, 1.0),) if mounted else ()
@@ -116,11 +114,7 @@ HOUSEHOLD = _in_family(
     _make("tennis_ball", "felt ball", ball(66), skin=rough(0.08, 0.6), soft_mpa=1.5),
     _make("golf_ball", "dimpled ball", ball(42.7), skin=bumpy(0.18, 2.9)),
     _make("marble_25", "glass ball", ball(25)),
-    _make(
-        "mug",
-        "mug with a handle",
-        *mug(),
-    ),
+    _make("mug", "mug with a handle", *mug()),
     _make("napkin_ring", "band", tube(12.4, 10, 24), mounted=0.55),
     _make("fork", "fork", *fork(), mounted=0.6),
     _make("spoon", "spoon", oval(32, 55, 14), moved(along("y", lengthwise(5, 110)), 0, 130, 2)),
@@ -138,18 +132,8 @@ HOUSEHOLD = _in_family(
 
 INDUSTRIAL = _in_family(
     Family.INDUSTRIAL,
-    _make(
-        "bolt_m12",
-        "bolt with a hexagonal head",
-        *bolt(),
-        mounted=0.5,
-    ),
-    _make(
-        "nut_m8",
-        "hexagonal nut",
-        bored(prism(polygon(6, 14.5), 7, Shape.HEXAGON, 0.4), 8),
-        mounted=0.5,
-    ),
+    _make("bolt_m12", "bolt with a hexagonal head", *bolt(), mounted=0.5),
+    _make("nut_m8", "hexagonal nut", bored(hexagonal(14.5, 7, 0.4), 8), mounted=0.5),
     _make("washer_m8", "washer", tube(16, 8.4, 1.6, 0.2), mounted=0.6),
     _make("retaining_ring", "open ring", moved(Hoop(5.6, 0.75, 2.0), z=-0.75), mounted=0.75),
     _make("chain_link", "oval link", link(), mounted=0.6),
@@ -167,11 +151,7 @@ INDUSTRIAL = _in_family(
     _make("corrugated_hose", "hose with rings", *hose()),
     _make("file", "flat file", box(40, 150, 8, 0.4), skin=woven(0.1, 0.7)),
     _make("rasp", "round rasp", along("x", moved(rod(24, 120, 1.0), z=60)), skin=bumpy(0.2, 2.2)),
-    _make(
-        "hexagonal_bar",
-        "hexagonal bar",
-        along("x", moved(prism(polygon(6, 21), 100, Shape.HEXAGON, 0.5), z=50)),
-    ),
+    _make("hexagonal_bar", "hexagonal bar", along("x", moved(hexagonal(21, 100, 0.5), z=50))),
     _make("dowel", "wooden rod", along("x", moved(rod(8, 100), z=50)), skin=rough(0.035, 0.5)),
     _make("pipe", "pipe", along("x", moved(tube(34, 28, 120, 0.6), z=60)), skin=rough(0.05, 0.5)),
     _make(

@@ -1,12 +1,11 @@
-"""The small objects: 20 pegs, as one would put into holes, and 35 indenters on round shanks, in mm.
+"""The small objects: 20 pegs for holes and 35 indenters on round shanks, in mm.
 
-Our choice of what the paper has as self-made pegs and probes: every shape of the vocabulary occurs
-as an end, in more than one size, and every texture on several.
+They stand for the paper's self-made pegs and probes. Our choice: every shape of the vocabulary
+occurs as an end, in more than one size, and every texture on several.
 """
 
 from __future__ import annotations
 
-from cltp.tactile.states import Shape
 from sim.objects.object import Family, Mount, Part, SolidObject
 from sim.objects.placing import moved
 from sim.objects.primitives import (
@@ -18,19 +17,20 @@ from sim.objects.primitives import (
     crossing,
     dished,
     flat_bar,
+    hexagonal,
     lattice,
     on_base,
     on_corner,
     oval,
     parallel,
     polygon,
-    prism,
     pyramid,
     rod,
     roof,
     rounded,
     taper,
     triangle,
+    triangular,
     tube,
     waves,
 )
@@ -46,17 +46,13 @@ def _peg(name: str, features: str, solid: Solid, skin: Skin = SMOOTH) -> SolidOb
 
 
 def _indenter(
-    name: str,
-    features: str,
-    solid: Solid,
-    skin: Skin = SMOOTH,
-    mounts: tuple[Mount, ...] = _LEVEL,
+    name: str, features: str, solid: Solid, skin: Skin = SMOOTH, mounts: tuple[Mount, ...] = _LEVEL
 ) -> SolidObject:
     return SolidObject(name, Family.INDENTER, features, (Part(solid, skin),), mounts, 0.88)
 
 
 def _shanked(name: str, features: str, pattern: Solid, diameter: float) -> SolidObject:
-    """A pattern on a shank that it just fits."""
+    """An indenter with a pattern on its shank."""
     return _indenter(name, features, on_base(pattern, diameter))
 
 
@@ -71,37 +67,23 @@ PEGS: tuple[SolidObject, ...] = (
     _peg("peg_square_10", "square, cast", block(10, 10, 22), rough(0.06, 0.5)),
     _peg("peg_flat_6x10", "rectangular", block(10, 6, 22), woven(0.1, 0.9)),
     _peg("peg_flat_5x9", "rectangular", block(9, 5, 20)),
-    _peg("peg_triangle_7", "equilateral triangle", prism(polygon(3, 7.5), 20, Shape.TRIANGLE)),
+    _peg("peg_triangle_7", "equilateral triangle", triangular(polygon(3, 7.5), 20)),
     _peg(
         "peg_triangle_11",
         "equilateral triangle, cast",
-        prism(polygon(3, 11.5), 22, Shape.TRIANGLE),
+        triangular(polygon(3, 11.5), 22),
         rough(0.045, 0.4),
     ),
-    _peg(
-        "peg_triangle_right",
-        "right-angled triangle",
-        prism(triangle(0, 110, 180, 5.2), 20, Shape.TRIANGLE),
-    ),
+    _peg("peg_triangle_right", "right-angled triangle", triangular(triangle(0, 110, 180, 5.2), 20)),
     _peg(
         "peg_triangle_scalene",
         "scalene triangle, dimpled",
-        prism(triangle(0, 95, 215, 6.4), 22, Shape.TRIANGLE),
+        triangular(triangle(0, 95, 215, 6.4), 22),
         bumpy(0.12, 1.6),
     ),
-    _peg("peg_hexagon_6", "hexagon", prism(polygon(6, 6.5), 20, Shape.HEXAGON)),
-    _peg(
-        "peg_hexagon_9",
-        "hexagon, brushed",
-        prism(polygon(6, 9.5), 22, Shape.HEXAGON),
-        ridged(0.08, 0.8),
-    ),
-    _peg(
-        "peg_hexagon_12",
-        "hexagon, cast",
-        prism(polygon(6, 12), 22, Shape.HEXAGON),
-        rough(0.06, 0.55),
-    ),
+    _peg("peg_hexagon_6", "hexagon", hexagonal(6.5, 20)),
+    _peg("peg_hexagon_9", "hexagon, brushed", hexagonal(9.5, 22), ridged(0.08, 0.8)),
+    _peg("peg_hexagon_12", "hexagon, cast", hexagonal(12, 22), rough(0.06, 0.55)),
     _peg("peg_bored_9", "round with a bore", bored(rod(9, 20), 4.2), ridged(0.1, 0.9)),
     _peg("peg_bored_square", "square with a bore", bored(block(10, 10, 20), 4.6)),
     _peg("peg_pipe", "thin-walled tube", tube(8, 5.8, 22)),
@@ -162,11 +144,7 @@ INDENTERS: tuple[SolidObject, ...] = (
     _shanked("crescent_5", "half a wire ring", moved(Hoop(3.4, 0.6, 1.6), z=-0.6), 9),
     _shanked("crescent_8", "third of a wire ring", moved(Hoop(5.5, 0.7, 1.15), z=-0.7), 13),
     _indenter("cup_9", "round end with a hollow", dished(9.5, 16, 3.2, 1.9)),
-    _indenter(
-        "hole_plate",
-        "hexagonal end with a hole",
-        bored(prism(polygon(6, 13), 16, Shape.HEXAGON), 5),
-    ),
+    _indenter("hole_plate", "hexagonal end with a hole", bored(hexagonal(13, 16), 5)),
 )
 
 SMALL: tuple[SolidObject, ...] = (*PEGS, *INDENTERS)

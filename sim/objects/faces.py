@@ -1,4 +1,4 @@
-"""Faces that solids are cut from, and what each part of a surface is called when it touches.
+"""Faces that solids are cut from, and the cells of a surface, which label a contact's shape.
 
 Not here: solids (``sim.objects.solids``).
 """
@@ -21,10 +21,10 @@ Vector = tuple[float, float, float]
 
 
 class Form(StrEnum):
-    """What a cell of a surface is."""
+    """Kind of a cell of a surface."""
 
     FLAT = "flat"
-    CURVED = "curved"  # what it is called depends on its curvatures where it touches
+    CURVED = "curved"  # labelled by its curvatures at the contact
     TAPER = "taper"  # a face, flat or conical, that runs to a tip
     BAR = "bar"
     LOOP = "loop"  # a ring or an arc of one
@@ -34,11 +34,11 @@ class Form(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cell:
-    """A part of a surface that has one name.
+    """A part of a surface that labels a contact.
 
     Attributes:
-        form: What it is.
-        outline: What a flat cell is called when all of it touches; None: by its proportions.
+        form: Its kind.
+        outline: Shape of a contact with the whole of a flat cell; None: by its proportions.
     """
 
     form: Form
@@ -46,28 +46,25 @@ class Cell:
 
 
 class Face(Protocol):
-    """A surface without end that a solid lies behind."""
+    """An unbounded surface with a solid behind it."""
 
     @property
     def cell(self) -> Cell:
-        """What it is."""
-        ...
+        """The cell of a solid's surface that this face makes."""
 
     def behind(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of ``points`` (..., 3): positive in front."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)
 class Flat:
-    """Plane with an outward normal, ``offset`` from the origin [mm]."""
+    """Plane with an outward unit normal, ``offset`` from the origin [mm]."""
 
     normal: Vector
     offset: float
     cell: Cell = Cell(form=Form.FLAT)
 
     def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
         x, y, z = self.normal
         return points[..., 0] * x + points[..., 1] * y + points[..., 2] * z - self.offset
 
@@ -78,31 +75,31 @@ def constant(
     dtype: torch.dtype,
     device: torch.device,
 ) -> Tensor:
-    """Numbers of a shape as a tensor, made once: rays ask for them often. Not to be written."""
-    with torch.inference_mode(mode=False):  # usable everywhere, wherever it is first made
+    """Numbers as a tensor, cached because every ray needs them. Do not write to it."""
+    with torch.inference_mode(mode=False):  # usable in and out of inference mode
         return torch.tensor(values, dtype=dtype, device=device)
 
 
 @dataclass(frozen=True, slots=True)
 class Flats:
-    """Several planes at once, to the last bit as one by one.
+    """Several planes at once; results are those of ``Flat`` to the last bit.
 
     Attributes:
-        normals: x of each normal, y of each, z of each.
-        offsets: Of each plane [mm].
+        normals: x of all normals, y of all, z of all.
+        offsets: Offset of each plane [mm].
     """
 
     normals: tuple[tuple[float, ...], ...]
     offsets: tuple[float, ...]
 
     @staticmethod
-    def of(flats: Sequence[Flat]) -> Flats:
-        """Of planes, at least one."""
+    def join(flats: Sequence[Flat]) -> Flats:
+        """Join planes, at least one."""
         normals = tuple(zip(*(flat.normal for flat in flats), strict=True))
         return Flats(normals, tuple(flat.offset for flat in flats))
 
     def behind(self, points: Tensor) -> Tensor:
-        """Signed distance [mm] of ``points`` (..., 3), the planes first."""
+        """Signed distance [mm] of ``points`` (..., 3) to each plane, (planes, ...)."""
         each = (-1, *[1] * (points.ndim - 1))
         components = constant((*self.normals, self.offsets), points.dtype, points.device)
         a, b, c, offset = (component.view(each) for component in components.unbind(0))
@@ -112,14 +109,13 @@ class Flats:
 
 @dataclass(frozen=True, slots=True)
 class Barrel:
-    """Cylinder or cone about z: ``radius`` at z = 0, wider by ``widening`` mm per mm of z."""
+    """Cylinder or cone about z: ``radius`` [mm] at z = 0, ``widening`` mm more per mm of z."""
 
     radius: float
     widening: float = 0.0
     cell: Cell = Cell(form=Form.CURVED)
 
     def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
         across = torch.hypot(points[..., 0], points[..., 1])
         level = self.radius + self.widening * points[..., 2]
         return (across - level) / math.hypot(1.0, self.widening)
@@ -127,7 +123,7 @@ class Barrel:
 
 @dataclass(frozen=True, slots=True)
 class Bore:
-    """Inside of a cylinder about z through (``x``, ``y``)."""
+    """Inside of a cylinder parallel to z through (``x``, ``y``) [mm]."""
 
     radius: float
     x: float = 0.0
@@ -135,20 +131,18 @@ class Bore:
     cell: Cell = Cell(form=Form.CURVED)
 
     def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
         return self.radius - torch.hypot(points[..., 0] - self.x, points[..., 1] - self.y)
 
 
 @dataclass(frozen=True, slots=True)
 class Dome:
-    """Sphere about (0, 0, ``centre_z``)."""
+    """Sphere about (0, 0, ``centre_z``) [mm]."""
 
     radius: float
     centre_z: float = 0.0
     cell: Cell = Cell(form=Form.CURVED)
 
     def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
         height = points[..., 2] - self.centre_z
         across = points[..., 0] ** 2 + points[..., 1] ** 2
         return (across + height**2).sqrt() - self.radius
@@ -156,9 +150,9 @@ class Dome:
 
 @dataclass(frozen=True, slots=True)
 class Ripple:
-    """Crests along y on a face towards +z at ``offset``, ``period`` apart [mm].
+    """Crests along y, ``period`` apart, on a face towards +z at ``offset`` [mm].
 
-    Its cells are the crests (``Cut.cell``).
+    Each crest is a cell (``sim.objects.solids.Cut.cell``).
     """
 
     offset: float
@@ -167,7 +161,6 @@ class Ripple:
     cell: Cell = Cell(form=Form.CREST)
 
     def behind(self, points: Tensor) -> Tensor:
-        """See ``Face``."""
         waves = 2 * math.pi / self.period
         below = self.amplitude * (1 - torch.cos(waves * points[..., 0]))
         return (points[..., 2] - self.offset + below) / math.hypot(1.0, waves * self.amplitude)

@@ -1,10 +1,10 @@
-"""Objects from meshes (millimetres), beside those of the catalogue: felt by open3d's rays.
+"""Objects from meshes (millimetres), in addition to those of the catalogue; rays are open3d's.
 
-A mesh is cut into regions along its creases; a region is flat, curved, or the surroundings of a
-tip. What a contact is called then follows from the regions that touch, as for any object
-(``sim.tcl3d.shape_labels``): a scanned box gives planes, edges and corners as a drawn one does.
+A mesh is cut into regions along its creases; a region is flat, curved, or around a tip. The regions
+that touch then label a contact as for any object (``sim.tcl3d.shape_labels``): a scanned box gives
+planes, edges and corners like one of solids.
 
-Not here: reading and checking files (``sim.objects.meshes``).
+Not here: reading and checking mesh files (``sim.objects.meshes``).
 """
 
 from __future__ import annotations
@@ -29,23 +29,23 @@ from sim.objects.ray_casting import FloatArray
 IntArray = NDArray[np.int64]
 
 CREASE_DEG = 25.0
-"""Angle between faces from which they belong to different regions. Our choice: a tube of 16 sides
+"""Angle between faces from which they belong to different regions. Our choice: a tube with 16 sides
 is still round."""
 
 SMALL_MM = 50.0
 """Largest extent of a small object. Source: the paper, section 3.1."""
 
-_INSIDE_CHECK_STRIDE = 37
-_LEVEL_DEG = 2.0  # spread of normals of a flat region
+_INSIDE_CHECK_STRIDE = 37  # rays between those that are checked for a start inside the mesh
+_LEVEL_DEG = 2.0  # largest deviation of a normal in a flat region
 _TIP_MM = 0.6  # faces this near to a tip belong to it
-_TIP_DEFECT = 1.2  # angle that is missing around the vertex of a tip [rad]
+_TIP_DEFECT = 1.2  # angle defect of the vertex at a tip, at least [rad]
 
 
 def meshes_in(folder: Path) -> list[Path]:
-    """The mesh files of a folder, by name.
+    """List the mesh files of a folder, by name.
 
     Raises:
-        TouchError: There is no such folder, or no mesh in it.
+        TouchError: The folder does not exist or has no mesh.
     """
     if not folder.is_dir():
         raise TouchError(f"{folder} is no folder; --meshes expects one with PLY, OBJ or STL files")
@@ -57,7 +57,7 @@ def meshes_in(folder: Path) -> list[Path]:
 
 @lru_cache(maxsize=4)
 def object_from_mesh(path: Path) -> SolidObject:
-    """An object of the shape of a mesh, smooth and rigid, about its bounding box's middle.
+    """Make a smooth, rigid object of a mesh, centred on its bounding box.
 
     Raises:
         TouchError: The mesh is not one closed surface in mm; the message says why.
@@ -75,13 +75,12 @@ def object_from_mesh(path: Path) -> SolidObject:
 
 
 class _Surface:
-    """A closed mesh as a solid (``sim.objects.solids.Solid``)."""
+    """A closed mesh as a ``sim.objects.solids.Solid``."""
 
     def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
         import open3d
 
-        core: Any = open3d.core
-        self._tensor = core.Tensor
+        self._tensor: Any = open3d.core.Tensor
         self._scene: Any = open3d.t.geometry.RaycastingScene()
         self._scene.add_triangles(
             self._tensor(vertices.astype(np.float32)),
@@ -92,21 +91,18 @@ class _Surface:
         self.max_slope = 1.0
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``sim.objects.solids.Solid``."""
         distances = self._scene.compute_signed_distance(self._points(points)).numpy()
         return torch.from_numpy(distances.reshape(points.shape[:-1])).to(points)
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``sim.objects.solids.Solid``."""
         closest = self._scene.compute_closest_points(self._points(points))
         face = closest["primitive_ids"].numpy().astype(np.int64)
         return torch.from_numpy(self._region[face].reshape(points.shape[:-1])).to(points.device)
 
     def rays(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-        """See ``sim.objects.ray_casting.Castable.surface``."""
         starts = origins.detach().cpu().numpy().astype(np.float32)
-        edges = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
-        rays = self._tensor(np.concatenate([starts, edges], axis=1))
+        directions = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
+        rays = self._tensor(np.concatenate([starts, directions], axis=1))
         distances = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
         distances[distances > far_mm] = np.inf
         samples = np.ascontiguousarray(
@@ -134,12 +130,11 @@ class MeshObject(SolidObject):
         return solid.rays(origins, along, far_mm)
 
     def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-        """See ``sim.objects.ray_casting.Castable``."""
         return self.surface(origins.view(-1, 3), along, far_mm).view(origins.shape[:2])
 
 
 def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cell, ...]]:
-    """Region of every face, and what each region is."""
+    """Region of every face, and the cell of every region."""
     import trimesh
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
@@ -154,17 +149,17 @@ def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cel
     cells: list[Cell] = []
     in_order = np.argsort(region, kind="stable")
     ends = np.cumsum(np.bincount(region, minlength=count))
-    for own in np.split(in_order, ends[:-1]):  # each of a scan's many regions without the others
-        mean = (normals[own] * areas[own, None]).sum(axis=0)
+    for members in np.split(in_order, ends[:-1]):  # no search per region: a scan has many
+        mean = (normals[members] * areas[members, None]).sum(axis=0)
         mean /= max(float(np.linalg.norm(mean)), 1e-12)
-        level = bool((normals[own] @ mean > np.cos(np.radians(_LEVEL_DEG))).all())
-        outline = _outline(vertices, faces[own], mean) if level else None
+        level = bool((normals[members] @ mean > np.cos(np.radians(_LEVEL_DEG))).all())
+        outline = _outline(vertices, faces[members], mean) if level else None
         cells.append(Cell(form=Form.FLAT if level else Form.CURVED, outline=outline))
     return _with_tips(mesh, region, cells)
 
 
 def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray, tuple[Cell, ...]]:
-    """Cones: a curved region around a vertex with little angle left is a side and its tip."""
+    """Split the curved region around a vertex with a large angle defect into a side and a tip."""
     vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
     defects = np.asarray(mesh.vertex_defects)
     for vertex in np.flatnonzero(defects > _TIP_DEFECT):
@@ -183,7 +178,7 @@ def _with_tips(mesh: Any, region: IntArray, cells: list[Cell]) -> tuple[IntArray
 
 
 def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape | None:
-    """What a flat region is called when all of it touches; None: by its proportions."""
+    """Shape of a contact with the whole of a flat region; None: by its proportions."""
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     rim, counts = np.unique(edges, axis=0, return_counts=True)
     rim = rim[counts == 1]
@@ -216,8 +211,8 @@ def _num_loops(rim: IntArray) -> int:
 
 
 def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
-    """Whether an outline is its own image when turned by half a turn: a hexagon, no triangle."""
-    from scipy.spatial import cKDTree
+    """Whether an outline maps to itself when turned by 180°: a hexagon does, a triangle does
+    not.""" from scipy.spatial import cKDTree
 
     corners = vertices[np.unique(rim)]
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2

@@ -1,8 +1,9 @@
-"""Meshes that people bring, read and checked: closed surfaces in millimetres, normals outwards.
+"""Reading and checking of users' meshes: closed surfaces in millimetres, normals outwards.
 
-Nothing is repaired or scaled; vertices at the same place are joined, since STL has no others.
+Nothing is repaired or scaled, but vertices at the same position are joined, since STL repeats them
+for every face.
 
-Not here: what a mesh becomes (``sim.grasp.mesh_bodies``: a body between the fingers).
+Not here: objects (``sim.objects.mesh_objects``) and bodies (``sim.grasp.mesh_bodies``) of meshes.
 """
 
 from __future__ import annotations
@@ -21,34 +22,33 @@ IntArray = NDArray[np.int64]
 
 SUFFIXES = (".ply", ".obj", ".stl", ".off")
 MAX_FACES = 2_000_000
-"""Our choice: at 0.1 mm a face this is a body of 100 mm; more is slower and touches no better."""
+"""Our choice: at 0.1 mm a face this is a body of 100 mm; more is slower and no more accurate."""
 
-SMALLEST_MM = 2.0
-"""A mesh that is smaller as a whole is taken to be in metres. Our choice: nothing that a pad of
-15 mm can tell from a point, and no hand-held thing is 2 m large."""
+SMALLEST_MM = 2.0 """A smaller mesh is taken to be in metres. Our choice: a pad of 15 mm can hardly
+tell smaller objects from a point, and no hand-held object is 2 m large."""
 
 LARGEST_MM = 5000.0
-"""A mesh that is larger is taken to be in micrometres or inches times something. Our choice."""
+"""A larger mesh is taken to be in micrometres. Our choice."""
 
-_HEADER_BYTES = 1 << 16  # of a PLY with many comments; more than that is nobody's
+_HEADER_BYTES = 1 << 16  # longer than the header of any PLY with comments
 _CHUNK_BYTES = 1 << 22
-_REASON_LENGTH = 200  # readers quote what they can't read, be it the whole file
+_REASON_LENGTH = 200  # readers may quote a whole file in their error
 
 
 def checked_mesh(path: Path) -> tuple[FloatArray, IntArray]:
-    """Read a mesh, and refuse what is no closed surface in millimetres.
+    """Read a mesh; refuse it unless it is a closed surface in millimetres.
 
     Args:
-        path: PLY, OBJ, STL or OFF.
+        path: PLY, OBJ, STL or OFF file.
 
     Returns:
         Vertices, shape (V, 3) [mm], and faces, shape (F, 3), indices into them, counter-clockwise
         seen from outside.
 
     Raises:
-        TouchError: No such file, not a whole mesh, no faces, more than ``MAX_FACES`` (counted
-            before anything is loaded), NaN, faces of vertices that don't exist, apparently not in
-            millimetres, open, with faces that turn both ways, flat, or inside out.
+        TouchError: The file is missing or truncated; the mesh is empty, has more than ``MAX_FACES``
+            faces (counted before it is loaded), NaN or missing vertices, is apparently not in
+            millimetres, open, inconsistently oriented, flat, or inside out.
     """
     path = Path(path)
     _check_file(path)
@@ -63,10 +63,10 @@ def checked_mesh(path: Path) -> tuple[FloatArray, IntArray]:
 
 
 def volume_and_centre(vertices: FloatArray, faces: IntArray) -> tuple[float, FloatArray]:
-    """Volume that a closed mesh encloses [mm³] and its centre of mass, shape (3,) [mm]."""
+    """Volume of a closed mesh [mm³] and its centre of mass, shape (3,) [mm]."""
     volumes = _face_volumes(vertices, faces)
     middle = vertices.mean(axis=0)
-    # The centre of a tetrahedron from the middle to a face lies 3/4 of the way to the face's own.
+    # A tetrahedron's centre lies 3/4 of the way from its apex to the centre of the opposite face.
     centres = middle + 0.75 * (vertices[faces].mean(axis=1) - middle)
     total = float(volumes.sum())
     return total, np.asarray(volumes @ centres / total)
@@ -101,14 +101,14 @@ def _check_count(path: Path, faces: int) -> None:
 
 
 def _declared_faces(path: Path, size: int) -> int | None:
-    """Faces that a file announces in its header or has lines for; None where it doesn't say."""
+    """Number of faces by a file's header or lines; None where neither gives it."""
     with path.open("rb") as file:
         head = file.read(_HEADER_BYTES)
         match path.suffix.lower():
             case ".stl":
                 binary = _binary_stl_faces(head, size)
                 return (_occurrences(file, head, b"endfacet") or None) if binary is None else binary
-            case ".obj":  # none: for the reader to say, as above
+            case ".obj":  # none: the reader reports it, as above
                 return _occurrences(file, head, b"\nf ") or None
             case ".off":
                 lines = (line.partition(b"#")[0] for line in head.splitlines())
@@ -119,10 +119,10 @@ def _declared_faces(path: Path, size: int) -> int | None:
 
 
 def _binary_stl_faces(head: bytes, size: int) -> int | None:
-    """Faces by the header of a binary STL, bytes after them allowed; None for one in text.
+    """Number of faces by the header of a binary STL, which may have a tail; None for a text STL.
 
     Raises:
-        TouchError: It ends before its last face.
+        TouchError: The file ends before its last face.
     """
     announced = int.from_bytes(head[80:84], "little")
     is_ascii = head.lstrip()[:5] == b"solid" and b"facet" in head
@@ -153,7 +153,7 @@ def _load(path: Path) -> tuple[FloatArray, IntArray]:
         mesh: Any = trimesh.load(path, force="mesh", process=False, skip_materials=True)
         vertices = np.asarray(mesh.vertices, dtype=np.float64).reshape(-1, 3)
         faces = np.asarray(mesh.faces, dtype=np.int64).reshape(-1, 3)
-    except Exception as error:  # trimesh raises whatever its readers meet
+    except Exception as error:  # trimesh raises any exception of its readers
         reason = " ".join(str(error).split())[:_REASON_LENGTH]
         raise TouchError(
             f"{path} can't be read as a mesh ({', '.join(SUFFIXES)}): {reason}"
@@ -182,7 +182,7 @@ def _check_numbers(vertices: FloatArray, faces: IntArray) -> None:
 
 
 def _join_vertices(vertices: FloatArray, faces: IntArray) -> tuple[FloatArray, IntArray]:
-    """One vertex for each place, no faces without area, no vertices without a face."""
+    """Join vertices at one position; drop faces without area and vertices without a face."""
     positions, index = np.unique(vertices, axis=0, return_inverse=True)
     faces = index.reshape(-1)[faces]
     a, b, c = faces.T
@@ -197,7 +197,7 @@ def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
     edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
     low, high = edges.min(axis=1), edges.max(axis=1)
     _, edge, count = np.unique(low * len(vertices) + high, return_inverse=True, return_counts=True)
-    # Four faces at an edge are two parts that touch there: closed all the same.
+    # Four faces at an edge are two parts that touch there, which is closed as well.
     if (count % 2).any():
         raise TouchError(
             f"the mesh is open ({int((count % 2).sum()):,} edges lack a face: holes or loose "
@@ -212,7 +212,7 @@ def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
 
 
 def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
-    """Every part has its normals outwards, but a cavity within another part has not."""
+    """Check that normals of every part point outwards, those of a cavity in a part inwards."""
     from scipy.sparse import coo_matrix
     from scipy.sparse.csgraph import connected_components
 
@@ -239,7 +239,7 @@ def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
 
 
 def _face_volumes(vertices: FloatArray, faces: IntArray) -> FloatArray:
-    """Signed volume of the tetrahedron from each face to the mesh's middle [mm³], shape (F,)."""
+    """Signed volume of the tetrahedron from each face to the mesh's centre [mm³], shape (F,)."""
     middle = vertices.mean(axis=0)
     a, b, c = (vertices[faces[:, i]] - middle for i in range(3))
     return np.asarray(np.einsum("ij,ij->i", a, np.cross(b, c)) / 6)

@@ -1,4 +1,4 @@
-"""Solids turned and moved to where they belong.
+"""Solids turned and moved to their pose.
 
 Not here: the solids (``sim.objects.solids``).
 """
@@ -6,7 +6,7 @@ Not here: the solids (``sim.objects.solids``).
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from torch import Tensor
 
@@ -16,25 +16,22 @@ from sim.objects.solids import Solid, stacked_as
 
 @dataclass(frozen=True, slots=True)
 class Placed:
-    """A solid turned by ``turn`` (rows: its axes in the new frame), then moved."""
+    """A solid turned by ``turn`` (its rows: the solid's axes in the new frame), then moved [mm]."""
 
     solid: Solid
     move: Vector = (0.0, 0.0, 0.0)
-    turn: tuple[Vector, Vector, Vector] | None = field(default=None)
+    turn: tuple[Vector, Vector, Vector] | None = None
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """Those of the solid."""
         return self.solid.cells
 
     @property
     def reach_mm(self) -> float:
-        """Of the solid where it is now."""
         return self.solid.reach_mm + math.hypot(*self.move)
 
     @property
     def max_slope(self) -> float:
-        """Of the solid."""
         return self.solid.max_slope
 
     def _to_local(self, points: Tensor) -> Tensor:
@@ -46,11 +43,9 @@ class Placed:
         return stacked_as(points, *(x * a + y * b + z * c for a, b, c in self.turn))
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return self.solid.distance(self._to_local(points))
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return self.solid.cell(self._to_local(points))
 
 
@@ -62,7 +57,7 @@ _ALONG: dict[str, tuple[Vector, Vector, Vector]] = {
 
 
 def moved(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Placed:
-    """A solid moved [mm]."""
+    """Move a solid [mm]."""
     if isinstance(solid, Placed):
         a, b, c = solid.move
         return replace(solid, move=(a + x, b + y, c + z))
@@ -70,11 +65,5 @@ def moved(solid: Solid, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Place
 
 
 def along(axis: str, solid: Solid) -> Placed:
-    """A solid turned so that its z axis lies along ``axis``: 'x', 'y' or '-z'."""
+    """Turn a solid so that its z axis lies along ``axis``: 'x', 'y' or '-z'."""
     return Placed(solid, turn=_ALONG[axis])
-
-
-def leaning(degrees: float, solid: Solid) -> Placed:
-    """A solid turned about y, so that its z axis leans towards +x by an angle."""
-    cos, sin = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
-    return Placed(solid, turn=((cos, 0.0, -sin), (0.0, 1.0, 0.0), (sin, 0.0, cos)))

@@ -1,6 +1,6 @@
-"""Stock: boxes, pegs, tubes, tips and patterns in millimetres, from which objects are built.
+"""Boxes, pegs, tubes, tips and patterns in millimetres, from which objects are built.
 
-What has a tip or an end points it to +z, with the end at z = 0; what has none is about the origin.
+A tip or an end points to +z and lies at z = 0; other solids are centred on the origin.
 
 Not here: objects (``sim.objects.catalogue``), distances (``sim.objects.solids``).
 """
@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from cltp.tactile.states import Shape
 from sim.objects.booleans import Blend, Hollow
@@ -26,8 +27,12 @@ def _end(outline: Shape) -> Flat:
     return Flat(UP, 0.0, Cell(form=Form.FLAT, outline=outline))
 
 
+def _base(length: float, outline: Shape = Shape.DISC) -> Flat:
+    return Flat(DOWN, length, Cell(form=Form.FLAT, outline=outline))
+
+
 def ball(diameter: float) -> Rods:
-    """A ball."""
+    """A ball about the origin."""
     origin = (0.0, 0.0, 0.0)
     return Rods(((origin, origin),), diameter / 2, Form.CURVED)
 
@@ -40,27 +45,24 @@ def oval(x: float, y: float, z: float) -> Oval:
 def box(x: float, y: float, z: float, fillet: float = 0.4) -> Cut:
     """A box by its whole edges."""
     half = (x / 2, y / 2, z / 2)
-    faces: list[Face] = []
-    for axis, reach in enumerate(half):
-        for sign in (1.0, -1.0):
-            normal = [0.0, 0.0, 0.0]
-            normal[axis] = sign
-            faces.append(Flat((normal[0], normal[1], normal[2]), reach))
+    faces = [
+        Flat((sign * (axis == 0), sign * (axis == 1), sign * (axis == 2)), reach)
+        for axis, reach in enumerate(half)
+        for sign in (1.0, -1.0)
+    ]
     return Cut(tuple(faces), fillet, math.hypot(*half), leaning=1.0)
 
 
 def rod(diameter: float, length: float, fillet: float = 0.3, end: Shape = Shape.DISC) -> Cut:
     """A cylinder with two flat ends."""
-    low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=end))
-    faces = (_end(end), low, Barrel(diameter / 2))
+    faces = (_end(end), _base(length, end), Barrel(diameter / 2))
     return Cut(faces, fillet, math.hypot(diameter / 2, length), leaning=1.0)
 
 
 def taper(top: float, bottom: float, length: float, fillet: float = 0.3) -> Cut:
     """A truncated cone: diameters at its end and ``length`` below it."""
     widening = (top - bottom) / 2 / length
-    low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC))
-    faces = (_end(Shape.DISC), low, Barrel(top / 2, widening))
+    faces = (_end(Shape.DISC), _base(length), Barrel(top / 2, widening))
     return Cut(faces, fillet, math.hypot(max(top, bottom) / 2, length))
 
 
@@ -72,17 +74,24 @@ def lengthwise(diameter: float, length: float) -> Rods:
 def prism(
     corners: Sequence[tuple[float, float]], length: float, outline: Shape, fillet: float = 0.25
 ) -> Cut:
-    """What a convex outline (counter-clockwise) sweeps along z."""
-    faces: list[Face] = [
-        _end(outline),
-        Flat(DOWN, length, Cell(form=Form.FLAT, outline=outline)),
-    ]
+    """A convex outline (counter-clockwise) extruded along z."""
+    faces: list[Face] = [_end(outline), _base(length, outline)]
     for (u0, v0), (u1, v1) in zip(corners, [*corners[1:], corners[0]], strict=True):
         side = math.hypot(u1 - u0, v1 - v0)
         normal = ((v1 - v0) / side, -(u1 - u0) / side, 0.0)
         faces.append(Flat(normal, u0 * normal[0] + v0 * normal[1]))
     reach = max(math.hypot(u, v) for u, v in corners)
     return Cut(tuple(faces), fillet, math.hypot(reach, length))
+
+
+def hexagonal(across: float, length: float, fillet: float = 0.25) -> Cut:
+    """A hexagonal prism by its circumscribed diameter."""
+    return prism(polygon(6, across), length, Shape.HEXAGON, fillet)
+
+
+def triangular(corners: Sequence[tuple[float, float]], length: float) -> Cut:
+    """A triangular prism."""
+    return prism(corners, length, Shape.TRIANGLE)
 
 
 def polygon(num: int, across: float) -> list[tuple[float, float]]:
@@ -100,27 +109,27 @@ def triangle(a: float, b: float, c: float, radius: float) -> list[tuple[float, f
 
 def block(x: float, y: float, length: float, fillet: float = 0.25) -> Cut:
     """A rectangular peg."""
-    corners = [(x / 2, y / 2), (-x / 2, y / 2), (-x / 2, -y / 2), (x / 2, -y / 2)]
-    return prism(corners, length, Shape.CUBOID, fillet)
+    return prism(_rectangle(x, y), length, Shape.CUBOID, fillet)
+
+
+def _rectangle(x: float, y: float) -> list[tuple[float, float]]:
+    return [(x / 2, y / 2), (-x / 2, y / 2), (-x / 2, -y / 2), (x / 2, -y / 2)]
 
 
 def tube(outer: float, inner: float, length: float, fillet: float = 0.2) -> Cut:
-    """A pipe; its end is a ring, or a face with a hole where its wall is thick."""
+    """A pipe; its end counts as a ring, or as a face with a hole where the wall is thick."""
     outline = Shape.RING if (outer - inner) / 2 <= 1.5 else Shape.HOLE
-    low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=outline))
-    faces = (_end(outline), low, Barrel(outer / 2), Bore(inner / 2))
+    faces = (_end(outline), _base(length, outline), Barrel(outer / 2), Bore(inner / 2))
     return Cut(faces, fillet, math.hypot(outer / 2, length), leaning=1.0)
 
 
 def bored(solid: Cut, diameter: float, fillet: float = 0.2) -> Cut:
-    """A prism or rod with a bore through its end, which is then called a face with a hole."""
+    """A prism or rod with a bore through its end, which then counts as a face with a hole."""
     hole = Cell(form=Form.FLAT, outline=Shape.HOLE)
-    faces: list[Face] = []
-    for face in solid.faces:
-        if isinstance(face, Flat) and abs(face.normal[2]) == 1.0:
-            faces.append(Flat(face.normal, face.offset, hole))
-        else:
-            faces.append(face)
+    faces = (
+        replace(face, cell=hole) if isinstance(face, Flat) and abs(face.normal[2]) == 1.0 else face
+        for face in solid.faces
+    )
     return Cut((*faces, Bore(diameter / 2)), fillet, solid.reach_mm, solid.leaning)
 
 
@@ -131,13 +140,13 @@ def dished(diameter: float, length: float, sphere: float, depth: float) -> Hollo
 
 
 def cone(half_angle: float, length: float, blunt: float = 0.25, shank: float = 11.0) -> Cut:
-    """A cone on its point, by the angle [°] between axis and side, on a shank."""
+    """A cone with its tip up, by the angle [°] between axis and side, on a shank."""
     widening = -math.tan(math.radians(half_angle))
     faces = (
         Flat(UP, 0.0, _TIP),
         Barrel(blunt, widening, Cell(form=Form.TAPER)),
         Barrel(shank / 2),
-        Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC)),
+        _base(length),
     )
     return Cut(faces, blunt, math.hypot(shank / 2, length), 1.42)
 
@@ -145,12 +154,11 @@ def cone(half_angle: float, length: float, blunt: float = 0.25, shank: float = 1
 def pyramid(
     num: int, half_angle: float, length: float, blunt: float = 0.2, shank: float = 12.0
 ) -> Cut:
-    """A pyramid on its point, by the angle [°] between axis and faces, on a round shank."""
+    """A pyramid with its tip up, by the angle [°] between axis and faces, on a round shank."""
     rise, run = math.sin(math.radians(half_angle)), math.cos(math.radians(half_angle))
-    low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC))
-    # Three faces are a corner.
+    # Three faces count as a corner.
     tip, side = (_TIP, _SIDE) if num > 3 else (_FACE, _FACE)
-    faces: list[Face] = [Flat(UP, 0.0, tip), low, Barrel(shank / 2)]
+    faces: list[Face] = [Flat(UP, 0.0, tip), _base(length), Barrel(shank / 2)]
     for i in range(num):
         turn = 2 * math.pi * i / num
         faces.append(Flat((run * math.cos(turn), run * math.sin(turn), rise), blunt * run, side))
@@ -159,7 +167,7 @@ def pyramid(
 
 
 def roof(angle: float, width: float, length: float, lean: float = 0.0, fillet: float = 0.2) -> Cut:
-    """A wedge on its edge, which lies along x: the angle [°] between its faces."""
+    """A wedge with its edge up, along x, by the angle [°] between its faces."""
     faces: list[Face] = [
         Flat(DOWN, width),
         Flat((1.0, 0.0, 0.0), length / 2),
@@ -174,13 +182,12 @@ def roof(angle: float, width: float, length: float, lean: float = 0.0, fillet: f
 
 def rounded(radius: float, length: float, diameter: float) -> Cut:
     """A rod with a domed end, of radius ``radius``."""
-    low = Flat(DOWN, length, Cell(form=Form.FLAT, outline=Shape.DISC))
-    faces = (Dome(radius, -radius), Barrel(diameter / 2), low)
+    faces = (Dome(radius, -radius), Barrel(diameter / 2), _base(length))
     return Cut(faces, 0.3, math.hypot(diameter / 2, length), 1.42)
 
 
 def on_base(pattern: Solid, diameter: float, below: float = 1.8, length: float = 14.0) -> Blend:
-    """A pattern on the end of a round shank, which begins ``below`` under z = 0."""
+    """A pattern on a round shank whose end lies ``below`` under z = 0."""
     return Blend((pattern, moved(rod(diameter, length), z=-below)))
 
 
@@ -194,17 +201,7 @@ def bars(
 
 def flat_bar(length: float, width: float, height: float = 12.0) -> Cut:
     """A blade with a flat edge at z = 0, along x."""
-    return prism(
-        [
-            (length / 2, width / 2),
-            (-length / 2, width / 2),
-            (-length / 2, -width / 2),
-            (length / 2, -width / 2),
-        ],
-        height,
-        Shape.LINE,
-        min(0.3, 0.3 * width),
-    )
+    return prism(_rectangle(length, width), height, Shape.LINE, min(0.3, 0.3 * width))
 
 
 def parallel(num: int, pitch: float, length: float, width: float) -> Rods:
@@ -244,6 +241,6 @@ def waves(x: float, y: float, period: float, amplitude: float, height: float = 1
 
 
 def on_corner(edge: float, fillet: float = 0.3) -> Placed:
-    """A cube about the origin that stands on a corner, which points to +z."""
+    """A cube about the origin with a corner towards +z."""
     a, b, c = 1 / math.sqrt(2), 1 / math.sqrt(6), 1 / math.sqrt(3)
     return Placed(box(edge, edge, edge, fillet), turn=((a, b, c), (-a, b, c), (0.0, -2 * b, c)))

@@ -1,12 +1,12 @@
-"""Rays against solids: points where a finger meets an object, and the surface it then feels.
+"""Rays against solids: random surface points of an object, and its surface over the pad.
 
-A finger is met where a ball of ``FINGER_MM`` that comes along a random line touches the object:
-faces in proportion to their area, edges and corners in proportion to how far they stick out, and
-never the bottom of a crack.
+A random surface point is where a ball of ``FINGER_RADIUS_MM``, moved along a random line, first
+touches the object. Faces are hit in proportion to their area, edges and corners in proportion to
+how far they stick out, and the bottom of a crack never.
 
 A contact's frame has its origin on the pad, z into the gel: the object comes from -z.
 
-Not here: which object and pose (``sim.tcl3d.poses``), what it is called
+Not here: choice of object and pose (``sim.tcl3d.poses``), the label of a contact's shape
 (``sim.tcl3d.shape_labels``).
 """
 
@@ -25,62 +25,56 @@ from sim.gel.gap import NO_BODY_MM
 
 FloatArray = NDArray[np.float64]
 
-FINGER_MM = 10.0
-"""Radius of the ball that finds where an object is touched. Our choice: about half a pad."""
+FINGER_RADIUS_MM = 10.0
+"""Radius of the ball that finds random surface points. Our choice: about half a pad."""
 
 BACK_MM = 25.0
-"""Rays start this far before the point where they are expected to hit."""
+"""Distance from the start of a ray to the expected hit."""
 
 BEYOND_MM = 4.0
-"""What lies further behind the foremost point is out of the gel's reach."""
+"""Surface further than this behind the foremost point is out of the gel's reach."""
 
 STEPS, NEAR_MM, ALONGSIDE_MM = 64, 2e-4, 0.01
-"""Of sphere tracing: most steps, what is as good as there, and what is still on its way along a
-steep wall and counts as there."""
-
-
-class Castable(Protocol):
-    """What rays can be cast against: an object of the catalogue, or a mesh."""
-
-    @property
-    def reach_mm(self) -> float:
-        """All of it lies within this distance of its origin [mm]."""
-        ...
-
-    def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-        """How far rays from ``origins`` (N, 3) go along a unit vector (3,); inf if they miss [mm].
-
-        NaN where a ray starts inside.
-        """
-        ...
-
-    def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-        """The same for a grid of rays, origins (H, W, 3), as (H, W).
-
-        What lies more than ``BEYOND_MM`` behind the foremost may count as missed.
-        """
-        ...
-
-    def distance(self, points: Tensor) -> Tensor:
-        """Signed distance [mm] of points (..., 3)."""
-        ...
+"""Sphere tracing: largest number of steps; distance at which a ray has hit; distance at which a ray
+that is still under way, along a steep wall, counts as a hit."""
 
 
 class Marchable(Protocol):
-    """What sphere tracing needs of a solid (``sim.objects.solids.Solid``)."""
+    """A solid for sphere tracing (``sim.objects.solids.Solid``)."""
 
     @property
     def max_slope(self) -> float:
         """Largest slope of ``distance``."""
-        ...
 
     def distance(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of points (..., 3)."""
-        ...
+
+
+class Castable(Protocol):
+    """An object that rays can be cast against: one of the catalogue, or a mesh."""
+
+    @property
+    def reach_mm(self) -> float:
+        """Largest distance of the surface from the object's origin [mm]."""
+
+    def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """Length of rays from ``origins`` (N, 3) along a unit vector (3,) to the surface [mm].
+
+        inf where a ray misses, NaN where it starts inside.
+        """
+
+    def surface_over(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+        """``surface`` for a grid of rays, origins (H, W, 3), as (H, W).
+
+        Surface more than ``BEYOND_MM`` behind the foremost point may count as missed.
+        """
+
+    def distance(self, points: Tensor) -> Tensor:
+        """Signed distance [mm] of points (..., 3)."""
 
 
 def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-    """Sphere tracing: see ``Castable.surface``."""
+    """Trace rays against a solid; arguments and result as ``Castable.surface``."""
     travelled = torch.zeros(origins.shape[0], dtype=origins.dtype, device=origins.device)
     hit = torch.full_like(travelled, torch.inf)
     index = torch.arange(origins.shape[0], device=origins.device)
@@ -93,25 +87,25 @@ def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Te
             hit_mm = torch.where(distance < -NEAR_MM, torch.nan, hit_mm)
         hit[index[arrived]] = hit_mm[arrived]
         travelled = travelled + distance / solid.max_slope
-        if step % 8 == 7:  # what lies behind the gel's reach needs no more steps
+        if step % 8 == 7:  # rays out of the gel's reach need no more steps
             nearest = float(hit.nan_to_num(nan=torch.inf).amin())
             far_mm = min(far_mm, nearest + 1.2 * BEYOND_MM)
         active = ~arrived & (travelled < far_mm)
         if not bool(active.any()):
             return hit
         origins, travelled, index = origins[active], travelled[active], index[active]
-    # Still on their way: along a steep wall. They have arrived there, or end far behind the rim.
+    # The rest runs along a steep wall: it has hit the wall, or ends far behind the rim.
     hit[index] = torch.where(distance[active] < ALONGSIDE_MM, travelled, torch.inf)
     return hit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SurfacePoint:
-    """Where a finger meets an object.
+    """Point of an object's surface.
 
     Attributes:
-        point: On the surface, object frame, (3,) [mm].
-        normal: Outward there: towards the pad; unit, (3,).
+        point: Position, object frame, (3,) [mm].
+        normal: Outward unit normal, towards the pad, (3,).
     """
 
     point: FloatArray
@@ -119,21 +113,19 @@ class SurfacePoint:
 
 
 def random_surface_point(obj: Castable, rng: np.random.Generator) -> SurfacePoint:
-    """Meet an object along a random line.
+    """Draw the point where a ball on a random line first touches an object.
 
     Raises:
-        ValueError: It was missed a thousand times.
+        ValueError: A thousand lines missed the object.
     """
-    radius = obj.reach_mm + FINGER_MM
+    radius = obj.reach_mm + FINGER_RADIUS_MM
     for _ in range(1000):
         direction = unit_vector(rng)
         first, second = _tangents(direction)
         angle, radial_mm = rng.uniform(0, 2 * math.pi), radius * math.sqrt(rng.random())
-        start = (
-            radial_mm * (math.cos(angle) * first + math.sin(angle) * second)
-            - 1.01 * radius * direction
-        )
-        centre = _first_point_within(obj, start, direction, FINGER_MM, 2.1 * radius)
+        aside = radial_mm * (math.cos(angle) * first + math.sin(angle) * second)
+        start = aside - 1.01 * radius * direction
+        centre = _first_point_within(obj, start, direction, FINGER_RADIUS_MM, 2.1 * radius)
         if centre is not None:
             normal = gradient(obj, centre)
             return SurfacePoint(point=_project_to_surface(obj, centre, -normal), normal=normal)
@@ -141,7 +133,7 @@ def random_surface_point(obj: Castable, rng: np.random.Generator) -> SurfacePoin
 
 
 def support_point(obj: Castable, direction: FloatArray) -> SurfacePoint:
-    """Where an object that comes in a direction, held as it is, first meets a large flat pad."""
+    """Point of an object, moved in a direction without turning, that first touches a flat pad."""
     first, second = _tangents(direction)
     reach = obj.reach_mm
     centre, span = np.zeros(2), reach
@@ -170,7 +162,7 @@ def gradient(obj: Castable, point: FloatArray, step_mm: float = 1e-3) -> FloatAr
 def _first_point_within(
     obj: Castable, start: FloatArray, direction: FloatArray, level_mm: float, far_mm: float
 ) -> FloatArray | None:
-    """Where a line first comes within ``level_mm`` of an object."""
+    """First point of a line within ``level_mm`` of an object; None if there is none."""
     travelled = 0.0
     for _ in range(200):
         point = start + travelled * direction
@@ -184,18 +176,18 @@ def _first_point_within(
 
 
 def _project_to_surface(obj: Castable, point: FloatArray, direction: FloatArray) -> FloatArray:
-    hit_mm = _first_point_within(obj, point, direction, 0.0, 4 * FINGER_MM)
-    return point + FINGER_MM * direction if hit_mm is None else hit_mm
+    hit = _first_point_within(obj, point, direction, 0.0, 4 * FINGER_RADIUS_MM)
+    return point + FINGER_RADIUS_MM * direction if hit is None else hit
 
 
 def unit_vector(rng: np.random.Generator) -> FloatArray:
-    """Uniform on the unit sphere, (3,)."""
+    """Draw uniformly from the unit sphere, (3,)."""
     vector = rng.normal(size=3)
     return np.asarray(vector / np.linalg.norm(vector))
 
 
 def _tangents(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Two unit vectors that make a right-handed frame with a third."""
+    """Two unit vectors that complete a direction to a right-handed frame."""
     least = np.eye(3)[int(np.argmin(np.abs(direction)))]
     first = np.cross(least, direction)
     first /= np.linalg.norm(first)
@@ -205,7 +197,7 @@ def _tangents(direction: FloatArray) -> tuple[FloatArray, FloatArray]:
 def frame_at(normal: FloatArray) -> FloatArray:
     """Rotation whose columns are pad x, pad y and pad z (into the gel, along ``normal``), (3, 3).
 
-    Its turn about the normal is arbitrary.
+    The angle about the normal is arbitrary.
     """
     first, second = _tangents(normal)
     return np.stack([first, second, normal], axis=1)
@@ -213,12 +205,12 @@ def frame_at(normal: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PadView:
-    """What lies over the pad.
+    """Surface of an object over the pad, skin not included.
 
     Attributes:
-        gap_mm: Shape (H, W), how far the bare surface lies behind its foremost point [mm];
-            ``NO_BODY_MM`` where nothing is within ``BEYOND_MM``.
-        points: Shape (H, W, 3), where on the object, object frame [mm]; 0 where nothing is.
+        gap_mm: Shape (H, W), distance behind the foremost point [mm]; ``NO_BODY_MM`` where no
+            surface is within ``BEYOND_MM``.
+        points: Shape (H, W, 3), surface points, object frame [mm]; 0 where there is none.
     """
 
     gap_mm: FloatArray
@@ -238,14 +230,14 @@ def cast_pad_rays(
     Args:
         obj: The object.
         object_from_pad: Rotation (3, 3); its third column is z, into the gel.
-        point: Of the object, where it lies over the pad's origin [mm].
-        x_mm: Shape (H, W), over the pad [mm].
+        point: Point of the object over the pad's origin, object frame [mm].
+        x_mm: Shape (H, W), pad positions [mm].
         y_mm: Same shape [mm].
-        device: Where to compute.
+        device: Torch device of the computation.
 
     Returns:
-        None where the pad can't come there: a part of the object is in its way, or nothing is over
-        it.
+        None where the pad cannot take this pose: a part of the object is in its way, or no surface
+        lies over it.
     """
     direction = object_from_pad[:, 2]
     origins = np.stack([x_mm.ravel(), y_mm.ravel()], axis=1) @ object_from_pad[:, :2].T

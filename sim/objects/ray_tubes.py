@@ -1,14 +1,13 @@
-"""Many parallel rays against a solid, on a processor: first whole tubes of them, then each ray.
+"""Casting many parallel rays against a solid on a CPU: first in tubes, then one by one.
 
-A tube about a square of rays goes on as long as the solid is further from its middle than its
-radius; none of its rays can have met anything until then, and so each begins there. Rays that come
-too late for the gel to feel what they would meet are dropped on the way. What rays meet is what
-sphere tracing of each of them from its origin (``sim.objects.ray_casting.march``) finds, within its
-tolerance.
+A tube around a square of rays advances as long as the solid is further from its axis than its
+radius. Until then none of its rays can have hit anything, so each ray starts there. Rays that hit
+out of the gel's reach are dropped on the way. Results agree with sphere tracing from the origins
+(``sim.objects.ray_casting.march``) within its tolerance.
 
-Points lie coordinate by coordinate here, which a processor reads faster.
+Points are stored coordinate by coordinate, which a CPU reads faster.
 
-Not here: which rays, and what a finger feels of them (``sim.objects.ray_casting``).
+Not here: origins of the rays and the surface over the pad (``sim.objects.ray_casting``).
 """
 
 from __future__ import annotations
@@ -18,25 +17,25 @@ from torch import Tensor
 
 from sim.objects.ray_casting import ALONGSIDE_MM, BEYOND_MM, NEAR_MM, STEPS, Marchable
 
-_FINER = 4  # times as many rays along a side as tubes, and as tubes of the next size
-_WIDE = _FINER * _FINER  # rays along the sides of the widest tubes
-_TUBE_STEPS, _FEW_STEPS = 12, 6  # most
-_FEW_RAYS, _TOGETHER = 300, 4  # so few go as many steps before those that arrived are left out
-_WORTHWHILE = 0.5  # of the radius: a tube that gets less far in a step ends
+_FINER = 4  # rays along the side of a narrow tube, and narrow tubes along that of a wide one
+_WIDE = _FINER * _FINER  # rays along the side of a wide tube
+_TUBE_STEPS, _FEW_STEPS = 12, 6  # upper bounds
+_FEW_RAYS, _TOGETHER = 300, 4  # so few rays are sorted out every fourth step only
+_WORTHWHILE = 0.5  # of the radius: a tube with shorter steps ends
 
 
 def march_over(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-    """March rays whose origins are a grid of equal squares.
+    """Trace rays whose origins form a grid of equal squares.
 
     Args:
-        solid: What is met.
+        solid: The solid.
         origins: (H, W, 3), H and W at least 2 [mm].
         along: Unit vector (3,).
-        far_mm: How far at most [mm].
+        far_mm: Largest length [mm].
 
     Returns:
-        How far each goes, (H, W) [mm]; inf where it meets nothing, or nothing that is less than
-        ``BEYOND_MM`` behind the foremost; NaN where it starts inside.
+        Length of each ray, (H, W) [mm]; inf where it hits nothing, or only more than ``BEYOND_MM``
+        behind the foremost hit; NaN where it starts inside.
     """
     rays = origins.permute(2, 0, 1).contiguous()
     clear = rays.new_zeros(-(-rays.shape[1] // _WIDE), -(-rays.shape[2] // _WIDE))
@@ -47,7 +46,7 @@ def march_over(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) 
         free = _free(solid, middles.flatten(1), along, clear.flatten(), radius, far_mm)
         clear = free.view(middles.shape[1:])
     first = _spread(clear, rays)
-    # A few of the rays tell roughly how far the foremost goes.
+    # A sparse set of rays bounds the length of the shortest.
     sparse, sparse_start = rays[:, ::_FINER, ::_FINER], first[::_FINER, ::_FINER]
     sparse_mm = _march(solid, sparse.flatten(1), along, sparse_start.flatten(), far_mm, _FEW_STEPS)
     far_mm = min(far_mm, float(sparse_mm.nan_to_num(nan=torch.inf).amin()) + BEYOND_MM)
@@ -56,9 +55,9 @@ def march_over(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) 
 
 
 def _tubes(rays: Tensor, square: int) -> tuple[Tensor, float]:
-    """Middles (3, h, w) of squares of rays (3, H, W), and the radius about each [mm].
+    """Centres (3, h, w) of squares of rays (3, H, W), and their radius [mm].
 
-    The last ones may reach over the grid.
+    The last squares may extend beyond the grid.
     """
     down, right = rays[:, 1, 0] - rays[:, 0, 0], rays[:, 0, 1] - rays[:, 0, 0]
     half = (square - 1) / 2
@@ -68,13 +67,13 @@ def _tubes(rays: Tensor, square: int) -> tuple[Tensor, float]:
 
 
 def _spread(clear: Tensor, finer: Tensor) -> Tensor:
-    """What tubes (h, w) have, for each of the finer ones or rays (3, H, W) in them."""
+    """Values of tubes (h, w), repeated for the narrower tubes or rays (3, H, W) in them."""
     spread = clear.repeat_interleave(_FINER, 0).repeat_interleave(_FINER, 1)
     return spread[: finer.shape[1], : finer.shape[2]]
 
 
 def _points(origins: Tensor, travelled: Tensor, along: Tensor) -> Tensor:
-    """Where rays (3, N) have come to, as points (N, 3)."""
+    """Ends (N, 3) of rays with origins (3, N)."""
     return (origins + along[:, None] * travelled).T
 
 
@@ -86,7 +85,7 @@ def _free(
     radius: float,
     far_mm: float,
 ) -> Tensor:
-    """How far tubes about ``middles`` (3, N) go without meeting anything, (N,) [mm]."""
+    """Free length of tubes about ``middles`` (3, N), (N,) [mm]."""
     free = travelled.clone()
     index = torch.arange(len(free))
     for _ in range(_TUBE_STEPS):
@@ -105,7 +104,7 @@ def _free(
 def _march(
     solid: Marchable, origins: Tensor, along: Tensor, first: Tensor, far_mm: float, steps: int
 ) -> Tensor:
-    """Sphere tracing of rays (3, N), each from where it has come to already, (N,) [mm]."""
+    """Trace rays (3, N), each from its own free length ``first``, (N,) [mm]."""
     hit = torch.full_like(first, torch.inf)
     index = torch.nonzero(first < far_mm)[:, 0]
     origins, travelled = origins.index_select(1, index), first[index]
@@ -116,7 +115,7 @@ def _march(
         arrived = distance < NEAR_MM
         onward = travelled + distance.masked_fill(arrived, 0) / solid.max_slope
         if len(index) < _FEW_RAYS and step % _TOGETHER and step < steps - 1:
-            travelled = onward  # what has arrived stays there
+            travelled = onward  # rays that have hit stay
             continue
         ended = torch.nonzero(arrived & ~(travelled >= far_mm))[:, 0]
         hit[index[ended]] = travelled[ended] + distance[ended]
@@ -125,6 +124,6 @@ def _march(
             return hit
         origins = origins.index_select(1, active)
         travelled, index, distance = onward[active], index[active], distance[active]
-    # Still on their way: along a steep wall, as in ``sim.objects.ray_casting.march``.
+    # The rest runs along a steep wall, as in ``sim.objects.ray_casting.march``.
     hit[index] = torch.where(distance < ALONGSIDE_MM, travelled, torch.inf)
     return hit

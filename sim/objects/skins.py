@@ -1,10 +1,10 @@
-"""Skins: the fine relief that an object always carries, one of the five textures with its numbers.
+"""Skins: the fixed fine relief of an object, one of the five textures with its dimensions.
 
-Limits are those of the notes, beside each class of ``cltp.tactile.states.Texture``. A relief lies
-in the pad's plane and turns with the object; where a surface falls away steeply it fades, since no
-finger feels the grain on a flank.
+The limits of each texture are those of the notes, beside each class of
+``cltp.tactile.states.Texture``. A relief lies in the pad's plane and turns with the object. It
+fades where the surface is steep, since a finger feels no grain on a flank.
 
-Not here: textures drawn anew for every press (``sim.starter.textures``).
+Not here: textures drawn for every press (``sim.starter.textures``).
 """
 
 from __future__ import annotations
@@ -35,15 +35,15 @@ FADE_SLOPE = (0.5, 1.2)
 
 @dataclass(frozen=True, slots=True)
 class Skin:
-    """What a surface is like, close up.
+    """Relief of a surface.
 
     Attributes:
-        texture: Its class.
-        height_mm: Of ridges, caps and threads; of ``rough`` the standard deviation [mm].
-        pitch_mm: From one to the next; of ``rough`` the correlation length [mm].
+        texture: Class of the texture.
+        height_mm: Height of ridges, caps or threads; for ``rough`` the standard deviation [mm].
+        pitch_mm: Distance from one to the next; for ``rough`` the correlation length [mm].
 
     Raises:
-        ValueError: Numbers outside the limits of the class.
+        ValueError: A number is outside the limits of the class.
     """
 
     texture: Texture
@@ -92,15 +92,15 @@ def relief_of(
     axis_rad: float,
     sensor: SensorSpec,
 ) -> FloatArray:
-    """How far a skin lies behind a smooth surface.
+    """Depth of a skin behind a smooth surface.
 
     Args:
-        skin: Which.
-        rng: Draws where it begins, and the grain of ``rough``.
-        x_mm: Shape (H, W), over the whole field [mm].
+        skin: The skin.
+        rng: Random generator of its phase and of the grain of ``rough``.
+        x_mm: Shape (H, W), over the whole sensing area [mm].
         y_mm: Same shape [mm].
         axis_rad: Direction of the object's axis on the pad [rad]; ridges lie across it.
-        sensor: Whose field it is.
+        sensor: The sensor whose area it is.
 
     Returns:
         Shape (H, W) [mm]: 0 at the tops, except ``rough``, whose mean is 0.
@@ -110,7 +110,7 @@ def relief_of(
         return np.zeros(np.shape(x_mm))
     if skin.texture is Texture.ROUGH:
         field = smooth_field((x_mm.shape[0], x_mm.shape[1]), sensor, skin.pitch_mm, rng)
-        # Clipped: the one highest of thousands of tops would hold all others off the gel.
+        # Clipped: the highest of thousands of tops would keep all others off the gel.
         return skin.height_mm * field.astype(np.float64).clip(-2, 2)
     cos, sin = math.cos(axis_rad), math.sin(axis_rad)
     u = x_mm * cos + y_mm * sin + start[0]
@@ -122,8 +122,8 @@ def relief_of(
     return _caps(u, v, skin)
 
 
-def faded(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
-    """A relief where the surface under it has this slope; both (H, W)."""
+def fade(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
+    """Fade a relief by the slope of the surface under it; both (H, W)."""
     first, last = FADE_SLOPE
     return relief_mm * ((last - slope) / (last - first)).clip(0, 1)
 

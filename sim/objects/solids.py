@@ -1,13 +1,13 @@
-"""Solids as signed distances, in torch: what objects are built of, and which part of them touches.
+"""Solids as signed distances, in torch: the building blocks of objects.
 
-A solid tells how far a point is from its surface (negative inside) and which *cell* of it is
-nearest: a face, a bar, a bump, a crest. A cell's ``Form`` says what it is called when it touches
+A solid gives the distance of a point from its surface (negative inside) and the nearest *cell* of
+that surface: a face, a bar, a bump, a crest. The cell's ``Form`` labels a contact
 (``sim.tcl3d.shape_labels``). Edges of a solid cut from faces are rounded by a fillet; where faces
-meet at an angle other than 90° the distance is a bound, too small rather than too large; where it
-may be too large, ``steep`` says by how much.
+meet at an angle other than 90° the distance is a lower bound. Where it may be too large,
+``max_slope`` is the largest factor.
 
-Points are tensors (..., 3) [mm]. Works on any device; on the same kind of device the result for a
-point does not depend on its company.
+Points are tensors (..., 3) [mm], on any device. On the same kind of device the result for a point
+does not depend on the other points.
 
 Not here: the faces that solids are cut from (``sim.objects.faces``), solids of solids
 (``sim.objects.booleans``), turning and moving (``sim.objects.placing``), objects
@@ -34,32 +34,27 @@ class Solid(Protocol):
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """By the numbers that ``cell`` gives."""
-        ...
+        """Cells of the surface, in the order of the indices that ``cell`` returns."""
 
     @property
     def reach_mm(self) -> float:
-        """All of it lies within this distance of the origin [mm]."""
-        ...
+        """Largest distance of the surface from the origin [mm]."""
 
     @property
     def max_slope(self) -> float:
         """Largest slope of ``distance``: 1 where it is exact."""
-        ...
 
     def distance(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of ``points`` (..., 3), shape (...)."""
-        ...
 
     def cell(self, points: Tensor) -> Tensor:
-        """Number of the nearest cell for ``points`` (..., 3) near the surface, int64 (...)."""
-        ...
+        """Index of the nearest cell for ``points`` (..., 3) near the surface, int64 (...)."""
 
 
 def stacked_as(points: Tensor, *coordinates: Tensor) -> Tensor:
-    """Coordinates (...) as points (..., 3), laid out in memory as ``points`` are.
+    """Stack coordinates (...) to points (..., 3) with the memory layout of ``points``.
 
-    Functions of a coordinate may differ in the last bit between layouts.
+    The last bit of a function of a coordinate may depend on the layout.
     """
     if points.stride(-1) == 1:
         return torch.stack(coordinates, dim=-1)
@@ -71,14 +66,14 @@ _MOST_CRESTS = 64
 
 @dataclass(frozen=True)
 class Cut:
-    """What lies behind all of its faces, its edges rounded by ``fillet`` [mm].
+    """Intersection of the space behind its faces, with rounded edges.
 
     Attributes:
-        faces: At least one.
+        faces: Its faces, at least one.
         fillet: Radius of its edges where faces meet at 90° [mm].
         reach_mm: See ``Solid``.
-        leaning: Slope of the sum of squares that rounds the edges, where its faces lean most
-            towards each other: 1 where they meet at 90°.
+        leaning: Largest slope of the sum of squares that rounds the edges: 1 where faces meet at
+            90°, more where they lean towards each other.
     """
 
     faces: tuple[Face, ...]
@@ -88,27 +83,26 @@ class Cut:
 
     @property
     def max_slope(self) -> float:
-        """See ``Solid``: both bounds below are at most as steep as the distance."""
-        return 1.0
+        return 1.0  # both bounds of ``distance`` are at most as steep as the exact one
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """One for each face; crests follow, each a cell."""
+        # One for each face; those of crests follow.
         crest = [face.cell for face in self.faces if isinstance(face, Ripple)]
         return (*(face.cell for face in self.faces), *crest * _MOST_CRESTS)
 
     @cached_property
     def _groups(self) -> tuple[Face | Flats, ...]:
-        """Its faces in order, planes that follow each other together."""
+        """Its faces in order, consecutive planes joined."""
         groups: list[Face | Flats] = []
         for _, alike in groupby(self.faces, key=lambda face: isinstance(face, Flat)):
             faces = list(alike)
             flats = [face for face in faces if isinstance(face, Flat)]
-            groups += [Flats.of(flats)] if flats else faces
+            groups += [Flats.join(flats)] if flats else faces
         return tuple(groups)
 
     def _behind(self, points: Tensor) -> Tensor:
-        """Distance to each face, the faces first."""
+        """Signed distance to each face, (faces, ...)."""
         behind = [
             group.behind(points) if isinstance(group, Flats) else group.behind(points)[None]
             for group in self._groups
@@ -116,7 +110,6 @@ class Cut:
         return behind[0] if len(behind) == 1 else torch.cat(behind)
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         behind = self._behind(points)
         rim = (behind + self.fillet).clamp_(min=0).square_().sum(0).sqrt_()
         foremost = behind.amax(0)
@@ -124,7 +117,6 @@ class Cut:
         return torch.maximum(foremost, rounded / self.leaning)
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         behind = self._behind(points)
         foremost, nearest = behind[0], torch.zeros_like(behind[0], dtype=torch.int64)
         for number, own in enumerate(behind[1:], start=1):  # argmax over few is slow
@@ -142,7 +134,8 @@ class Cut:
 class Oval:
     """Ellipsoid about the origin with three half axes [mm].
 
-    Source: a first-order distance, |p/r| (|p/r| - 1) / |p/r²| (Quilez); too large beside flat ones.
+    Source: a first-order distance, |p/r| (|p/r| - 1) / |p/r²| (Quilez); too large beside a flat
+    one.
     """
 
     x: float
@@ -156,29 +149,25 @@ class Oval:
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """One, curved."""
         return (Cell(form=Form.CURVED),)
 
     @property
     def reach_mm(self) -> float:
-        """Its longest half axis."""
         return max(self.x, self.y, self.z)
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         radii = constant((self.x, self.y, self.z), points.dtype, points.device)
         once = (points / radii).square().sum(-1).sqrt()
         twice = (points / radii**2).square().sum(-1).sqrt()
         return once * (once - 1) / twice.clamp(min=1e-9)
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return torch.zeros(points.shape[:-1], dtype=torch.int64, device=points.device)
 
 
 @dataclass(frozen=True, slots=True)
 class Hoop:
-    """Round tube bent to a ring about z, or to an arc of it that is symmetric about +x [mm]."""
+    """Round tube bent to a ring about z, or to an arc that is symmetric about +x [mm]."""
 
     radius: float
     tube: float
@@ -188,16 +177,13 @@ class Hoop:
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """One."""
         return (Cell(form=self.form),)
 
     @property
     def reach_mm(self) -> float:
-        """Its outer radius."""
         return self.radius + self.tube
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         x, y, z = points.unbind(-1)
         across = torch.hypot(torch.hypot(x, y) - self.radius, z)
         if self.half_angle < math.pi:
@@ -208,7 +194,6 @@ class Hoop:
         return across - self.tube
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return torch.zeros(points.shape[:-1], dtype=torch.int64, device=points.device)
 
 
@@ -216,9 +201,9 @@ class Hoop:
 def _rods(
     ends: tuple[tuple[Vector, Vector], ...], dtype: torch.dtype, device: torch.device, ndim: int
 ) -> tuple[tuple[Tensor, ...], tuple[Tensor, ...], Tensor, bool]:
-    """First ends of rods and ways to the others, x, y, z; squared lengths; whether all are balls.
+    """Starts of rods and vectors to their ends (x, y, z), squared lengths, whether all are balls.
 
-    Each with ``ndim`` axes of 1 behind that of the rods.
+    Shape of each tensor: (rods, 1, ...) with ``ndim`` ones.
     """
     each = (-1, *[1] * ndim)
     first, last = (constant(tuple(rod[i] for rod in ends), dtype, device) for i in (0, 1))
@@ -232,7 +217,7 @@ def _rods(
 
 @dataclass(frozen=True, slots=True)
 class Rods:
-    """Round rods between pairs of points, each a cell: bars, wires, or one thick rod."""
+    """Round rods between pairs of points [mm], each a cell: bars, wires, or one thick rod."""
 
     ends: tuple[tuple[Vector, Vector], ...]
     radius: float
@@ -241,16 +226,14 @@ class Rods:
 
     @property
     def cells(self) -> tuple[Cell, ...]:
-        """One for each rod."""
         return (Cell(form=self.form),) * len(self.ends)
 
     @property
     def reach_mm(self) -> float:
-        """Of the furthest end."""
         return max(math.hypot(*end) for rod in self.ends for end in rod) + self.radius
 
     def _squared(self, points: Tensor) -> Tensor:
-        """Squared distance to the middle of each rod, the rods first."""
+        """Squared distance to the axis of each rod, (rods, ...)."""
         x, y, z = points.unbind(-1)
         start, along, length, balls = _rods(self.ends, points.dtype, points.device, x.ndim)
         # Coordinate by coordinate: sums over an axis of three take several times as long.
@@ -262,14 +245,12 @@ class Rods:
         return u * u + v * v + w * w
 
     def distance(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return self._squared(points).amin(0).sqrt() - self.radius
 
     def cell(self, points: Tensor) -> Tensor:
-        """See ``Solid``."""
         return self._squared(points).sqrt().argmin(0)
 
 
 def dots(at: Sequence[tuple[float, float]], z: float, radius: float) -> Rods:
-    """Balls of one radius whose centres lie at ``z`` [mm], each a cell."""
+    """Balls of one radius with centres at ``z`` [mm], each a cell."""
     return Rods(tuple(((x, y, z), (x, y, z)) for x, y in at), radius, Form.DOT)

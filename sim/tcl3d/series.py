@@ -26,7 +26,7 @@ from sim.objects.catalogue import CATALOGUE, SMALL, UNSEEN
 from sim.objects.catalogue_large import LARGE
 from sim.objects.object import SolidObject
 from sim.objects.ray_casting import FloatArray, PadView, cast_pad_rays
-from sim.objects.skins import SMOOTH, faded, relief_of
+from sim.objects.skins import SMOOTH, fade, relief_of
 from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import in_contact, label
 from sim.tcl3d.poses import PressPose, draw_pose
@@ -309,7 +309,7 @@ def _scene(
             relief = np.where(part_of_cell[cells] == number, own, relief)
     if relief.any():
         down, right = np.gradient(view.gap_mm, sensor.width_mm / view.gap_mm.shape[1])
-        relief = faded(relief, np.hypot(down, right))
+        relief = fade(relief, np.hypot(down, right))
     return Scene(obj=obj, view=view, cells=cells, relief_mm=relief)
 
 

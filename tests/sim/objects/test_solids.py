@@ -8,7 +8,7 @@ import torch
 from cltp.tactile.states import Shape
 from sim.objects.catalogue import CATALOGUE, LARGE, SMALL, object_named
 from sim.objects.faces import Form
-from sim.objects.placing import along, leaning, moved
+from sim.objects.placing import along, moved
 from sim.objects.primitives import ball, bars, box, on_corner, polygon, prism, pyramid, rod
 from sim.objects.solids import Hoop
 
@@ -29,7 +29,6 @@ def at(*point):
         (rod(8, 20), (9, 0, -10), 5),
         (along("x", rod(8, 20)), (3, 0, 0), 3),
         (moved(ball(4), 1, 2, 3), (1, 2, 8), 3),
-        (leaning(90, rod(8, 20)), (5, 0, 0), 5),
         (Hoop(5, 1), (9, 0, 0), 3),
         (Hoop(5, 1, math.pi / 2), (-5, 0, 0), math.hypot(5, 5) - 1),
         (bars([(-3, 0, 3, 0)], 1.0), (0, 0, 2), 2),
