@@ -211,8 +211,8 @@ def _num_loops(rim: IntArray) -> int:
 
 
 def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
-    """Whether an outline maps to itself when turned by 180°: a hexagon does, a triangle does
-    not.""" from scipy.spatial import cKDTree
+    """Whether an outline maps to itself when turned by 180°: a hexagon does, no triangle."""
+    from scipy.spatial import cKDTree
 
     corners = vertices[np.unique(rim)]
     middle = (corners.min(axis=0) + corners.max(axis=0)) / 2

@@ -24,8 +24,9 @@ SUFFIXES = (".ply", ".obj", ".stl", ".off")
 MAX_FACES = 2_000_000
 """Our choice: at 0.1 mm a face this is a body of 100 mm; more is slower and no more accurate."""
 
-SMALLEST_MM = 2.0 """A smaller mesh is taken to be in metres. Our choice: a pad of 15 mm can hardly
-tell smaller objects from a point, and no hand-held object is 2 m large."""
+SMALLEST_MM = 2.0
+"""A smaller mesh is taken to be in metres. Our choice: a pad of 15 mm can hardly tell smaller
+objects from a point, and no hand-held object is 2 m large."""
 
 LARGEST_MM = 5000.0
 """A larger mesh is taken to be in micrometres. Our choice."""
