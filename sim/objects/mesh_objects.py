@@ -80,7 +80,8 @@ class _Surface:
     def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
         import open3d
 
-        self._tensor: Any = open3d.core.Tensor
+        core: Any = open3d.core
+        self._tensor = core.Tensor
         self._scene: Any = open3d.t.geometry.RaycastingScene()
         self._scene.add_triangles(
             self._tensor(vertices.astype(np.float32)),
