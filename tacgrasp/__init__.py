@@ -1,6 +1,6 @@
-"""The application: command line, run configuration, the loop, drivers, episodes, viewers.
+"""The application: command line, run configuration, the loop, drivers, episodes, training.
 
-Nobody imports it. Importing it loads neither torch nor open3d nor a device's SDK.
+No other package imports it. Importing it loads neither torch nor open3d nor a device's SDK.
 """
 
 __version__ = "0.1.0"

@@ -1,4 +1,4 @@
-"""``tacgrasp`` on the command line: imports the one command asked for, turns errors into codes."""
+"""``tacgrasp`` on the command line: import the named command alone, turn errors into exit codes."""
 
 from __future__ import annotations
 
@@ -8,27 +8,27 @@ import sys
 from collections.abc import Sequence
 
 COMMANDS = {
-    "run": "close the loop on a task: touch, sentence, action, until the grasp is good",
-    "demo": "scripted demos with a known outcome; without a name lists them",
-    "replay": "show an episode tick by tick; --decide asks a policy again, --execute moves again",
-    "episodes": "ls, info, recover, plot: what has been recorded",
-    "describe": "say in words and numbers what a cloud or height map in a file, or a frame, is",
-    "ask": 'answer a question about the touch in a file: ask FILE "How deep is it pressed?"',
-    "train": "clip, cltp, llm, all, and the methods beside CLTP; goes on where it was stopped",
-    "eval": "how right trained weights are on unseen contacts; zero-shot, probe, retrieval, report",
-    "simulate": "press: one thing into one sensor's gel, to a depth: heights, pressure, force",
-    "data": "generate, import, inspect, stats, verify, gallery, sheet: contacts to learn from",
-    "calibrate": "gelsight-mini, background, gripper, pad-axes: what a unit's readings mean",
-    "emulate": "ur, dynamixel, taxels, rig: emulators that speak the real protocols",
-    "doctor": "look at every device of a rig, and say what to do; moves nothing",
-    "jog": "move a rig by keyboard in small limited steps, and see what it feels",
-    "bench": "strawberry, latency, gel, balls, crash, faults, ...: measure and print figures",
+    "run": "run the closed loop on a task: read the contact, decide, act, until the grasp is good",
+    "demo": "play a scripted demo with a known course; without a name list them",
+    "replay": "show an episode step by step; --decide asks a policy again, --execute moves again",
+    "episodes": "list, inspect, recover and plot recorded episodes",
+    "describe": "describe the contact in a cloud, height map or camera frame",
+    "ask": 'answer a question about the contact in a file: ask FILE "How deep is it pressed?"',
+    "train": "train clip, cltp, llm, all or a compared method; an interrupted training resumes",
+    "eval": "evaluate weights on unseen contacts: scores, zero-shot, probe, retrieval, report",
+    "simulate": "press one object into a sensor's gel: heights, pressure and force",
+    "data": "generate, import, inspect, stats, verify, gallery, sheet: data sets of contacts",
+    "calibrate": "calibrate a unit: gelsight-mini, background, gripper, pad-axes",
+    "emulate": "run emulators that speak the real protocols: ur, dynamixel, taxels, rig",
+    "doctor": "check every device of a rig and advise on what is wrong; moves nothing",
+    "jog": "move a rig by keyboard in small limited steps, and show the contact",
+    "bench": "measure and print figures: strawberry, latency, gel, balls, faults, ...",
 }
 
 EXIT_CODES = """\
 Exit codes:
   0    success (for run: a verified grasp)
-  1    the episode ended otherwise, a decision differed, a demo or benchmark did not come out
+  1    any other end of an episode, a differing decision, a demo or benchmark that failed
   2    wrong use: unknown command, flag, field, file or value
   3    fault: robot, sensor, policy or recorder failed, or a bug
   130  stopped by the operator (Ctrl-C)"""
@@ -36,7 +36,7 @@ Exit codes:
 
 def usage() -> str:
     """The text of ``tacgrasp --help``."""
-    commands = "\n".join(f"  {name:10}{what}" for name, what in COMMANDS.items())
+    commands = "\n".join(f"  {name:10}{summary}" for name, summary in COMMANDS.items())
     return (
         "usage: tacgrasp COMMAND [OPTIONS]      tacgrasp COMMAND --help\n\n"
         "Touch becomes language becomes action: a gripper that feels what it holds.\n\n"
@@ -50,35 +50,35 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code."""
     argv = list(sys.argv[1:] if argv is None else argv)
     if not argv or argv[0] in ("-h", "--help", "help"):
-        _say(usage())
+        _print(usage())
         return 0 if argv else 2
     if argv[0] == "--version":
         from tacgrasp import __version__
 
-        _say(f"tacgrasp {__version__}")
+        _print(f"tacgrasp {__version__}")
         return 0
     try:
         return _dispatch(argv[0], argv[1:])
     except KeyboardInterrupt:
-        _complain("stopped by the operator")
+        _print_error("stopped by the operator")
         return 130
-    except BrokenPipeError:  # whoever read our output has gone
+    except BrokenPipeError:  # the reader of our output has gone
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 1
 
 
 def _dispatch(command: str, argv: Sequence[str]) -> int:
     from tacgrasp.base.errors import UsageError
-    from tacgrasp.base.package_check import check_siblings
+    from tacgrasp.base.package_check import check_packages
 
     try:
         if command not in COMMANDS:
             raise UsageError(f"unknown command {command!r}; known: {', '.join(COMMANDS)}")
-        check_siblings()
+        check_packages()
         module = importlib.import_module(f"tacgrasp.cli.{command}")
         return int(module.main(argv))
     except UsageError as error:
-        _complain(str(error))
+        _print_error(str(error))
         return 2
     except BrokenPipeError:
         raise
@@ -89,27 +89,27 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
 
             traceback.print_exc()
             return 3
-        _complain(str(error))
+        _print_error(str(error))
         return code
 
 
 def _exit_code(error: Exception) -> int | None:
-    """What an error that a command did not deal with itself means; None for a bug."""
+    """Exit code of an error that left a command; None for a bug."""
     from cltp import TouchError
     from policies import PolicyError
     from primitives import RobotError
     from tacgrasp.episodes.errors import EpisodeError
 
     if isinstance(error, (TouchError, EpisodeError)):
-        return 2  # outside an episode these come from files that a person named
+        return 2  # outside an episode these come from files named on the command line
     return 3 if isinstance(error, (RobotError, PolicyError)) else None
 
 
-def _say(text: str) -> None:
+def _print(text: str) -> None:
     sys.stdout.write(f"{text}\n")
 
 
-def _complain(message: str) -> None:
+def _print_error(message: str) -> None:
     sys.stderr.write(f"tacgrasp: {' '.join(message.split())}\n")
 
 

@@ -1,6 +1,6 @@
-"""What a person sees while an episode runs: a line a turn, then the end and the truth.
+"""Console output of an episode: a line for each step, then its end and the truth.
 
-Not here: what is felt (``cltp.tactile.measure``) or decided (the policies).
+Not here: measuring the contact (``cltp.tactile.measure``), deciding (``policies``).
 """
 
 from __future__ import annotations
@@ -10,57 +10,54 @@ from rich.text import Text
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
-from tacgrasp.episodes.record import StepPhase, StepRecord, Truth
+from tacgrasp.episodes.record import PHASE_LABELS, StepRecord, TruthFacts
 from tacgrasp.runtime.outcome import EndReason, Outcome
 
 COMPLETED = "Grasp completed successfully"
-"""What Algorithm 1 returns; printed for a verified grasp only."""
-
-_LABELS = {StepPhase.VERIFY_BEFORE: "before the lift", StepPhase.VERIFY_AFTER: "after lift and hold"}
+"""Final line of Algorithm 1; printed for a verified grasp only."""
 
 
-def console() -> Console:
-    """A console that keeps a line a line when nobody sees it."""
+def make_console() -> Console:
+    """A console that never wraps a line."""
     return Console(soft_wrap=True, highlight=False, markup=False)
 
 
-class LineView:
-    """Prints every turn; an ``Observer`` of the loop."""
+class StepPrinter:
+    """Prints a line for every step, with the time since the first; an ``Observer`` of the loop."""
 
-    def __init__(self, to: Console, began_s: float | None = None) -> None:
-        self._to = to
-        self._began_s = began_s
+    def __init__(self, console: Console) -> None:
+        self._console = console
+        self._started_s: float | None = None
 
     def __call__(self, record: StepRecord) -> None:
-        """Print one turn; the first one starts the time."""
-        if self._began_s is None:
-            self._began_s = record.stamp.monotonic_s
-        since_s = record.stamp.monotonic_s - self._began_s
-        self._to.print(turn_line(record, contact_state(record.cloud), since_s))
+        if self._started_s is None:
+            self._started_s = record.stamp.monotonic_s
+        elapsed_s = record.stamp.monotonic_s - self._started_s
+        self._console.print(step_line(record, contact_state(record.cloud), elapsed_s))
 
 
-def turn_line(record: StepRecord, state: ContactState, since_s: float) -> Text:
-    """One turn: number, time, contact, D_t, action, force, and what it took."""
-    line = Text(f"{record.index:3d} {since_s:6.1f} s  ")
-    line.append(contact_words(state), style="cyan")
+def step_line(record: StepRecord, state: ContactState, elapsed_s: float) -> Text:
+    """One step: number, time, contact, D_t, action, force and duration."""
+    note = f" | {record.note}" if record.note else ""
+    line = Text(f"{record.index:3d} {elapsed_s:6.1f} s  ")
+    line.append(contact_text(state), style="cyan")
     if record.decision is None:
-        return line.append(f" | {_LABELS.get(record.phase, '')}{_noted(record)}")
-    action = record.decision.action
+        return line.append(f" | {PHASE_LABELS.get(record.phase, '')}{note}")
+    action, executed = record.decision.action, record.executed
     line.append(f" | “{record.decision.text}”")
     line.append(f" | {action.value if action else 'no action'}", style="bold")
-    if record.executed is None:
+    if executed is None:
         line.append(f" | grip {record.gripper.force_n:.2f} N")
     else:
-        done = record.executed
-        line.append(f": {f'dry run, would be {done.asked}' if done.dry_run else done.sent}")
-        line.append(f" | grip {done.force_n:.2f} N")
-        for clamped in done.clamped:
-            line.append(f" ({clamped})", style="yellow")
-    return line.append(f" | {record.tick_ms:.0f} ms{_noted(record)}")
+        command = f"dry run, would be {executed.asked}" if executed.dry_run else executed.sent
+        line.append(f": {command} | grip {executed.force_n:.2f} N")
+        for limit in executed.clamped:
+            line.append(f" ({limit})", style="yellow")
+    return line.append(f" | {record.step_ms:.0f} ms{note}")
 
 
-def contact_words(state: ContactState) -> str:
-    """A contact in numbers; the words are D_t's to say."""
+def contact_text(state: ContactState) -> str:
+    """A contact in numbers; its words are those of D_t."""
     if not state.in_contact:
         return "no contact"
     cut = f", cut at the {' and '.join(sorted(state.cut))}" if state.cut else ""
@@ -71,31 +68,27 @@ def contact_words(state: ContactState) -> str:
 
 
 def end_lines(outcome: Outcome) -> list[Text]:
-    """The end's reason, the truth where there is one, and the paper's last line when earned."""
+    """Reason of the end, counts, the truth if known, and the paper's last line after a success."""
     lines = [
         Text(f"end: {outcome.reason} - {outcome.message}", style="bold"),
         Text(
-            f"{outcome.num_actions} actions in {outcome.num_steps} turns, {outcome.duration_s:.1f} s; "
-            f"{outcome.safe_state}"
+            f"{outcome.num_actions} actions in {outcome.num_steps} steps, "
+            f"{outcome.duration_s:.1f} s; {outcome.safe_state}"
         ),
     ]
     if outcome.truth is not None:
-        lines.append(Text(f"truth: {truth_words(outcome.truth)}"))
+        lines.append(Text(f"truth: {truth_text(outcome.truth)}"))
     if outcome.reason is EndReason.SUCCESS:
         lines.append(Text(COMPLETED, style="bold green"))
     return lines
 
 
-def truth_words(truth: Truth) -> str:
-    """What the simulator knows, in words: facts that are true by name, numbers with their units."""
-    facts = [name.replace("_", " ") for name, value in truth.items() if value is True]
-    denied = [name.replace("_", " ") for name, value in truth.items() if value is False]
+def truth_text(truth: TruthFacts) -> str:
+    """Facts of the simulator: the true ones, the false ones, then numbers with their units."""
+    flags = {name: value for name, value in truth.items() if isinstance(value, bool)}
+    positive = [name.replace("_", " ") for name, value in flags.items() if value]
+    negative = [f"not {name.replace('_', ' ')}" for name, value in flags.items() if not value]
     numbers = [
         f"{name} {value:.3g}" for name, value in truth.items() if type(value) in (int, float)
     ]
-    said = [*facts, *(f"not {name}" for name in denied), *numbers]
-    return ", ".join(said)
-
-
-def _noted(record: StepRecord) -> str:
-    return f" | {record.note}" if record.note else ""
+    return ", ".join([*positive, *negative, *numbers])

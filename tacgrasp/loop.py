@@ -1,10 +1,10 @@
-"""Algorithm 1 of the paper (appendix B), mended: feel, decide, act, until the grasp is good.
+"""Algorithm 1 of the paper (appendix B), corrected: read, decide, act, until the grasp is good.
 
-As printed it has four holes; what is done here instead:
+As printed it has four holes; the loop closes them as follows:
 
-1. 'Stable' stands in 'unstable': ``policies.extraction.extract`` reads whole words, and negation.
+1. 'Stable' is part of 'unstable': ``policies.extraction.extract`` reads whole words, and negation.
 2. It executes before it tests success. A text that declares success and names no action ends the
-   loop and moves nothing; one with both acts, and has to declare again on the next touch.
+   loop and moves nothing; one with both acts, and has to declare again in the next step.
 3. No action, or two: nothing moves, the gel is read and the policy asked again, ``max_asks`` times
    in a row, then ``no_action``.
 4. It never ends: actions, time, travel and force are bounded; the second ``reset`` ends it with
@@ -17,17 +17,18 @@ A declared success is then checked by lifting (``tacgrasp.runtime.verify``); onl
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import count
 
 from cltp import TouchError
-from policies import Decision, Policy, PolicyError
+from policies import Policy, PolicyError
 from primitives import LimitError, Primitive, RobotError
 from primitives.execution import Executed, Executor
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeError
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
-from tacgrasp.runtime.shutdown import close
-from tacgrasp.runtime.tick import Recorder, Turns
+from tacgrasp.runtime.shutdown import Ending, close
+from tacgrasp.runtime.steps import Recorder, Step, Steps, read_observation
 
 
 def run_episode(
@@ -36,40 +37,44 @@ def run_episode(
     policy: Policy,
     config: RunConfig,
     *,
-    verify: Callable[[Rig, Turns, RunConfig], Verification],
+    verify: Callable[[Rig, Steps, RunConfig], Verification],
     recorder: Recorder,
     observers: Sequence[Observer] = (),
 ) -> Outcome:
     """Close the loop until one of the named ends; the robot is then in the task's state.
 
     Raises:
-        Exception: A bug in what it calls; the robot has been made safe and the episode ended.
+        Exception: A bug in a called function; the robot has been made safe and the episode ended.
     """
-    turns = Turns(rig, config.loop, recorder, observers)
-    end = EndOfEpisode(EndReason.FAULT, "stopped by an error that nobody foresaw; this is a bug")
-    declared, verified, steps, resets = False, None, 0, 0
+    steps = Steps(rig, config.loop, recorder, observers)
+    end = EndOfEpisode(EndReason.FAULT, "stopped by an unforeseen error; this is a bug")
+    step: Step | None = None
+    verification: Verification | None = None
     try:
         policy.start()
         executor.grasp()
         while True:
-            turns.check_time()
-            decision = turns.feel_and_ask(policy, config.instruction)
-            declared = decision.success and decision.action is None
-            if declared:
-                turns.record(executed=None)
-                verification = verify(rig, turns, config)
-                verified = verification.passed
-                end = _verified_end(verification)
-                break
+            steps.check_time()
+            for attempt in count(1):  # repeated after an error, loop.max_faults times in a row
+                try:
+                    observation = read_observation(rig)
+                    decision = policy.decide(observation.cloud, config.instruction)
+                    break
+                except (TouchError, PolicyError) as error:
+                    steps.survive(error, attempt)
+            step = Step(observation=observation, decision=decision)
+            if step.declared:
+                steps.record(step)
+                verification = verify(rig, steps, config)
+                reason = EndReason.SUCCESS if verification.passed else EndReason.UNVERIFIED
+                raise EndOfEpisode(reason, verification.message)
             if decision.action is None:
-                turns.record(executed=None, note=f"nothing moved: {decision.reason}")
-                turns.count_blank(decision)
+                steps.record(step, note=f"nothing moved: {decision.reason}")
+                steps.count_blank(decision)
                 continue
-            resets += decision.action is Primitive.RESET
-            _check_bounds(decision, turns, steps, resets, config)
+            _check_bounds(step, decision.action, steps, config)
             executed = executor.execute(decision.action)
-            steps += not executed.dry_run
-            turns.record(executed)
+            steps.record(step, executed)
             _check_sent(executed)
     except EndOfEpisode as reached:
         end = reached
@@ -80,32 +85,32 @@ def run_episode(
     except KeyboardInterrupt:
         end = EndOfEpisode(EndReason.OPERATOR, "stopped by the operator")
     finally:
-        outcome = close(rig, config, recorder, turns, end, declared, verified, steps)
+        ending = Ending(
+            rig=rig,
+            config=config,
+            recorder=recorder,
+            steps=steps,
+            end=end,
+            last_step=step,
+            verification=verification,
+        )
+        outcome = close(ending)
     return outcome
 
 
-def _verified_end(verification: Verification) -> EndOfEpisode:
-    reason = EndReason.SUCCESS if verification.passed else EndReason.UNVERIFIED
-    return EndOfEpisode(reason, verification.message)
-
-
-def _check_bounds(
-    decision: Decision, turns: Turns, steps: int, resets: int, config: RunConfig
-) -> None:
-    """Ends that forbid the action that was just decided; the turn is recorded as not executed."""
-    if resets > 1:
-        turns.record(executed=None, note="second reset: not executed")
-        raise EndOfEpisode(EndReason.CONTACT_LOST, "a second reset was asked for")
-    if steps >= config.loop.max_steps:
-        turns.record(executed=None, note="max_steps: not executed")
-        raise EndOfEpisode(
-            EndReason.MAX_STEPS,
-            f"{steps} actions without a good grasp (loop.max_steps)",
-        )
+def _check_bounds(step: Step, action: Primitive, steps: Steps, config: RunConfig) -> None:
+    """End the episode in place of a second reset or of an action beyond ``max_steps``."""
+    if action is Primitive.RESET and steps.num_resets:
+        steps.record(step, note="second reset: not executed")
+        raise EndOfEpisode(EndReason.CONTACT_LOST, "the policy asked for a second reset")
+    if steps.num_actions >= config.loop.max_steps:
+        steps.record(step, note="max_steps: not executed")
+        message = f"{steps.num_actions} actions without a good grasp (loop.max_steps)"
+        raise EndOfEpisode(EndReason.MAX_STEPS, message)
 
 
 def _check_sent(executed: Executed) -> None:
-    """Where nothing was sent, the next touch would be the same, for ever."""
+    """End the episode when nothing was sent: the next observation would be the same, for ever."""
     if executed.dry_run:
         raise EndOfEpisode(EndReason.MAX_STEPS, "dry run: one decision, nothing was sent")
     if executed.sent == "nothing":  # the force is at its limit already

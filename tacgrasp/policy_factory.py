@@ -1,4 +1,4 @@
-"""Build the policy that a name stands for; to add one, write a function and a line in the table."""
+"""Build a policy by name. A new policy gets a function and a line in the table ``POLICIES``."""
 
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ if TYPE_CHECKING:
 WEIGHTS_VARIABLE = "TACGRASP_WEIGHTS"
 
 LLM_THREADS = 1
-"""Threads of torch beside the language model. Its products are too small to gain from a second
-one, and with a number that is always the same a decision can be repeated to the bit."""
+"""Threads of torch for the language model. Its matrices are too small to gain from a second thread,
+and with a fixed number a decision can be repeated to the bit."""
 
 
 def default_weights() -> Path:
-    """Folder of weights where no flag names one: ``TACGRASP_WEIGHTS``, else what is shipped."""
-    named = os.environ.get(WEIGHTS_VARIABLE)
-    return Path(named) if named else shipped_weights()
+    """Folder of weights without a flag: ``TACGRASP_WEIGHTS``, else the shipped weights."""
+    folder = os.environ.get(WEIGHTS_VARIABLE)
+    return Path(folder) if folder else shipped_weights()
 
 
 def shipped_weights() -> Path:
-    """Folder of the weights that come with the program, in the ``policies`` package."""
+    """Folder of the shipped weights, in the ``policies`` package."""
     return Path(policies.__file__).parent / "weights"
 
 
 def load_llm(weights: Path | None = None) -> LlmPolicy:
-    """The language model of a folder, with torch's threads set for this process.
+    """Load the language model of a folder, and set the number of torch's threads in this process.
 
     Args:
         weights: Folder; None takes ``default_weights``.
 
     Raises:
-        TouchError: Weights are missing, damaged, or don't fit together.
+        TouchError: Weights are missing, damaged, or of different models.
     """
     import torch
 
@@ -53,7 +53,7 @@ def load_llm(weights: Path | None = None) -> LlmPolicy:
 def _llm(config: RunConfig) -> Policy:
     policy = load_llm(config.weights)
     try:
-        policy.check(config.instruction)  # now, not when the object is between the fingers
+        policy.check(config.instruction)  # an error now is better than one during the grasp
     except PolicyError as error:
         raise UsageError(str(error)) from None
     return policy
@@ -84,21 +84,20 @@ POLICIES: dict[str, Callable[[RunConfig], Policy]] = {
     "random": _random,
 }
 
-_ELSEWHERE = {
+_OTHER_COMMANDS = {
     "oracle": "it sees the simulator's truth: only `tacgrasp bench strawberry` has it",
     "recorded": "it repeats an episode: use `tacgrasp replay EPISODE`",
 }
 
 
 def make_policy(name: str, config: RunConfig) -> Policy:
-    """The policy called ``name``.
+    """Build the policy called ``name``.
 
     Raises:
-        UsageError: There is none, or it is not one that a run can use, or it can't understand the
-            instruction.
+        UsageError: It is unknown, or a run can't use it, or it can't understand the instruction.
         TouchError: The language model's weights can't be used.
     """
     if name not in POLICIES:
-        why = f"; {_ELSEWHERE[name]}" if name in _ELSEWHERE else ""
-        raise UsageError(f"unknown policy {name!r}; known: {', '.join(POLICIES)}{why}")
+        hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
+        raise UsageError(f"unknown policy {name!r}; known: {', '.join(POLICIES)}{hint}")
     return POLICIES[name](config)

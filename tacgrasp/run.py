@@ -1,4 +1,4 @@
-"""One recorded episode: rig, policy, executor, verification and record put together.
+"""Run one episode and record it: rig, policy, executor, verification and recorder together.
 
 Not here: the loop itself (``tacgrasp.loop``), flags and printing (``tacgrasp.cli.run``).
 """
@@ -21,10 +21,10 @@ from tacgrasp.episodes import (
     EpisodeHeader,
     EpisodeWriter,
     episode_path,
-    record_directory,
+    make_record_directory,
 )
 from tacgrasp.loop import run_episode
-from tacgrasp.rig.factory import expect_untouched, make_executor
+from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
 from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
@@ -36,15 +36,15 @@ def run_recorded(
     """Run an episode and record it in ``config.record``; the file is closed on every path.
 
     Raises:
-        EpisodeError: The record can't be begun; nothing has moved.
+        EpisodeError: The record can't be created; nothing has moved.
         LimitError: The rig starts outside its workspace; nothing has moved.
-        RobotError: The gel is not as the sensor knows it untouched; nothing has moved.
+        RobotError: The gel does not match the sensor's background; nothing has moved.
     """
     if not config.dry_run:
-        expect_untouched(rig)
+        rig.expect_untouched()
     header = _header(rig, policy, config)
     executor = make_executor(rig, config)
-    directory = record_directory(config.record)
+    directory = make_record_directory(config.record)
     path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)
     outcome: Outcome | None = None
     try:
@@ -67,7 +67,7 @@ def run_recorded(
 
 
 def config_yaml(config: RunConfig) -> str:
-    """The whole configuration as YAML, after all overrides."""
+    """The whole configuration, after all overrides, as YAML."""
     return yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
 
 
@@ -87,6 +87,5 @@ def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
 
 
 def _versions() -> dict[str, str]:
-    packages = ("numpy", "scipy", "torch", "mcap")
-    found = {name: metadata.version(name) for name in packages}
-    return {"tacgrasp": __version__, "python": platform.python_version(), **found}
+    libraries = {name: metadata.version(name) for name in ("numpy", "scipy", "torch", "mcap")}
+    return {"tacgrasp": __version__, "python": platform.python_version(), **libraries}

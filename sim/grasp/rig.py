@@ -124,7 +124,6 @@ class SimRig:
         return ()
 
     def disconnect(self) -> None:
-        """Disconnect every device."""
         for device in (self.arm, self.gripper, self.sensor):
             device.disconnect()
 

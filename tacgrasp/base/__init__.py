@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Small parts for every folder of this package: errors, settings base, torch device, HTML pages.
+
+Not here: anything that knows a device, an episode or a policy.
+"""

@@ -1,4 +1,4 @@
-"""Errors of the application: what a person asked for can't be done as asked."""
+"""Errors in a person's use of the program."""
 
 
 class UsageError(Exception):

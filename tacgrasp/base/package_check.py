@@ -1,4 +1,4 @@
-"""Check that our five top-level packages come from one place; their names are common ones."""
+"""Check that our five top-level packages lie in one folder, since their names are common ones."""
 
 from __future__ import annotations
 
@@ -7,32 +7,32 @@ from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
 
-SIBLINGS = ("cltp", "primitives", "policies", "sim")
+PACKAGES = ("cltp", "primitives", "policies", "sim")
 
 
-def check_siblings() -> None:
-    """Refuse to run on somebody else's ``sim`` or ``policies``. Imports none of them.
+def check_packages() -> None:
+    """Refuse to run with another distribution's ``sim`` or ``policies``. Imports none of them.
 
     Raises:
-        UsageError: A sibling is missing or comes from elsewhere; the message names the intruder.
+        UsageError: A package is missing or comes from another folder, which the message names.
     """
     home = Path(__file__).resolve().parents[2]
-    for name in SIBLINGS:
-        place = _place_of(name)
-        if place is None:
+    for name in PACKAGES:
+        location = _location(name)
+        if location is None:
             raise UsageError(
                 f"package {name!r} is missing beside tacgrasp in {home}; install tacgrasp again "
                 "in a virtual environment of its own"
             )
-        if place.parent != home:
+        if location.parent != home:
             raise UsageError(
-                f"package {name!r} comes from {place}, not from {home} like tacgrasp: another "
+                f"package {name!r} comes from {location}, not from {home} like tacgrasp: another "
                 "distribution or folder of that name is in the way; remove it, or install "
                 "tacgrasp in a virtual environment of its own"
             )
 
 
-def _place_of(name: str) -> Path | None:
+def _location(name: str) -> Path | None:
     try:
         spec = find_spec(name)
     except ValueError:  # something without a spec sits in sys.modules under this name

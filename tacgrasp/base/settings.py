@@ -1,6 +1,6 @@
-"""What every part of the configuration is made of: a model that refuses what it does not know.
+"""Base class of every section of the configuration.
 
-Parts live beside what they configure: ``tacgrasp.config.schema`` for tasks, limits and the loop,
+Sections live beside what they configure: ``tacgrasp.config.schema`` for tasks, limits and the loop,
 ``tacgrasp.drivers`` for each device of a rig.
 """
 
@@ -15,7 +15,7 @@ Interval = tuple[Number, Number]
 Vector = tuple[Number, Number, Number]
 
 
-class Section(BaseModel):
-    """A part of the configuration: refuses fields that it does not know."""
+class SettingsBase(BaseModel):
+    """A section of the configuration; unknown fields are refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)

@@ -1,4 +1,4 @@
-"""Where torch computes, by the name that a person gives to ``--device``."""
+"""Torch devices by the name given to ``--device``."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from tacgrasp.base.errors import UsageError
 
 
 def usable_device(name: str) -> torch.device:
-    """The device of that name.
+    """Device of that name.
 
     Raises:
-        UsageError: There is none, or torch can't use it here.
+        UsageError: There is none, or torch can't use it on this computer.
     """
     try:
         device = torch.device(name)

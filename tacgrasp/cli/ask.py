@@ -1,4 +1,4 @@
-"""``tacgrasp ask FILE "question"``: what the language model says about the touch in a file."""
+"""``tacgrasp ask FILE "question"``: the language model answers a question about a contact."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
-class Ask:
-    """Ask about a cloud (.ply .pcd .xyz .npy .npz) or a height map (.npy .npz), in mm.
+class AskFlags:
+    """Answer a question about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz), in mm.
 
     Attributes:
-        file: The file.
-        question: In plain English, for example "How deep is it pressed?".
-        sensor: Whose field it is.
-        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
+        file: Cloud or height map.
+        question: Question in plain English, for example "How deep is it pressed?".
+        sensor: Name of the sensor that the file is from.
+        weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
     """
 
     file: tyro.conf.Positional[Path]
@@ -31,18 +31,18 @@ class Ask:
 
 def main(argv: Sequence[str]) -> int:
     """Answer one question."""
-    flags = parse(Ask, argv, prog="tacgrasp ask")
+    flags = parse(AskFlags, argv, prog="tacgrasp ask")
     from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
     from tacgrasp.console import make_console
     from tacgrasp.policy_factory import load_llm
 
-    touch = read_cloud(flags.file, sensor_named(flags.sensor))
+    cloud = read_cloud(flags.file, sensor_named(flags.sensor))
     policy = load_llm(flags.weights)
     try:
         policy.check(flags.question)
     except PolicyError as error:
         raise UsageError(str(error)) from None
-    make_console().print(policy.ask(touch, flags.question))
+    make_console().print(policy.ask(cloud, flags.question))
     return 0

@@ -16,8 +16,8 @@ class DemoFlags:
     """Play a scripted demo on the simulated rig; without a name, list them.
 
     Attributes:
-        name: Which demo.
-        record: Folder that its episode is written to.
+        name: Name of the demo.
+        record: Folder for the recorded episode.
     """
 
     name: tyro.conf.Positional[str] = ""
@@ -25,24 +25,24 @@ class DemoFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Play one demo; 1 when it does not come out as told."""
+    """Play one demo; 1 when actions or end differ from its script."""
     flags = parse(DemoFlags, argv, prog="tacgrasp demo")
-    from tacgrasp.console import LineView, console, end_lines
+    from tacgrasp.console import StepPrinter, end_lines, make_console
     from tacgrasp.playback.demo import DEMOS, play
 
-    to = console()
+    console = make_console()
     if not flags.name:
         for name, demo in DEMOS.items():
-            to.print(f"{name:10}{demo.what}")
+            console.print(f"{name:10}{demo.summary}")
         return 0
-    shown = play(flags.name, flags.record, [LineView(to)])
+    result = play(flags.name, flags.record, [StepPrinter(console)])
     demo = DEMOS[flags.name]
-    to.print(f"episode: {shown.path}")
-    for line in end_lines(shown.outcome):
-        to.print(line)
-    told, came = (
-        ", ".join([*actions, end])
-        for actions, end in ((demo.actions, demo.end), (shown.actions, shown.outcome.reason))
-    )
-    to.print(f"as told: {told}" if shown.as_told else f"expected {told}; came {came}")
-    return 0 if shown.as_told else 1
+    console.print(f"episode: {result.path}")
+    for line in end_lines(result.outcome):
+        console.print(line)
+    script = ", ".join([*demo.actions, demo.end])
+    if result.as_scripted:
+        console.print(f"as scripted: {script}")
+        return 0
+    console.print(f"expected {script}; got {', '.join([*result.actions, result.outcome.reason])}")
+    return 1

@@ -1,4 +1,4 @@
-"""``tacgrasp describe FILE``: a touch in words and numbers, measured and as the model says it."""
+"""``tacgrasp describe FILE``: a contact in words and numbers, measured and by the model."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
-class Describe:
-    """Say what a cloud (.ply .pcd .xyz .npy .npz) or a height map (.npy .npz), in mm, is.
+class DescribeFlags:
+    """Describe the contact in a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz), in mm.
 
-    Or a frame of the sensor's camera (.png .jpg .bmp), with its background.
+    A frame of the sensor's camera (.png .jpg .bmp) needs its background too.
 
     Attributes:
-        file: The file.
-        sensor: Whose field it is.
-        background: For a frame: another of the same unit with nothing touching it.
-        calibration: For a frame: of its unit; without it the one that comes along.
-        instruction: What the model's advice is for; without it that of the strawberry.
-        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
+        file: Cloud, height map or frame.
+        sensor: Name of the sensor that the file is from.
+        background: For a frame: a frame of the same sensor unit with an untouched gel.
+        calibration: For a frame: calibration of its sensor unit; by default the shipped one.
+        instruction: Instruction that the model advises on; by default the strawberry's.
+        weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
     """
 
     file: tyro.conf.Positional[Path]
@@ -37,27 +37,27 @@ class Describe:
 
 def main(argv: Sequence[str]) -> int:
     """Describe one file."""
-    flags = parse(Describe, argv, prog="tacgrasp describe")
+    flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
     from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
-    from tacgrasp.playback.describe import describe, said
+    from tacgrasp.playback.describe import describe, describe_by_model
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
-    to = make_console()
-    touch = read_cloud(
+    console = make_console()
+    cloud = read_cloud(
         flags.file,
         sensor_named(flags.sensor),
         background=flags.background,
         calibration=flags.calibration,
     )
-    for line in describe(touch):
-        to.print(line)
+    for line in describe(cloud):
+        console.print(line)
     weights = flags.weights or default_weights()
     if weights == shipped_weights() and not weights.is_dir():
-        to.print(
+        console.print(
             f"model     none: no weights in {weights}; train them with `tacgrasp train all` and "
             "name their folder with --weights"
         )
@@ -70,6 +70,6 @@ def main(argv: Sequence[str]) -> int:
         model.check(instruction)
     except PolicyError as error:
         raise UsageError(f"--instruction: {error}") from None
-    for line in said(touch, model, instruction):
-        to.print(line)
+    for line in describe_by_model(cloud, model, instruction):
+        console.print(line)
     return 0

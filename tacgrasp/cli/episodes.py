@@ -1,34 +1,34 @@
-"""``tacgrasp episodes ls | info | recover | plot``: what has been recorded."""
+"""``tacgrasp episodes ls | info | recover | plot``: list and inspect recorded episodes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import tyro
 
-from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.cli.flags import run_subcommand
 
 if TYPE_CHECKING:
     from rich.console import Console
 
 
 @dataclass(frozen=True)
-class Ls:
+class ListFlags:
     """List the episodes of a folder.
 
     Attributes:
-        folder: Where they were recorded.
+        folder: Folder of recorded episodes.
     """
 
     folder: tyro.conf.Positional[Path] = Path("episodes")
 
 
 @dataclass(frozen=True)
-class Info:
-    """Everything about one episode but its touches.
+class InfoFlags:
+    """Print everything about one episode but its clouds.
 
     Attributes:
         episode: The .mcap file.
@@ -38,12 +38,12 @@ class Info:
 
 
 @dataclass(frozen=True)
-class Recover:
-    """Make a finished file of one that a crash left unfinished.
+class RecoverFlags:
+    """Finish the file of an episode that a crash left unfinished.
 
     Attributes:
         episode: The .mcap file.
-        out: Where to write it; without it the file is replaced and the old one kept beside it.
+        out: File to write; by default the episode is replaced, and the old file kept beside it.
     """
 
     episode: tyro.conf.Positional[Path]
@@ -51,12 +51,12 @@ class Recover:
 
 
 @dataclass(frozen=True)
-class Plot:
-    """Draw an episode.
+class PlotFlags:
+    """Draw an episode as one picture.
 
     Attributes:
         episode: The .mcap file.
-        out: The picture; without it the episode's name with .png.
+        out: Picture to write; by default the episode's name with .png.
     """
 
     episode: tyro.conf.Positional[Path]
@@ -64,57 +64,48 @@ class Plot:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Dispatch to the four commands."""
-    actions: dict[str, Callable[[Sequence[str], str], None]] = {
-        "ls": _ls,
-        "info": _info,
-        "recover": _recover,
-        "plot": _plot,
+    """Run one of the four subcommands."""
+    commands: dict[str, tuple[type[Any], Callable[[Any], None]]] = {
+        "ls": (ListFlags, _list),
+        "info": (InfoFlags, _info),
+        "recover": (RecoverFlags, _recover),
+        "plot": (PlotFlags, _plot),
     }
-    name, rest = subcommand("episodes", argv, {n: a.__doc__ or "" for n, a in actions.items()})
-    if name is not None:
-        actions[name](rest, f"tacgrasp episodes {name}")
+    run_subcommand("episodes", argv, commands)
     return 0
 
 
-def _ls(argv: Sequence[str], prog: str) -> None:
-    """List the episodes of a folder."""
+def _list(flags: ListFlags) -> None:
     from tacgrasp.episodes.listing import list_episodes, table
 
-    found = list_episodes(parse(Ls, argv, prog=prog).folder)
-    _wide().print(table(found))
+    _table_console().print(table(list_episodes(flags.folder)))
 
 
-def _info(argv: Sequence[str], prog: str) -> None:
-    """Everything about one episode but its touches."""
+def _info(flags: InfoFlags) -> None:
     from tacgrasp.episodes.listing import info
 
-    _wide().print(info(parse(Info, argv, prog=prog).episode))
+    _table_console().print(info(flags.episode))
 
 
-def _recover(argv: Sequence[str], prog: str) -> None:
-    """Make a finished file of one that a crash left unfinished."""
-    from tacgrasp.console import console
+def _recover(flags: RecoverFlags) -> None:
+    from tacgrasp.console import make_console
     from tacgrasp.episodes.recover import recover
 
-    flags = parse(Recover, argv, prog=prog)
-    console().print(recover(flags.episode, flags.out).message)
+    make_console().print(recover(flags.episode, flags.out).message)
 
 
-def _plot(argv: Sequence[str], prog: str) -> None:
-    """Draw an episode."""
-    from tacgrasp.console import console
+def _plot(flags: PlotFlags) -> None:
+    from tacgrasp.console import make_console
     from tacgrasp.episodes.plot import plot_episode
 
-    flags = parse(Plot, argv, prog=prog)
     png = flags.out or flags.episode.with_suffix(".png")
     plot_episode(flags.episode, png)
-    console().print(f"drawn: {png}")
+    make_console().print(f"drawn: {png}")
 
 
-def _wide() -> Console:
-    """As wide as the terminal; wide enough for the tables where there is none."""
+def _table_console() -> Console:
+    """A console of the terminal's width; without a terminal wide enough for the tables."""
     from rich.console import Console
 
-    to = Console()
-    return to if to.is_terminal else Console(width=160)
+    console = Console()
+    return console if console.is_terminal else Console(width=160)

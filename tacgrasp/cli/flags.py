@@ -1,23 +1,25 @@
-"""Read a command's flags with tyro over a model or dataclass; errors become one line.
+"""Read a command's flags with tyro over a model or dataclass; an error is one line of text.
 
-Not here: what the flags mean.
+Not here: the flags of each command (the other modules of ``tacgrasp.cli``).
 """
 
 from __future__ import annotations
 
-import io
-import os
-import re
 import sys
-from collections.abc import Mapping, Sequence
-from contextlib import redirect_stderr, redirect_stdout
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import fields, is_dataclass
+from difflib import get_close_matches
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, NoReturn, TypeVar
 
 import tyro
+from pydantic import ValidationError
+from tyro import _errors as tyro_errors  # tyro's only structured errors; see pyproject's version
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.config.errors import unit_of
+from tacgrasp.base.settings import SettingsBase
+from tacgrasp.config.errors import explain_flag, flag_of
+from tacgrasp.config.layers import leaves
 
 T = TypeVar("T")
 
@@ -28,103 +30,112 @@ def parse(kind: type[T], argv: Sequence[str], *, prog: str, default: T | None = 
     Raises:
         UsageError: A flag or value that doesn't fit, in one line.
     """
-    if any(flag in argv for flag in ("-h", "--help")):
-        return _parse(kind, argv, prog, default)
-    printed = io.StringIO()
-    columns = os.environ.get("COLUMNS")
-    os.environ["COLUMNS"] = "4000"  # tyro wraps its boxes to the terminal; we take the box off
-    try:
-        with redirect_stderr(printed), redirect_stdout(printed):
-            return _parse(kind, argv, prog, default)
-    except SystemExit:
-        raise UsageError(f"{_unboxed(printed.getvalue())} (see {prog} --help)") from None
-    finally:
-        if columns is None:
-            del os.environ["COLUMNS"]
-        else:
-            os.environ["COLUMNS"] = columns
+
+    def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:
+        message = " ".join(_problem(event, default or kind).split())
+        raise UsageError(f"{message} (see {prog} --help)") from None
+
+    with tyro_errors.on_parse_error(refuse):
+        if default is None:
+            return tyro.cli(kind, args=argv, prog=prog)
+        return tyro.cli(kind, args=argv, prog=prog, default=default)
 
 
-def _parse(kind: type[T], argv: Sequence[str], prog: str, default: T | None) -> T:
-    if default is None:
-        return tyro.cli(kind, args=argv, prog=prog)
-    return tyro.cli(kind, args=argv, prog=prog, default=default)
-
-
-def _unboxed(text: str) -> str:
-    """What tyro says (title, rule, message, rule, hints), on one line and without references."""
-    blocks: list[list[str]] = [[]]
-    for line in (raw.strip() for raw in text.splitlines()):
-        if line and set(line) == {"-"}:
-            blocks.append([])
-        elif line:
-            blocks[-1].append(line)
-    message = " ".join(blocks[1] if len(blocks) > 1 else blocks[0])
-    message = re.sub(r"For further information visit \S+", "", message)
-    message = re.sub(r" \[type=value_error.*", "", message)
-    message = re.sub(r"\[type=\w+, input_value=(.*?), input_type=\w+\]", r"(got \1)", message)
-    guesses = [block[1] for block in blocks if len(block) > 1 and block[0].startswith("Perhaps")]
-    message = _VALIDATION.sub(_plain, " ".join(message.split()))
-    hint = f"; did you mean {guesses[0].split()[0]}?" if guesses else ""
-    return message + hint
-
-
-_VALIDATION = re.compile(
-    r"Error parsing (?P<section>\S+): \d+ validation errors? for (?P<model>\w+) "
-    r"((?P<field>[\w.]+) (?=Input|Value|String|Assert))?(Value error, |Input |Value |String )"
-)
-"""How tyro passes on what pydantic said."""
-
-
-def _plain(found: re.Match[str]) -> str:
-    """The flag that pydantic's message is about, with its unit."""
-    section = "" if found["section"] == found["model"] else f"{found['section']}."
-    if found["field"] is None:
-        return f"--{section[:-1]}: " if section else ""
-    unit = unit_of(found["field"])
-    flag = f"--{section}{found['field']}".replace("_", "-")
-    return f"{flag}{f' [{unit}]' if unit else ''} "
-
-
-def flag_value(argv: Sequence[str], flag: str) -> str | None:
-    """Value of one flag, needed before the others can be read; None when it is not given.
+def parse_some(kind: type[T], argv: Sequence[str]) -> T:
+    """Parse the flags of the dataclass ``kind`` alone; all others are left to ``parse``.
 
     Raises:
-        UsageError: The flag stands without a value.
+        UsageError: One of its flags stands without a value.
     """
-    value = None
-    for place, token in enumerate(argv):
-        if token == flag:
-            if place + 1 == len(argv) or argv[place + 1].startswith("--"):
-                raise UsageError(f"{flag} needs a value")
-            value = argv[place + 1]
-        elif token.startswith(f"{flag}="):
-            value = token.removeprefix(f"{flag}=")
-    return value
+
+    def refuse(event: tyro_errors.ParseErrorEvent) -> NoReturn:
+        raise UsageError(_problem(event, kind)) from None
+
+    with tyro_errors.on_parse_error(refuse):
+        return tyro.cli(kind, args=argv, return_unknown_args=True, add_help=False)[0]
+
+
+def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
+    """Error message of a refused command line; ``flags`` is the model or dataclass to be filled."""
+    match event:
+        case tyro_errors.UnrecognizedArgs(tokens=tokens):
+            matches = get_close_matches(tokens[0].split("=")[0], _names(flags), n=1)
+            hint = f"; did you mean {matches[0]}?" if matches else ""
+            return f"unknown arguments: {' '.join(tokens)}{hint}"
+        case tyro_errors.MissingArgs(missing_arguments=missing):
+            return f"missing: {', '.join(_name(one.arg) for one in missing)}"
+        case tyro_errors.BadValue(argument=argument):
+            return f"{_name(argument)} needs a value: {argument.lowered.metavar}"
+        case tyro_errors.InvalidChoice(argument=argument, value=value, choices=choices):
+            return f"{_name(argument)} must be one of {', '.join(choices)}, got {value!r}"
+        case tyro_errors.InstantiationFailure(argument=argument, message=message):
+            if argument is not None:
+                first_line = message.splitlines()[0]
+                return f"{_name(argument)} must be {argument.lowered.metavar}: {first_line}"
+            error = sys.exception()
+            while error is not None and not isinstance(error, ValidationError):
+                error = error.__context__  # tyro passes on the text of pydantic's error alone
+            return message if error is None else explain_flag(error)
+    return "the arguments can't be understood"
+
+
+def _name(argument: Any) -> str:
+    """A flag, or the placeholder of a positional argument."""
+    lowered = argument.lowered
+    return str(lowered.metavar) if argument.is_positional() else "/".join(lowered.name_or_flags)
+
+
+def _names(flags: object) -> list[str]:
+    if isinstance(flags, SettingsBase):
+        return [flag_of(path) for path in leaves(flags)]
+    return [flag_of(field.name) for field in fields(flags)] if is_dataclass(flags) else []
 
 
 def subcommand(
-    command: str, argv: Sequence[str], known: Mapping[str, str]
+    command: str, argv: Sequence[str], summaries: Mapping[str, str]
 ) -> tuple[str | None, Sequence[str]]:
-    """The subcommand and its own arguments; None when only help was asked for (it is printed).
+    """Name and arguments of the subcommand; None when only help was asked for (it is printed).
 
     Raises:
         UsageError: None was given, or it is not known.
     """
     if argv[:1] in (["-h"], ["--help"]):
-        width = max(map(len, known)) + 2
-        lines = [f"  {name:{width}}{what.splitlines()[0]}" for name, what in known.items()]
-        usage = f"usage: tacgrasp {command} {{{','.join(known)}}} [OPTIONS]\n\n"
+        width = max(map(len, summaries)) + 2
+        lines = [f"  {name:{width}}{text.splitlines()[0]}" for name, text in summaries.items()]
+        usage = f"usage: tacgrasp {command} {{{','.join(summaries)}}} [OPTIONS]\n\n"
         sys.stdout.write(usage + "\n".join(lines) + "\n")
         return None, []
-    if not argv or argv[0] not in known:
+    if not argv or argv[0] not in summaries:
         got = repr(argv[0]) if argv else "nothing"
-        raise UsageError(f"tacgrasp {command} expects one of {', '.join(known)}, got {got}")
+        raise UsageError(f"tacgrasp {command} expects one of {', '.join(summaries)}, got {got}")
     return argv[0], argv[1:]
 
 
+def run_subcommand(
+    command: str,
+    argv: Sequence[str],
+    commands: Mapping[str, tuple[type[Any], Callable[[Any], T]]],
+) -> T | None:
+    """Parse and run one of ``commands``; None when only help was asked for (it is printed).
+
+    Args:
+        command: Name of the command.
+        argv: Its arguments.
+        commands: Flags and function of each subcommand; the docstring of the flags is its summary.
+
+    Raises:
+        UsageError: An unknown subcommand, or a flag or value that doesn't fit.
+    """
+    summaries = {name: flags.__doc__ or "" for name, (flags, _) in commands.items()}
+    name, rest = subcommand(command, argv, summaries)
+    if name is None:
+        return None
+    flags, run = commands[name]
+    return run(parse(flags, rest, prog=f"tacgrasp {command} {name}"))
+
+
 def writable(json_path: Path | None) -> Path | None:
-    """Refuse a place that can't be written before minutes are spent on measuring."""
+    """Check that a result file can be written, before minutes are spent on measuring."""
     if json_path is None:
         return None
     try:

@@ -14,16 +14,19 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
 from tacgrasp.episodes import Episode
 
+MAX_DEVIATION_MM = 1.0
+"""A repeated pose further than this from the recorded one changes the exit code [mm]."""
+
 
 @dataclass(frozen=True)
-class Replay:
-    """Go through a recorded episode again, turn by turn.
+class ReplayFlags:
+    """Replay a recorded episode step by step.
 
     Attributes:
         episode: The .mcap file.
-        decide: Run a policy on the recorded touches and report every decision that differs.
-        policy: Which policy decides; without it the one that was recorded.
-        weights: Folder of the language model's weights; without it those that were recorded.
+        decide: Run a policy on the recorded clouds and report every decision that differs.
+        policy: Policy that decides; by default the recorded one.
+        weights: Folder of the language model's weights; by default the recorded one.
         execute: Repeat the motion on the simulated arm, with a soft start and the same limits.
     """
 
@@ -36,45 +39,44 @@ class Replay:
 
 def main(argv: Sequence[str]) -> int:
     """Show, decide or move an episode again; 1 when a decision differs or a pose is not reached."""
-    flags = parse(Replay, argv, prog="tacgrasp replay")
+    flags = parse(ReplayFlags, argv, prog="tacgrasp replay")
     if flags.decide and flags.execute:
         raise UsageError("give --decide or --execute, one after the other")
-    for flag, given in (("--policy", flags.policy), ("--weights", flags.weights)):
-        if given is not None and not flags.decide:
+    for flag, value in (("--policy", flags.policy), ("--weights", flags.weights)):
+        if value is not None and not flags.decide:
             raise UsageError(f"{flag} needs --decide")
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
     from tacgrasp.episodes import read_episode
 
     episode = read_episode(flags.episode)
-    to = console()
+    console = make_console()
     if episode.problem:
-        to.print(f"incomplete: {episode.problem}")
+        console.print(f"incomplete: {episode.problem}")
     if flags.decide:
-        return _decide(episode, flags, to)
+        return _decide(episode, flags, console)
     if flags.execute:
-        return _execute(episode, flags.episode, to)
-    return _show(episode, to)
+        return _execute(episode, flags.episode, console)
+    return _show(episode, console)
 
 
-def _show(episode: Episode, to: Console) -> int:
-    from tacgrasp.console import LineView, truth_words
+def _show(episode: Episode, console: Console) -> int:
+    from tacgrasp.console import StepPrinter, truth_text
 
     header, end = episode.header, episode.end
-    to.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
-    began_s = episode.ticks[0].stamp.monotonic_s if episode.ticks else 0.0
-    view = LineView(to, began_s)
-    for tick in episode.ticks:
-        view(tick)
+    console.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
+    print_step = StepPrinter(console)
+    for step in episode.steps:
+        print_step(step)
     if end is None:
-        to.print("end: not recorded; the run was killed or crashed")
+        console.print("end: not recorded; the run was killed or crashed")
         return 0
-    to.print(f"end: {end.reason} - {end.message}")
+    console.print(f"end: {end.reason} - {end.message}")
     if end.truth is not None:
-        to.print(f"truth: {truth_words(end.truth)}")
+        console.print(f"truth: {truth_text(end.truth)}")
     return 0
 
 
-def _decide(episode: Episode, flags: Replay, to: Console) -> int:
+def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     from tacgrasp.playback.replay import config_of, differences
     from tacgrasp.policy_factory import make_policy
 
@@ -83,16 +85,17 @@ def _decide(episode: Episode, flags: Replay, to: Console) -> int:
     if flags.weights is not None:
         config = config.model_copy(update={"weights": flags.weights})
     policy = make_policy(name, config)
-    asked = sum(tick.decision is not None for tick in episode.ticks)
-    count = 0
+    num_decisions = sum(step.decision is not None for step in episode.steps)
+    num_different = 0
     for difference in differences(episode, policy):
-        count += 1
-        to.print(f"{difference.index:3d}  {difference.why}")
-    to.print(f"{name}: {asked} decisions, {count} differ{'' if count else ': reproduced exactly'}")
-    return 1 if count else 0
+        num_different += 1
+        console.print(f"{difference.index:3d}  {difference.text}")
+    verdict = "" if num_different else ": reproduced exactly"
+    console.print(f"{name}: {num_decisions} decisions, {num_different} differ{verdict}")
+    return 1 if num_different else 0
 
 
-def _execute(episode: Episode, path: Path, to: Console) -> int:
+def _execute(episode: Episode, path: Path, console: Console) -> int:
     from tacgrasp.playback.replay import config_of, repeat
     from tacgrasp.rig.factory import make_rig
 
@@ -103,21 +106,20 @@ def _execute(episode: Episode, path: Path, to: Console) -> int:
             "not move; replay it without, or with --decide"
         )
     rig = make_rig(config)
-    worst_mm, count = 0.0, 0
+    largest_mm, num_actions = 0.0, 0
     try:
-        with closing(repeat(episode, rig, config)) as repeated:
-            for turn in repeated:
-                count, worst_mm = count + 1, max(worst_mm, turn.off_mm)
-                done = turn.executed
-                to.print(
-                    f"{turn.index:3d}  {done.primitive}: {done.sent} | grip {done.force_n:.2f} N "
-                    f"| {turn.off_mm:.2f} mm from the recorded pose"
+        with closing(repeat(episode, rig, config)) as actions:
+            for action in actions:
+                num_actions, largest_mm = num_actions + 1, max(largest_mm, action.deviation_mm)
+                executed = action.executed
+                console.print(
+                    f"{action.index:3d}  {executed.primitive}: {executed.sent} | "
+                    f"grip {executed.force_n:.2f} N | "
+                    f"{action.deviation_mm:.2f} mm from the recorded pose"
                 )
     finally:
         rig.disconnect()
-    to.print(f"{count} actions repeated; at most {worst_mm:.2f} mm from the recorded poses")
-    return 1 if worst_mm > REACHED_MM else 0
-
-
-REACHED_MM = 1.0
-"""A repeated pose further than this from the recorded one is reported by the exit code."""
+    console.print(
+        f"{num_actions} actions repeated; at most {largest_mm:.2f} mm from the recorded poses"
+    )
+    return 1 if largest_mm > MAX_DEVIATION_MM else 0

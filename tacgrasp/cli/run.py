@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Annotated, Any
 
 import tyro
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import flag_value, parse
+from tacgrasp.cli.flags import parse, parse_some
+from tacgrasp.config.errors import flag_of
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.layers import Sources, leaves, load_with_limits
 from tacgrasp.config.schema import RunConfig
@@ -20,14 +22,22 @@ EXIT_CODES = {
     EndReason.FAULT: 3,
     EndReason.OPERATOR: 130,
 }
-"""Every other end is 1: the run was sound, the grasp was not good."""
+"""Exit codes of some ends; every other end is 1: the run was sound, the grasp was not good."""
+
+
+@dataclass(frozen=True)
+class LayerFlags:
+    """The flags that name files with defaults of all others."""
+
+    task: str | None = None
+    rig: str | None = None
 
 
 class RunFlags(RunConfig):
     """Close the loop on a task. Values: defaults < task < rig < environment < flags.
 
     Attributes:
-        print_config: Print every value and where it came from, and do nothing else.
+        print_config: Print every value and its source, and do nothing else.
     """
 
     hardware: Annotated[HardwareConfig | None, tyro.conf.Suppress] = None
@@ -44,68 +54,68 @@ def main(argv: Sequence[str]) -> int:
 
 
 def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
-    """The configuration after flags, where each value came from, and whether to print just that.
+    """Configuration after flags, source of each value, and whether to do no more than print them.
 
     Raises:
         UsageError: Something in file, environment or flags doesn't fit.
     """
-    task, rig = flag_value(argv, "--task"), flag_value(argv, "--rig")
-    below, sources, hard = load_with_limits(task, rig, os.environ)
+    layers = parse_some(LayerFlags, argv)
+    below, sources, hard = load_with_limits(layers.task, layers.rig, os.environ)
     values = {name: getattr(below, name) for name in type(below).model_fields}
     default = RunFlags.model_construct(**values, print_config=False)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
-    given = {token.split("=")[0] for token in argv if token.startswith("--")}
+    tokens = {token.split("=")[0] for token in argv if token.startswith("--")}
     config = RunConfig(**{name: getattr(flags, name) for name in RunConfig.model_fields})
     for path in leaves(config):
-        flag = f"--{path.replace('_', '-')}"
-        if flag in given or flag.replace("--", "--no-", 1) in given:
+        flag = flag_of(path)
+        if flag in tokens or flag.replace("--", "--no-", 1) in tokens:
             sources[path] = f"flag {flag}"
     hard.check(config, lambda path: sources[path])
     return config, sources, flags.print_config
 
 
 def _run(config: RunConfig) -> Outcome:
-    from tacgrasp.console import LineView, console, end_lines
+    from tacgrasp.console import StepPrinter, end_lines, make_console
     from tacgrasp.policy_factory import make_policy
     from tacgrasp.rig.factory import make_rig
     from tacgrasp.run import run_recorded
 
-    if config.hardware is not None and not config.hardware.feels and not config.dry_run:
+    if config.hardware is not None and not config.hardware.is_sensor_live and not config.dry_run:
         raise UsageError(
             f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
             "nothing may be grasped; give --dry-run to see what would be decided"
         )
     policy = make_policy(config.policy, config)
     rig = make_rig(config)
-    out = console()
+    console = make_console()
     try:
-        out.print(f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}")
-        outcome, path = run_recorded(rig, policy, config, observers=[LineView(out)])
+        console.print(f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}")
+        outcome, path = run_recorded(rig, policy, config, observers=[StepPrinter(console)])
     finally:
         rig.disconnect()
-    out.print(f"episode: {path}")
+    console.print(f"episode: {path}")
     for line in end_lines(outcome):
-        out.print(line)
+        console.print(line)
     return outcome
 
 
 def _exit_code(outcome: Outcome, *, dry_run: bool) -> int:
     if dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
-        return 0  # a decision was made, which is all that a dry run is for
+        return 0  # the one decision of a dry run was made
     return EXIT_CODES.get(outcome.reason, 1)
 
 
 def _print_config(config: RunConfig, sources: Sources) -> None:
-    out: dict[str, Any] = leaves(config)
-    width = max(map(len, out))
-    from tacgrasp.console import console
+    from tacgrasp.console import make_console
 
-    to = console()
-    for path, value in out.items():
-        to.print(f"{path:{width}}  {_shown(value)}  [{sources.get(path, 'default')}]")
+    values: dict[str, Any] = leaves(config)
+    width = max(map(len, values))
+    console = make_console()
+    for path, value in values.items():
+        console.print(f"{path:{width}}  {_text(value)}  [{sources.get(path, 'default')}]")
 
 
-def _shown(value: object) -> str:
+def _text(value: object) -> str:
     if isinstance(value, tuple):
         return f"[{', '.join(f'{v:g}' for v in value)}]"
     return "none" if value is None else str(value)

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""The configuration of a run: its model, its layers of files and variables, and its error messages.
+
+Not here: the settings of each driver (``tacgrasp.drivers``), the flags (``tacgrasp.cli``).
+"""

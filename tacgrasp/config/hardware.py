@@ -1,8 +1,8 @@
-"""The part of a rig's file that names its devices: a driver each, and where an episode starts.
+"""The section of a rig's file that names its devices, a driver each, and the start of an episode.
 
+Nothing in it is a flag: devices that are bolted to a bench are named in its file alone.
 Not here: the settings of a driver (``tacgrasp.drivers``), the limits of a run
-(``tacgrasp.config.schema``). Nothing of it is a flag: what is bolted to a bench is written in its
-file.
+(``tacgrasp.config.schema``).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, Section, Vector
+from tacgrasp.base.settings import Number, SettingsBase, Vector
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
@@ -22,18 +22,18 @@ from tacgrasp.drivers.ur.settings import UrSettings
 SensorSettings = Annotated[
     GelSightSettings | TaxelSettings | RecordedSettings, Field(discriminator="kind")
 ]
-"""One line for every sensor that there is a driver for."""
+"""One type for every sensor with a driver."""
 
 
-class StartConfig(Section):
-    """Where an episode starts, and ``reset`` returns to.
+class StartConfig(SettingsBase):
+    """Start pose of an episode, to which ``reset`` returns.
 
     Attributes:
-        at: 'here': where the arm stands; 'pose': the pose below, which the arm goes to slowly.
-        position_m: Of the TCP [m, base frame].
+        at: 'here': the arm's current pose; 'pose': the pose below, to which the arm moves slowly.
+        position_m: Position of the TCP [m, base frame].
         rotvec_rad: Rotation vector of the TCP [rad].
-        max_way_mm: Farthest that the arm may stand from the pose [mm].
-        speed_m_s: Of the way to it [m/s].
+        max_way_mm: Largest distance between the arm's current pose and the start pose [mm].
+        speed_m_s: Speed of the move to the start pose [m/s].
     """
 
     at: Literal["here", "pose"] = "here"
@@ -43,23 +43,23 @@ class StartConfig(Section):
     speed_m_s: Number = Field(default=0.02, gt=0, le=0.1)
 
     @model_validator(mode="after")
-    def _pose_is_given_when_it_is_used(self) -> StartConfig:
-        given = [self.position_m is not None, self.rotvec_rad is not None]
-        if self.at == "pose" and not all(given):
+    def _check_pose(self) -> StartConfig:
+        is_set = [self.position_m is not None, self.rotvec_rad is not None]
+        if self.at == "pose" and not all(is_set):
             raise ValueError("a start at a pose needs position_m and rotvec_rad")
-        if self.at == "here" and any(given):
+        if self.at == "here" and any(is_set):
             raise ValueError("position_m and rotvec_rad are for a start at a pose (at: pose)")
         return self
 
 
-class HardwareConfig(Section):
+class HardwareConfig(SettingsBase):
     """The devices of a rig.
 
     Attributes:
-        arm: Of kind ur.
-        gripper: Of Dynamixel servos.
-        sensor: Of kind gelsight_mini, taxels or recorded.
-        start: Where an episode starts.
+        arm: Arm of kind ur.
+        gripper: Gripper of Dynamixel servos.
+        sensor: Sensor of kind gelsight_mini, taxels or recorded.
+        start: Start pose of an episode.
     """
 
     arm: UrSettings
@@ -68,29 +68,25 @@ class HardwareConfig(Section):
     start: StartConfig = StartConfig()
 
     @property
-    def felt_by(self) -> str:
-        """Name of the sensor whose field and units the driver's clouds are in."""
-        sensor = self.sensor
-        return "gelsight_mini" if isinstance(sensor, GelSightSettings) else sensor.sensor
+    def sensor_name(self) -> str:
+        """Name of the sensor (``cltp.tactile.sensors``) that the driver's clouds belong to."""
+        return self.sensor.sensor_name
 
     @property
-    def feels(self) -> bool:
-        """Whether the sensor feels what the fingers do; a recording never does."""
-        sensor = self.sensor
-        if isinstance(sensor, GelSightSettings):
-            return sensor.is_camera
-        return not isinstance(sensor, RecordedSettings)
+    def is_sensor_live(self) -> bool:
+        """Whether the sensor measures the present contact; a recording never does."""
+        return self.sensor.is_live
 
-    def where_it_stands(self) -> HardwareConfig:
-        """The same devices, but the arm stays where it is when it is connected.
+    def without_start_pose(self) -> HardwareConfig:
+        """The same devices, but the arm does not move when it is connected.
 
-        For whoever moves it by hand: jogging is how it is brought near its start pose.
+        Jogging needs this: it brings the arm near its start pose in the first place.
         """
         return self.model_copy(update={"start": StartConfig()})
 
 
-def with_box(fields: dict[str, Any]) -> dict[str, Any]:
-    """A rig file's fields with its workspace given to the arm's driver, when that has none."""
+def with_workspace(fields: dict[str, Any]) -> dict[str, Any]:
+    """Fields of a rig's file with its workspace copied to the arm's driver, when that has none."""
     limits, hardware = fields.get("arm"), fields.get("hardware")
     if not (isinstance(limits, dict) and isinstance(hardware, dict)):
         return fields
@@ -101,13 +97,13 @@ def with_box(fields: dict[str, Any]) -> dict[str, Any]:
     return {**fields, "hardware": {**hardware, "arm": {**box, **driver}}}
 
 
-def beside(section: Section, folder: Path) -> Section:
-    """The same settings with relative paths taken from ``folder``, where the rig's file lies."""
+def resolve_paths(section: SettingsBase, folder: Path) -> SettingsBase:
+    """The same settings with relative paths resolved against ``folder``, that of the rig's file."""
     changes: dict[str, object] = {}
     for name in type(section).model_fields:
         value = getattr(section, name)
-        if isinstance(value, Section):
-            changes[name] = beside(value, folder)
+        if isinstance(value, SettingsBase):
+            changes[name] = resolve_paths(value, folder)
         elif isinstance(value, Path) and not value.is_absolute():
             changes[name] = folder / value
     return section.model_copy(update=changes)

@@ -1,4 +1,4 @@
-"""Fill the configuration: defaults < task file < rig file < environment (< flags, ``cli.flags``).
+"""Fill the configuration: defaults < task file < rig file < environment (< flags, ``cli.run``).
 
 Not here: the fields and their ranges (``tacgrasp.config.schema``).
 """
@@ -14,20 +14,20 @@ import yaml
 from pydantic import ValidationError
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.settings import Section
+from tacgrasp.base.settings import SettingsBase
 from tacgrasp.config.errors import explain, path_of
 from tacgrasp.config.hard_limits import HardLimits
-from tacgrasp.config.hardware import beside
+from tacgrasp.config.hardware import resolve_paths
 from tacgrasp.config.schema import ArmConfig, GripperConfig, RunConfig
 
 ENV_PREFIX = "TACGRASP_"
 """``TACGRASP_ARM__MAX_STEP_MM=4`` sets ``arm.max_step_mm``."""
 
 RIG_FIELDS = ("devices", "hardware", "arm", "gripper", "pad")
-"""Sections that a rig's file has to fill; what else has no default belongs to the task's."""
+"""Sections of a rig's file; other fields without a default belong to the task's file."""
 
 Sources = dict[str, str]
-"""Where each value came from: dotted path of a field -> 'default', a file, a variable, a flag."""
+"""Source of each value: dotted path of a field -> 'default', a file, a variable, a flag."""
 
 
 def load(
@@ -35,7 +35,7 @@ def load(
     rig: str | None = None,
     environment: Mapping[str, str] | None = None,
 ) -> tuple[RunConfig, Sources]:
-    """``load_with_limits`` for those who have no flags to hold to the limits."""
+    """Configuration and sources of ``load_with_limits``, for callers without flags."""
     config, sources, _ = load_with_limits(task, rig, environment)
     return config, sources
 
@@ -53,7 +53,7 @@ def load_with_limits(
         environment: Variables; only those with our prefix are read.
 
     Returns:
-        The configuration, where each value came from, and the limits that nothing may widen.
+        The configuration, the source of each value, and the limits that nothing may widen.
 
     Raises:
         UsageError: No such task or rig, not YAML, an unknown field, a value that doesn't fit, or
@@ -70,10 +70,10 @@ def load_with_limits(
             sources[kind] = f"environment variable {variable}"
     folder = Path()
     for kind in ("task", "rig"):
-        where, fields, folder = _read_layer(kind, merged[kind])
+        source, fields, folder = _read_layer(kind, merged[kind])
         if kind == "task" and "hardware" in fields:
-            raise UsageError(f"{where}: hardware belongs into a rig's file")
-        _merge(merged, fields, where, sources)
+            raise UsageError(f"{source}: hardware belongs into a rig's file")
+        _merge(merged, fields, source, sources)
     hard = _hard_limits(merged)
     for variable, value in sorted(variables.items()):
         layer: Any = _yaml_value(value)
@@ -87,17 +87,17 @@ def load_with_limits(
         _merge(merged, layer, f"environment variable {variable}", sources)
     config = _complete(merged)
     if config.hardware is not None:
-        config = config.model_copy(update={"hardware": beside(config.hardware, folder)})
+        config = config.model_copy(update={"hardware": resolve_paths(config.hardware, folder)})
     hard.check(config, lambda path: sources.get(path, "the default"))
     return config, {path: sources.get(path, "default") for path in leaves(config)}, hard
 
 
-def leaves(config: Section, prefix: str = "") -> dict[str, Any]:
-    """Every value of a configuration by its dotted path, in the order of the models."""
+def leaves(config: SettingsBase, prefix: str = "") -> dict[str, Any]:
+    """Values of a configuration by dotted path, in the order of the models."""
     flat: dict[str, Any] = {}
     for name in type(config).model_fields:
         value = getattr(config, name)
-        if isinstance(value, Section):
+        if isinstance(value, SettingsBase):
             flat |= leaves(value, f"{prefix}{name}.")
         else:
             flat[prefix + name] = value
@@ -105,17 +105,17 @@ def leaves(config: Section, prefix: str = "") -> dict[str, Any]:
 
 
 def names(kind: str) -> list[str]:
-    """Names of the tasks or rigs that come with the package (``kind`` is 'task' or 'rig')."""
+    """Names of the shipped tasks or rigs (``kind`` is 'task' or 'rig')."""
     folder = resources.files("tacgrasp") / f"{kind}s"
     files = [f.name for f in folder.iterdir() if f.name.endswith(".yaml")]
     return sorted(name.removesuffix(".yaml") for name in files)
 
 
 def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
-    """What messages call a file, its fields, and the folder that its relative paths start from."""
+    """Name of a layer's file for messages, its fields, and the folder of its relative paths."""
     folder = Path(str(resources.files("tacgrasp"))) / f"{kind}s"
     if name.endswith((".yaml", ".yml")):
-        where, path = name, Path(name)
+        source, path = name, Path(name)
         folder = path.resolve().parent
         if not path.is_file():
             raise UsageError(f"{kind} file {name} does not exist")
@@ -124,7 +124,7 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
         except (OSError, UnicodeDecodeError) as error:
             raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
     elif name in names(kind):
-        where = f"{kind}s/{name}.yaml"
+        source = f"{kind}s/{name}.yaml"
         text = (folder / f"{name}.yaml").read_text("utf-8")
     else:
         raise UsageError(
@@ -133,13 +133,15 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
     try:
         fields = yaml.safe_load(text)
     except yaml.YAMLError as error:
-        raise UsageError(f"{where} is not YAML: {' '.join(str(error).split())}") from None
+        raise UsageError(f"{source} is not YAML: {' '.join(str(error).split())}") from None
     if not isinstance(fields, dict):
-        raise UsageError(f"{where} must hold fields such as 'instruction: ...', got {fields!r:.60}")
-    for own in ("task", "rig"):
-        if own in fields:
-            raise UsageError(f"{where}: {own} can't be set in a file; give --{own} instead")
-    return where, fields, folder
+        raise UsageError(
+            f"{source} must hold fields such as 'instruction: ...', got {fields!r:.60}"
+        )
+    for field in ("task", "rig"):
+        if field in fields:
+            raise UsageError(f"{source}: {field} can't be set in a file; give --{field} instead")
+    return source, fields, folder
 
 
 def _yaml_value(text: str) -> Any:
@@ -149,21 +151,21 @@ def _yaml_value(text: str) -> Any:
         return text
 
 
-def _merge(merged: dict[str, Any], layer: dict[str, Any], where: str, sources: Sources) -> None:
-    """Lay ``layer`` over ``merged`` (changed in place), check it, note where values came from.
+def _merge(merged: dict[str, Any], layer: dict[str, Any], source: str, sources: Sources) -> None:
+    """Lay ``layer`` over ``merged`` (changed in place), check it, and note its ``source``.
 
-    A later layer may still bring what is missing; all else that is wrong is this layer's doing.
+    Missing fields may still come from a later layer; any other error is this layer's.
     """
     _overlay(merged, layer)
     try:
         RunConfig.model_validate(merged)
     except ValidationError as error:
-        # a list whose items are wrong is also called too short: say what is wrong with the item
-        for wrong in sorted(error.errors(), key=lambda one: one["type"] == "too_short"):
-            within_a_list = any(isinstance(place, int) for place in wrong["loc"])
-            if wrong["type"] != "missing" or within_a_list:
-                raise UsageError(f"{where}: {explain(wrong)}") from None
-    sources |= dict.fromkeys(_paths(layer), where)
+        # pydantic also calls a list with wrong items too short: the item's error explains more
+        for details in sorted(error.errors(), key=lambda one: one["type"] == "too_short"):
+            is_in_list = any(isinstance(part, int) for part in details["loc"])
+            if details["type"] != "missing" or is_in_list:
+                raise UsageError(f"{source}: {explain(details)}") from None
+    sources |= dict.fromkeys(_paths(layer), source)
 
 
 def _complete(merged: dict[str, Any]) -> RunConfig:
@@ -179,7 +181,7 @@ def _complete(merged: dict[str, Any]) -> RunConfig:
 
 
 def _hard_limits(merged: dict[str, Any]) -> HardLimits:
-    """The limits after the files.
+    """Limits after both files.
 
     Raises:
         UsageError: The rig's file leaves a limit open that has no default.

@@ -1,7 +1,8 @@
-"""The model that a run is configured by; where its values come from is in ``config_layers``.
+"""The configuration of a run.
 
-Nothing is guessed: an unknown field, a wrong type or a number outside the range that its unit
-allows is refused (metres where millimetres are meant fall outside that range).
+An unknown field, a wrong type or a number outside its range is refused. The ranges are narrow
+enough that metres in place of millimetres fall outside.
+Not here: where the values come from (``tacgrasp.config.layers``).
 """
 
 from __future__ import annotations
@@ -15,19 +16,19 @@ from pydantic import Field, model_validator
 from policies.goal import Band, Goal
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
-from tacgrasp.config.hardware import HardwareConfig, with_box
-from tacgrasp.drivers.ur.settings import UrSettings
+from tacgrasp.config.hardware import HardwareConfig, with_workspace
+from tacgrasp.drivers.ur.settings import UrSettings, check_box
 
-AtTheEnd = Literal["hold", "release"]
+EndAction = Literal["hold", "release"]
 
 
 class GoalConfig(SettingsBase):
-    """What a good grasp is; each band is [low, high].
+    """Bands of a good grasp, each [low, high].
 
     Attributes:
-        force_n: Normal force that the touch suggests [N].
+        force_n: Normal force, estimated from the contact [N].
         depth_mm: Largest indentation of the gel [mm].
-        area_share: Share of the pad's field in contact, 0 to 1.
+        area_share: Fraction of the pad's sensing area in contact, 0 to 1.
         x_mm: Position of the contact along the pad's x [mm].
         y_mm: Position of the contact along the pad's y [mm].
     """
@@ -39,7 +40,7 @@ class GoalConfig(SettingsBase):
     y_mm: Interval
 
     @model_validator(mode="after")
-    def _bands_are_ordered(self) -> GoalConfig:
+    def _check_bands(self) -> GoalConfig:
         for name in type(self).model_fields:
             low, high = getattr(self, name)
             if low > high:
@@ -49,7 +50,7 @@ class GoalConfig(SettingsBase):
         return self
 
     def goal(self) -> Goal:
-        """The same bands as the policies know them."""
+        """The same bands as the policies' ``Goal``."""
 
         def band(interval: tuple[float, float]) -> Band:
             return Band(low=interval[0], high=interval[1])
@@ -67,7 +68,7 @@ class PrimitivesConfig(SettingsBase):
     """Sizes of the seven primitives.
 
     Attributes:
-        clear_mm: How far the gripper opens before a move, so that nothing is carried along [mm].
+        clear_mm: Opening of the gripper before a move, so that the object is not dragged [mm].
         move_step_mm: Length of one move [mm].
     """
 
@@ -79,10 +80,10 @@ class LoopConfig(SettingsBase):
     """Bounds of the loop; each has its named end.
 
     Attributes:
-        max_steps: Actions carried out before the end ``max_steps``.
+        max_steps: Number of executed actions before the end ``max_steps``.
         timeout_s: Time before the end ``timeout`` [s]; includes simulated motion.
-        max_asks: Times in a row that a text may name no action, or two, before ``no_action``.
-        max_faults: Times in a row that touch or policy may fail before ``fault``.
+        max_asks: Number of texts in a row without one clear action before ``no_action``.
+        max_faults: Number of failures in a row of sensor or policy before ``fault``.
         wait_s: Pause before reading and asking again [s].
     """
 
@@ -94,7 +95,7 @@ class LoopConfig(SettingsBase):
 
 
 class VerifyConfig(SettingsBase):
-    """How a declared success is checked, by touch alone.
+    """Verification of a declared success by lifting and touch.
 
     Attributes:
         lift_mm: Height of the lift [mm].
@@ -102,11 +103,11 @@ class VerifyConfig(SettingsBase):
         shake_acceleration_m_s2: Acceleration of the shake [m/s²].
         speed_m_s: Speed of lift and shake [m/s].
         shake_mm: Length of one sideways move along the pad's x [mm]; 0 for none.
-        shakes: How many there and back.
-        hold_s: Time that the grasp is then held [s].
-        max_shift_mm: How far the contact may have moved on the pad [mm].
-        min_area_ratio: Smallest share of the area that must be left.
-        min_depth_ratio: Smallest share of the depth that must be left.
+        shakes: Number of sideways moves, each there and back.
+        hold_s: Time of holding after the shake [s].
+        max_shift_mm: Largest allowed shift of the contact on the pad [mm].
+        min_area_ratio: Smallest allowed fraction of the contact area after the lift, 0 to 1.
+        min_depth_ratio: Smallest allowed fraction of the indentation after the lift, 0 to 1.
     """
 
     lift_mm: Number = Field(default=40.0, ge=5, le=300)
@@ -122,14 +123,14 @@ class VerifyConfig(SettingsBase):
 
 
 class ArmConfig(SettingsBase):
-    """Limits of the arm that every command is held to.
+    """Limits of every command to the arm.
 
     Attributes:
-        workspace_low_m: Corner of the box that the TCP stays in [m, base frame].
-        workspace_high_m: Its opposite corner [m, base frame].
+        workspace_low_m: Lower corner of the box of allowed TCP positions [m, base frame].
+        workspace_high_m: Upper corner of that box [m, base frame].
         max_step_mm: Longest single move of a primitive [mm].
         max_travel_mm: Total travel of an episode's primitives before the end ``limit`` [mm].
-        max_speed_m_s: Speed of the primitives' moves, and the most of any move [m/s].
+        max_speed_m_s: Speed of the primitives' moves, and upper limit for all moves [m/s].
     """
 
     workspace_low_m: Vector
@@ -139,13 +140,8 @@ class ArmConfig(SettingsBase):
     max_speed_m_s: Number = Field(default=0.4, gt=0, le=0.5)
 
     @model_validator(mode="after")
-    def _box_is_not_empty(self) -> ArmConfig:
-        low, high = self.workspace_low_m, self.workspace_high_m
-        if any(a >= b for a, b in zip(low, high, strict=True)):
-            raise ValueError(
-                f"workspace_low_m {list(low)} must be below workspace_high_m {list(high)} "
-                "in x, y and z"
-            )
+    def _check_workspace(self) -> ArmConfig:
+        check_box(self.workspace_low_m, self.workspace_high_m)
         return self
 
 
@@ -153,9 +149,9 @@ class GripperConfig(SettingsBase):
     """Limits of the gripper.
 
     Attributes:
-        min_force_n: Smallest force that it is asked for [N].
-        max_force_n: Largest [N].
-        first_force_n: Force of the first grasp [N]; none: the simulated world draws it.
+        min_force_n: Smallest commanded force [N].
+        max_force_n: Largest commanded force [N].
+        first_force_n: Commanded force of the first grasp [N]; none: drawn by the simulated world.
     """
 
     min_force_n: Number = Field(default=0.1, gt=0, le=100)
@@ -163,7 +159,7 @@ class GripperConfig(SettingsBase):
     first_force_n: Number | None = Field(default=None, gt=0, le=200)
 
     @model_validator(mode="after")
-    def _range_is_ordered(self) -> GripperConfig:
+    def _check_range(self) -> GripperConfig:
         if self.min_force_n > self.max_force_n:
             raise ValueError(
                 f"min_force_n {self.min_force_n} is above max_force_n {self.max_force_n} [N]"
@@ -178,7 +174,7 @@ class GripperConfig(SettingsBase):
 
 
 class PadConfig(SettingsBase):
-    """How the pad sits on the TCP: perpendicular unit vectors in the TCP's frame.
+    """Orientation of the pad on the TCP: perpendicular unit vectors in the TCP's frame.
 
     Attributes:
         x_axis: Direction of the pad's +x ('right').
@@ -189,7 +185,7 @@ class PadConfig(SettingsBase):
     y_axis: Vector
 
     @model_validator(mode="after")
-    def _axes_are_a_frame(self) -> PadConfig:
+    def _check_axes(self) -> PadConfig:
         x, y = self.x_axis, self.y_axis
         for name, axis in (("x_axis", x), ("y_axis", y)):
             if abs(math.hypot(*axis) - 1) > 1e-6:
@@ -200,26 +196,26 @@ class PadConfig(SettingsBase):
 
 
 class RunConfig(SettingsBase):
-    """Everything that a run is configured by.
+    """Configuration of a run.
 
     Attributes:
         task: Name of a task, or the path of its YAML file.
         rig: Name of a rig, or the path of its YAML file.
-        devices: What the rig is made of: sim (simulated), emulated (real drivers on emulators that
-            the run starts) or hardware; its file has to say it.
-        hardware: The drivers of emulated and real devices; in the rig's file only.
-        policy: Who decides: rules, llm, fixed_force or random.
-        weights: Folder of the language model's weights; none: those that come with the program.
-        instruction: What a person asks for, in words; the task's own when not given.
-        object: What the simulator puts between the fingers.
-        object_mesh: A mesh [mm] to grasp instead (simulation only).
-        object_mass_g: Mass of that mesh [g]; none: from its volume.
-        seed: Of everything drawn at random.
-        sensor: Which tactile sensor it is; of a rig with drivers the same as theirs.
-        on_success: What the gripper does after a verified grasp.
-        on_failure: What it does after any other end.
-        dry_run: Feel and decide once, send nothing.
-        record: Folder that the episode is written to.
+        devices: Kind of devices, set by the rig's file: sim (simulated), emulated (real drivers on
+            emulators that the run starts) or hardware.
+        hardware: Drivers of emulated and real devices; in the rig's file only.
+        policy: Policy that decides: rules, llm, fixed_force or random.
+        weights: Folder of the language model's weights; none: the shipped weights.
+        instruction: Instruction to the policy in plain English; by default the task's.
+        object: Object between the fingers (simulated and emulated rigs only).
+        object_mesh: Mesh file [mm] of an object to grasp instead (simulated worlds only).
+        object_mass_g: Mass of that mesh [g]; none: computed from its volume.
+        seed: Random seed of the object, its pose, the gripper, the sensor and the random policy.
+        sensor: Name of the tactile sensor; on a rig with drivers that of its driver.
+        on_success: Gripper action after a verified grasp: hold or release.
+        on_failure: Gripper action after any other end: hold or release.
+        dry_run: Read and decide once, and send nothing to the devices.
+        record: Folder for the recorded episode.
     """
 
     task: str = "strawberry"
@@ -241,13 +237,13 @@ class RunConfig(SettingsBase):
     arm: ArmConfig
     gripper: GripperConfig = GripperConfig()
     pad: PadConfig
-    on_success: AtTheEnd = "hold"
-    on_failure: AtTheEnd = "release"
+    on_success: EndAction = "hold"
+    on_failure: EndAction = "release"
     dry_run: bool = False
     record: Path = Path("episodes")
 
     def limits(self) -> Limits:
-        """The bounds of everything that is sent in a run."""
+        """Limits of every command of a run."""
         return Limits(
             max_step_mm=self.arm.max_step_mm,
             workspace_low_m=self.arm.workspace_low_m,
@@ -260,12 +256,12 @@ class RunConfig(SettingsBase):
 
     @model_validator(mode="before")
     @classmethod
-    def _driver_keeps_to_the_box(cls, data: Any) -> Any:
-        """The arm's driver, which knows no task, is held to the rig's box too."""
-        return with_box(data) if isinstance(data, dict) else data
+    def _share_workspace(cls, data: Any) -> Any:
+        """The arm's driver, which knows no task, keeps to the rig's workspace too."""
+        return with_workspace(data) if isinstance(data, dict) else data
 
     @model_validator(mode="after")
-    def _parts_fit(self) -> RunConfig:
+    def _check_parts(self) -> RunConfig:
         if (self.devices == "sim") != (self.hardware is None):
             raise ValueError(
                 f"devices: {self.devices} {'takes no' if self.hardware else 'needs a'} section "
@@ -280,14 +276,13 @@ class RunConfig(SettingsBase):
             )
         if self.hardware is not None:
             self._check_driver(self.hardware.arm)
-            if self.sensor != self.hardware.felt_by:
-                raise ValueError(
-                    f"sensor {self.sensor} is not what hardware.sensor is: {self.hardware.felt_by}"
-                )
+            if self.sensor != self.hardware.sensor_name:
+                name = self.hardware.sensor_name
+                raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 
     def _check_driver(self, arm: UrSettings) -> None:
-        """What a task asks of the arm in the lift must be allowed by its driver: known at once."""
+        """Refuse a task whose lift needs more than the arm's driver allows."""
         lift, shake = self.verify.acceleration_m_s2, self.verify.shake_acceleration_m_s2
         for name, value, bound in (
             ("arm.max_speed_m_s", self.arm.max_speed_m_s, "max_speed_m_s"),

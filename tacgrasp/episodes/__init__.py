@@ -1,14 +1,17 @@
-"""Episodes: what was felt, said, asked, sent and reached, one crash-proof MCAP file each."""
+"""Recorded episodes, one crash-safe MCAP file each: write, read, recover, list and plot them.
+
+Not here: replaying an episode (``tacgrasp.playback``), the loop itself (``tacgrasp.loop``).
+"""
 
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.paths import episode_path, record_directory
+from tacgrasp.episodes.paths import episode_path, make_record_directory
 from tacgrasp.episodes.reader import read_episode
 from tacgrasp.episodes.record import (
     Episode,
     EpisodeEnd,
     EpisodeHeader,
-    Phase,
-    TickRecord,
+    StepPhase,
+    StepRecord,
 )
 from tacgrasp.episodes.writer import EpisodeWriter
 
@@ -18,9 +21,9 @@ __all__ = [
     "EpisodeError",
     "EpisodeHeader",
     "EpisodeWriter",
-    "Phase",
-    "TickRecord",
+    "StepPhase",
+    "StepRecord",
     "episode_path",
+    "make_record_directory",
     "read_episode",
-    "record_directory",
 ]

@@ -16,7 +16,7 @@ from rich.table import Table
 
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, EpisodeEnd, Phase
+from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +61,7 @@ def list_episodes(directory: Path) -> list[EpisodeSummary]:
 
 def duration_s(episode: Episode) -> float:
     """From the header to the end, or to the last tick of a run that was killed [s]."""
-    last = episode.end or (episode.ticks[-1] if episode.ticks else episode.header)
+    last = episode.end or (episode.steps[-1] if episode.steps else episode.header)
     return last.stamp.monotonic_s - episode.header.stamp.monotonic_s
 
 
@@ -145,19 +145,19 @@ def _row(summary: EpisodeSummary) -> list[str]:
 
 
 def _num_turns(episode: Episode) -> int:
-    return sum(tick.phase == Phase.TICK for tick in episode.ticks)
+    return sum(tick.phase == StepPhase.LOOP for tick in episode.steps)
 
 
 def _ticks_in_words(episode: Episode) -> str:
     turns = _num_turns(episode)
-    checks = len(episode.ticks) - turns
+    checks = len(episode.steps) - turns
     return f"{turns}" + (f" and {checks} touches of verification" if checks else "")
 
 
 def _actions_in_words(episode: Episode) -> str:
     counts = Counter(
         tick.executed.primitive.value
-        for tick in episode.ticks
+        for tick in episode.steps
         if tick.executed is not None and tick.executed.primitive is not None
     )
     return ", ".join(f"{count} × {name}" for name, count in counts.items())

@@ -1,4 +1,4 @@
-"""Where episodes lie: their directory, their names, and what to say when a disk refuses."""
+"""Directory and names of episodes, and the error message when a disk refuses a file."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from cltp.tactile.cloud import Stamp
 from tacgrasp.episodes.errors import EpisodeError
 
 
-def record_directory(path: Path) -> Path:
-    """Make sure that episodes can be written to ``path``, creating it when it is missing.
+def make_record_directory(path: Path) -> Path:
+    """Create the directory ``path`` when it is missing, and check that it can be written to.
 
     Raises:
         EpisodeError: It can't be created, is not a directory, or is read-only.
@@ -26,7 +26,7 @@ def record_directory(path: Path) -> Path:
             f"{path} is not a directory; give --record a directory for episodes"
         ) from None
     except OSError as error:
-        raise EpisodeError(refused(path, "create", error)) from None
+        raise EpisodeError(refusal(path, "create", error)) from None
     if not os.access(path, os.W_OK | os.X_OK):
         raise EpisodeError(
             f"{path} is read-only; make it writable or give another directory with --record"
@@ -35,26 +35,26 @@ def record_directory(path: Path) -> Path:
 
 
 def episode_path(directory: Path, task: str, stamp: Stamp, seed: int | None) -> Path:
-    """Name of a new episode: ``<task>-<UTC time>-<seed>.mcap``; without a seed the process's id."""
-    when = datetime.fromtimestamp(stamp.wall_s, tz=UTC)
-    time = f"{when:%Y%m%dT%H%M%S}.{when.microsecond // 1000:03d}Z"
+    """Path of a new episode, ``<task>-<UTC time>-<seed>.mcap``; without a seed the process's id."""
+    started = datetime.fromtimestamp(stamp.wall_s, tz=UTC)
+    time = f"{started:%Y%m%dT%H%M%S}.{started.microsecond // 1000:03d}Z"
     safe_task = re.sub(r"[^\w-]+", "-", task).strip("-") or "task"
     return directory / f"{safe_task}-{time}-{f'p{os.getpid()}' if seed is None else seed}.mcap"
 
 
 def sync_directory(directory: Path) -> None:
-    """Make the file's name durable too, not just its content."""
+    """Make the names of a directory's files durable; syncing a file saves only its content."""
     descriptor = os.open(directory, os.O_RDONLY)
     try:
-        with suppress(OSError):  # some file systems have no such thing for a directory
+        with suppress(OSError):  # some file systems can't sync a directory
             os.fsync(descriptor)
     finally:
         os.close(descriptor)
 
 
-def refused(path: Path, doing: str, error: OSError) -> str:
-    """One line for a file operation that the system refused: what, why, and what to do."""
-    why, remedy = {
+def refusal(path: Path, operation: str, error: OSError) -> str:
+    """Error message for a refused file operation: the operation, its reason, and a remedy."""
+    reason, remedy = {
         errno.ENOENT: ("its directory does not exist", "create it or give another with --record"),
         errno.ENOTDIR: ("its parent is not a directory", "give another directory with --record"),
         errno.EEXIST: ("the file exists", "episodes are never overwritten; give another name"),
@@ -64,4 +64,4 @@ def refused(path: Path, doing: str, error: OSError) -> str:
         errno.EROFS: ("the file system is read-only", "give another directory with --record"),
         errno.EACCES: ("permission denied", "make its directory writable or give another"),
     }.get(error.errno or 0, (error.strerror or str(error), "check the disk"))
-    return f"can't {doing} {path}: {why}; {remedy}"
+    return f"can't {operation} {path}: {reason}; {remedy}"

@@ -24,9 +24,9 @@ from matplotlib.patches import Rectangle
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.paths import refused
+from tacgrasp.episodes.paths import refusal
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, Phase, TickRecord
+from tacgrasp.episodes.record import Episode, StepPhase, StepRecord
 
 MAX_PICTURES = 24
 """More touches than this are thinned out evenly, the first and the last kept. Our choice."""
@@ -37,7 +37,10 @@ SCALE_TOP_MM = 0.9
 _COLUMNS = 6
 _HEAT = "magma_r"  # the untouched gel is light
 _FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
-_SHORT_PHASE = {Phase.VERIFY_BEFORE: "before the lift", Phase.VERIFY_AFTER: "after the lift"}
+_SHORT_PHASE = {
+    StepPhase.VERIFY_BEFORE: "before the lift",
+    StepPhase.VERIFY_AFTER: "after the lift",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,18 +59,18 @@ def plot_episode(path: Path, png_path: Path) -> None:
         EpisodeError: The episode can't be read or has no touch, or the picture can't be written.
     """
     episode = read_episode(path)
-    if not episode.ticks:
+    if not episode.steps:
         raise EpisodeError(f"{path} has no touch to draw: the run ended before its first tick")
     figure = draw_episode(episode, path.name)
     try:
         figure.savefig(png_path, format="png", dpi=110, facecolor="white")
     except OSError as error:
-        raise EpisodeError(refused(png_path, "write", error)) from None
+        raise EpisodeError(refusal(png_path, "write", error)) from None
 
 
 def draw_episode(episode: Episode, name: str) -> Figure:
     """The picture as a figure; ``name`` goes into the title. The episode has at least one tick."""
-    shown = _thinned(episode.ticks)
+    shown = _thinned(episode.steps)
     rows = math.ceil(len(shown) / _COLUMNS)
     height_in = 1.0 + 1.75 * rows + 4.2
     figure = Figure(figsize=(13, height_in))
@@ -95,13 +98,13 @@ def draw_episode(episode: Episode, name: str) -> Figure:
         _draw_cloud(figure.add_subplot(pictures[place // _COLUMNS, place % _COLUMNS]), tick, scale)
     bar = figure.add_axes((0.945, split + 0.1 / height_in, 0.012, top - split - 0.1 / height_in))
     figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, extend="max", label="indentation [mm]")
-    touches = [_touch(tick.cloud) for tick in episode.ticks]
+    touches = [_touch(tick.cloud) for tick in episode.steps]
     _draw_curves(figure, curves, episode, touches)
     _draw_path(figure.add_subplot(curves[:, 1]), episode, touches)
     return figure
 
 
-def _thinned(ticks: Sequence[TickRecord]) -> list[TickRecord]:
+def _thinned(ticks: Sequence[StepRecord]) -> list[StepRecord]:
     if len(ticks) <= MAX_PICTURES:
         return list(ticks)
     return [ticks[i] for i in np.linspace(0, len(ticks) - 1, MAX_PICTURES).round().astype(int)]
@@ -131,12 +134,12 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
         weight="bold",
     )
     said = f"“{header.instruction}”   {name}"
-    if len(episode.ticks) > MAX_PICTURES:
-        said += f"   ({MAX_PICTURES} of {len(episode.ticks)} touches shown)"
+    if len(episode.steps) > MAX_PICTURES:
+        said += f"   ({MAX_PICTURES} of {len(episode.steps)} touches shown)"
     figure.text(0.04, 1 - 0.62 / height_in, said, fontsize=10, color=_MUTED)
 
 
-def _draw_cloud(axes: Axes, tick: TickRecord, scale: Normalize) -> None:
+def _draw_cloud(axes: Axes, tick: StepRecord, scale: Normalize) -> None:
     x, y, z = tick.cloud.points_mm.astype(np.float64).T
     axes.tripcolor(x, y, z, cmap=_HEAT, norm=scale, shading="gouraud")
     axes.set_facecolor(colormaps[_HEAT](0.0))  # between the outermost points and the pad's edge
@@ -146,8 +149,8 @@ def _draw_cloud(axes: Axes, tick: TickRecord, scale: Normalize) -> None:
     axes.set_title(f"{tick.index}  {_caption(tick)}", fontsize=9.5, pad=4)
 
 
-def _caption(tick: TickRecord) -> str:
-    if tick.phase != Phase.TICK:
+def _caption(tick: StepRecord) -> str:
+    if tick.phase != StepPhase.LOOP:
         return _SHORT_PHASE[tick.phase]
     decision = tick.decision
     if decision is None:
@@ -174,10 +177,10 @@ def _draw_curves(
 ) -> None:
     """Commanded force and felt depth over time, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
-    time_s = [tick.stamp.monotonic_s - start_s for tick in episode.ticks]
+    time_s = [tick.stamp.monotonic_s - start_s for tick in episode.steps]
     force = figure.add_subplot(grid[0, 0])
     depth = figure.add_subplot(grid[1, 0], sharex=force)
-    commanded = [tick.gripper.force_n for tick in episode.ticks]
+    commanded = [tick.gripper.force_n for tick in episode.steps]
     force.step(time_s, commanded, where="post", color=_FORCE, lw=2)
     force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
     force.set_ylabel("commanded\nforce [N]")
@@ -192,11 +195,11 @@ def _draw_curves(
         axes.spines[["top", "right"]].set_visible(False)
         for at_s in time_s:
             axes.axvline(at_s, color=_MUTED, lw=0.6, alpha=0.5, ls=":")
-    if len(episode.ticks) <= MAX_PICTURES:
-        _label_times(force, time_s, episode.ticks)
+    if len(episode.steps) <= MAX_PICTURES:
+        _label_times(force, time_s, episode.steps)
 
 
-def _label_times(axes: Axes, time_s: Sequence[float], ticks: Sequence[TickRecord]) -> None:
+def _label_times(axes: Axes, time_s: Sequence[float], ticks: Sequence[StepRecord]) -> None:
     """Words above the curves, but none on top of another."""
     free_s = -math.inf
     for at_s, tick in zip(time_s, ticks, strict=True):
@@ -205,7 +208,7 @@ def _label_times(axes: Axes, time_s: Sequence[float], ticks: Sequence[TickRecord
             free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
 
 
-def _label_time(axes: Axes, at_s: float, tick: TickRecord) -> None:
+def _label_time(axes: Axes, at_s: float, tick: StepRecord) -> None:
     words = _caption(tick).removeprefix("→ ").replace("_", " ")
     axes.annotate(
         words,
@@ -227,7 +230,7 @@ def _draw_path(axes: Axes, episode: Episode, touches: Sequence[_Touch]) -> None:
     for third in (-1, 1):  # the nine cells of the position words
         axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
         axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
-    felt = [(t, i) for t, i in zip(touches, episode.ticks, strict=True) if t.depth_mm > 0.05]
+    felt = [(t, i) for t, i in zip(touches, episode.steps, strict=True) if t.depth_mm > 0.05]
     x, y = [t.x_mm for t, _ in felt], [t.y_mm for t, _ in felt]
     axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
     axes.scatter(x, y, c=range(len(felt)), cmap="viridis", s=60, zorder=3, ec="white")
@@ -243,9 +246,9 @@ def _draw_path(axes: Axes, episode: Episode, touches: Sequence[_Touch]) -> None:
     axes.tick_params(labelsize=8)
 
 
-def _labels(felt: Sequence[tuple[_Touch, TickRecord]]) -> list[tuple[str, _Touch]]:
+def _labels(felt: Sequence[tuple[_Touch, StepRecord]]) -> list[tuple[str, _Touch]]:
     """Numbers of the touches; those at one place share a label, and none covers another."""
-    runs: list[list[tuple[_Touch, TickRecord]]] = []
+    runs: list[list[tuple[_Touch, StepRecord]]] = []
     for touch, tick in felt:
         if runs and _apart_mm(runs[-1][0][0], touch) < 0.6:
             runs[-1].append((touch, tick))

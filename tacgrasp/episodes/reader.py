@@ -6,36 +6,28 @@ Not here: restoring a file for other tools (``tacgrasp.episodes.recover``).
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TypeVar
+from typing import Any
 
 from mcap.records import Channel, Message, Metadata
 
 from cltp.errors import TouchError
+from cltp.tactile.sensors import SensorSpec
 from primitives.errors import RobotError
 from tacgrasp.episodes.codec import from_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.record import (
     FORMAT,
+    JSON_MESSAGES,
     METADATA_NAME,
-    TOPIC_ACTION,
-    TOPIC_CLOUD,
-    TOPIC_DECISION,
-    TOPIC_END,
-    TOPIC_EPISODE,
-    TOPIC_STATE,
-    ActionMessage,
-    DecisionMessage,
     Episode,
-    EpisodeEnd,
-    EpisodeHeader,
-    TickRecord,
-    TickState,
+    StepRecord,
+    StepState,
+    Topic,
 )
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.touch_message import decode_cloud
-
-T = TypeVar("T")
 
 
 def read_episode(path: Path) -> Episode:
@@ -45,8 +37,8 @@ def read_episode(path: Path) -> Episode:
     says why, and ``tacgrasp episodes recover`` makes a finished file of it.
 
     Raises:
-        EpisodeError: It does not exist, is empty, not MCAP, somebody else's MCAP, of another format
-            version, ends before its header, or a record in it can't be understood.
+        EpisodeError: It does not exist, is empty, not MCAP, another program's MCAP, of another
+            format version, ends before its header, or a record in it can't be understood.
     """
     scan = scan_file(path)
     check_format(path, scan)
@@ -70,65 +62,55 @@ def check_format(path: Path, scan: Scan) -> None:
     """Refuse a file that is no episode of ours.
 
     Raises:
-        EpisodeError: Somebody else's MCAP file, another format version, or no header yet.
+        EpisodeError: Another program's MCAP file, another format version, or no header yet.
     """
-    named = [r for r in scan.records if isinstance(r, Metadata) and r.name == METADATA_NAME]
-    if not named:
-        if not scan.finished and not scan.groups:
-            raise EpisodeError(
-                f"{path} ends before its header: the run was killed before the first touch; "
-                "nothing can be recovered, delete it"
-            )
+    metadata = [
+        r.metadata for r in scan.records if isinstance(r, Metadata) and r.name == METADATA_NAME
+    ]
+    if not metadata and (scan.finished or scan.groups):
         raise EpisodeError(
             f"{path} is an MCAP file but no episode of tacgrasp (it has no metadata record "
             f"{METADATA_NAME!r}); open it with the program that wrote it"
         )
-    written = named[0].metadata.get("format", "nothing")
-    if written != FORMAT:
+    if metadata and metadata[0].get("format") != FORMAT:
         raise EpisodeError(
-            f"{path} is of format {written}, this tacgrasp reads {FORMAT}; use the version that "
-            "wrote it"
+            f"{path} is of format {metadata[0].get('format', 'nothing')}, this tacgrasp reads "
+            f"{FORMAT}; use the version that wrote it"
         )
     if not any(isinstance(record, Message) for record in scan.records):
         raise EpisodeError(
-            f"{path} ends before its header: the run was killed before the first touch; nothing "
+            f"{path} ends before its header: the run was killed before the first step; nothing "
             "can be recovered, delete it"
         )
 
 
 def _episode(messages: dict[int, dict[str, bytes]], scan: Scan) -> Episode:
     by_topic = {topic: data for group in messages.values() for topic, data in group.items()}
-    if TOPIC_EPISODE not in by_topic:
-        raise ValueError(f"no message on {TOPIC_EPISODE}")
-    header = _parse(EpisodeHeader, by_topic[TOPIC_EPISODE])
-    ticks = [_tick(group, header) for _, group in sorted(messages.items()) if TOPIC_STATE in group]
-    end = by_topic.get(TOPIC_END)
+    if Topic.EPISODE not in by_topic:
+        raise ValueError(f"no message on {Topic.EPISODE}")
+    header = _parse(Topic.EPISODE, by_topic)
+    groups = [group for _, group in sorted(messages.items()) if Topic.STATE in group]
     return Episode(
         header=header,
-        ticks=tuple(ticks),
-        end=None if end is None else _parse(EpisodeEnd, end),
+        steps=tuple(_step(group, header.sensor) for group in groups),
+        end=_parse(Topic.END, by_topic),
         complete=scan.finished,
         problem=scan.problem,
     )
 
 
-def _tick(group: dict[str, bytes], header: EpisodeHeader) -> TickRecord:
-    state = _parse(TickState, group[TOPIC_STATE])
-    decision, action = group.get(TOPIC_DECISION), group.get(TOPIC_ACTION)
-    return TickRecord(
-        index=state.index,
-        phase=state.phase,
-        cloud=decode_cloud(group.get(TOPIC_CLOUD, b""), header.sensor, state.cloud_stamp),
-        decision=None if decision is None else _parse(DecisionMessage, decision).decision,
-        executed=None if action is None else _parse(ActionMessage, action).executed,
-        tcp_pose=state.tcp_pose,
-        gripper=state.gripper,
-        stamp=state.stamp,
-        tick_ms=state.tick_ms,
-        note=state.note,
-        commands=state.commands,
+def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
+    state: StepState = _parse(Topic.STATE, group)
+    decision, action = _parse(Topic.DECISION, group), _parse(Topic.ACTION, group)
+    return StepRecord(
+        **state.shared(),
+        cloud=decode_cloud(group.get(Topic.CLOUD, b""), sensor, state.cloud_stamp),
+        decision=None if decision is None else decision.decision,
+        executed=None if action is None else action.executed,
+        step_ms=state.tick_ms,
     )
 
 
-def _parse(kind: type[T], data: bytes) -> T:
-    return from_json(kind, json.loads(data))
+def _parse(topic: Topic, group: Mapping[str, bytes]) -> Any:
+    """The message on a JSON channel as its dataclass; None when the group has none."""
+    return from_json(JSON_MESSAGES[topic][1], json.loads(group[topic])) if topic in group else None

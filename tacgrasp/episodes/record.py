@@ -1,16 +1,17 @@
-"""What an episode holds: its header, its ticks and its end, and where each part lies in the file.
+"""Contents of an episode: its header, its steps and its end, and where each part lies in the file.
 
-An episode is one MCAP file (https://mcap.dev). Every tick is one chunk, so that it is either whole
+An episode is one MCAP file (https://mcap.dev). Every step is one chunk, so that it is either whole
 or absent. Channels, all with log and publish time = wall clock [ns] and sequence = number of the
 record within the episode:
 
     /episode      EpisodeHeader                 first message
-    /touch/cloud  foxglove.PointCloud           what was felt; x, y, z float32 [mm], frame 'gel'
-    /decision     DecisionMessage               what the policy said, when it was asked
-    /action       ActionMessage                 what was asked, sent and reached, when it acted
-    /state        TickState                     clocks, phase and robot of every record, and each
-                                                command to a device since the one before
-    /end          EpisodeEnd                    why it ended, what was declared, verified and true
+    /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float32 [mm],
+                                                frame 'gel'
+    /decision     DecisionMessage               the policy's decision, if it was asked for one
+    /action       ActionMessage                 the action as requested, sent and reached, if any
+    /state        StepState                     clocks, phase and robot of every record, and each
+                                                command to a device since the record before
+    /end          EpisodeEnd                    reason, declared and verified success, truth
 
 All but the clouds are JSON with a JSON Schema made from the dataclasses below. A metadata record
 ``tacgrasp_episode`` names format, task, policy and sensor for tools that list files.
@@ -21,8 +22,9 @@ Not here: reading and writing (``tacgrasp.episodes.reader``, ``.writer``).
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
 from enum import StrEnum
+from typing import Any
 
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
@@ -34,40 +36,50 @@ from tacgrasp.episodes.command_log import Command
 FORMAT = "tacgrasp-episode/1"
 METADATA_NAME = "tacgrasp_episode"
 
-TOPIC_EPISODE = "/episode"
-TOPIC_CLOUD = "/touch/cloud"
-TOPIC_DECISION = "/decision"
-TOPIC_ACTION = "/action"
-TOPIC_STATE = "/state"
-TOPIC_END = "/end"
-
-Truth = Mapping[str, bool | int | float | str | None]
+TruthFacts = Mapping[str, bool | int | float | str | None]
 """Facts that only a simulator knows (slipped, bruised, held, ...), by name, units in the names."""
 
 
-class Phase(StrEnum):
-    """Which part of an episode a record belongs to."""
+class Topic(StrEnum):
+    """MCAP channels of an episode."""
 
-    TICK = "tick"  # the closed loop of Algorithm 1
-    VERIFY_BEFORE = "verify_before"  # the touch just before the lift that checks a declared success
-    VERIFY_AFTER = "verify_after"  # the touch after lift and hold
+    EPISODE = "/episode"
+    CLOUD = "/touch/cloud"
+    DECISION = "/decision"
+    ACTION = "/action"
+    STATE = "/state"
+    END = "/end"
+
+
+class StepPhase(StrEnum):
+    """Part of an episode that a record belongs to."""
+
+    LOOP = "tick"  # a step of Algorithm 1; the stored name is that of format 1
+    VERIFY_BEFORE = "verify_before"  # just before the lift that checks a declared success
+    VERIFY_AFTER = "verify_after"  # after lift and hold
+
+
+PHASE_LABELS = {
+    StepPhase.VERIFY_BEFORE: "before the lift",
+    StepPhase.VERIFY_AFTER: "after the lift",
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EpisodeHeader:
-    """What is known before the first touch.
+    """Facts known before the first observation.
 
     Attributes:
         task: Name of the task.
-        instruction: What the person asked for, as given to the policy.
+        instruction: The person's instruction, as given to the policy.
         policy: Name of the policy.
-        seed: Seed of the simulated world; None on a real rig.
+        seed: Random seed of the simulated world; None on a real rig.
         sensor: Constants of the sensor that the clouds come from.
         config_yaml: The whole run configuration as YAML, after all overrides.
-        versions: Versions of what ran, by name (tacgrasp, python, numpy, ...).
+        versions: Versions of the software, by name (tacgrasp, python, numpy, ...).
         rig: Name of the rig, 'sim' when simulated.
         dry_run: True when nothing was sent to the devices.
-        stamp: When the episode began.
+        stamp: Start of the episode.
     """
 
     task: str
@@ -83,59 +95,62 @@ class EpisodeHeader:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TickRecord:
-    """One turn of the loop: what was felt, said, asked, sent and reached.
+class StepFields:
+    """Fields that a step's record shares with its message on ``/state``.
 
     Attributes:
-        index: Number of the turn, from 0.
+        index: Number of the step, from 0.
         phase: Part of the episode.
-        cloud: What was felt; its sensor is the header's.
-        decision: What the policy said; None when it was not asked (verification) or could not say.
-        executed: What was done; None when nothing was.
-        tcp_pose: The TCP when the cloud was read.
-        gripper: The gripper when the cloud was read.
-        stamp: When the turn began.
-        tick_ms: How long it took, up to the writing of this record [ms].
-        note: For people: what went wrong in this turn and was survived; empty otherwise.
-        commands: What the devices were given since the record before, oldest first; rigs of real
-            or emulated devices only.
+        stamp: Start of the step, on both clocks [s].
+        tcp_pose: Pose of the TCP when the cloud was read, base frame [m, rad].
+        gripper: State of the gripper when the cloud was read.
+        note: Failures of this step that the loop survived, for people; empty otherwise.
+        commands: Commands to the devices since the record before, oldest first; only on rigs of
+            real or emulated devices.
     """
 
     index: int
-    phase: Phase
-    cloud: TactileCloud
-    decision: Decision | None
-    executed: Executed | None
+    phase: StepPhase
+    stamp: Stamp
     tcp_pose: Pose
     gripper: GripperState
-    stamp: Stamp
-    tick_ms: float
     note: str = ""
     commands: tuple[Command, ...] = ()
 
+    def shared(self) -> dict[str, Any]:
+        """The fields above by name, whatever else this dataclass holds."""
+        return {field.name: getattr(self, field.name) for field in fields(StepFields)}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class EpisodeEnd:
-    """How an episode ended.
+class StepRecord(StepFields):
+    """One step of the loop: observation, decision and executed action.
 
     Attributes:
-        reason: Named end: success, unverified, max_steps, timeout, no_action, limit, contact_lost,
-            fault or operator.
-        declared_success: The policy declared success.
-        verified_success: The lift and the touch after it confirmed; None when it was not tried.
-        message: For people.
-        stamp: When it ended.
-        truth: What the simulator knows, never shown to the policy; None on a real rig.
-        commands: What the devices were given since the last tick, oldest first.
+        cloud: The cloud that was read; its sensor is the header's.
+        decision: The policy's decision; None when it was not asked (verification).
+        executed: The executed action; None when nothing was executed.
+        step_ms: Duration of the step up to the writing of this record [ms].
     """
 
-    reason: str
-    declared_success: bool
-    verified_success: bool | None
-    message: str
-    stamp: Stamp
-    truth: Truth | None = None
-    commands: tuple[Command, ...] = ()
+    cloud: TactileCloud
+    decision: Decision | None
+    executed: Executed | None
+    step_ms: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StepState(StepFields):
+    """A step as it lies in the file, without cloud, decision and action.
+
+    Attributes:
+        cloud_stamp: Capture time of the cloud [s]; the exact value (the cloud's own message
+            rounds to ns), None when the cloud had no clock.
+        tick_ms: Duration of the step [ms].
+    """
+
+    cloud_stamp: Stamp | None
+    tick_ms: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,9 +158,9 @@ class DecisionMessage:
     """A decision as it lies in the file.
 
     Attributes:
-        index: Number of the turn.
-        stamp: When the turn began, on both clocks [s].
-        decision: What the policy said.
+        index: Number of the step.
+        stamp: Start of the step, on both clocks [s].
+        decision: The policy's decision.
     """
 
     index: int
@@ -158,9 +173,9 @@ class ActionMessage:
     """An executed action as it lies in the file.
 
     Attributes:
-        index: Number of the turn.
-        stamp: When the turn began, on both clocks [s].
-        executed: What was asked, sent and reached.
+        index: Number of the step.
+        stamp: Start of the step, on both clocks [s].
+        executed: The action as requested, sent and reached.
     """
 
     index: int
@@ -169,31 +184,37 @@ class ActionMessage:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class TickState:
-    """The rest of a tick as it lies in the file.
+class EpisodeEnd:
+    """End of an episode.
 
     Attributes:
-        index: Number of the turn, from 0.
-        phase: Part of the episode.
-        stamp: When the turn began, on both clocks [s].
-        cloud_stamp: When the cloud was captured [s]; the exact value (the cloud's own message
-            rounds to ns), None when the cloud had no clock.
-        tick_ms: How long the turn took [ms].
-        tcp_pose: The TCP when the cloud was read, base frame [m, rad].
-        gripper: The gripper when the cloud was read.
-        note: What went wrong and was survived; empty otherwise.
-        commands: What the devices were given since the record before, oldest first.
+        reason: Named end: success, unverified, max_steps, timeout, no_action, limit, contact_lost,
+            fault or operator.
+        declared_success: The policy declared success.
+        verified_success: The lift confirmed it; None when no lift was tried.
+        message: Explanation for people.
+        stamp: Time of the end.
+        truth: Facts from the simulator, never shown to the policy; None on a real rig.
+        commands: Commands to the devices since the last step, oldest first.
     """
 
-    index: int
-    phase: Phase
+    reason: str
+    declared_success: bool
+    verified_success: bool | None
+    message: str
     stamp: Stamp
-    cloud_stamp: Stamp | None
-    tick_ms: float
-    tcp_pose: Pose
-    gripper: GripperState
-    note: str = ""
+    truth: TruthFacts | None = None
     commands: tuple[Command, ...] = ()
+
+
+JSON_MESSAGES: Mapping[Topic, tuple[str, type]] = {
+    Topic.EPISODE: ("EpisodeHeader", EpisodeHeader),
+    Topic.DECISION: ("DecisionMessage", DecisionMessage),
+    Topic.ACTION: ("ActionMessage", ActionMessage),
+    Topic.STATE: ("TickState", StepState),
+    Topic.END: ("EpisodeEnd", EpisodeEnd),
+}
+"""Name of the stored schema (that of format 1) and type of each JSON channel's messages."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,15 +222,15 @@ class Episode:
     """A recorded episode.
 
     Attributes:
-        header: What was known at its start.
-        ticks: Its records in order, verification included.
-        end: How it ended; None when the run was killed before it could say.
+        header: Facts known at its start.
+        steps: Its records in order, verification included.
+        end: How it ended; None when the run was killed before its end.
         complete: True when the file was closed properly, so that any MCAP reader opens it.
-        problem: What is wrong with an incomplete file, for people; empty otherwise.
+        problem: Damage of an incomplete file, for people; empty otherwise.
     """
 
     header: EpisodeHeader
-    ticks: tuple[TickRecord, ...]
+    steps: tuple[StepRecord, ...]
     end: EpisodeEnd | None
     complete: bool
-    problem: str = field(default="")
+    problem: str = ""

@@ -1,8 +1,8 @@
 """Finish the episode that a killed run left, so that any MCAP reader opens it.
 
 Every whole record is copied, chunk by chunk, into a new file that gets the summary, index and
-footer that were never written. Nothing is invented: a run that could not say how it ended has no
-``/end`` after recovery either; a metadata record ``tacgrasp_recovered`` says what was done.
+footer that were never written. Nothing is invented: a run that was killed before its end has no
+``/end`` after recovery either. A metadata record ``tacgrasp_recovered`` names the damage.
 
 Not here: reading an unfinished episode, which needs no recovery (``tacgrasp.episodes.reader``).
 """
@@ -12,36 +12,36 @@ from __future__ import annotations
 import fcntl
 import os
 from collections.abc import Iterable
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
 from mcap.records import Channel, McapRecord, Message, Metadata, Schema
-from mcap.writer import CompressionType, Writer
+from mcap.writer import Writer
 
+from cltp.atomic_write import replacing
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.paths import refused, sync_directory
+from tacgrasp.episodes.paths import refusal, sync_directory
 from tacgrasp.episodes.reader import check_format
-from tacgrasp.episodes.record import TOPIC_STATE
+from tacgrasp.episodes.record import Topic
 from tacgrasp.episodes.scan import Scan, scan_file
+from tacgrasp.episodes.writer import start_mcap
 
 METADATA_RECOVERED = "tacgrasp_recovered"
-_NEVER_BY_SIZE = 1 << 30  # chunks end where they ended in the original
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Recovery:
-    """What ``recover`` did.
+    """Result of ``recover``.
 
     Attributes:
         path: The finished file.
-        num_ticks: Ticks in it.
-        original: Where the unfinished file is now; None when nothing had to be done.
-        message: For people.
+        num_steps: Steps in it.
+        original: Path of the unfinished file now; None when nothing had to be done.
+        message: Summary for people.
     """
 
     path: Path
-    num_ticks: int
+    num_steps: int
     original: Path | None
     message: str
 
@@ -49,9 +49,8 @@ class Recovery:
 def recover(path: Path, out: Path | None = None) -> Recovery:
     """Make a finished file of an unfinished one.
 
-    In place (``out`` None) the new file takes the name at once or not at all, and the unfinished
-    one is kept beside it as ``<name>.broken``. With ``out`` the original stays where it is. A
-    finished file is left alone.
+    Without ``out`` the new file replaces the unfinished one atomically, which is kept beside it as
+    ``<name>.broken``. With ``out`` the original stays unchanged. A finished file is left alone.
 
     Raises:
         EpisodeError: As for ``read_episode``; or the run is still writing; or ``out`` exists or
@@ -59,32 +58,30 @@ def recover(path: Path, out: Path | None = None) -> Recovery:
     """
     scan = scan_file(path)
     check_format(path, scan)
-    ticks = _num_ticks(scan)
+    num_steps = _num_steps(scan)
     if scan.finished:
-        message = f"{path} is finished already ({ticks} ticks); left as it is"
-        return Recovery(path=path, num_ticks=ticks, original=None, message=message)
+        message = f"{path} is finished already ({num_steps} steps); left as it is"
+        return Recovery(path=path, num_steps=num_steps, original=None, message=message)
     _refuse_while_recording(path)
     target = path if out is None else out
     if out is not None and out.exists():
         raise EpisodeError(f"{out} exists; episodes are never overwritten, give another name")
-    temporary = target.with_name(f".{target.name}.{os.getpid()}.tmp")
     try:
-        _write(temporary, scan, path.name)
-        original = path if out is not None else _set_aside(path)
-        temporary.replace(target)
+        with replacing(target) as part:
+            _write(part, scan, path.name)
+            original = path if out is not None else _set_aside(path)
         sync_directory(target.parent)
     except OSError as error:
-        raise EpisodeError(refused(target, "write", error)) from None
-    finally:
-        with suppress(OSError):
-            temporary.unlink(missing_ok=True)
-    message = f"{target}: {ticks} ticks recovered; {path.name}: {scan.problem}; kept as {original}"
-    return Recovery(path=target, num_ticks=ticks, original=original, message=message)
+        raise EpisodeError(refusal(target, "write", error)) from None
+    message = (
+        f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
+    )
+    return Recovery(path=target, num_steps=num_steps, original=original, message=message)
 
 
-def _num_ticks(scan: Scan) -> int:
+def _num_steps(scan: Scan) -> int:
     records = list(scan.records)
-    states = {r.id for r in records if isinstance(r, Channel) and r.topic == TOPIC_STATE}
+    states = {r.id for r in records if isinstance(r, Channel) and r.topic == Topic.STATE}
     return sum(isinstance(r, Message) and r.channel_id in states for r in records)
 
 
@@ -97,13 +94,12 @@ def _refuse_while_recording(path: Path) -> None:
                 f"{path} is still being recorded; end that run first (Ctrl-C), then recover"
             ) from None
         except OSError:
-            return  # a disk without locks: nobody can be asked
+            return  # a disk without locks: a running recording can't be detected
 
 
-def _write(temporary: Path, scan: Scan, name: str) -> None:
-    with temporary.open("wb") as file:
-        writer = Writer(file, chunk_size=_NEVER_BY_SIZE, compression=CompressionType.LZ4)
-        writer.start(profile="", library="tacgrasp")
+def _write(path: Path, scan: Scan, name: str) -> None:
+    with path.open("wb") as file:
+        writer = start_mcap(file)
         schemas: dict[int, int] = {0: 0}  # 0 means 'no schema' in MCAP
         channels: dict[int, int] = {}
         for group in scan.groups:
@@ -111,8 +107,6 @@ def _write(temporary: Path, scan: Scan, name: str) -> None:
             writer.flush()
         writer.add_metadata(METADATA_RECOVERED, {"from": name, "problem": scan.problem})
         writer.finish()
-        file.flush()
-        os.fsync(file.fileno())
 
 
 def _copy(
@@ -144,10 +138,10 @@ def _copy(
 def _set_aside(path: Path) -> Path:
     """Give the unfinished file a second name, so that its own name is never without a file."""
     number = 1
-    while (kept := path.with_name(f"{path.name}.broken{'' if number == 1 else number}")).exists():
+    while (backup := path.with_name(f"{path.name}.broken{'' if number == 1 else number}")).exists():
         number += 1
     try:
-        os.link(path, kept)
-    except OSError:  # a disk without hard links: rename, with a moment in between
-        path.rename(kept)
-    return kept
+        os.link(path, backup)
+    except OSError:  # a disk without hard links: the name has no file until the new one is there
+        path.rename(backup)
+    return backup

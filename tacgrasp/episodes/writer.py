@@ -1,11 +1,11 @@
-"""Write an episode so that no crash can take back a tick that was acknowledged.
+"""Write an episode so that no crash can lose a step that was acknowledged.
 
-Every tick is one MCAP chunk. ``write_tick`` returns when the chunk has been handed to the operating
-system and synced to the disk; a process killed at any moment loses at most the tick in flight, and
+Every step is one MCAP chunk. ``write_step`` returns when the chunk has been handed to the operating
+system and synced to the disk; a process killed at any moment loses at most the step in flight, and
 ``tacgrasp.episodes.recover`` finishes the file that it left. There is no temporary name: an
-unfinished episode is found where a finished one would be.
+unfinished episode lies where a finished one would.
 
-Not here: what is in a record (``tacgrasp.episodes.record``), exports.
+Not here: the contents of a record (``tacgrasp.episodes.record``).
 """
 
 from __future__ import annotations
@@ -25,44 +25,32 @@ from mcap.writer import CompressionType, Writer
 from mcap_protobuf.schema import build_file_descriptor_set
 
 from cltp.tactile.cloud import Stamp
-from tacgrasp.episodes.codec import json_schema, not_finite, to_json
+from tacgrasp.episodes.codec import json_schema, non_finite_number, to_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.interrupts import interrupts_held
-from tacgrasp.episodes.paths import refused, sync_directory
+from tacgrasp.episodes.paths import refusal, sync_directory
 from tacgrasp.episodes.record import (
     FORMAT,
+    JSON_MESSAGES,
     METADATA_NAME,
-    TOPIC_ACTION,
-    TOPIC_CLOUD,
-    TOPIC_DECISION,
-    TOPIC_END,
-    TOPIC_EPISODE,
-    TOPIC_STATE,
     ActionMessage,
     DecisionMessage,
     EpisodeEnd,
     EpisodeHeader,
-    TickRecord,
-    TickState,
+    StepRecord,
+    StepState,
+    Topic,
 )
 from tacgrasp.episodes.touch_message import encode_cloud, wall_ns
 
-_JSON_TOPICS: dict[str, type] = {
-    TOPIC_EPISODE: EpisodeHeader,
-    TOPIC_DECISION: DecisionMessage,
-    TOPIC_ACTION: ActionMessage,
-    TOPIC_STATE: TickState,
-    TOPIC_END: EpisodeEnd,
-}
-
-# Larger than any tick (about 20 kB): the writer never closes a chunk by itself, only at our flush.
-_NEVER_BY_SIZE = 1 << 30
+CHUNK_BYTES = 1 << 30
+"""Larger than any step (about 20 kB): a chunk ends only where the MCAP writer is flushed."""
 
 
 class EpisodeWriter:
     """Records one episode; a context manager that creates the file on entry and closes it on exit.
 
-    Left by an exception, the file is closed as a valid MCAP file that holds every acknowledged tick
+    After an exception the file is closed as a valid MCAP file that holds every acknowledged step,
     and has no ``/end`` unless ``finish`` was called.
 
     Args:
@@ -77,7 +65,7 @@ class EpisodeWriter:
         self._channels: dict[str, int] = {}
         self._file: BufferedWriter | None = None
         self._finished = False
-        self._holds_something = False
+        self._has_content = False
 
     def __enter__(self) -> Self:
         """Create the file and write the header durably.
@@ -89,15 +77,14 @@ class EpisodeWriter:
         try:
             self._file = _create(self.path)
         except OSError as error:
-            raise EpisodeError(refused(self.path, "create", error)) from None
+            raise EpisodeError(refusal(self.path, "create", error)) from None
         _lock(self._file)
-        self._mcap = Writer(self._file, chunk_size=_NEVER_BY_SIZE, compression=CompressionType.LZ4)
         try:
             with self._durably("its header"):
-                self._mcap.start(profile="", library="tacgrasp")
+                self._mcap = start_mcap(self._file)
                 self._mcap.add_metadata(METADATA_NAME, _metadata(self._header))
                 self._register()
-                self._add(self._header.stamp, {TOPIC_EPISODE: header})
+                self._add(self._header.stamp, {Topic.EPISODE: header})
             sync_directory(self.path.parent)
         except BaseException:
             self._drop()
@@ -105,49 +92,40 @@ class EpisodeWriter:
             raise
         return self
 
-    def write_tick(self, record: TickRecord) -> None:
-        """Write one tick; it is durable when this returns.
+    def write_step(self, record: StepRecord) -> None:
+        """Write one step; it is durable when this returns.
 
         Raises:
-            EpisodeError: The disk refused it (full, gone); the ticks before are safe in the file,
-                and nothing more can be written. Or a number in it is not finite; then nothing was
-                written, and the next tick can be.
+            EpisodeError: The disk refused it (full, gone); earlier steps are safe in the file, and
+                nothing more can be written. Or a number in it is not finite; then nothing was
+                written, and the next step can be.
         """
-        state = TickState(
-            index=record.index,
-            phase=record.phase,
-            stamp=record.stamp,
-            cloud_stamp=record.cloud.stamp,
-            tick_ms=record.tick_ms,
-            tcp_pose=record.tcp_pose,
-            gripper=record.gripper,
-            note=record.note,
-            commands=record.commands,
+        index, stamp = record.index, record.stamp
+        decision, executed = record.decision, record.executed
+        messages: dict[str, bytes] = {Topic.CLOUD: encode_cloud(record.cloud, stamp)}
+        if decision is not None:
+            message = DecisionMessage(index=index, stamp=stamp, decision=decision)
+            messages[Topic.DECISION] = self._json(message)
+        if executed is not None:
+            action = ActionMessage(index=index, stamp=stamp, executed=executed)
+            messages[Topic.ACTION] = self._json(action)
+        messages[Topic.STATE] = self._json(
+            StepState(**record.shared(), cloud_stamp=record.cloud.stamp, tick_ms=record.step_ms)
         )
-        messages = {TOPIC_CLOUD: encode_cloud(record.cloud, record.stamp)}
-        if record.decision is not None:
-            messages[TOPIC_DECISION] = self._json(
-                DecisionMessage(index=record.index, stamp=record.stamp, decision=record.decision)
-            )
-        if record.executed is not None:
-            messages[TOPIC_ACTION] = self._json(
-                ActionMessage(index=record.index, stamp=record.stamp, executed=record.executed)
-            )
-        messages[TOPIC_STATE] = self._json(state)
-        with self._durably(f"tick {record.index}"):
+        with self._durably(f"step {record.index}"):
             self._add(record.stamp, messages)
 
     def finish(self, end: EpisodeEnd) -> None:
-        """Write how the episode ended. The file is closed when the context is left.
+        """Write the end of the episode. The file is closed when the context is left.
 
         Raises:
-            EpisodeError: As for ``write_tick``; or it was finished before.
+            EpisodeError: As for ``write_step``; or the episode was finished before.
         """
         if self._finished:
             raise EpisodeError(f"{self.path} has been finished already; an episode ends once")
         message = self._json(end)
         with self._durably("its end"):
-            self._add(end.stamp, {TOPIC_END: message})
+            self._add(end.stamp, {Topic.END: message})
             self._finished = True
 
     def __exit__(
@@ -159,8 +137,8 @@ class EpisodeWriter:
         """Write the summary and close the file.
 
         Raises:
-            EpisodeError: The summary could not be written; raised only when no other error is on
-                its way out, which says more.
+            EpisodeError: The summary could not be written; not raised while another error, which
+                explains more, is being raised.
         """
         if self._file is None:
             return
@@ -174,24 +152,24 @@ class EpisodeWriter:
             self._drop()
 
     @contextmanager
-    def _durably(self, what: str) -> Iterator[None]:
-        """Write what the block adds as one chunk, flush and sync it; interrupts wait that long."""
+    def _durably(self, part: str) -> Iterator[None]:
+        """Write the messages that the block adds as one chunk and sync it; interrupts wait."""
         if self._file is None:
             raise EpisodeError(
-                f"{self.path} is closed, {what} can't be written; see the error before"
+                f"{self.path} is closed, {part} can't be written; see the error before"
             )
         with interrupts_held():
             try:
                 yield
                 self._mcap.flush()
                 os.fsync(self._file.fileno())
-                self._holds_something = True
+                self._has_content = True
             except BaseException as error:
-                # Part of a chunk may be in the file and the MCAP writer no longer knows where it
-                # is: anything added now would hide behind the damage.
+                # Part of a chunk may be in the file, and the MCAP writer no longer knows its
+                # position: no reader would find anything added after that damage.
                 self._drop()
                 if isinstance(error, OSError):
-                    raise EpisodeError(self._lost(what, error)) from None
+                    raise EpisodeError(self._write_error(part, error)) from None
                 raise
 
     def _register(self) -> None:
@@ -201,46 +179,53 @@ class EpisodeWriter:
             data=build_file_descriptor_set(PointCloud).SerializeToString(),
         )
         units = {"units": "mm", "frame": "gel: +x right, +y palm, z indentation into the gel"}
-        self._channels[TOPIC_CLOUD] = self._mcap.register_channel(
-            TOPIC_CLOUD, "protobuf", cloud_schema, units
+        self._channels[Topic.CLOUD] = self._mcap.register_channel(
+            Topic.CLOUD, "protobuf", cloud_schema, units
         )
-        for topic, kind in _JSON_TOPICS.items():
+        for topic, (name, kind) in JSON_MESSAGES.items():
             text = json.dumps(json_schema(kind)).encode()
-            schema = self._mcap.register_schema(f"tacgrasp.{kind.__name__}", "jsonschema", text)
+            schema = self._mcap.register_schema(f"tacgrasp.{name}", "jsonschema", text)
             self._channels[topic] = self._mcap.register_channel(topic, "json", schema)
 
     def _json(self, message: Any) -> bytes:
-        """Encode before anything is added: a record that can't be stored leaves the file whole."""
+        """Encode a message before anything is added; one that can't be stored changes no file."""
         kind = type(message).__name__
         try:
             data = to_json(message)
         except TypeError as error:
             raise EpisodeError(f"{self.path}: {kind} can't be recorded: {error}") from error
-        if found := not_finite(data, kind):
-            raise EpisodeError(f"{self.path}: {found}; expected a finite number")
+        if problem := non_finite_number(data, kind):
+            raise EpisodeError(f"{self.path}: {problem}; expected a finite number")
         return json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
 
     def _add(self, stamp: Stamp, messages: Mapping[str, bytes]) -> None:
         """Add the messages of one record, which share its sequence number."""
-        when = wall_ns(stamp)
+        time_ns = wall_ns(stamp)
         for topic, data in messages.items():
-            self._mcap.add_message(self._channels[topic], when, data, when, self._sequence)
+            self._mcap.add_message(self._channels[topic], time_ns, data, time_ns, self._sequence)
         self._sequence += 1
 
-    def _lost(self, what: str, error: OSError) -> str:
-        line = refused(self.path, f"write {what} to", error)
-        if not self._holds_something:
+    def _write_error(self, part: str, error: OSError) -> str:
+        line = refusal(self.path, f"write {part} to", error)
+        if not self._has_content:
             return line
         return (
-            f"{line}. What was recorded before is safe: `tacgrasp episodes recover {self.path}` "
+            f"{line}. Earlier records are safe: `tacgrasp episodes recover {self.path}` "
             "makes a finished file of it"
         )
 
     def _drop(self) -> None:
-        """Close the descriptor without writing what a failed write left in the buffer."""
+        """Close the file descriptor; what a failed write left in the buffer is not written."""
         file, self._file = self._file, None
         if file is not None:
             file.raw.close()
+
+
+def start_mcap(file: BufferedWriter) -> Writer:
+    """An MCAP writer whose chunks end only where it is flushed."""
+    writer = Writer(file, chunk_size=CHUNK_BYTES, compression=CompressionType.LZ4)
+    writer.start(profile="", library="tacgrasp")
+    return writer
 
 
 def _create(path: Path) -> BufferedWriter:
@@ -248,7 +233,7 @@ def _create(path: Path) -> BufferedWriter:
 
 
 def _lock(file: BufferedWriter) -> None:
-    """Tell ``recover`` that this file is alive; some network disks can't, and do without."""
+    """Lock the file, so that ``recover`` leaves it alone; some network disks have no locks."""
     with suppress(OSError):
         fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
 

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Recorded and scripted behaviour: replay an episode, play a demo, describe a contact from a file.
+
+Not here: reading episodes (``tacgrasp.episodes``), the commands' flags (``tacgrasp.cli``).
+"""

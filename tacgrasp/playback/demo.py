@@ -1,7 +1,7 @@
-"""Scripted demos: how the fingers meet the object is set, and what must follow is known.
+"""Scripted demos with a fixed start and a known course.
 
-They show single behaviours of the loop on the simulated rig, with a noise-free sensor and a gripper
-that gives the force that it is asked for; the paper's own example is one of them.
+Each shows one behaviour of the loop on the simulated rig, with a noise-free sensor and a gripper
+that exerts exactly the commanded force. One of them is the paper's own example.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import GoalConfig, RunConfig
-from tacgrasp.episodes import TickRecord
+from tacgrasp.episodes import StepRecord
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.run import run_recorded
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
@@ -23,19 +23,19 @@ from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Demo:
-    """One script.
+    """One scripted demo.
 
     Attributes:
-        what: What it shows, in a line.
-        offset_mm: Where the object lies on the pad at first [mm, gel frame].
+        summary: The behaviour that it shows, in a line.
+        offset_mm: Position of the object on the pad at the start [mm, gel frame].
         force_n: True force of the first grasp [N].
-        actions: What must be done, in order.
-        end: How it must end.
-        policy: Who decides.
-        seed: Draws the berry.
+        actions: Expected actions, in order.
+        end: Expected end.
+        policy: Name of the policy.
+        seed: Random seed of the berry.
     """
 
-    what: str
+    summary: str
     offset_mm: tuple[float, float]
     force_n: float
     actions: tuple[Primitive, ...]
@@ -51,36 +51,36 @@ GOAL = GoalConfig(
     x_mm=(-3.0, 3.0),
     y_mm=(-3.0, 3.0),
 )
-"""The demos' own, so that tuning a task does not change what they show. Its area is narrow: a patch
-that is cut by the pad's edge passes, the whole one at the same force is too firm."""
+"""Goal of the demos, so that tuning a task does not change them. Its band of the area is narrow: a
+contact cut by the pad's edge is inside, the whole contact at the same force is too firm."""
 
 MOVE_STEP_MM = 5.0
-"""From the pad's lower edge to its centre in one move, as the paper's example goes."""
+"""Distance from the pad's lower edge to its centre [mm]: the paper's example needs one move."""
 
 DEMOS: dict[str, Demo] = {
     "paper": Demo(
-        what="bottom-center -> move_down; centred but too firm -> decrease_force; stable",
+        summary="bottom-center -> move_down; centred but too firm -> decrease_force; stable",
         offset_mm=(0.0, -5.2),
         force_n=1.5,
         actions=(Primitive.MOVE_DOWN, Primitive.DECREASE_FORCE),
         end=EndReason.SUCCESS,
     ),
     "gentle": Demo(
-        what="centred but held too lightly -> increase_force twice; stable",
+        summary="centred but held too lightly -> increase_force twice; stable",
         offset_mm=(0.0, 0.0),
         force_n=0.45,
         actions=(Primitive.INCREASE_FORCE, Primitive.INCREASE_FORCE),
         end=EndReason.SUCCESS,
     ),
     "missed": Demo(
-        what="the fingers close beside it, nothing is felt -> reset; the second one ends it",
+        summary="the fingers close beside it, nothing is felt -> reset; the second one ends it",
         offset_mm=(45.0, 0.0),
         force_n=1.0,
         actions=(Primitive.RESET,),
         end=EndReason.CONTACT_LOST,
     ),
     "slips": Demo(
-        what="a policy that doesn't feel calls a light grip secure; lifting shows otherwise",
+        summary="a policy that doesn't feel calls a light grip secure; lifting shows otherwise",
         offset_mm=(0.0, 0.0),
         force_n=0.22,
         actions=(),
@@ -91,28 +91,28 @@ DEMOS: dict[str, Demo] = {
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Shown:
-    """What came of a demo.
+class DemoResult:
+    """Result of a demo.
 
     Attributes:
-        outcome: How it ended.
-        path: Its episode.
-        actions: What was done.
-        as_told: Whether actions and end were those of the script.
+        outcome: Outcome of its episode.
+        path: File of its episode.
+        actions: Executed actions.
+        as_scripted: Whether actions and end were those of the script.
     """
 
     outcome: Outcome
     path: Path
     actions: tuple[Primitive, ...]
-    as_told: bool
+    as_scripted: bool
 
 
-def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> Shown:
-    """Play one demo and compare with its script.
+def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoResult:
+    """Play one demo and compare it with its script.
 
     Raises:
         UsageError: No such demo.
-        EpisodeError: The record can't be begun.
+        EpisodeError: The record can't be created.
     """
     if name not in DEMOS:
         raise UsageError(f"unknown demo {name!r}; known: {', '.join(DEMOS)}")
@@ -123,14 +123,14 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> Shown:
         demo.seed,
         start_offset_mm=demo.offset_mm,
         first_force_n=demo.force_n,
-        gripper_factor=1.0,
+        gripper_force_gain=1.0,
         noise_level=0.0,
     )
     actions: list[Primitive] = []
 
-    def collect(turn: TickRecord) -> None:
-        if turn.executed is not None and turn.executed.primitive is not None:
-            actions.append(turn.executed.primitive)
+    def collect(step: StepRecord) -> None:
+        if step.executed is not None and step.executed.primitive is not None:
+            actions.append(step.executed.primitive)
 
     try:
         outcome, path = run_recorded(
@@ -138,8 +138,8 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> Shown:
         )
     finally:
         rig.disconnect()
-    as_told = tuple(actions) == demo.actions and outcome.reason is demo.end
-    return Shown(outcome=outcome, path=path, actions=tuple(actions), as_told=as_told)
+    as_scripted = tuple(actions) == demo.actions and outcome.reason is demo.end
+    return DemoResult(outcome=outcome, path=path, actions=tuple(actions), as_scripted=as_scripted)
 
 
 def _config(demo: Demo, record: Path) -> RunConfig:

@@ -1,4 +1,4 @@
-"""Say what a touch is, in words and numbers: as it is measured, and as the language model says it.
+"""Describe a contact in words and numbers: as measured, and in the language model's words.
 
 Not here: reading files (``cltp.sensing.touch_files``), measuring (``cltp.tactile.measure``).
 """
@@ -19,7 +19,7 @@ CAPTION_REQUEST = "Describe the contact."
 
 
 def describe(cloud: TactileCloud) -> list[str]:
-    """One line a fact.
+    """Measured facts of a contact, a line each.
 
     Raises:
         TouchError: The cloud can't be measured.
@@ -44,26 +44,26 @@ def describe(cloud: TactileCloud) -> list[str]:
     ]
 
 
-def said(cloud: TactileCloud, model: LlmPolicy, instruction: str) -> list[str]:
-    """What the language model says of a touch and advises on it, one line a fact.
+def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -> list[str]:
+    """Description and advice of the language model, a line each.
 
     Raises:
-        PolicyError: The instruction is none that it can have understood.
+        PolicyError: The model can't understand the instruction.
     """
     try:
-        words = model.ask(cloud, CAPTION_REQUEST)
+        description = model.ask(cloud, CAPTION_REQUEST)
     except PolicyError as error:
-        words = f"nothing: {error}"
-    advice = model.decide(cloud, instruction)
-    if advice.action is not None:
-        asked = f"{advice.action} (confidence {advice.confidence:.2f})"
-    elif advice.success:
-        asked = f"nothing, the grasp is good (confidence {advice.confidence:.2f})"
+        description = f"nothing: {error}"
+    decision = model.decide(cloud, instruction)
+    if decision.action is not None:
+        advice = f"{decision.action} (confidence {decision.confidence:.2f})"
+    elif decision.success:
+        advice = f"nothing, the grasp is good (confidence {decision.confidence:.2f})"
     else:
-        asked = f"no action: {advice.reason}"
+        advice = f"no action: {decision.reason}"
     return [
-        f"model     {words}",
+        f"model     {description}",
         f"asked     {instruction}",
-        f"says      {advice.text}",
-        f"advice    {asked}",
+        f"says      {decision.text}",
+        f"advice    {advice}",
     ]

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""The rig of an episode: its contract, and its simulated, emulated and hardware versions.
+
+Not here: the device drivers (``tacgrasp.drivers``), the simulated devices (``sim.grasp``).
+"""

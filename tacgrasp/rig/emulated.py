@@ -1,8 +1,8 @@
 """The emulated rig: starts emulators and connects the real drivers to them.
 
-Everything of ``tacgrasp.rig.hardware`` runs unchanged; only addresses, ports and the gripper's
-calibration, which nobody can measure there, are put into the settings. The truth of the emulated
-world comes through the control channel, for records and people, never for a policy.
+``tacgrasp.rig.hardware`` runs unchanged; only addresses, ports and the gripper's calibration, which
+can't be measured on an emulator, are put into the settings. The truth of the emulated world comes
+through the control channel, for records and people, never for a policy.
 """
 
 from __future__ import annotations
@@ -35,17 +35,12 @@ class EmulatedRig(HardwareRig):
     """A rig of real drivers on emulators.
 
     Attributes:
-        emulators: Their process.
+        emulators: Process of the emulators.
     """
 
     emulators: EmulatorProcess
 
     def truth(self) -> Truth:
-        """What really happened so far. Never for a policy.
-
-        Raises:
-            RobotError: The emulators do not answer.
-        """
         return truth_from(self.emulators)
 
     def disconnect(self) -> None:
@@ -59,14 +54,14 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
 
     Raises:
         RobotError: They did not start, or a driver refuses them.
-        TouchError: The sensor's driver does.
-        UsageError: The rig's file names a device that there is no emulator for.
+        TouchError: The sensor's driver refuses its emulator.
+        UsageError: The rig's file names a device without an emulator.
     """
     with tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder, ExitStack() as stack:
         emulators = stack.enter_context(EmulatorProcess("rig", *_options(config)))
-        found = settings_for(hardware, emulators, Path(folder))
+        settings = settings_for(hardware, emulators, Path(folder))
         first_force_n = float(str(emulators.ready["first_force_n"]))
-        rig = connect(config, found, first_force_n)
+        rig = connect(config, settings, first_force_n)
         stack.pop_all()
     parts = {field.name: getattr(rig, field.name) for field in fields(rig)}
     return EmulatedRig(**parts, emulators=emulators)
@@ -75,13 +70,13 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
 def settings_for(
     hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
 ) -> HardwareConfig:
-    """The rig's settings with the addresses of these emulators.
+    """Settings of the rig with the addresses of these emulators.
 
-    The gripper's calibration, which is the emulator's own line since nobody can measure it, is
-    written into ``folder``, which has to last until the gripper is connected.
+    The gripper's calibration is the emulator's own line. It is written into ``folder``, which has
+    to last until the gripper is connected.
 
     Raises:
-        UsageError: The sensor is none that there is an emulator for.
+        UsageError: The sensor has no emulator.
         RobotError: The calibration can't be written.
     """
     if hardware.sensor.kind != "taxels":
@@ -102,7 +97,7 @@ def settings_for(
 
 
 def emulated_calibration(settings: DynamixelSettings) -> GripperCalibration:
-    """The emulated rig's own line of force over current, as if it had been measured today."""
+    """Calibration of the emulated gripper: its own line of force over current, dated today."""
     return GripperCalibration(
         unit=settings.unit,
         model=settings.model,
@@ -118,15 +113,15 @@ def emulated_calibration(settings: DynamixelSettings) -> GripperCalibration:
 
 
 def truth_from(emulators: EmulatorProcess) -> Truth:
-    """The truth behind some emulators.
+    """Truth of the emulated world.
 
     Raises:
-        RobotError: They do not answer.
+        RobotError: The emulators do not answer.
     """
     facts = emulators.control.facts("world")
     x_mm, y_mm = facts["offset_x_mm"], facts["offset_y_mm"]
     if not (isinstance(x_mm, float) and isinstance(y_mm, float)):
-        raise RobotError(f"the emulators' truth has no place on the pad: {facts}")
+        raise RobotError(f"the emulators' truth has no position on the pad: {facts}")
     values: dict[str, Any] = {f.name: facts[f.name] for f in fields(Truth) if f.name in facts}
     return Truth(offset_mm=(x_mm, y_mm), **values)
 

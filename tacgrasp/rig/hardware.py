@@ -20,8 +20,6 @@ from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.guard import GuardedArm
@@ -142,18 +140,7 @@ def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor
     Raises:
         TouchError: The sensor can't be reached or used.
     """
-    rng = np.random.default_rng([config.seed, 2])
-    if isinstance(settings, GelSightSettings):
-        from tacgrasp.drivers.gelsight.connect import connect_gelsight
-
-        return connect_gelsight(settings, rng=rng)
-    if isinstance(settings, RecordedSettings):
-        from tacgrasp.drivers.recorded.sensor import connect_recorded
-
-        return connect_recorded(settings)
-    from tacgrasp.drivers.taxels.connect import connect_taxels
-
-    return connect_taxels(settings, rng=rng)
+    return settings.connect(np.random.default_rng([config.seed, 2]))
 
 
 def _check_gripper(gripper: DynamixelGripper) -> None:

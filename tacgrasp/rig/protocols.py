@@ -1,23 +1,27 @@
-"""What a run needs of a rig: its tactile sensor, its clock, and the rig as a whole.
+"""Contracts of a rig, of its tactile sensor and of its clock.
 
-The contracts of arm and gripper are in ``primitives.devices``.
+Not here: the contracts of arm and gripper (``primitives.devices``).
 """
 
 from __future__ import annotations
 
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from primitives.devices import Arm, Gripper, Pose
+from tacgrasp.episodes.command_log import Command
+
+if TYPE_CHECKING:
+    from sim.grasp.rig import Truth
 
 
 class TactileSensor(Protocol):
-    """A sensor that gives clouds. Implementations: ``sim.grasp.rig.SimSensor``, the drivers."""
+    """A sensor that gives clouds. Implementations: ``sim.grasp.devices.SimSensor``, the drivers."""
 
     @property
     def spec(self) -> SensorSpec:
-        """Which sensor this is."""
+        """Type and constants of the sensor."""
         ...
 
     def read(self) -> TactileCloud:
@@ -26,7 +30,7 @@ class TactileSensor(Protocol):
         The cloud is newer than the call, has 1024 stratified points and carries both clocks.
 
         Raises:
-            TouchError: No fresh frame could be had; never answers with an old one.
+            TouchError: No fresh frame could be captured; an old one is never returned.
         """
         ...
 
@@ -36,22 +40,34 @@ class TactileSensor(Protocol):
 
 
 class WatchedSensor(TactileSensor, Protocol):
-    """A sensor that can be looked at while the arm moves, without waiting for a frame."""
+    """A sensor of a real rig, which can be checked while the arm moves."""
 
     def check_alive(self) -> None:
-        """Return at once when frames are coming.
+        """Return at once when frames are coming, without waiting for one.
 
         Raises:
-            TouchError: They are not.
+            TouchError: No frames are coming.
         """
+        ...
+
+    def expect_untouched(self) -> None:
+        """Compare the gel with its background; a sensor without a background returns at once.
+
+        Raises:
+            TouchError: The gel is touched or dirty, or its background is stale.
+        """
+        ...
+
+    def counts(self) -> object | None:
+        """Counts of frames and of the faults among them, for people; None without any."""
         ...
 
 
 class Clock(Protocol):
-    """Time as the loop sees it: on a simulated rig, motions and waits take simulated time."""
+    """Clock of the loop: on a simulated rig, motions and waits take simulated time."""
 
     def monotonic(self) -> float:
-        """For durations and ordering [s]."""
+        """Time for durations and ordering [s]."""
         ...
 
     def wall(self) -> float:
@@ -59,11 +75,11 @@ class Clock(Protocol):
         ...
 
     def sleep(self, seconds: float) -> None:
-        """Let time pass [s]."""
+        """Wait [s]."""
         ...
 
     def stamp(self) -> Stamp:
-        """Both clocks, now."""
+        """Current time on both clocks."""
         ...
 
 
@@ -71,33 +87,45 @@ class Rig(Protocol):
     """The devices of one episode, at the start pose with the gripper open."""
 
     @property
-    def arm(self) -> Arm:
-        """The arm."""
-        ...
+    def arm(self) -> Arm: ...
 
     @property
-    def gripper(self) -> Gripper:
-        """The gripper."""
-        ...
+    def gripper(self) -> Gripper: ...
 
     @property
-    def sensor(self) -> TactileSensor:
-        """The tactile sensor in one finger."""
-        ...
+    def sensor(self) -> TactileSensor: ...
 
     @property
-    def clock(self) -> Clock:
-        """Time."""
-        ...
+    def clock(self) -> Clock: ...
 
     @property
     def start_pose(self) -> Pose:
-        """Where the first grasp is made, and where ``reset`` returns to."""
+        """Pose of the first grasp, to which ``reset`` returns."""
         ...
 
     @property
     def first_force_n(self) -> float:
         """Commanded force of the first grasp [N]."""
+        ...
+
+    def expect_untouched(self) -> None:
+        """Check before the first grasp that nothing touches the gel; the gripper is open.
+
+        Raises:
+            RobotError: The gel is touched or dirty, or its background is stale; nothing has moved.
+        """
+        ...
+
+    def commands(self) -> tuple[Command, ...]:
+        """Commands to the devices since the last call, oldest first; empty in simulation."""
+        ...
+
+    def truth(self) -> Truth | None:
+        """Truth of the simulated world, never for a policy; None on a real rig.
+
+        Raises:
+            RobotError: The emulators do not answer.
+        """
         ...
 
     def disconnect(self) -> None:

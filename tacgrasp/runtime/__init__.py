@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Parts of the loop: steps and their bounds, verification by lifting, ends, the safe shutdown.
+
+Not here: the order of a step's stages (``tacgrasp.loop``), the devices (``tacgrasp.rig``).
+"""

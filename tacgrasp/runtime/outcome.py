@@ -1,4 +1,4 @@
-"""How an episode can end, and what is told about its ticks while it goes."""
+"""Ends and outcome of an episode, and the observers of its steps."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tacgrasp.episodes.record import TickRecord, Truth
+from tacgrasp.episodes.record import StepRecord, TruthFacts
 
 
 class EndReason(StrEnum):
@@ -26,14 +26,14 @@ class EndReason(StrEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Verification:
-    """What the lift showed.
+    """Result of a verification by lifting.
 
     Attributes:
-        passed: The contact stayed what it was.
-        message: Why, with the numbers.
-        shift_mm: How far the contact moved on the pad [mm].
-        area_ratio: Area after the lift over before.
-        depth_ratio: Depth after over before.
+        passed: The contact stayed as it was, within the task's thresholds.
+        message: Explanation with the numbers.
+        shift_mm: Shift of the contact on the pad [mm].
+        area_ratio: Area after the lift over the area before.
+        depth_ratio: Depth after the lift over the depth before.
     """
 
     passed: bool
@@ -45,37 +45,37 @@ class Verification:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Outcome:
-    """How an episode ended.
+    """Result of an episode.
 
     Attributes:
         reason: The named end.
-        message: What happened, for people.
+        message: Explanation for people.
         declared: The policy declared success.
-        verified: The lift confirmed it; None when it was not tried.
-        steps: Actions that were carried out.
-        turns: Times that the gel was felt and the policy asked.
-        duration_s: From the first command to the safe state [s]; includes simulated motion.
-        safe_state: How the gripper was left, for people.
-        truth: What the simulator knows of the moment before the safe state; None on a real rig.
+        verified: The lift confirmed it; None when no lift was tried.
+        num_actions: Number of executed actions.
+        num_steps: Number of recorded observations, those of the verification included.
+        duration_s: Time from the first command to the safe state [s]; includes simulated motion.
+        safe_state: State of the gripper afterwards, for people.
+        truth: Facts from the simulator just before the safe state; None on a real rig.
     """
 
     reason: EndReason
     message: str
     declared: bool
     verified: bool | None
-    steps: int
-    turns: int
+    num_actions: int
+    num_steps: int
     duration_s: float
     safe_state: str
-    truth: Truth | None = None
+    truth: TruthFacts | None = None
 
 
-Observer = Callable[[TickRecord], None]
-"""Told of every turn after it has been recorded (views, benchmarks)."""
+Observer = Callable[[StepRecord], None]
+"""Called with every step after it has been recorded (console, benchmarks)."""
 
 
 class EndOfEpisode(Exception):  # noqa: N818 - an end, not an error
-    """Raised inside the loop where an episode comes to a named end."""
+    """Raised inside the loop to end the episode with a named reason."""
 
     def __init__(self, reason: EndReason, message: str) -> None:
         super().__init__(message)

@@ -1,43 +1,57 @@
-"""The end of every episode: the robot in the task's state, the episode ended, on every path."""
+"""The end of every episode, on every path: the robot made safe, the record finished."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import asdict, dataclass, replace
 from typing import TypeVar
 
 from primitives import RobotError
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
 from tacgrasp.episodes.interrupts import interrupts_held
-from tacgrasp.rig.factory import commands_of, truth_of
+from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
-from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome
-from tacgrasp.runtime.tick import Recorder, Turns
+from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome, Verification
+from tacgrasp.runtime.steps import Recorder, Step, Steps
+
+log = logging.getLogger(__name__)
 
 T = TypeVar("T")
 
 INTERRUPTS_SURVIVED = 3
-"""How often a step of making safe is taken up again when it is interrupted."""
+"""Number of times that an interrupted safety command is repeated."""
 
 FREE_BY_HAND = (
     "what it grips may still be held: support it, then switch the gripper's power off, or remove "
     "the cause and open with tacgrasp jog (key o)"
 )
-"""What to do when a gripper that was to release has failed: it takes no command any more."""
+"""Advice when a gripper that should release has failed: it takes no command any more."""
 
 
-def close(
-    rig: Rig,
-    config: RunConfig,
-    recorder: Recorder,
-    turns: Turns,
-    end: EndOfEpisode,
-    declared: bool,
-    verified: bool | None,
-    steps: int,
-) -> Outcome:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ending:
+    """An episode at its end.
+
+    Attributes:
+        rig, config, recorder, steps: Those of the episode.
+        end: Reason and message.
+        last_step: The last step, recorded or not; None before the first decision.
+        verification: Result of the lift; None when none was tried.
+    """
+
+    rig: Rig
+    config: RunConfig
+    recorder: Recorder
+    steps: Steps
+    end: EndOfEpisode
+    last_step: Step | None
+    verification: Verification | None
+
+
+def close(ending: Ending) -> Outcome:
     """Stop the arm, hold or release as the task says, and write how the episode ended.
 
     A failure here turns the end into ``fault``. Ctrl-C waits until it is done.
@@ -45,59 +59,72 @@ def close(
     Raises:
         Exception: A bug in a device; the record is ended all the same.
     """
+    rig, steps, end = ending.rig, ending.steps, ending.end
     with interrupts_held():
         try:
-            truth = truth_of(rig)  # before the gripper opens
+            truth = read_truth(rig)  # before the gripper opens
         finally:
-            safe_state, released = _make_safe(rig, config, end)
-        problems = [] if released else [safe_state]
-        unfinished = _refusals(lambda: turns.record(None, note=f"cut short: {end.message}"))
-        if end.reason is not EndReason.FAULT:  # which may be the recorder's own, and said already
-            problems += unfinished
+            safe_state, is_safe = _make_safe(rig, ending.config, end)
+        problems = [] if is_safe else [safe_state]
+        refusals = _refusals(lambda: steps.record_cut_short(ending.last_step, end.message))
+        if end.reason is not EndReason.FAULT:  # a fault may be the recorder's own error already
+            problems += refusals
         outcome = Outcome(
             reason=EndReason.FAULT if problems else end.reason,
             message="; ".join([end.message, *problems]),
-            declared=declared,
-            verified=verified,
-            steps=steps,
-            turns=turns.count,
-            duration_s=turns.elapsed_s,
+            declared=ending.last_step is not None and ending.last_step.declared,
+            verified=None if ending.verification is None else ending.verification.passed,
+            num_actions=steps.num_actions,
+            num_steps=steps.num_steps,
+            duration_s=steps.elapsed_s,
             safe_state=safe_state,
             truth=truth,
         )
-        late = _refusals(lambda: recorder.finish(_episode_end(rig, outcome)))
-    if late and outcome.reason is not EndReason.FAULT:
-        message = "; ".join([outcome.message, *late])
+        refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))
+    if refusals and outcome.reason is not EndReason.FAULT:
+        message = "; ".join([outcome.message, *refusals])
         outcome = replace(outcome, reason=EndReason.FAULT, message=message)
     return outcome
 
 
+def read_truth(rig: Rig) -> TruthFacts | None:
+    """Truth of a simulated world for the record; None on a real rig, or when its emulators died."""
+    try:
+        truth = rig.truth()
+    except RobotError as error:  # the robot must be made safe all the same
+        log.warning("the truth can't be recorded: %s", error)
+        return None
+    if truth is None:
+        return None
+    facts = asdict(truth)
+    x_mm, y_mm = facts.pop("offset_mm")
+    return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
+
+
 def _make_safe(rig: Rig, config: RunConfig, end: EndOfEpisode) -> tuple[str, bool]:
-    """Stop, then hold or release; returns how the gripper was left, and whether that was wanted."""
+    """Stop, then hold or release; return the state of the gripper, and whether it is as desired."""
     if config.dry_run:
         return "nothing was sent", True
-    wanted = config.on_success if end.reason is EndReason.SUCCESS else config.on_failure
+    action = config.on_success if end.reason is EndReason.SUCCESS else config.on_failure
     _despite_interrupts(rig.arm.stop)
     _despite_interrupts(rig.gripper.stop)
-    if wanted == "hold":
+    if action == "hold":
         return "the gripper keeps its grip", True
     try:
         if not _despite_interrupts(rig.gripper.state).closed:
             return "the gripper is open", True
         _despite_interrupts(lambda: rig.gripper.open_by(config.primitives.clear_mm / 1000))
     except RobotError as error:
-        why = "" if str(error) in end.message else f": {error}"
-        return f"the gripper could not be opened{why}; {FREE_BY_HAND}", False
+        reason = "" if str(error) in end.message else f": {error}"
+        return f"the gripper could not be opened{reason}; {FREE_BY_HAND}", False
     except KeyboardInterrupt:
-        return (
-            f"the gripper could not be opened: interrupted again and again; {FREE_BY_HAND}",
-            False,
-        )
+        reason = "interrupted again and again"
+        return f"the gripper could not be opened: {reason}; {FREE_BY_HAND}", False
     return "the gripper has released", True
 
 
 def _refusals(write: Callable[[], None]) -> list[str]:
-    """Write to the record; says why when it can't be, which must not keep the robot from safety."""
+    """Write to the record; an error is returned, since it must not keep the robot from safety."""
     try:
         write()
     except EpisodeError as error:
@@ -113,13 +140,13 @@ def _episode_end(rig: Rig, outcome: Outcome) -> EpisodeEnd:
         message=outcome.message,
         stamp=rig.clock.stamp(),
         truth=outcome.truth,
-        commands=commands_of(rig),
+        commands=rig.commands(),
     )
 
 
-def _despite_interrupts(step: Callable[[], T]) -> T:
-    """Take a step of making safe up again when Ctrl-C cuts it short."""
+def _despite_interrupts(command: Callable[[], T]) -> T:
+    """Repeat a safety command that Ctrl-C interrupts."""
     for _ in range(INTERRUPTS_SURVIVED):
         with suppress(KeyboardInterrupt):
-            return step()
-    return step()
+            return command()
+    return command()

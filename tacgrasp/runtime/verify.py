@@ -1,7 +1,7 @@
-"""Check a declared success by touch alone: lift, shake, hold, and compare the contact.
+"""Verify a declared success by touch alone: lift, shake, hold, and compare the contact.
 
 Source: our choice; the paper stops at the declaration. The lift's acceleration is the benchmark's.
-Not here: what is true in the simulator (that is recorded beside, never consulted).
+The simulator's truth is recorded as well, but never used here.
 """
 
 from __future__ import annotations
@@ -20,44 +20,44 @@ from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Verification
-from tacgrasp.runtime.steps import Turns
+from tacgrasp.runtime.steps import Steps
 
 UP = np.array([0.0, 0.0, 1.0])
-"""Against gravity, base frame."""
+"""Direction against gravity, base frame."""
 
 
-def verify_by_lifting(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
-    """Lift and shake what is held, wait, and compare; put it back when it did not hold.
+def verify_by_lifting(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+    """Lift, shake and hold the object, and compare the contact; on failure lower it again.
 
     Raises:
         LimitError: Lift or shake would leave the workspace; nothing has moved then.
         RobotError: The arm failed or refused.
         TouchError: The gel can't be read.
-        EpisodeError: The touches can't be recorded.
+        EpisodeError: An observation can't be recorded.
     """
     settings = config.verify
     start = rig.arm.pose()
     lifted = _shifted(start, UP * settings.lift_mm / 1000)
     pad_x = rotated(start.rotvec_rad, np.array(config.pad.x_axis))
-    aside = _shifted(lifted, pad_x * settings.shake_mm / 1000)
-    for pose in (lifted, aside):
+    sideways = _shifted(lifted, pad_x * settings.shake_mm / 1000)
+    for pose in (lifted, sideways):
         check_workspace(pose, config.limits())
-    before = contact_state(turns.feel(StepPhase.VERIFY_BEFORE))
-    shake = [aside, lifted] * settings.shakes if settings.shake_mm > 0 else []
+    before = contact_state(steps.observe(StepPhase.VERIFY_BEFORE))
+    shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
     _move(rig, lifted, settings, settings.acceleration_m_s2)
     for pose in shake:
         _move(rig, pose, settings, settings.shake_acceleration_m_s2)
     rig.clock.sleep(settings.hold_s)
-    after = contact_state(turns.feel(StepPhase.VERIFY_AFTER))
+    after = contact_state(steps.observe(StepPhase.VERIFY_AFTER))
     verification = compare(before, after, settings)
     if not verification.passed:
-        # down again: what is still held must not fall when released
+        # an object that is still held must not fall when it is released
         _move(rig, start, settings, settings.acceleration_m_s2)
     return verification
 
 
 def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -> Verification:
-    """Judge the contact before and after the lift against the task's thresholds."""
+    """Compare the contact before and after the lift with the task's thresholds."""
     if not before.in_contact:
         return Verification(passed=False, message="nothing was felt before the lift")
     if not after.in_contact:
@@ -65,27 +65,27 @@ def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -
     shift_mm = math.hypot(after.x_mm - before.x_mm, after.y_mm - before.y_mm)
     area_ratio = after.area_fraction / before.area_fraction
     depth_ratio = after.depth_mm / before.depth_mm
-    wrong = []
+    problems = []
     if shift_mm > settings.max_shift_mm:
-        wrong.append(f"the contact moved {shift_mm:.1f} mm (at most {settings.max_shift_mm:g})")
+        problems.append(f"the contact moved {shift_mm:.1f} mm (at most {settings.max_shift_mm:g})")
     for name, ratio, least in (
         ("area", area_ratio, settings.min_area_ratio),
         ("depth", depth_ratio, settings.min_depth_ratio),
     ):
         if ratio < least:
-            wrong.append(f"{ratio:.0%} of its {name} is left (at least {least:.0%})")
-    held = f"held through the lift: moved {shift_mm:.1f} mm, {area_ratio:.0%} of the area left"
+            problems.append(f"{ratio:.0%} of its {name} is left (at least {least:.0%})")
+    summary = f"held through the lift: moved {shift_mm:.1f} mm, {area_ratio:.0%} of the area left"
     return Verification(
-        passed=not wrong,
-        message="; ".join(wrong) or held,
+        passed=not problems,
+        message="; ".join(problems) or summary,
         shift_mm=shift_mm,
         area_ratio=area_ratio,
         depth_ratio=depth_ratio,
     )
 
 
-def not_lifted(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
-    """The verification of a dry run: nothing may move, so nothing is verified."""
+def not_lifted(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+    """Verification of a dry run: nothing may move, so nothing is verified."""
     return Verification(passed=False, message="dry run: nothing was lifted")
 
 
@@ -93,5 +93,5 @@ def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float
     rig.arm.move_to(pose, speed_m_s=settings.speed_m_s, acceleration_m_s2=acceleration_m_s2)
 
 
-def _shifted(pose: Pose, by_m: NDArray[np.float64]) -> Pose:
-    return Pose(position_m=pose.position_m + by_m, rotvec_rad=pose.rotvec_rad)
+def _shifted(pose: Pose, offset_m: NDArray[np.float64]) -> Pose:
+    return Pose(position_m=pose.position_m + offset_m, rotvec_rad=pose.rotvec_rad)

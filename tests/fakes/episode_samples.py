@@ -12,7 +12,7 @@ from policies.policy import Decision
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
 from primitives.primitive import Primitive
-from tacgrasp.episodes import EpisodeEnd, EpisodeHeader, EpisodeWriter, Phase, TickRecord
+from tacgrasp.episodes import EpisodeEnd, EpisodeHeader, EpisodeWriter, StepPhase, StepRecord
 from tacgrasp.episodes.codec import to_json
 
 SENSOR = sensor_named("gelsight_mini")
@@ -63,10 +63,10 @@ def executed(primitive: Primitive | None) -> Executed:
 def tick(
     index: int,
     *,
-    phase: Phase = Phase.TICK,
+    phase: StepPhase = StepPhase.LOOP,
     action: Primitive | None = Primitive.MOVE_DOWN,
-    tick_ms: float = 12.5,
-) -> TickRecord:
+    step_ms: float = 12.5,
+) -> StepRecord:
     decision = Decision(
         text=f"Touch {index}: the contact is at the bottom-center, I will move_down.",
         action=action,
@@ -75,16 +75,16 @@ def tick(
         confidence=1 / 3,
         stage_ms={"measure": 0.1, "say": 1 / 7},
     )
-    return TickRecord(
+    return StepRecord(
         index=index,
         phase=phase,
         cloud=press(5.0 - index, -4.0, 0.4, seed=index),
-        decision=decision if phase == Phase.TICK else None,
-        executed=None if action is None or phase != Phase.TICK else executed(action),
+        decision=decision if phase == StepPhase.LOOP else None,
+        executed=None if action is None or phase != StepPhase.LOOP else executed(action),
         tcp_pose=Pose(position_m=np.array([0.1, 1 / 3, 0.2]), rotvec_rad=np.array([0, np.pi, 0])),
         gripper=GripperState(width_m=0.03, force_n=1 / 3, closed=True),
         stamp=stamp(index + 0.5),
-        tick_ms=tick_ms,
+        step_ms=step_ms,
     )
 
 
@@ -99,7 +99,7 @@ def end() -> EpisodeEnd:
     )
 
 
-def record(path: Path, ticks: Sequence[TickRecord], *, with_end: bool = True) -> list[int]:
+def record(path: Path, ticks: Sequence[StepRecord], *, with_end: bool = True) -> list[int]:
     """Record ``ticks``; returns the size of the file after the header and after each tick [bytes].
 
     A process killed at any moment leaves a file of a size between two of these.
@@ -108,7 +108,7 @@ def record(path: Path, ticks: Sequence[TickRecord], *, with_end: bool = True) ->
     with EpisodeWriter(path, header()) as writer:
         sizes.append(path.stat().st_size)
         for one in ticks:
-            writer.write_tick(one)
+            writer.write_step(one)
             sizes.append(path.stat().st_size)
         if with_end:
             writer.finish(end())

@@ -32,8 +32,8 @@ class AcknowledgingWriter(EpisodeWriter):
         os.write(self.pipe, WORD.pack(READY))
         return entered
 
-    def write_tick(self, record):
-        super().write_tick(record)
+    def write_step(self, record):
+        super().write_step(record)
         os.write(self.pipe, WORD.pack(checksum(record.cloud)))
 
 
@@ -46,7 +46,7 @@ def main(kind: str, folder: Path, pipe: int) -> int:
         return __main__.main(["run", "--task", "strawberry", "--record", str(folder)])
     with AcknowledgingWriter(folder / "killed.mcap", header()) as writer:
         for index in itertools.count():
-            writer.write_tick(tick(index))
+            writer.write_step(tick(index))
     return 0
 
 

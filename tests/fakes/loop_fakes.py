@@ -9,16 +9,16 @@ import numpy as np
 from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from policies import Decision
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from primitives.devices import GripperState, Pose
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.episodes import EpisodeEnd, EpisodeError, TickRecord
+from tacgrasp.episodes import EpisodeEnd, EpisodeError, StepRecord
 from tacgrasp.loop import run_episode
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Observer, Outcome, Verification
-from tacgrasp.runtime.tick import Turns
+from tacgrasp.runtime.steps import Steps
 
 SENSOR = sensor_named("gelsight_mini")
 START = Pose(position_m=np.array([0.45, -0.10, 0.20]), rotvec_rad=np.array([np.pi, 0.0, 0.0]))
@@ -75,6 +75,15 @@ class FakeRig:
         self.calls.append(name)
         if self._before is not None:
             self._before(name, len(self.calls) - 1)
+
+    def expect_untouched(self) -> None:
+        pass
+
+    def commands(self) -> tuple[()]:
+        return ()
+
+    def truth(self) -> None:
+        return None
 
     def disconnect(self) -> None:
         self.calls.append("disconnect")
@@ -172,26 +181,26 @@ class ListRecorder:
     """Keeps records in a list; refuses the ``full_at``-th one like a full disk."""
 
     def __init__(self, full_at: int | None = None) -> None:
-        self.ticks: list[TickRecord] = []
+        self.steps: list[StepRecord] = []
         self.ends: list[EpisodeEnd] = []
         self._full_at = full_at
 
-    def write_tick(self, record: TickRecord) -> None:
-        if self._full_at is not None and len(self.ticks) >= self._full_at:
+    def write_step(self, record: StepRecord) -> None:
+        if self._full_at is not None and len(self.steps) >= self._full_at:
             raise EpisodeError("the disk is full")
-        self.ticks.append(record)
+        self.steps.append(record)
 
     def finish(self, end: EpisodeEnd) -> None:
-        if self._full_at is not None and len(self.ticks) >= self._full_at:
+        if self._full_at is not None and len(self.steps) >= self._full_at:
             raise EpisodeError("the file is closed")
         self.ends.append(end)
 
 
-def holds(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+def holds(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
     return Verification(passed=True, message="held")
 
 
-def slips(rig: Rig, turns: Turns, config: RunConfig) -> Verification:
+def slips(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
     return Verification(passed=False, message="slipped")
 
 
@@ -205,7 +214,7 @@ def play(
     policy: Says,
     *,
     rig: FakeRig | None = None,
-    verify: Callable[[Rig, Turns, RunConfig], Verification] = holds,
+    verify: Callable[[Rig, Steps, RunConfig], Verification] = holds,
     recorder: ListRecorder | None = None,
     settings: RunConfig | None = None,
     observers: Sequence[Observer] = (),

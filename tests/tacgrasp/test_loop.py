@@ -9,7 +9,7 @@ import pytest
 from cltp import TouchError
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
-from tacgrasp.episodes import Phase, TickRecord
+from tacgrasp.episodes import StepPhase, StepRecord
 from tacgrasp.runtime.outcome import EndReason
 from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
 from tests.fakes.loop_fakes import (
@@ -33,8 +33,8 @@ from tests.fakes.loop_fakes import (
 def test_a_declared_and_verified_grasp_is_a_success_and_is_held() -> None:
     outcome, rig, recorder = play(Says(DOWN, LIGHT, GOOD))
     assert outcome.reason is EndReason.SUCCESS
-    assert (outcome.declared, outcome.verified, outcome.steps) == (True, True, 2)
-    assert [tick.executed is not None for tick in recorder.ticks] == [True, True, False]
+    assert (outcome.declared, outcome.verified, outcome.num_actions) == (True, True, 2)
+    assert [tick.executed is not None for tick in recorder.steps] == [True, True, False]
     assert rig.gripper.now.closed
     assert recorder.ends[0].reason == "success"
 
@@ -48,7 +48,7 @@ def test_a_text_that_only_declares_success_moves_nothing() -> None:
 def test_a_text_with_success_and_action_acts_and_must_declare_again() -> None:
     outcome, rig, recorder = play(Says(BOTH, GOOD))
     assert rig.moves == 1
-    assert len(recorder.ticks) == 2
+    assert len(recorder.steps) == 2
     assert outcome.reason is EndReason.SUCCESS
 
 
@@ -66,7 +66,7 @@ def test_no_action_or_two_holds_still_asks_again_and_ends_with_no_action(text: s
     assert outcome.reason is EndReason.NO_ACTION
     assert policy.asked == 3
     assert rig.moves == 0
-    assert [tick.decision is not None for tick in recorder.ticks] == [True] * 3
+    assert [tick.decision is not None for tick in recorder.steps] == [True] * 3
 
 
 def test_asks_in_vain_are_counted_in_a_row_only() -> None:
@@ -77,22 +77,22 @@ def test_asks_in_vain_are_counted_in_a_row_only() -> None:
 def test_as_many_actions_as_the_task_allows_end_with_max_steps() -> None:
     outcome, rig, recorder = play(Says(DOWN, LIGHT, DOWN, LIGHT), settings=config(max_steps=3))
     assert outcome.reason is EndReason.MAX_STEPS
-    assert outcome.steps == 3
+    assert outcome.num_actions == 3
     assert rig.moves == 2
-    assert recorder.ticks[-1].executed is None
+    assert recorder.steps[-1].executed is None
 
 
 def test_time_ends_with_timeout() -> None:
     rig = FakeRig(lambda name, _: rig.clock.sleep(10) if name == "sensor.read" else None)
     outcome, _, _ = play(Says(DOWN), rig=rig, settings=config(timeout_s=25))
     assert outcome.reason is EndReason.TIMEOUT
-    assert outcome.steps == 3  # felt at 10, 20 and 30 s
+    assert outcome.num_actions == 3  # felt at 10, 20 and 30 s
 
 
 def test_the_second_reset_ends_with_contact_lost_and_is_not_carried_out() -> None:
     outcome, _, recorder = play(Says(RESET, DOWN, RESET))
     assert outcome.reason is EndReason.CONTACT_LOST
-    done = [t.executed.primitive if t.executed else None for t in recorder.ticks]
+    done = [t.executed.primitive if t.executed else None for t in recorder.steps]
     assert done == [Primitive.RESET, Primitive.MOVE_DOWN, None]
 
 
@@ -127,7 +127,7 @@ def test_a_sensor_that_comes_back_is_survived_and_noted() -> None:
     rig = FakeRig(failing("sensor.read", TouchError("no fresh frame"), 2))
     outcome, _, recorder = play(Says(GOOD), rig=rig, settings=config(max_faults=3))
     assert outcome.reason is EndReason.SUCCESS
-    assert "no fresh frame" in recorder.ticks[0].note
+    assert "no fresh frame" in recorder.steps[0].note
 
 
 def test_a_sensor_that_stays_away_ends_with_fault_and_nothing_moves() -> None:
@@ -155,7 +155,7 @@ def test_a_recorder_that_fails_stops_the_robot_and_ends_with_fault() -> None:
     outcome, rig, recorder = play(Says(DOWN), recorder=ListRecorder(full_at=1))
     assert outcome.reason is EndReason.FAULT
     assert "disk is full" in outcome.message
-    assert len(recorder.ticks) == 1
+    assert len(recorder.steps) == 1
     assert "arm.stop" in rig.calls
     assert not rig.gripper.now.closed
 
@@ -170,7 +170,7 @@ def test_a_recorder_that_refuses_the_end_makes_a_success_a_fault() -> None:
 def test_a_bug_makes_the_robot_safe_ends_the_record_and_is_raised() -> None:
     rig, recorder = FakeRig(), ListRecorder()
 
-    def bug(_: TickRecord) -> None:
+    def bug(_: StepRecord) -> None:
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
@@ -260,9 +260,9 @@ def test_a_robot_error_in_any_device_call_stops_the_arm_and_ends_the_episode(
 def test_what_was_said_before_a_fault_is_recorded() -> None:
     rig = FakeRig(failing("arm.move_to", RobotError("protective stop"), 1))
     _, _, recorder = play(Says(DOWN), rig=rig)
-    assert recorder.ticks[-1].decision is not None
-    assert recorder.ticks[-1].decision.text == DOWN
-    assert "protective stop" in recorder.ticks[-1].note
+    assert recorder.steps[-1].decision is not None
+    assert recorder.steps[-1].decision.text == DOWN
+    assert "protective stop" in recorder.steps[-1].note
 
 
 def test_a_gripper_that_will_not_release_is_a_fault_even_after_ctrl_c() -> None:
@@ -292,9 +292,9 @@ def test_a_gripper_whose_own_fault_keeps_it_from_releasing_says_why_once() -> No
 
 def test_the_verification_records_a_touch_before_and_after_the_lift() -> None:
     _, _, recorder = play(Says(GOOD), verify=verify_by_lifting)
-    phases = [tick.phase for tick in recorder.ticks]
-    assert phases == [Phase.TICK, Phase.VERIFY_BEFORE, Phase.VERIFY_AFTER]
-    lifted = recorder.ticks[-1].tcp_pose.position_m - recorder.ticks[0].tcp_pose.position_m
+    phases = [tick.phase for tick in recorder.steps]
+    assert phases == [StepPhase.LOOP, StepPhase.VERIFY_BEFORE, StepPhase.VERIFY_AFTER]
+    lifted = recorder.steps[-1].tcp_pose.position_m - recorder.steps[0].tcp_pose.position_m
     assert lifted[2] == pytest.approx(config().verify.lift_mm / 1000)
     assert abs(lifted[:2]).max() < 1e-9
 
@@ -305,7 +305,7 @@ def test_observers_are_told_every_turn_after_it_is_recorded() -> None:
     play(
         Says(DOWN, GOOD),
         recorder=recorder,
-        observers=[lambda record: told.append((record.index, len(recorder.ticks)))],
+        observers=[lambda record: told.append((record.index, len(recorder.steps)))],
     )
     assert told == [(0, 1), (1, 2)]
 
@@ -316,5 +316,5 @@ def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> No
     outcome, rig, recorder = play(Says(text), settings=settings, verify=not_lifted)
     assert set(rig.calls) <= {"sensor.read", "arm.pose", "gripper.state"}
     assert outcome.reason in (EndReason.MAX_STEPS, EndReason.UNVERIFIED)
-    assert outcome.steps == 0
-    assert len(recorder.ticks) == 1
+    assert outcome.num_actions == 0
+    assert len(recorder.steps) == 1

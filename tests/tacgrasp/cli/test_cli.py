@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from tacgrasp.__main__ import COMMANDS, main, usage
-from tacgrasp.base import package_check as siblings
+from tacgrasp.base import package_check
 from tacgrasp.base.errors import UsageError
 from tacgrasp.console import COMPLETED
 from tests.paths import ROOT
@@ -91,7 +91,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply"], "no.ply does not exist"),
         (["describe", "photo.tiff"], "expected a file ending in"),
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
-        (["bench"], "expects one of strawberry, latency, gel, tcl3d, touch"),
+        (["bench"], "expects one of strawberry, latency, rigs, drivers, faults, gel, touch"),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
@@ -280,20 +280,20 @@ def test_latency_writes_quantiles_of_the_tick_and_of_every_stage(tmp_path: Path)
     assert all({"p50", "p99"} == stage.keys() for stage in report["stages_ms"].values())
 
 
-def test_a_sibling_from_elsewhere_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_package_from_elsewhere_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     intruder = tmp_path / "sim" / "__init__.py"
     intruder.parent.mkdir()
     intruder.write_text("")
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "sim", raising=False)
     with pytest.raises(UsageError, match=f"'sim' comes from {intruder.parent}"):
-        siblings.check_siblings()
+        package_check.check_packages()
 
 
-def test_a_missing_sibling_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(siblings, "SIBLINGS", ("cltp", "no_such_sibling"))
-    with pytest.raises(UsageError, match="'no_such_sibling' is missing"):
-        siblings.check_siblings()
+def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(package_check, "PACKAGES", ("cltp", "no_such_package"))
+    with pytest.raises(UsageError, match="'no_such_package' is missing"):
+        package_check.check_packages()
 
 
 def test_a_bug_is_exit_code_3_with_its_traceback(

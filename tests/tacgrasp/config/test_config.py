@@ -114,7 +114,7 @@ BAD_FLAGS = {
     "missing file": (["--task", "no.yaml"], "no.yaml does not exist"),
     "unknown rig": (["--rig", "ur5"], "unknown rig 'ur5'; known: emulated, sim"),
     "unknown flag": (["--arm.max-step-m", "4"], "--arm.max-step-m.*did you mean --arm.max-step-mm"),
-    "metres": (["--arm.max-step-mm", "0.004"], r"--arm.max-step-mm \[mm\] .* \(got 0.004\)"),
+    "metres": (["--arm.max-step-mm", "0.004"], r"--arm.max-step-mm must be .* \[mm\], got 0.004"),
     "text for a number": (["--arm.max-step-mm", "4mm"], "--arm.max-step-mm.*'4mm'"),
     "no value": (["--policy"], "--policy"),
     "no task": (["--task"], "--task needs a value"),

@@ -76,10 +76,10 @@ def test_commands_are_read_from_an_episode_as_they_were_written(tmp_path: Path, 
     last = replace(end(), commands=log.take())
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
-        writer.write_tick(written)
-        writer.write_tick(tick(1))
+        writer.write_step(written)
+        writer.write_step(tick(1))
         writer.finish(last)
     episode = read_episode(path)
-    assert same(episode.ticks, (written, tick(1)))
+    assert same(episode.steps, (written, tick(1)))
     assert same(episode.end, last)
     assert [c.asked for c in episode.end.commands] == ["stop"]

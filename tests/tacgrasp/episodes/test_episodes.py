@@ -24,14 +24,14 @@ from tacgrasp.episodes import (
     EpisodeError,
     EpisodeHeader,
     EpisodeWriter,
-    Phase,
+    StepPhase,
     episode_path,
+    make_record_directory,
     read_episode,
-    record_directory,
 )
 from tacgrasp.episodes import writer as writer_module
 from tacgrasp.episodes.codec import field_descriptions, from_json, json_schema, to_json
-from tacgrasp.episodes.record import ActionMessage, DecisionMessage, TickState
+from tacgrasp.episodes.record import ActionMessage, DecisionMessage, StepState
 from tacgrasp.episodes.touch_message import decode_cloud, encode_cloud
 from tests.fakes.episode_samples import (
     SENSOR,
@@ -52,17 +52,17 @@ def test_what_is_recorded_is_read_again_to_the_last_bit(tmp_path: Path) -> None:
     ticks = [
         tick(0),
         tick(1, action=None),
-        tick(2, phase=Phase.VERIFY_BEFORE),
-        tick(3, phase=Phase.VERIFY_AFTER),
+        tick(2, phase=StepPhase.VERIFY_BEFORE),
+        tick(3, phase=StepPhase.VERIFY_AFTER),
     ]
     record(tmp_path / "e.mcap", ticks)
     episode = read_episode(tmp_path / "e.mcap")
     assert episode.complete and episode.problem == ""
     assert same(episode.header, header())
     assert same(episode.end, end())
-    assert len(episode.ticks) == 4
-    assert same(episode.ticks[0].executed, executed(Primitive.MOVE_DOWN))
-    for read, written in zip(episode.ticks, ticks, strict=True):
+    assert len(episode.steps) == 4
+    assert same(episode.steps[0].executed, executed(Primitive.MOVE_DOWN))
+    for read, written in zip(episode.steps, ticks, strict=True):
         assert same(read, written)
         assert read.cloud.points_mm.dtype == np.float32
         assert read.cloud.points_mm.tobytes() == written.cloud.points_mm.tobytes()
@@ -154,7 +154,7 @@ def test_a_missing_field_is_named() -> None:
 
 
 @pytest.mark.parametrize(
-    "kind", [EpisodeHeader, EpisodeEnd, TickState, DecisionMessage, ActionMessage]
+    "kind", [EpisodeHeader, EpisodeEnd, StepState, DecisionMessage, ActionMessage]
 )
 def test_every_field_of_a_message_is_documented(kind: type) -> None:
     schema = json_schema(kind)
@@ -203,22 +203,22 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
 def test_a_loop_that_raises_leaves_a_finished_file_without_an_end(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     with pytest.raises(RuntimeError, match="bug"), EpisodeWriter(path, header()) as writer:
-        writer.write_tick(tick(0))
+        writer.write_step(tick(0))
         raise RuntimeError("bug")
     episode = read_episode(path)
-    assert episode.complete and len(episode.ticks) == 1 and episode.end is None
+    assert episode.complete and len(episode.steps) == 1 and episode.end is None
 
 
 def test_a_number_that_is_not_finite_is_refused_and_the_file_stays_whole(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
         with pytest.raises(
-            EpisodeError, match=r"TickState\.tick_ms is nan; expected a finite number"
+            EpisodeError, match=r"StepState\.tick_ms is nan; expected a finite number"
         ):
-            writer.write_tick(tick(0, tick_ms=float("nan")))
-        writer.write_tick(tick(1))
+            writer.write_step(tick(0, step_ms=float("nan")))
+        writer.write_step(tick(1))
     episode = read_episode(path)
-    assert episode.complete and [t.index for t in episode.ticks] == [1]
+    assert episode.complete and [t.index for t in episode.steps] == [1]
 
 
 def test_an_episode_ends_once(tmp_path: Path) -> None:
@@ -236,11 +236,11 @@ def test_ctrl_c_in_mid_write_waits_until_the_tick_is_whole(
         with monkeypatch.context() as patch:
             patch.setattr(os, "fsync", lambda _fd: signal.raise_signal(signal.SIGINT))
             with pytest.raises(KeyboardInterrupt):
-                writer.write_tick(tick(0))
-        writer.write_tick(tick(1))
+                writer.write_step(tick(0))
+        writer.write_step(tick(1))
         writer.finish(end())
     episode = read_episode(path)
-    assert episode.complete and len(episode.ticks) == 2 and episode.end is not None
+    assert episode.complete and len(episode.steps) == 2 and episode.end is not None
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
@@ -272,15 +272,15 @@ def test_a_directory_that_is_none_is_named(tmp_path: Path, where: str, message: 
 
 
 def test_a_record_directory_is_made_when_it_is_missing(tmp_path: Path) -> None:
-    assert record_directory(tmp_path / "a" / "b").is_dir()
+    assert make_record_directory(tmp_path / "a" / "b").is_dir()
 
 
 def test_a_record_directory_that_is_a_file_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("")
     with pytest.raises(EpisodeError, match=r"file is not a directory.*--record"):
-        record_directory(tmp_path / "file")
+        make_record_directory(tmp_path / "file")
     with pytest.raises(EpisodeError, match=r"not a directory.*--record"):
-        record_directory(tmp_path / "file" / "below")
+        make_record_directory(tmp_path / "file" / "below")
 
 
 def test_a_read_only_directory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -292,14 +292,14 @@ def test_a_read_only_directory_is_refused(tmp_path: Path, monkeypatch: pytest.Mo
         EpisodeWriter(tmp_path / "e.mcap", header()).__enter__()
     monkeypatch.setattr(os, "access", lambda *_: False)
     with pytest.raises(EpisodeError, match=r"is read-only.*--record"):
-        record_directory(tmp_path)
+        make_record_directory(tmp_path)
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write to read-only directories")
 def test_a_directory_without_permission_is_refused(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(EpisodeError, match="read-only"):
-        record_directory(tmp_path)
+        make_record_directory(tmp_path)
     with pytest.raises(EpisodeError, match="permission denied"):
         EpisodeWriter(tmp_path / "e.mcap", header()).__enter__()
 
@@ -338,15 +338,15 @@ def test_a_disk_full_in_mid_episode_surfaces_at_that_tick_and_keeps_the_others(
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
         for index in range(3):
-            writer.write_tick(tick(index))
+            writer.write_step(tick(index))
         with largest_file(path.stat().st_size + room):
-            with pytest.raises(EpisodeError, match=r"tick 3 .*size limit.*episodes recover"):
-                writer.write_tick(tick(3))
+            with pytest.raises(EpisodeError, match=r"step 3 .*size limit.*episodes recover"):
+                writer.write_step(tick(3))
             with pytest.raises(EpisodeError, match="its end can't be written; see the error"):
                 writer.finish(end())
     episode = read_episode(path)
     assert not episode.complete and episode.end is None
-    assert [t.index for t in episode.ticks] == [0, 1, 2]
+    assert [t.index for t in episode.steps] == [0, 1, 2]
 
 
 def test_a_disk_that_fails_to_sync_is_an_error(
@@ -357,8 +357,8 @@ def test_a_disk_that_fails_to_sync_is_an_error(
 
     with EpisodeWriter(tmp_path / "e.mcap", header()) as writer:
         monkeypatch.setattr(os, "fsync", fail)
-        with pytest.raises(EpisodeError, match=r"can't write tick 0 to .*the disk is full"):
-            writer.write_tick(tick(0))
+        with pytest.raises(EpisodeError, match=r"can't write step 0 to .*the disk is full"):
+            writer.write_step(tick(0))
         monkeypatch.undo()
 
 
@@ -371,7 +371,7 @@ def test_a_summary_that_does_not_fit_is_an_error_unless_another_is_on_its_way(
         largest_file(1 << 30),
         EpisodeWriter(first, header()) as writer,
     ):
-        writer.write_tick(tick(0))
+        writer.write_step(tick(0))
         resource.setrlimit(
             resource.RLIMIT_FSIZE,
             (first.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),
@@ -381,10 +381,10 @@ def test_a_summary_that_does_not_fit_is_an_error_unless_another_is_on_its_way(
         largest_file(1 << 30),
         EpisodeWriter(second, header()) as writer,
     ):
-        writer.write_tick(tick(0))
+        writer.write_step(tick(0))
         resource.setrlimit(
             resource.RLIMIT_FSIZE,
             (second.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),
         )
         raise RuntimeError("bug")
-    assert len(read_episode(first).ticks) == len(read_episode(second).ticks) == 1
+    assert len(read_episode(first).steps) == len(read_episode(second).steps) == 1

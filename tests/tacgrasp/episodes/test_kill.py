@@ -16,7 +16,7 @@ import pytest
 from mcap.reader import make_reader
 
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import TOPIC_STATE
+from tacgrasp.episodes.record import Topic
 from tacgrasp.episodes.recover import recover
 from tests.fakes.killed_recording import WORD, checksum
 from tests.paths import ROOT
@@ -57,16 +57,16 @@ def words_before_the_kill(folder: Path, kind: str, after_s: float) -> list[int]:
 def lost_or_changed(path: Path, acknowledged: list[int]) -> str:
     """What is wrong with a recovered recording; nothing when every acknowledged step is in it."""
     episode = read_episode(path)
-    clouds = [checksum(step.cloud) for step in episode.ticks]
+    clouds = [checksum(step.cloud) for step in episode.steps]
     if not episode.complete:
         return "it is not complete after its recovery"
     if clouds[: len(acknowledged)] != acknowledged:
         return f"{len(acknowledged)} acknowledged steps, {len(clouds)} recovered, not the same"
-    if [step.index for step in episode.ticks] != list(range(len(clouds))):
+    if [step.index for step in episode.steps] != list(range(len(clouds))):
         return "an index is missing"
     with path.open("rb") as file:
         reader = make_reader(file, validate_crcs=True)
-        count = sum(1 for _ in reader.iter_messages(topics=[TOPIC_STATE]))
+        count = sum(1 for _ in reader.iter_messages(topics=[Topic.STATE]))
     return "" if count == len(clouds) else f"the stock reader counts {count} of {len(clouds)}"
 
 

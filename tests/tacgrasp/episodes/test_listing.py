@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 
 from primitives.primitive import Primitive
-from tacgrasp.episodes import EpisodeError, Phase, read_episode
+from tacgrasp.episodes import EpisodeError, StepPhase, read_episode
 from tacgrasp.episodes.listing import duration_s, info, list_episodes, table
 from tacgrasp.episodes.plot import MAX_PICTURES, draw_episode, plot_episode
 from tests.fakes.episode_samples import record, tick
@@ -25,7 +25,7 @@ def row_of(text: str, name: str) -> str:
 
 
 def test_the_list_tells_finished_unfinished_and_unreadable_apart(tmp_path: Path) -> None:
-    ticks = [tick(0), tick(1), tick(2, phase=Phase.VERIFY_BEFORE)]
+    ticks = [tick(0), tick(1), tick(2, phase=StepPhase.VERIFY_BEFORE)]
     sizes = record(tmp_path / "done.mcap", ticks)
     (tmp_path / "killed.mcap").write_bytes((tmp_path / "done.mcap").read_bytes()[: sizes[2]])
     (tmp_path / "text.mcap").write_text("hello")
@@ -47,7 +47,7 @@ def test_a_directory_that_is_none_can_not_be_listed(tmp_path: Path) -> None:
 
 def test_info_tells_the_instruction_the_end_and_what_to_do(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
-    sizes = record(path, [tick(0), tick(1), tick(2, phase=Phase.VERIFY_AFTER)])
+    sizes = record(path, [tick(0), tick(1), tick(2, phase=StepPhase.VERIFY_AFTER)])
     text = shown(info(path))
     assert "hold the 'berry' – gently" in text
     assert "2 and 1 touches of verification" in text
@@ -71,7 +71,7 @@ def test_the_picture_has_a_panel_for_each_touch_and_says_what_was_done(tmp_path:
         tick(0),
         replace(tick(1, action=Primitive.RESET), executed=None),
         tick(2, action=None),
-        tick(3, phase=Phase.VERIFY_AFTER),
+        tick(3, phase=StepPhase.VERIFY_AFTER),
     ]
     record(tmp_path / "e.mcap", ticks)
     figure = draw_episode(read_episode(tmp_path / "e.mcap"), "e.mcap")

@@ -106,7 +106,7 @@ def test_a_damaged_chunk_costs_its_own_tick_alone(
     episode = read_episode(path)
     assert [t.index for t in episode.steps] == [0, 2, 3]
     assert not episode.complete and "left out" in episode.problem
-    assert recover(path).num_ticks == 3
+    assert recover(path).num_steps == 3
     assert read_episode(path).complete and stock_count(path) == 3
 
 
@@ -130,7 +130,7 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
     with pytest.raises(McapError):
         stock_count(path)
     recovery = recover(path)
-    assert recovery.path == path and recovery.num_ticks == 3
+    assert recovery.path == path and recovery.num_steps == 3
     assert recovery.original == tmp_path / "e.mcap.broken"
     assert recovery.original.read_bytes() == cut
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.mcap", "e.mcap.broken"]
@@ -149,7 +149,7 @@ def test_an_end_that_was_recorded_survives_recovery(
 ) -> None:
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0][:-100])  # in the summary
-    assert recover(path).num_ticks == 4
+    assert recover(path).num_steps == 4
     episode = read_episode(path)
     assert episode.complete and episode.end is not None and episode.end.reason == "success"
 
@@ -158,7 +158,7 @@ def test_a_finished_file_is_left_alone(recorded: tuple[bytes, list[int]], tmp_pa
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0])
     recovery = recover(path)
-    assert recovery.original is None and "finished already (4 ticks)" in recovery.message
+    assert recovery.original is None and "finished already (4 steps)" in recovery.message
     assert path.read_bytes() == recorded[0] and len(list(tmp_path.iterdir())) == 1
 
 
@@ -167,7 +167,7 @@ def test_recovery_to_another_place_leaves_the_original(
 ) -> None:
     path, out = tmp_path / "e.mcap", tmp_path / "out.mcap"
     path.write_bytes(recorded[0][: recorded[1][1]])
-    assert recover(path, out).num_ticks == 1
+    assert recover(path, out).num_steps == 1
     assert path.read_bytes() == recorded[0][: recorded[1][1]] and stock_count(out) == 1
     with pytest.raises(EpisodeError, match="never overwritten"):
         recover(path, out)
@@ -190,7 +190,7 @@ def test_an_episode_that_is_being_recorded_is_not_recovered(tmp_path: Path) -> N
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
         writer.write_step(TICKS[0])
-        assert len(read_episode(path).ticks) == 1  # but it can be read
+        assert len(read_episode(path).steps) == 1  # but it can be read
         with pytest.raises(EpisodeError, match="still being recorded"):
             recover(path)
     assert read_episode(path).complete

@@ -15,10 +15,11 @@ from tacgrasp.console import COMPLETED
 from tacgrasp.episodes import read_episode
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
-from tacgrasp.rig.factory import make_executor, make_rig, truth_of
+from tacgrasp.rig.factory import make_executor, make_rig
 from tacgrasp.run import run_recorded
 from tacgrasp.runtime.outcome import EndReason
-from tacgrasp.runtime.tick import NoRecorder
+from tacgrasp.runtime.shutdown import read_truth
+from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
 from tests.fakes.patient_rig import patient_config, patient_rig
 
@@ -78,13 +79,13 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
         n: value for n, value in truth.items() if isinstance(value, bool)
     }
     assert episode.end.truth["force_n"] == pytest.approx(truth["force_n"], rel=0.05)
-    actions = [t.decision.action for t in episode.ticks if t.decision is not None]
-    assert len(actions) == outcome.steps + 1
+    actions = [t.decision.action for t in episode.steps if t.decision is not None]
+    assert len(actions) == outcome.num_actions + 1
 
 
 def test_every_command_is_recorded_as_asked_sent_and_reached(printed_and_episode):
     _, _, episode = printed_and_episode
-    commands = [c for tick in episode.ticks for c in tick.commands]
+    commands = [c for tick in episode.steps for c in tick.commands]
     assert not any(c.error for c in commands)
     first = commands[0]
     assert first.asked.startswith("grip with ")
@@ -93,7 +94,7 @@ def test_every_command_is_recorded_as_asked_sent_and_reached(printed_and_episode
     moves = [c for c in commands if c.device == "arm"]
     assert all(c.sent.startswith("moveL([") for c in moves)
     assert all(" m, (" in c.reached for c in moves)
-    lifts = [c for c in episode.ticks[-1].commands if c.device == "arm"]
+    lifts = [c for c in episode.steps[-1].commands if c.device == "arm"]
     assert len(lifts) == 9  # up, and four times aside and back
     assert all(a.ended_s <= b.started_s for a, b in pairwise(commands))
 
@@ -108,12 +109,12 @@ def test_a_dry_run_feels_and_decides_and_moves_nothing(tmp_path: Path):
         after = rig.emulators.control.facts("ur"), rig.emulators.control.facts("dynamixel")
     finally:
         rig.disconnect()
-    assert outcome.turns >= 1
+    assert outcome.num_steps >= 1
     for name in ("tcp_x_m", "tcp_y_m", "tcp_z_m"):
         assert before[0][name] == after[0][name]
     assert before[1]["width_m"] == after[1]["width_m"]
     episode = read_episode(path)
-    assert not [c for tick in episode.ticks for c in tick.commands]
+    assert not [c for tick in episode.steps for c in tick.commands]
     assert episode.header.dry_run
 
 
@@ -135,7 +136,7 @@ def test_when_the_emulators_die_the_run_ends_with_a_fault_and_the_truth_is_left_
     rig = make_rig(config)
     try:
         rig.emulators.close()
-        assert truth_of(rig) is None
+        assert read_truth(rig) is None
         with pytest.raises(RobotError):
             rig.arm.pose()
             rig.gripper.state()

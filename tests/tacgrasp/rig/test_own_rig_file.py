@@ -213,7 +213,7 @@ def test_a_recording_is_decided_on_in_a_dry_run(rig, emulators, played, tmp_path
     argv = ["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path), "--dry-run"]
     assert main(argv) == 0, capsys.readouterr().err
     (episode,) = tmp_path.glob("*.mcap")
-    assert float(read_episode(episode).ticks[0].cloud.points_mm[:, 2].max()) > 0.4
+    assert float(read_episode(episode).steps[0].cloud.points_mm[:, 2].max()) > 0.4
     assert where(emulators) == pytest.approx(before, abs=1e-9)
 
 

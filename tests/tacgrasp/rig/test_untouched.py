@@ -9,18 +9,19 @@ from primitives import RobotError
 from primitives.devices import Pose
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.drivers.recorded.sensor import RecordedSensor
 from tacgrasp.episodes.command_log import CommandLog
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.hardware import HardwareRig, RealClock
 from tacgrasp.run import run_recorded
-from tests.fakes.loop_fakes import FakeRig
+from tests.fakes.loop_fakes import SENSOR, FakeRig, touch
 
 
 def rig_with(sensor, start_pose: Pose) -> HardwareRig:
-    """A rig of drivers whose other devices are not asked for anything."""
+    """A rig of drivers without arm and gripper."""
     return HardwareRig(
-        arm=None, gripper=None, sensor=sensor, clock=RealClock(), commands=CommandLog(lambda: 0.0),
-        start_pose=start_pose, first_force_n=1.0, survived=str,
+        arm=None, gripper=None, sensor=sensor, clock=RealClock(), start_pose=start_pose,
+        command_log=CommandLog(lambda: 0.0), first_force_n=1.0, fault_counts=str,
     )  # fmt: skip
 
 
@@ -45,13 +46,15 @@ def test_a_stale_background_ends_a_run_before_anything_moves_and_no_episode_is_b
 
 
 def test_in_a_dry_run_somebody_holds_the_object_and_the_gel_is_touched(tmp_path):
-    fake, asked = FakeRig(), []
-    fake.expect_untouched = lambda: asked.append("untouched")
+    fake, checks = FakeRig(), []
+    fake.expect_untouched = lambda: checks.append("untouched")
     settings = config(tmp_path, dry_run=True)
     outcome, _ = run_recorded(fake, make_policy("rules", settings), settings)
-    assert outcome.turns == 1
-    assert not asked
+    assert outcome.num_steps == 1
+    assert not checks
 
 
-def test_of_a_sensor_without_such_a_picture_nothing_is_asked():
-    rig_with(object(), FakeRig().start_pose).expect_untouched()
+def test_a_recording_has_no_such_picture_and_plays_nothing_for_the_check():
+    sensor = RecordedSensor("x", [touch], SENSOR, repeat=False)
+    rig_with(sensor, FakeRig().start_pose).expect_untouched()
+    sensor.read()  # its only touch is still there

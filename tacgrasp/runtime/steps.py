@@ -1,0 +1,230 @@
+"""Steps of an episode: observations and records, and the bounds on time, failures and repeats.
+
+Not here: the order of a step's stages (``tacgrasp.loop``).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import count
+from typing import Protocol
+
+from cltp import TouchError
+from cltp.tactile.cloud import Stamp, TactileCloud
+from policies import Decision, PolicyError
+from primitives import Primitive
+from primitives.devices import GripperState, Pose
+from primitives.execution import Executed
+from tacgrasp.config.schema import LoopConfig
+from tacgrasp.episodes.record import EpisodeEnd, StepPhase, StepRecord
+from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
+
+
+class Recorder(Protocol):
+    """Storage of an episode (``tacgrasp.episodes.EpisodeWriter``)."""
+
+    def write_step(self, record: StepRecord) -> None:
+        """Write one step durably."""
+        ...
+
+    def finish(self, end: EpisodeEnd) -> None:
+        """Write the end of the episode."""
+        ...
+
+
+class NoRecorder:
+    """Records nothing, for benchmarks that keep only their figures."""
+
+    def write_step(self, record: StepRecord) -> None:
+        pass
+
+    def finish(self, end: EpisodeEnd) -> None:
+        pass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Observation:
+    """Readings of all devices at the start of a step.
+
+    Attributes:
+        cloud: Tactile cloud [mm, gel frame].
+        tcp_pose: Pose of the TCP, read after the cloud [m, rad, base frame].
+        gripper: State of the gripper, read after the cloud.
+        stamp: Start of the reading, on the rig's clocks.
+        started_s: Start of the reading, on this computer's performance counter [s].
+    """
+
+    cloud: TactileCloud
+    tcp_pose: Pose
+    gripper: GripperState
+    stamp: Stamp
+    started_s: float
+
+
+def read_observation(rig: Rig) -> Observation:
+    """Read sensor, arm and gripper.
+
+    Raises:
+        TouchError: The sensor gives no fresh cloud.
+        RobotError: Pose or gripper can't be read.
+    """
+    stamp, started_s = rig.clock.stamp(), time.perf_counter()
+    return Observation(
+        cloud=rig.sensor.read(),
+        tcp_pose=rig.arm.pose(),
+        gripper=rig.gripper.state(),
+        stamp=stamp,
+        started_s=started_s,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Step:
+    """One step up to its decision.
+
+    Attributes:
+        observation: Readings at its start.
+        decision: The policy's decision; None during verification, which asks no policy.
+        phase: Part of the episode.
+    """
+
+    observation: Observation
+    decision: Decision | None = None
+    phase: StepPhase = StepPhase.LOOP
+
+    @property
+    def declared(self) -> bool:
+        """Whether the policy declared success and asked for no further action."""
+        return self.decision is not None and self.decision.success and self.decision.action is None
+
+
+class Steps:
+    """Counts, bounds and record of the steps of one episode.
+
+    Attributes:
+        num_steps: Steps recorded so far, verification included.
+        num_actions: Actions executed so far.
+        num_resets: Resets among them.
+        started_s: Start of the episode on the rig's monotonic clock [s].
+    """
+
+    def __init__(
+        self, rig: Rig, bounds: LoopConfig, recorder: Recorder, observers: Sequence[Observer]
+    ) -> None:
+        self._rig, self._bounds = rig, bounds
+        self._recorder, self._observers = recorder, observers
+        self.num_steps = self.num_actions = self.num_resets = 0
+        self.started_s = rig.clock.monotonic()
+        self._num_blanks = 0
+        self._last: Step | None = None
+        self._notes: list[str] = []
+
+    @property
+    def elapsed_s(self) -> float:
+        """Time since the episode began [s]."""
+        return self._rig.clock.monotonic() - self.started_s
+
+    def check_time(self) -> None:
+        """End the episode when its time is over.
+
+        Raises:
+            EndOfEpisode: ``timeout``.
+        """
+        if self.elapsed_s > self._bounds.timeout_s:
+            raise EndOfEpisode(
+                EndReason.TIMEOUT,
+                f"{self.elapsed_s:.0f} s without a good grasp (loop.timeout_s is "
+                f"{self._bounds.timeout_s:g})",
+            )
+
+    def survive(self, error: TouchError | PolicyError, attempt: int) -> None:
+        """Note a failed attempt to read or decide and wait; the caller then tries again.
+
+        Args:
+            error: Failure of the attempt.
+            attempt: Number of the attempt, from 1.
+
+        Raises:
+            TouchError: The attempt was the last of ``max_faults``.
+            PolicyError: Likewise.
+        """
+        if attempt >= self._bounds.max_faults:
+            raise type(error)(f"{error} ({attempt} times in a row)") from error
+        self._notes.append(f"{type(error).__name__}: {error}")
+        self._rig.clock.sleep(self._bounds.wait_s)
+
+    def observe(self, phase: StepPhase) -> TactileCloud:
+        """Read and record one observation of the verification, with the loop's retries.
+
+        Raises:
+            TouchError: The sensor failed ``max_faults`` times in a row.
+            RobotError: Pose or gripper can't be read.
+            EpisodeError: The observation can't be recorded.
+        """
+        for attempt in count(1):
+            try:
+                observation = read_observation(self._rig)
+                break
+            except TouchError as error:
+                self.survive(error, attempt)
+        self.record(Step(observation=observation, phase=phase))
+        return observation.cloud
+
+    def record(self, step: Step, executed: Executed | None = None, note: str = "") -> None:
+        """Record a step with its executed action, then inform the observers.
+
+        Raises:
+            EpisodeError: It can't be recorded: the run must end.
+        """
+        if step.decision is not None:  # not an observation of the verification
+            self._last = step
+        if executed is not None and not executed.dry_run:
+            self.num_actions += 1
+            self.num_resets += executed.primitive is Primitive.RESET
+        record = StepRecord(
+            index=self.num_steps,
+            phase=step.phase,
+            cloud=step.observation.cloud,
+            decision=step.decision,
+            executed=executed,
+            tcp_pose=step.observation.tcp_pose,
+            gripper=step.observation.gripper,
+            stamp=step.observation.stamp,
+            step_ms=1000 * (time.perf_counter() - step.observation.started_s),
+            note="; ".join([*self._notes, *([note] if note else [])]),
+            commands=self._rig.commands(),
+        )
+        self._notes = []
+        self._recorder.write_step(record)
+        self.num_steps += 1
+        if step.decision is not None and step.decision.action is not None:
+            self._num_blanks = 0
+        for observer in self._observers:
+            observer(record)
+
+    def record_cut_short(self, step: Step | None, message: str) -> None:
+        """Record a step that the end of the episode interrupted before its own record began.
+
+        Raises:
+            EpisodeError: It can't be recorded.
+        """
+        if step is not None and step is not self._last:
+            self.record(step, note=f"cut short: {message}")
+
+    def count_blank(self, decision: Decision) -> None:
+        """Wait after a decision without one clear action; the loop then asks again.
+
+        Raises:
+            EndOfEpisode: ``no_action``: it was the last of ``max_asks`` in a row.
+        """
+        self._num_blanks += 1
+        if self._num_blanks >= self._bounds.max_asks:
+            raise EndOfEpisode(
+                EndReason.NO_ACTION,
+                f"{self._num_blanks} texts in a row named no single action ({decision.reason}); "
+                f"the last was: {decision.text!r}",
+            )
+        self._rig.clock.sleep(self._bounds.wait_s)
