@@ -1,17 +1,17 @@
-"""TCL3D: what is pressed in every series of the data set, and the contacts that come of it.
+"""The series of the TCL3D data set: object, pose and gel of each, and its labelled contacts.
 
-A series is one object in one pose under one gel, pressed deeper and deeper. All that is drawn
-follows from the seed and the number of the series; it is cast, solved and labelled alone, so that
-its contacts don't depend on what is made beside it, on how many workers or on which machine.
+A series is one object in one pose under one gel, pressed to rising depths. Every draw follows from
+the seed and the number of the series. A series is cast, solved and labelled alone, so that its
+contacts depend neither on other series, nor on the number of workers, nor on the machine.
 
-Not here: how objects come to lie on the pad (``sim.tcl3d.poses``), files and worker processes
-(``tacgrasp.datasets.generate``), noise (``cltp.tactile.sensor_noise``).
+Not here: poses (``sim.tcl3d.poses``), files and worker processes (``tacgrasp.datasets.generate``),
+noise (``cltp.tactile.sensor_noise``).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 import torch
@@ -34,7 +34,7 @@ from sim.tcl3d.shape_labels import name_shape
 from sim.tcl3d.texture_labels import TEXTURE, name_texture, uncertain_labels
 
 ROWS, COLUMNS = 75, 100
-"""Grid over the field of a GelSight Mini: 0.2 mm. Other sensors get elements of that size."""
+"""Grid over the sensing area of a GelSight Mini: 0.2 mm; other sensors get elements as large."""
 
 CONTACTS, GELSTEREO_CONTACTS, GELSIGHT_CONTACTS = 50_860, 1_450, 115
 """Contacts of the main set and of two further domains. Source: the paper, section 3.1."""
@@ -42,13 +42,13 @@ CONTACTS, GELSTEREO_CONTACTS, GELSIGHT_CONTACTS = 50_860, 1_450, 115
 ALL_CONTACTS = CONTACTS + GELSTEREO_CONTACTS + GELSIGHT_CONTACTS
 
 LOADS, DOMAIN_LOADS = 4, 5
-"""Contacts in a series: in the main set one in each class of depth where the gel allows it."""
+"""Contacts of a series: in the main set one of each depth class where the gel allows it."""
 
 GELSTEREO_FIRST, GELSIGHT_FIRST = 1_000_000, 2_000_000
-"""Where the numbers of the domains' series begin."""
+"""First series numbers of the two domains."""
 
 GELS = (
-    GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
+    gel_of("gelsight_mini"),
     GelMaterial(thickness_mm=3.4, young_mpa=0.145, poisson=0.480),
     GelMaterial(thickness_mm=3.9, young_mpa=0.145, poisson=0.470),
     GelMaterial(thickness_mm=4.3, young_mpa=0.145, poisson=0.490),
@@ -58,32 +58,30 @@ OTHER_GELS = (
     GelMaterial(thickness_mm=3.0, young_mpa=0.25, poisson=0.450),
     GelMaterial(thickness_mm=5.5, young_mpa=0.20, poisson=0.480),
 )
-"""Gels of training, the first the GelSight Mini's; and those of the split ``physics``, whose
-thickness, modulus or Poisson's ratio training never saw. Our choice about the notes' h 3.4-4.6 mm,
-nu 0.47-0.49."""
+"""Gels of training, and those of the split ``physics``, whose thickness, modulus or Poisson's ratio
+does not occur in training. Our choice, around the notes' h 3.4-4.6 mm, nu 0.47-0.49."""
 
 TEST_FRACTION, VALIDATION_FRACTION, PHYSICS_FRACTION = 0.08, 0.04, 0.07
-"""Shares of the series of seen objects; the rest is for training. Our choice."""
+"""Fractions of the series of seen objects; the rest is for training. Our choice."""
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
 _SHALLOWEST_MM, _SHALLOWEST_FINE_MM, _DEEPEST_MM = 0.1, 0.18, 1.3
-_GENTLE_MM, _GENTLE_FRACTION = 0.6, 0.22  # deepest where much of the field touches at once
-_NEAR_MM = 0.25  # gap up to which a surface counts for that
-_HAND_MM, _HAND_SPREAD = 0.30, 0.507  # real hand presses: median, and spread of the logarithm
-_BORDER_MARGIN = 4  # grid points: what touches first nearer to the border slips off
+_GENTLE_MM, _GENTLE_FRACTION = 0.6, 0.22  # depth limit where more than this fraction is near
+_NEAR_MM = 0.25  # largest gap of surface that is near
+_HAND_MM, _HAND_SPREAD = 0.30, 0.507  # depths of real hand presses: median, spread of the logarithm
+_BORDER_MARGIN = 4  # grid points: an object that first touches nearer to the border slips off
 _MAX_ATTEMPTS = 40
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scene:
-    """What lies over the pad in a series.
+    """Object over the pad in a series.
 
     Attributes:
         obj: The object.
-        felt: Its bare surface there.
-        cells: Shape (H, W), the cell of each point; -1 where nothing is.
-        relief_mm: Shape (H, W), of its skin [mm].
-        flat: Whether it was met on a flat face.
+        view: Its bare surface over the pad.
+        cells: Shape (H, W), index of the cell at each point; -1 where there is no surface.
+        relief_mm: Shape (H, W), relief of its skin [mm].
     """
 
     obj: SolidObject
@@ -93,7 +91,7 @@ class Scene:
 
     @property
     def gap_mm(self) -> FloatArray:
-        """Shape (H, W), skin included; least value 0 [mm]."""
+        """Gap with the skin, shape (H, W), least value 0 [mm]."""
         covered = self.cells >= 0
         gap = self.view.gap_mm + self.relief_mm
         return np.where(covered, gap - gap[covered].min(), NO_BODY_MM)
@@ -101,15 +99,15 @@ class Scene:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeriesRequest:
-    """What a series is to be.
+    """Settings of one series.
 
     Attributes:
-        number: Which series.
-        obj: The object.
-        sensor: Whose field.
-        gel: Under which gel.
-        split: What its contacts may be used for.
-        loads: How many contacts.
+        number: Number of the series.
+        obj: The pressed object.
+        sensor: The sensor.
+        gel: Its gel.
+        split: The split of its contacts.
+        loads: Number of contacts.
     """
 
     number: int
@@ -121,17 +119,17 @@ class SeriesRequest:
 
 
 def grid_over(sensor: SensorSpec) -> tuple[int, int]:
-    """Rows and columns of square elements over a sensor's field, as large as those of ``ROWS``."""
+    """Rows and columns of a sensor's grid, with square elements of the size that ``ROWS`` gives."""
     element_mm = sensor_named("gelsight_mini").height_mm / ROWS
     columns = round(sensor.width_mm / element_mm)
     return round(sensor.height_mm * columns / sensor.width_mm), columns
 
 
 def series_numbers(contacts: int) -> list[int]:
-    """Numbers of the series of a data set of so many contacts, domains included in proportion.
+    """Numbers of the series of a data set with ``contacts`` contacts, domains in proportion.
 
     Args:
-        contacts: At least 1; the last series may have to be cut.
+        contacts: At least 1; the last series may have to be cut short.
     """
     stereo = contacts * GELSTEREO_CONTACTS // ALL_CONTACTS // DOMAIN_LOADS
     sight = contacts * GELSIGHT_CONTACTS // ALL_CONTACTS // DOMAIN_LOADS
@@ -144,13 +142,13 @@ def series_numbers(contacts: int) -> list[int]:
 
 
 MESH_FIRST, MESH_SERIES = 3_000_000, 105
-"""Where the numbers of series of meshes begin, and how many each mesh has: 420 contacts, of the
+"""First series number of meshes, and number of series of each mesh: 420 contacts, within the
 paper's 400-500."""
 
 
-def mesh_numbers(which: int) -> range:
-    """Numbers of the series of mesh ``which``, from 0."""
-    first = MESH_FIRST + MESH_SERIES * which
+def mesh_numbers(index: int) -> range:
+    """Numbers of the series of mesh ``index``, from 0."""
+    first = MESH_FIRST + MESH_SERIES * index
     return range(first, first + MESH_SERIES)
 
 
@@ -160,20 +158,28 @@ def num_loads(number: int) -> int:
 
 
 def series_request(seed: int, number: int) -> SeriesRequest:
-    """What series ``number`` of the data set of ``seed`` is to be."""
-    if number >= GELSIGHT_FIRST:
+    """Object, sensor, gel and split of series ``number`` of the data set of ``seed``."""
+    if number < GELSTEREO_FIRST:
+        return _main_request(seed, number, CATALOGUE[number % len(CATALOGUE)])
+    if number < GELSIGHT_FIRST:
+        obj, sensor, split = SMALL[number % len(SMALL)], sensor_named("gelstereo"), Split.GELSTEREO
+    else:
         rng = np.random.default_rng([seed, number, 3])
-        obj, sensor = LARGE[int(rng.integers(len(LARGE)))], sensor_named("gelsight_mini")
-        return _request(number, obj, sensor, gel_of(sensor.name), Split.GELSIGHT, DOMAIN_LOADS)
-    if number >= GELSTEREO_FIRST:
-        obj, sensor = SMALL[number % len(SMALL)], sensor_named("gelstereo")
-        return _request(number, obj, sensor, gel_of(sensor.name), Split.GELSTEREO, DOMAIN_LOADS)
-    return _main_request(seed, number, CATALOGUE[number % len(CATALOGUE)])
+        obj = LARGE[int(rng.integers(len(LARGE)))]
+        sensor, split = sensor_named("gelsight_mini"), Split.GELSIGHT
+    return SeriesRequest(
+        number=number,
+        obj=obj,
+        sensor=sensor,
+        gel=gel_of(sensor.name),
+        split=split,
+        loads=DOMAIN_LOADS,
+    )
 
 
 def _main_request(seed: int, number: int, obj: SolidObject) -> SeriesRequest:
     rng = np.random.default_rng([seed, number, 3])
-    u, which = float(rng.random()), int(rng.integers(1 << 30))
+    u, index = float(rng.random()), int(rng.integers(1 << 30))
     split = Split.TRAIN
     if obj.name in UNSEEN:
         split = Split.OBJECT
@@ -184,14 +190,14 @@ def _main_request(seed: int, number: int, obj: SolidObject) -> SeriesRequest:
     elif u < TEST_FRACTION + VALIDATION_FRACTION + PHYSICS_FRACTION:
         split = Split.PHYSICS
     gels = OTHER_GELS if split is Split.PHYSICS else GELS
-    sensor = sensor_named("gelsight_mini")
-    return _request(number, obj, sensor, gels[which % len(gels)], split, LOADS)
-
-
-def _request(
-    number: int, obj: SolidObject, sensor: SensorSpec, gel: GelMaterial, split: Split, loads: int
-) -> SeriesRequest:
-    return SeriesRequest(number=number, obj=obj, sensor=sensor, gel=gel, split=split, loads=loads)
+    return SeriesRequest(
+        number=number,
+        obj=obj,
+        sensor=sensor_named("gelsight_mini"),
+        gel=gels[index % len(gels)],
+        split=split,
+        loads=LOADS,
+    )
 
 
 def make_series(
@@ -200,9 +206,9 @@ def make_series(
     """Make the contacts of one series, lightest first.
 
     Args:
-        seed: Of the data set.
-        number: Of the series (``series_numbers``, ``mesh_numbers``).
-        device: Where rays are cast and contacts are solved.
+        seed: Random seed of the data set.
+        number: Number of the series (``series_numbers``, ``mesh_numbers``).
+        device: Torch device on which rays are cast and contacts are solved.
         obj: Object to press instead of one of the catalogue.
     """
     request = series_request(seed, number) if obj is None else _main_request(seed, number, obj)
@@ -218,7 +224,7 @@ def make_series(
         body_modulus_mpa=soft,
         device=device,
     )
-    # A soft body flattens as well; 0.35 MPa stands for a gel on its back, roughly.
+    # A soft body flattens as well; 0.35 MPa is roughly the stiffness of a gel on its back.
     approach = [depth * (1 + (0.35 / soft if soft else 0.0)) for depth in depths]
     gaps = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(depths), -1, -1)
     with torch.inference_mode():
@@ -232,10 +238,10 @@ def make_series(
 def draw_scene(
     request: SeriesRequest, rng: np.random.Generator, device: torch.device | str = "cpu"
 ) -> tuple[Scene, list[float]]:
-    """Draw what lies over the pad, and how deep it is pressed [mm].
+    """Draw the pose of the object, cast its surface, and draw the depths of the presses [mm].
 
     Raises:
-        ValueError: The object can't be brought to the pad.
+        ValueError: No pose of the object on the pad was found.
     """
     obj, sensor = request.obj, request.sensor
     x, y = np.meshgrid(*grid_axes_mm(sensor, *grid_over(sensor)))
@@ -260,7 +266,7 @@ def draw_scene(
 def _depths(
     request: SeriesRequest, fractions: FloatArray, shallowest_mm: float, *, gentle: bool
 ) -> list[float]:
-    """Rising depths [mm]: one in each class, or spread like those of a hand or a machine."""
+    """Rising depths [mm]: one of each class, or distributed like those of a hand or a machine."""
     if request.split is Split.GELSIGHT:
         normal = np.sqrt(2) * torch.special.erfinv(torch.from_numpy(2 * fractions - 1)).numpy()
         depths = np.sort(_HAND_MM * np.exp(_HAND_SPREAD * normal)).clip(shallowest_mm, _DEEPEST_MM)
@@ -277,7 +283,7 @@ def _depths(
 
 
 def _at_border(gap_mm: FloatArray) -> bool:
-    """Whether the foremost point is at the pad's border: the object slips off it."""
+    """Whether the foremost point is at the pad's border, where the object slips off."""
     row, column = np.unravel_index(int(gap_mm.argmin()), gap_mm.shape)
     rows, columns = gap_mm.shape
     return not (
@@ -320,12 +326,7 @@ def label_presses(
     pitch = request.sensor.width_mm / scene.cells.shape[1]
     pressure = press.pressure_kpa.cpu()
     closed = in_contact(pressure, pitch)
-    material = request.gel
-    gel = Gel(
-        thickness_mm=material.thickness_mm,
-        young_mpa=material.young_mpa,
-        poisson=material.poisson,
-    )
+    gel = Gel(**asdict(request.gel))
     contacts = []
     for i, approach_mm in enumerate(approach):
         height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
