@@ -147,7 +147,6 @@ class SharedWorld:
         return _result(self._submit(truth))
 
     def close(self) -> None:
-        """End the solver. Idempotent."""
         self._solver.shutdown(wait=False, cancel_futures=True)
 
     def _submit(self, change: Callable[[], T]) -> Future[T]:

@@ -91,7 +91,6 @@ class DynamixelEmulator:
             self._faults.clear()
 
     def facts(self) -> Facts:
-        """True state of bus and fingers now."""
         with self._lock:
             self._fingers.step(self._clock())
             first = self._servos[0]
@@ -222,6 +221,5 @@ class DynamixelEmulator:
 
 def run(options: DynamixelOptions) -> None:
     """Run a gripper with a block on a spring, until the process is to end."""
-    load, servos, linkage = options.load(), options.servo_options(), options.linkage()
-    with closing(DynamixelEmulator(load, servos, linkage)) as emulator:
+    with closing(DynamixelEmulator(options.load(), options, options.linkage())) as emulator:
         serve({"dynamixel": emulator}, {"serial_port": emulator.serial_port})

@@ -91,7 +91,6 @@ class BusFaults:
         return None if self._injected_s is None else 1000 * (self._clock() - self._injected_s)
 
     def is_silent(self, servo_id: int) -> bool:
-        """This servo does not answer."""
         return servo_id in self._silent_ids
 
     def noise(self, data: bytes) -> bytes:

@@ -39,11 +39,9 @@ class GripLoad(Protocol):
 
         Returns the opening [m] at which the fingers settle; 0 with nothing between them.
         """
-        ...
 
     def release(self) -> None:
         """Note that the fingers have left the object."""
-        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,14 +95,12 @@ class Linkage:
         return first if index == 0 else 4096 - first
 
     def width_m(self, index: int, ticks: float) -> float:
-        """Opening at a position of servo 0 or 1 [m]."""
         first = ticks if index == 0 else 4096 - ticks
         return (
             self.open_width_m * (first - self.closed_ticks) / (self.open_ticks - self.closed_ticks)
         )
 
     def force_n(self, current_ma: float) -> float:
-        """Force at a current [N]."""
         return max(0.0, abs(current_ma) - self.friction_ma) * self.newtons_per_ma
 
 
@@ -140,19 +136,16 @@ class Fingers:
 
     @property
     def width_m(self) -> float:
-        """Opening between the fingers [m]."""
         return self._mean(lambda servo: servo.position)
 
     @property
     def force_n(self) -> float:
-        """Grip force now [N]."""
         if not self._squeezed or not all(servo.torque for servo in self._servos):
             return 0.0
         return min(self._linkage.force_n(servo.current_ma) for servo in self._servos)
 
     @property
     def busy(self) -> bool:
-        """A servo moves, or is about to."""
         return any(servo.moving for servo in self._servos)
 
     def on_written(self, addresses: frozenset[int]) -> None:
@@ -174,7 +167,6 @@ class Fingers:
         self._let_go()
 
     def step(self, now_s: float) -> None:
-        """Advance to a time."""
         remaining_s = min(_LONGEST_S, now_s - self._now_s)
         self._now_s = now_s
         while remaining_s > 0:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Annotated
+
+import tyro
 
 from sim.emulators.dynamixel.control_table import BAUDS, CURRENT_BASED_POSITION, MODELS
 from sim.emulators.dynamixel.fingers import Linkage, SpringLoad
@@ -13,14 +16,14 @@ class ServoOptions:
     """The servos of one gripper.
 
     Attributes:
-        model: Name in ``MODELS``, the same for all servos.
-        num_servos: 1 or 2; their ids are 1 and 2.
-        baud: [bit/s].
-        mode: Operating mode; 5 is current-based position control.
+        model: model of the servos
+        num_servos: number of servos, 1 or 2; their ids are 1 and 2
+        baud: baud rate of the bus [bit/s]
+        mode: operating mode of the servos; 5 is current-based position control
     """
 
     model: str = "XC330-T288"
-    num_servos: int = 1
+    num_servos: Annotated[int, tyro.conf.arg(name="servos")] = 1
     baud: int = 1_000_000
     mode: int = CURRENT_BASED_POSITION
 
@@ -34,43 +37,23 @@ class ServoOptions:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DynamixelOptions:
+class DynamixelOptions(ServoOptions):
     """A Dynamixel bus on a serial port, with fingers on a spring.
 
     Attributes:
-        model: model of the servos
-        servos: number of servos, 1 or 2
-        baud: baud rate of the bus [bit/s]
-        mode: operating mode of the servos; 5 is current-based position control
         spring_width_m: width of the uncompressed block between the fingers [m]
         spring_n_m: stiffness of the block [N/m]
         newtons_per_ma: slope of force over current [N/mA]
         friction_ma: current at which the fingers begin to press [mA]
     """
 
-    model: str = "XC330-T288"
-    servos: int = 1
-    baud: int = 1_000_000
-    mode: int = CURRENT_BASED_POSITION
     spring_width_m: float = 0.03
     spring_n_m: float = 2000.0
     newtons_per_ma: float = Linkage().newtons_per_ma
     friction_ma: float = Linkage().friction_ma
 
-    def __post_init__(self) -> None:
-        self.servo_options()
-        self.linkage()
-
-    def servo_options(self) -> ServoOptions:
-        """The servos; ``ValueError`` for options that no servo has."""
-        return ServoOptions(
-            model=self.model, num_servos=self.servos, baud=self.baud, mode=self.mode
-        )
+    def load(self) -> SpringLoad:
+        return SpringLoad(width_m=self.spring_width_m, stiffness_n_m=self.spring_n_m)
 
     def linkage(self) -> Linkage:
-        """The linkage; ``ValueError`` for numbers that no linkage has."""
         return Linkage(newtons_per_ma=self.newtons_per_ma, friction_ma=self.friction_ma)
-
-    def load(self) -> SpringLoad:
-        """The block between the fingers."""
-        return SpringLoad(width_m=self.spring_width_m, stiffness_n_m=self.spring_n_m)

@@ -99,7 +99,6 @@ class PacketReader:
         self._buffer = b""
 
     def feed(self, data: bytes) -> list[PacketInstruction]:
-        """Instruction packets that these bytes complete."""
         self._buffer += data
         instructions = []
         while (packet := self._next()) is not None:

@@ -63,19 +63,16 @@ class EmulatedServo:
 
     @property
     def torque(self) -> bool:
-        """Torque is on."""
         return bool(self.table[at.TORQUE])
 
     @property
     def goal_current_ma(self) -> float:
-        """Limit of the current [mA]."""
         if self.table[at.MODE] != at.CURRENT_BASED_POSITION or at.GOAL_CURRENT not in self.table:
             return math.inf
         return abs(self.table[at.GOAL_CURRENT]) * self.model.unit_ma
 
     @property
     def moving(self) -> bool:
-        """It moves, or is about to."""
         return self.waiting or abs(self._velocity) > self.table[at.MOVING_THRESHOLD]
 
     def execute(self, code: int, parameters: bytes) -> tuple[int, bytes, frozenset[int]]:
@@ -166,7 +163,6 @@ class EmulatedServo:
         return self.table[at.WATCHDOG] == 0xFF and self.model.watchdog_stops and self.stop is None
 
     def publish(self) -> None:
-        """Write the present state to the registers."""
         table = self.table
         table[at.PRESENT_POSITION] = round(self.position)
         table[at.PRESENT_VELOCITY] = round(self._velocity / at.VELOCITY_TICKS_S)

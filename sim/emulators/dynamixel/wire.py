@@ -47,7 +47,6 @@ class Wire:
         self._requested = False
 
     def _update(self) -> None:
-        """Open or close the pty, as last requested."""
         if self._requested == self.plugged:
             return
         self.link.unlink(missing_ok=True)
@@ -78,7 +77,6 @@ class Wire:
         self._lock_fd = descriptor
 
     def unlock(self) -> None:
-        """Unlock the port. Idempotent."""
         if self._lock_fd is not None:
             os.close(self._lock_fd)
             self._lock_fd = None

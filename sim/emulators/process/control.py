@@ -23,15 +23,12 @@ class Emulated(Protocol):
 
     def inject(self, fault: str, **details: float | str) -> None:
         """Start a fault now; ``ValueError`` lists the known names."""
-        ...
 
     def clear(self) -> None:
         """End all faults."""
-        ...
 
     def facts(self) -> Facts:
         """The true state now, units in the names; a device with faults adds ``injected_ago_ms``."""
-        ...
 
 
 class ControlServer:
@@ -52,7 +49,6 @@ class ControlServer:
         self._thread.start()
 
     def close(self) -> None:
-        """Close the channel. Idempotent."""
         self._server.shutdown()
         self._server.server_close()
         self._thread.join(timeout=2)
@@ -127,7 +123,6 @@ class ControlClient:
         return dict(self._request({"do": "facts", "device": device})["facts"])
 
     def close(self) -> None:
-        """Close the connection. Idempotent."""
         self._answers.close()
         self._socket.close()
 

@@ -58,7 +58,6 @@ class EmulatorProcess:
 
     @property
     def running(self) -> bool:
-        """Whether the process has not ended."""
         return self._child.poll() is None
 
     def close(self) -> None:

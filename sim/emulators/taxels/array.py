@@ -52,7 +52,6 @@ class HeightSource(Protocol):
 
     def height_mm(self) -> NDArray[np.float32]:
         """Reconstructed heights of the gel now, shape (rows, columns) [mm]."""
-        ...
 
 
 class TaxelEmulator:
@@ -138,7 +137,6 @@ class TaxelEmulator:
             }
 
     def close(self) -> None:
-        """Unplug for good. Idempotent."""
         with self._condition:
             if self._ending:
                 return

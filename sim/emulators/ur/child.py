@@ -31,8 +31,12 @@ FOLLOW_S = 120.0
 """Longest time that a world may take to follow one move [s]."""
 
 
+Follow = Callable[[MotionSegment], None]
+"""Function of a world that follows a segment; returns when it is solved."""
+
+
 class RemoteWorld:
-    """The child's side: a ``TcpListener`` that sends segments to the parent's world."""
+    """The child's side: it sends segments to the parent's world."""
 
     def __init__(self, port: int) -> None:
         """Connect to the parent.
@@ -68,7 +72,7 @@ class UrChild:
         host: Loopback address of the controller.
     """
 
-    def __init__(self, host: str, follow: Callable[[MotionSegment], None]) -> None:
+    def __init__(self, host: str, follow: Follow) -> None:
         """Start it; ``follow`` is called with every segment, in a thread of its own.
 
         Raises:
@@ -105,7 +109,6 @@ class UrChild:
         return self._child.control.facts("ur")
 
     def close(self) -> None:
-        """End the child. Idempotent."""
         self._child.close()
         self._connection.close()
         self._thread.join(timeout=2)

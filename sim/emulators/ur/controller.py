@@ -77,7 +77,6 @@ class Controller:
     # -- time and inputs -------------------------------------------------------------------------
 
     def advance(self) -> None:
-        """Advance to now."""
         now_s = self._clock()
         self.robot.advance(now_s)
         if self.program is None:

@@ -12,14 +12,13 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import closing
-from typing import Protocol
 
 import numpy as np
 
 from sim.emulators.process.control import Facts
 from sim.emulators.process.lifetime import serve
 from sim.emulators.process.real_time import request_real_time
-from sim.emulators.ur.child import RemoteWorld
+from sim.emulators.ur.child import Follow, RemoteWorld
 from sim.emulators.ur.controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur.motion import MotionSegment
 from sim.emulators.ur.options import UrOptions
@@ -29,47 +28,40 @@ from sim.emulators.ur.sessions import DASHBOARD_PORT, PORTS, RTDE_PORT, SCRIPT_P
 _REGISTERS = [f"input_int_register_{i}" for i in range(24)]
 
 
-class TcpListener(Protocol):
-    """A world that follows the tool centre point."""
-
-    def follow(self, segment: MotionSegment) -> None:
-        """Follow a segment of the tool that has ended (arrived, or was cut short by a stop).
-
-        It may take its time: the controller goes on, and reports the end of the move when the world
-        has followed.
-        """
-        ...
-
-
 class UrEmulator:
     """One emulated controller; an ``Emulated`` device of the control channel."""
 
     def __init__(
         self,
         options: UrOptions,
-        listener: TcpListener | None = None,
+        follow: Follow | None = None,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Listen on the host of the options and serve.
+
+        Args:
+            options: Address, version and start pose.
+            follow: Function of a world that follows a segment of the tool that has ended (arrived,
+                or was cut short by a stop). It may take its time: the controller goes on, and
+                reports the end of the move when the world has followed.
+            clock: Monotonic [s].
 
         Raises:
             OSError: The ports are taken on this address.
             ValueError: The start pose is out of reach.
         """
         major, minor = (int(part) for part in options.version.split("."))
-        self._clock, self._listener, self._version = clock, listener, (major, minor)
+        self._clock, self._version = clock, (major, minor)
         self._injected_s: float | None = None
         self._segments: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
             queue.SimpleQueue()
         )
-        self._world: threading.Thread | None = None
-        if listener is not None:
-            self._world = threading.Thread(target=self._run_world, daemon=True)
-            self._world.start()
+        if follow is not None:
+            threading.Thread(target=self._run_world, args=(follow,), daemon=True).start()
         self.controller = Controller(
             np.array(options.start_tcp),
             np.array(options.tcp_offset),
-            None if listener is None else self._queue_segment,
+            None if follow is None else self._queue_segment,
             clock,
         )
         self.server = Server(options.host, self.controller, self._version, options.stream_hz, clock)
@@ -91,7 +83,6 @@ class UrEmulator:
         }
 
     def close(self) -> None:
-        """Close all connections. Idempotent."""
         self.server.close()
         self._segments.put(None)
 
@@ -189,12 +180,11 @@ class UrEmulator:
         self._segments.put((segment, followed))
         return followed.is_set
 
-    def _run_world(self) -> None:
+    def _run_world(self, follow: Follow) -> None:
         while (entry := self._segments.get()) is not None:
             segment, followed = entry
             try:
-                if self._listener is not None:
-                    self._listener.follow(segment)
+                follow(segment)
             finally:
                 followed.set()
 
@@ -202,6 +192,6 @@ class UrEmulator:
 def run(options: UrOptions) -> None:
     """Run one emulated controller, until the process is to end."""
     request_real_time()  # control channel too: a thread that waits for it must not wait long
-    world = None if options.world_port is None else RemoteWorld(options.world_port)
-    with closing(UrEmulator(options, world)) as emulator:
+    follow = None if options.world_port is None else RemoteWorld(options.world_port).follow
+    with closing(UrEmulator(options, follow)) as emulator:
         serve({"ur": emulator}, {"host": options.host})

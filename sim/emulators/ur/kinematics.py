@@ -46,19 +46,6 @@ def as_frame(pose: Floats) -> Floats:
     return frame
 
 
-def as_pose(frame: Floats) -> Floats:
-    """Homogeneous matrix (4, 4) to UR pose (6,) [m, rad]."""
-    return np.concatenate([frame[:3, 3], rotvec(frame[:3, :3])])
-
-
-def inverse(frame: Floats) -> Floats:
-    """Inverse of a homogeneous matrix (4, 4)."""
-    inverted = np.eye(4)
-    inverted[:3, :3] = frame[:3, :3].T
-    inverted[:3, 3] = -frame[:3, :3].T @ frame[:3, 3]
-    return inverted
-
-
 def _joint_frames(q: Floats) -> list[Floats]:
     """Frames of the base and of the end of each joint, seven matrices (4, 4)."""
     frames = [np.eye(4)]

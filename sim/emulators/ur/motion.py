@@ -56,11 +56,9 @@ class Motion(Protocol):
     @property
     def duration_s(self) -> float:
         """Time of its end [s]; infinite for a motion that another one has to end."""
-        ...
 
     def at(self, t_s: float) -> ToolState:
         """The state at a time [s]."""
-        ...
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,6 @@ from sim.emulators.ur.kinematics import (
     Floats,
     as_frame,
     base_from_flange,
-    inverse,
     jacobian,
     joints_of,
     matrix,
@@ -88,12 +87,10 @@ class Robot:
 
     @property
     def in_motion(self) -> bool:
-        """A motion is under way."""
         return not isinstance(self._motion, Rest)
 
     @property
     def speed_m_s(self) -> float:
-        """Speed of the tool centre point [m/s]."""
         twist = self.tool.twist
         return math.sqrt(float(twist[:3] @ twist[:3]))
 
@@ -105,7 +102,6 @@ class Robot:
         self.advance(self._now_s)
 
     def halt(self, deceleration_m_s2: float) -> None:
-        """Come to rest along the present course."""
         if self.in_motion:
             self._stop(stop_at(self.tool, deceleration_m_s2))
 
@@ -121,7 +117,6 @@ class Robot:
         self.advance(self._now_s)
 
     def advance(self, now_s: float) -> None:
-        """Advance to a time."""
         passed_s = max(0.0, now_s - self._now_s)
         before_s, self._now_s = self._now_s, max(now_s, self._now_s)
         if not self.in_motion:
@@ -221,4 +216,4 @@ class Robot:
     def _flange(self) -> Floats:
         frame = np.eye(4)
         frame[:3, :3], frame[:3, 3] = self.tool.rotation, self.tool.position_m
-        return frame @ inverse(as_frame(self.tcp_offset))
+        return frame @ np.linalg.inv(as_frame(self.tcp_offset))

@@ -103,7 +103,6 @@ class Server:
         self._thread.start()
 
     def close(self) -> None:
-        """Close all connections and ports. Idempotent."""
         self._ended = True
         self._thread.join(timeout=2)
         with self.lock:
@@ -111,7 +110,6 @@ class Server:
 
     @property
     def num_clients(self) -> int:
-        """Number of open connections."""
         return len(self._connections)
 
     def reserve(self, names: Sequence[str], *, taken: bool) -> None:

@@ -11,8 +11,8 @@ from __future__ import annotations
 
 import re
 import struct
+from abc import ABC, abstractmethod
 from collections.abc import Callable
-from typing import Protocol
 
 from sim.emulators.ur import packets as rtde
 from sim.emulators.ur.controller import NORMAL, PROTECTIVE, ROBOT_MODES, SAFETY_MODES, Controller
@@ -22,19 +22,18 @@ PORTS = (DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT)
 LONGEST_TEXT = 1 << 20
 
 
-class Session(Protocol):
+class Session(ABC):
     """One connection."""
 
+    @abstractmethod
     def receive(self, data: bytes) -> bytes:
         """Take bytes of the client and return the answer; ``ValueError`` ends the connection."""
-        ...
 
-    def close(self) -> None:
-        """Release what the connection held."""
-        ...
+    def close(self) -> None:  # noqa: B027 - most sessions hold nothing
+        """Release what the connection holds."""
 
 
-class RtdeSession:
+class RtdeSession(Session):
     """RTDE protocol version 2.
 
     Attributes:
@@ -127,7 +126,7 @@ class RtdeSession:
         self._controller.on_inputs("input_int_register_0" in names)
 
 
-class ScriptSession:
+class ScriptSession(Session):
     """Port 30003: a program (``def ... end``), or a one-line script. It has no data stream.
 
     As on a real controller, any script replaces the running program.
@@ -165,11 +164,8 @@ class ScriptSession:
         elif line:
             self._controller.stop_program(f"replaced by {line[:40]!r}")
 
-    def close(self) -> None:
-        """Nothing to release."""
 
-
-class DashboardSession:
+class DashboardSession(Session):
     """Port 29999: one answer per line."""
 
     GREETING = b"Connected: Universal Robots Dashboard Server\n"
@@ -199,9 +195,6 @@ class DashboardSession:
         if len(self._text) > LONGEST_TEXT:
             raise ValueError("a line without an end")
         return b"".join(self._answer(line.decode("utf-8", "replace").strip()) for line in lines)
-
-    def close(self) -> None:
-        """Nothing to release."""
 
     def _answer(self, line: str) -> bytes:
         answer = self._answers.get(line.lower(), lambda: f'could not understand: "{line}"')

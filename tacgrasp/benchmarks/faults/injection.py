@@ -24,11 +24,13 @@ from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
-from tacgrasp.benchmarks.faults.threads import Move, RecordedEpisode, bounded
+from tacgrasp.benchmarks.faults.threads import BackgroundCall, Episode, check_episode
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.emulated import settings_for
 from tacgrasp.rig.hardware import HardwareRig, connect, connect_sensor
+from tacgrasp.run import run_recorded
 
 log = logging.getLogger(__name__)
 
@@ -39,8 +41,10 @@ STOPPED_MS = 150.0
 RECOVERED_MS = 100.0
 """Longest permitted times: refusal at the start, rest in motion, recovery of a transient fault."""
 
-HUNG_S = 6.0
-"""Time after which a call counts as hung [s]."""
+HUNG_S, CONNECT_S, EPISODE_S = 6.0, 10.0, 60.0
+"""Times after which a move, connecting and an episode count as hung [s]."""
+
+SPEED_M_S, ACCELERATION_M_S2 = 0.4, 2.5
 
 _MAX_ATTEMPTS = 6
 _LOW_X_M, _HIGH_X_M = 0.37, 0.53
@@ -88,7 +92,6 @@ class FaultBench:
         self._rng = np.random.default_rng(config.seed)
 
     def close(self) -> None:
-        """Remove calibration and episodes."""
         self._folder.cleanup()
 
     def inject(self, case: FaultCase, *, in_episode: bool) -> InjectionResult:
@@ -111,8 +114,9 @@ class FaultBench:
         before = self._truth()
         self._inject(case)
         began_s = time.monotonic()
-        message, hung = bounded(lambda: self._connect_device(case.device))
-        refused_s, message = time.monotonic() - began_s, self._anonymised(message)
+        call = BackgroundCall(lambda: self._connect_device(case.device))
+        hung = not call.wait(CONNECT_S)
+        refused_s, message = time.monotonic() - began_s, self._anonymised(call.error)
         return InjectionResult(
             detected=_is_expected(case, message) and refused_s < REFUSED_S,
             message=message,
@@ -157,7 +161,7 @@ class FaultBench:
     def _in_motion(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
             rig = self._connect(stack)
-            move = Move(rig, self._far_side(rig))
+            move = _start_move(rig, self._far_side(rig))
             time.sleep(float(self._rng.uniform(*_DELAY_S)))
             injected_s = self._inject(case)
             hung = not move.wait(HUNG_S)
@@ -177,7 +181,7 @@ class FaultBench:
         with ExitStack() as stack:
             rig = self._connect(stack)
             target = self._far_side(rig)
-            move = Move(rig, target)
+            move = _start_move(rig, target)
             time.sleep(float(self._rng.uniform(*_DELAY_S)))
             before = rig.fault_counts()
             injected_s = self._inject(case)
@@ -190,8 +194,8 @@ class FaultBench:
             hung = not move.wait(HUNG_S)
             after = rig.fault_counts()
         recovered_ms = 1e3 * (good_s - injected_s)
-        arrived = move.reached is not None and bool(
-            np.allclose(move.reached.position_m, target.position_m, atol=1e-3)
+        arrived = move.result is not None and bool(
+            np.allclose(move.result.position_m, target.position_m, atol=1e-3)
         )
         return InjectionResult(
             detected=not error
@@ -217,14 +221,18 @@ class FaultBench:
         with ExitStack() as stack:
             rig = self._connect(stack)
             record = {"record": Path(self._folder.name), "policy": "rules"}
-            episode = RecordedEpisode(rig, self._config.model_copy(update=record))
+            config = self._config.model_copy(update=record)
+            episode = BackgroundCall(
+                lambda: run_recorded(rig, make_policy("rules", config), config)
+            )
             moving = self._wait_for_motion(episode)
             injected_s = self._inject(case)
-            hung = not episode.wait(60.0)
+            hung = not episode.wait(EPISODE_S)
             stop_ms = self._stop_ms() if case.phase is InjectionPhase.MOTION and moving else None
             counts = rig.fault_counts()
         is_transient = case.phase is InjectionPhase.TRANSIENT
-        message = self._anonymised(counts if is_transient else episode.message)
+        outcome = episode.result[0].message if episode.result is not None else ""
+        message = self._anonymised(counts if is_transient else outcome)
         return InjectionResult(
             detected=_is_expected(case, message),
             message=message,
@@ -232,13 +240,13 @@ class FaultBench:
             stop_ms=stop_ms,
             moved=not moving,
             hung=hung,
-            episode=episode.check(expect_fault=not is_transient),
+            episode=check_episode(episode, expect_fault=not is_transient),
         )
 
-    def _wait_for_motion(self, episode: RecordedEpisode) -> bool:
+    def _wait_for_motion(self, episode: BackgroundCall[Episode]) -> bool:
         """Wait until the arm moves; False when it does not within 20 s."""
         until_s = time.monotonic() + 20.0
-        while time.monotonic() < until_s and not episode.ended:
+        while time.monotonic() < until_s and not episode.wait(0):
             speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
             if isinstance(speed, float) and speed > 0.01:
                 return True
@@ -315,6 +323,11 @@ class FaultBench:
             return float(np.ptp(value)) == 0
         truth = self._truth()[:3] if device == "ur" else self._truth()[3:]
         return bool(np.abs(value - truth).max() > 1e-3)
+
+
+def _start_move(rig: HardwareRig, target: Pose) -> BackgroundCall[Pose]:
+    speeds = {"speed_m_s": SPEED_M_S, "acceleration_m_s2": ACCELERATION_M_S2}
+    return BackgroundCall(lambda: rig.arm.move_to(target, **speeds))
 
 
 def _read(rig: HardwareRig, device: str) -> FloatArray:

@@ -54,7 +54,6 @@ class FaultRow:
 
     @property
     def passed(self) -> bool:
-        """The requirements were met in every repeat."""
         in_time = self.stop_ms_max is None or self.stop_ms_max <= STOPPED_MS
         clean = not (self.hung or self.invented_value or self.moved)
         is_recorded = self.episode in ("intact", "none begun")
