@@ -23,7 +23,7 @@ test: setup
 weights: setup
 	$(BIN)/tacgrasp data generate --out runs/tcl3d --seed 0
 	$(BIN)/tacgrasp data generate --out runs/data --set starter --contacts 24000 --seed 0
-	$(BIN)/tacgrasp train clip --data runs/tcl3d --out runs/pretrained --clip-steps 700
+	$(BIN)/tacgrasp train clip --data runs/tcl3d --out runs/pretrained --steps 700
 	$(BIN)/tacgrasp train cltp --data runs/tcl3d --also runs/data --out runs/pretrained \
 	    --steps 2200 --batch-size 64
 	$(BIN)/tacgrasp train llm --methods runs/pretrained --out weights --data runs/data

@@ -76,7 +76,7 @@ class Frozen:
     @property
     def sees_images(self) -> bool:
         """Whether it takes rendered frames instead of points."""
-        return self.encoder.config.tokenizer == "image"
+        return self.encoder.config.takes_images
 
     @property
     def sampling(self) -> Sampling:

@@ -71,7 +71,7 @@ def restored(values: Tensor) -> Tensor:
     return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
 
 
-def felt(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
+def with_read_numbers(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
     """States with what the heads read in place of their numbers; words stay, as does no contact.
 
     Args:

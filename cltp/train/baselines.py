@@ -1,21 +1,22 @@
 """Pre-training of the encoders that CLTP is compared with, on the same contacts.
 
 ``point_mae``, ``point_bert``: clouds alone (``cltp.encoder.masked_modelling``). Point-BERT's
-vocabulary takes a
-    quarter of the steps, so that every method has the same number in all.
+    vocabulary takes a quarter of the steps, so that every method has the same number in all.
 ``tvl``, ``unitouch``: vision-based, after the paper's appendix A: an encoder of tactile frames is
-    aligned with a frozen tower of language. TVL (Fu et al. 2024) speaks of how a surface feels: our
-    texture words. UniTouch (Yang et al. 2024) binds touch to what is touched, its material: our
-    names of objects with their texture. Neither hears of depth, position or area. Both also have
-    photographs of the object, which a simulated press has not; UniTouch's tokens for each sensor
-    are left out, since training has one sensor.
+    aligned with a frozen tower of language. TVL (Fu et al. 2024) names how a surface feels: our
+    texture words. UniTouch (Yang et al. 2024) names the material of the object: our names of
+    objects with their texture. No text names depth, position or area. Both methods also have
+    photographs of the object, which a simulated press lacks; UniTouch's tokens for each sensor are
+    left out, since training has one sensor.
 ``random``: nothing is learned; the floor.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import zlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -29,21 +30,23 @@ from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.all_gather import gathered
 from cltp.encoder.clip_towers import Towers
-from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig, TactileEncoder
+from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import targets
 from cltp.encoder.losses import ContrastiveLoss
-from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patches
+from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patch_size, patches
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
-from cltp.train.prefetch import ahead
-from cltp.train.stage import ProgressReport, Schedule, Stage, silent
+from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, TRAINING_ORDER
+from cltp.train.prefetch import prefetched
+from cltp.train.recipes import Schedule
+from cltp.train.stage import ProgressReport, Stage, silent
 
-METHODS = ("point_mae", "point_bert", "tvl", "unitouch", "random")
+BASELINES = tuple(name for name in TRAINING_ORDER if name not in ALIGNED_METHODS)
 
-_VOCABULARY_SHARE = 0.25
+_VOCABULARY_FRACTION = 0.25
 _COLDEST = 0.0625  # Gumbel temperature falls from 1 to this. Source: Point-BERT, section 4
 
 Losses = Callable[[Batch, int], dict[str, Tensor]]
@@ -54,7 +57,7 @@ def train_baseline(
     data_dir: Path,
     out_dir: Path,
     *,
-    config: EncoderConfig | None = None,
+    config: EncoderConfig,
     schedule: Schedule,
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
@@ -62,85 +65,88 @@ def train_baseline(
     report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
-    """Train, or go on training, and write ``out_dir/encoder``.
+    """Train, or continue training, and write ``out_dir/encoder``.
 
     Args:
-        method: Out of ``METHODS``.
+        method: Out of ``BASELINES``.
         data_dir: A data set of contacts; its training split is used.
         out_dir: Folder of this method.
         config: Sizes of the encoder.
-        schedule: How long and how fast.
+        schedule: How long and how fast the encoder learns.
         augmentation: How contacts are varied.
-        clip_dir: The towers, for vision-based methods.
-        seed: Of weights, order, noise and masks.
-        report: Told about progress.
+        clip_dir: Folder of the towers, for vision-based methods.
+        seed: Seed of weights, order, noise and masks.
+        report: Receives the progress.
         workers: The processes that train together.
 
     Raises:
-        TouchError: Data, towers or checkpoint can't be used, the encoder does not take what the
-            method shows it, or a batch is not finite.
+        TouchError: Data, towers or checkpoint can't be used, the encoder does not take the input of
+            the method, or a batch is not finite.
     """
-    if method not in METHODS:
-        raise TouchError(f"unknown method {method!r}; known: {', '.join(METHODS)}")
-    config = config or PRESETS[DEFAULT_PRESETS[method]]
-    sees = "image" if method in ("tvl", "unitouch") else "points"
-    if method != "random" and (config.tokenizer == "image") != (sees == "image"):
-        raise TouchError(f"{method} needs an encoder of {sees}, got tokenizer {config.tokenizer}")
-    data = ContactDataset(data_dir, split=Split.TRAIN)
-    work = _Work(data, out_dir, schedule, augmentation, seed, report, workers or Workers(), config)
+    if method not in BASELINES:
+        raise TouchError(f"unknown method {method!r}; known: {', '.join(BASELINES)}")
+    if method != "random" and config.takes_images != (method in IMAGE_METHODS):
+        taken = "image" if method in IMAGE_METHODS else "points"
+        raise TouchError(f"{method} needs an encoder of {taken}, got tokenizer {config.tokenizer}")
+    run = _Run(
+        data=ContactDataset(data_dir, split=Split.TRAIN),
+        folder=out_dir / ".training",
+        schedule=schedule,
+        augmentation=augmentation or Augmentation(),
+        seed=seed,
+        report=report,
+        workers=workers or Workers(),
+        config=config,
+    )
     torch.manual_seed(seed)
-    encoder = TactileEncoder(config).to(work.workers.device)
+    encoder = TactileEncoder(config).to(run.workers.device)
     if method == "point_mae":
-        mae = PointMae(encoder, _group_size(config)).to(work.workers.device)
-        work.run(
-            method, mae, lambda batch, step: mae.losses(work.points(batch), work.torch_rng(step))
+        mae = PointMae(encoder, patch_size(config)).to(run.workers.device)
+        run.stage(
+            method, mae, lambda batch, step: mae.losses(run.points(batch), run.torch_rng(step))
         )
     elif method == "point_bert":
-        _point_bert(encoder, work)
-    elif method != "random":
+        _train_point_bert(encoder, run)
+    elif method in IMAGE_METHODS:
         if clip_dir is None:
             raise TouchError(f"{method} is aligned with a tower of language; name a CLIP")
-        _vision(method, encoder, load_clip(clip_dir), work)
-    if work.workers.is_first:
+        _train_vision(method, encoder, load_clip(clip_dir), run)
+    if run.workers.is_first:
         save_frozen(out_dir / "encoder", encoder.cpu(), method)
-    work.workers.wait()
+    run.workers.wait()
     return out_dir / "encoder"
 
 
-def _group_size(config: EncoderConfig) -> int:
-    return config.group_size if config.tokenizer == "fps" else 16
-
-
-class _Work:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Run:
     """What all methods share: data, schedule, and how a stage is run over them."""
 
-    def __init__(
-        self,
-        data: ContactDataset,
-        out_dir: Path,
-        schedule: Schedule,
-        augmentation: Augmentation | None,
-        seed: int,
-        report: ProgressReport,
-        workers: Workers,
-        config: EncoderConfig,
-    ) -> None:
-        self.data, self.schedule, self.seed, self.workers = data, schedule, seed, workers
-        self.augmentation = augmentation or Augmentation()
-        self._folder, self._report, self._config = out_dir / ".training", report, config
+    data: ContactDataset
+    folder: Path
+    schedule: Schedule
+    augmentation: Augmentation
+    seed: int
+    report: ProgressReport
+    workers: Workers
+    config: EncoderConfig
 
-    def run(
+    def stage(
         self, name: str, model: nn.Module, losses: Losses, schedule: Schedule | None = None
     ) -> None:
-        schedule = schedule or self.schedule
+        """Train a model by the losses of a batch in a step."""
         identity = {
             "data": self.data.checksum(),
             "seed": self.seed,
-            "config": self._config.identity,
+            "config": self.config.identity,
             "variant": f"{self.augmentation} {self.workers.count}",
         }
-        stage = Stage(name, self._folder, model, schedule, identity, workers=self.workers)
-        batches = ahead(self._batches(stage.step, schedule))
+        stage = Stage(
+            name, self.folder, model, schedule or self.schedule, identity, workers=self.workers
+        )
+        sampler = Sampler(
+            self.data, self.augmentation, seed=self.seed, sampling=self.config.sampling
+        )
+        batches = prefetched(stage.batches(sampler))
 
         def terms(step: int) -> dict[str, Tensor]:
             batch = next(batches)
@@ -149,23 +155,15 @@ class _Work:
                 return losses(batch, step)
 
         model.train()
-        stage.run(terms, self._report)
+        stage.run(terms, self.report)
         if self.workers.is_first and stage.curves.exists():
             plot_curves(stage.curves, stage.curves.with_suffix(".png"))
-
-    def _batches(self, first: int, schedule: Schedule) -> Iterator[Batch]:
-        sampler = Sampler(
-            self.data, self.augmentation, seed=self.seed, sampling=self._config.sampling
-        )
-        size = self.workers.share(schedule.batch_size)
-        for step in range(first, schedule.steps):
-            yield sampler.numbered(size, self.workers.part(step))
 
     def points(self, batch: Batch) -> Tensor:
         return torch.from_numpy(batch.points).to(self.workers.device)
 
     def torch_rng(self, step: int) -> torch.Generator:
-        """Draws of a step, the same wherever a training is taken up again."""
+        """Random generator of a step, the same wherever a training is continued."""
         number = int(self.rng(step).integers(2**62))
         return torch.Generator().manual_seed(number)
 
@@ -173,85 +171,72 @@ class _Work:
         return np.random.default_rng([self.seed, 66, self.workers.part(step)])
 
 
-def _point_bert(encoder: TactileEncoder, work: _Work) -> None:
-    size = _group_size(encoder.config)
-    words = ShapeWords(encoder.config.dim, size).to(work.workers.device)
-    steps = max(1, round(_VOCABULARY_SHARE * work.schedule.steps))
+def _train_point_bert(encoder: TactileEncoder, run: _Run) -> None:
+    words = ShapeWords(encoder.config.dim, patch_size(encoder.config)).to(run.workers.device)
+    steps = max(1, round(_VOCABULARY_FRACTION * run.schedule.steps))
 
-    def first(batch: Batch, step: int) -> dict[str, Tensor]:
+    def word_losses(batch: Batch, step: int) -> dict[str, Tensor]:
         with torch.no_grad():
-            seen = patches(encoder, work.points(batch))
-        warmth = max(_COLDEST, _COLDEST ** (step / steps))
-        return words.losses(seen, warmth, work.torch_rng(step))
+            cloud = patches(encoder, run.points(batch))
+        temperature = max(_COLDEST, _COLDEST ** (step / steps))
+        return words.losses(cloud, temperature, run.torch_rng(step))
 
-    work.run("point_bert_words", words, first, _shortened(work.schedule, steps))
-    bert = PointBert(encoder, words).to(work.workers.device)
-    rest = _shortened(work.schedule, max(1, work.schedule.steps - steps))
-    work.run(
+    word_schedule = dataclasses.replace(run.schedule, steps=steps)
+    run.stage("point_bert_words", words, word_losses, word_schedule)
+    bert = PointBert(encoder, words).to(run.workers.device)
+    run.stage(
         "point_bert",
         bert,
-        lambda batch, step: bert.losses(work.points(batch), work.torch_rng(step)),
-        rest,
+        lambda batch, step: bert.losses(run.points(batch), run.torch_rng(step)),
+        dataclasses.replace(run.schedule, steps=max(1, run.schedule.steps - steps)),
     )
 
 
-def _shortened(schedule: Schedule, steps: int) -> Schedule:
-    return Schedule(
-        steps=steps,
-        batch_size=schedule.batch_size,
-        learning_rate=schedule.learning_rate,
-        weight_decay=schedule.weight_decay,
-        warm_up=schedule.warm_up,
-        largest_gradient=schedule.largest_gradient,
-    )
-
-
-class _Seeing(nn.Module):
+class _VisionLearner(nn.Module):
     def __init__(self, encoder: TactileEncoder) -> None:
         super().__init__()
         self.encoder, self.contrast = encoder, ContrastiveLoss()
 
 
-def _vision(method: str, encoder: TactileEncoder, towers: Towers, work: _Work) -> None:
+def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, run: _Run) -> None:
     if encoder.config.feature_dim != towers.feature_dim:
         raise TouchError(
             f"the encoder's feature has width {encoder.config.feature_dim}, the towers' "
             f"{towers.feature_dim}; choose a preset that fits"
         )
-    learner = _Seeing(encoder).to(work.workers.device)
-    known: dict[str, Tensor] = {}
-    sensors = work.data.column("sensor")
+    learner = _VisionLearner(encoder).to(run.workers.device)
+    text_features: dict[str, Tensor] = {}
+    sensors = run.data.column("sensor")
 
     def losses(batch: Batch, step: int) -> dict[str, Tensor]:
-        texts = felt_texts(method, work.data, batch)
+        texts = surface_texts(method, run.data, batch)
         for text in texts:
-            if text not in known:
-                known[text] = towers.texts([text])[0].cpu()
+            if text not in text_features:
+                text_features[text] = towers.texts([text])[0].cpu()
         pixels = noisy_frames(
             batch.height_mm,
             [sensor_named(sensors[index]) for index in batch.index],
-            work.augmentation,
-            work.rng(step),
+            run.augmentation,
+            run.rng(step),
         )
-        seen = encoder(pixels.to(work.workers.device)).feature.float()
-        spoken = torch.stack([known[text] for text in texts]).to(work.workers.device)
-        names = torch.tensor([zlib.crc32(text.encode()) for text in texts], device=seen.device)
-        names = gathered(names)
-        fits = names[:, None] == names[None]
-        terms = {"t2l": learner.contrast(seen, spoken, fits)}
+        vision = encoder(pixels.to(run.workers.device)).feature.float()
+        language = torch.stack([text_features[text] for text in texts]).to(run.workers.device)
+        numbers = torch.tensor([zlib.crc32(text.encode()) for text in texts], device=vision.device)
+        numbers = gathered(numbers)
+        terms = {"t2l": learner.contrast(vision, language, numbers[:, None] == numbers[None])}
         return terms | {"temperature": 1 / learner.contrast.scale.detach()}
 
-    work.run(method, learner, losses)
+    run.stage(method, learner, losses)
 
 
-def felt_texts(method: str, data: ContactDataset, batch: Batch) -> list[str]:
-    """What a vision-based method is told of contacts: how they feel, or what they are."""
+def surface_texts(method: str, data: ContactDataset, batch: Batch) -> list[str]:
+    """Texts for a vision-based method: how contacts feel (``tvl``), or what the objects are."""
     texts = []
     for index, state in zip(batch.index, batch.states, strict=True):
-        feel = f"{state.texture} " if state.texture is not None else ""
+        texture = f"{state.texture} " if state.texture is not None else ""
         if method == "tvl":
-            texts.append(f"The surface feels {feel}to the touch.")
+            texts.append(f"The surface feels {texture}to the touch.")
         else:
             name = str(data.column("object")[index]).replace("_", " ")
-            texts.append(f"A touch of a {feel}{name}.")
+            texts.append(f"A touch of a {texture}{name}.")
     return texts

@@ -1,15 +1,14 @@
-"""Stage 'clip': align a small CLIP on rendered contacts and their captions, to be frozen then.
+"""Stage 'clip': align a small CLIP on rendered contacts and their captions, then freeze it.
 
-A stock CLIP has seen enough language to tell "left" from "right" before it sees a contact; a small
+A stock CLIP has seen enough language to tell "left" from "right" before it sees a contact. A small
 one that begins at random has not, and a contrast alone leaves it there: while both words mean the
 same to the tower of language, the tower of images gains nothing by telling them apart, and the
-other way round. So the tower of language also has to let its texts be read back: which class each
-one names, by the nearest of learned directions that are dropped afterwards.
+other way round. A second loss therefore reads the texts back from their features: the class that
+each one names, by the nearest of learned directions, which are dropped after training.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +20,7 @@ from transformers import CLIPModel
 from cltp.checkpoints.tac3d_llm import save_clip
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import Augmentation, Batch, Sampler
+from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
 from cltp.encoder.losses import CltpLoss
 from cltp.tactile.states import CLASSES
@@ -29,21 +28,20 @@ from cltp.texts.tokenizer import Words
 from cltp.train.clip_feature_cache import rendered
 from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
-from cltp.train.prefetch import ahead
-from cltp.train.stage import ProgressReport, Schedule, Stage, silent
-from cltp.train.text_targets import Sayings, drawn_prompts, fits, say, true_of
-
-SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
+from cltp.train.prefetch import prefetched
+from cltp.train.recipes import CLIP_SCHEDULE, ClipRecipe, Schedule
+from cltp.train.stage import ProgressReport, Stage, silent
+from cltp.train.text_targets import TextTargets, draw_prompts, draw_texts, matches, matches_of_all
 
 READ_SCALE = 16.0
-"""Of cosines when texts are read back; about what the learned temperature comes to."""
+"""Factor on the cosines between texts and classes; about the scale that the contrast learns."""
 
 RENDERED = Augmentation(noise_level=0.0, uncalibrated=0.0)
-"""Images are of the clean gel, as the paper's are rendered from simulation."""
+"""Images show the clean gel, as the paper's are rendered from simulation."""
 
 
-class Meanings(nn.Module):
-    """A direction for every class, by which texts are read back from their features.
+class ClassDirections(nn.Module):
+    """A direction for every class, by which classes are read from the features of texts.
 
     Args:
         feature_dim: Width F of the features.
@@ -55,24 +53,24 @@ class Meanings(nn.Module):
             torch.randn(len(names), feature_dim) for names in CLASSES.values()
         )
 
-    def loss(self, spoken: Tensor, said: Sayings) -> Tensor:
+    def loss(self, features: Tensor, texts: TextTargets) -> Tensor:
         """Cross-entropy of the classes that texts name, given their features (B, F)."""
-        unit = F.normalize(spoken, dim=1)
+        unit = F.normalize(features, dim=1)
         terms = []
         for column, directions in enumerate(self.directions):
-            named = said.named[:, column] & (said.classes[:, column] >= 0)
+            named = texts.named[:, column] & (texts.classes[:, column] >= 0)
             if named.any():
-                near = unit[named.to(unit.device)] @ F.normalize(directions, dim=1).T
-                goal = said.classes[named, column].to(unit.device)
-                terms.append(F.cross_entropy(READ_SCALE * near, goal))
-        return torch.stack(terms).mean() if terms else 0.0 * spoken.sum()
+                cosines = unit[named.to(unit.device)] @ F.normalize(directions, dim=1).T
+                labels = texts.classes[named, column].to(unit.device)
+                terms.append(F.cross_entropy(READ_SCALE * cosines, labels))
+        return torch.stack(terms).mean() if terms else 0.0 * features.sum()
 
 
 class _Learner(nn.Module):
     def __init__(self, clip: CLIPModel) -> None:
         super().__init__()
         self.clip, self.loss = clip, CltpLoss()
-        self.meanings = Meanings(clip.text_projection.out_features)
+        self.class_directions = ClassDirections(clip.text_projection.out_features)
 
 
 def train_clip(
@@ -80,36 +78,30 @@ def train_clip(
     out_dir: Path,
     words: Words,
     *,
-    schedule: Schedule = SCHEDULE,
+    schedule: Schedule = CLIP_SCHEDULE,
+    recipe: ClipRecipe | None = None,
     dim: int = 128,
-    texts: str = "mixed",
-    several: bool = True,
-    prompt_weight: float = 1.0,
-    read_weight: float = 1.0,
     seed: int = 0,
     report: ProgressReport = silent,
     workers: Workers | None = None,
 ) -> Path:
-    """Train, or go on training, and write ``out_dir/clip``.
+    """Train, or continue training, and write ``out_dir/clip``.
 
     Args:
         data_dir: A data set of contacts; its training split is used.
         out_dir: Folder of weights; checkpoints lie in its ``.training``.
         words: The tokenizer of captions.
-        schedule: How long and how fast.
+        schedule: How long and how fast CLIP learns.
+        recipe: What is minimised.
         dim: Width of the towers and of the shared space.
-        texts: What is said of contacts, out of ``cltp.train.text_targets.KINDS``.
-        several: Whether all texts that are true of a contact belong to its image.
-        prompt_weight: Of a contrast with one prompt for every class, dimension by dimension.
-        read_weight: Of reading texts back.
-        seed: Of weights, order and mirroring.
-        report: Told about progress.
+        seed: Seed of weights, order and mirroring.
+        report: Receives the progress.
         workers: The processes that train together.
 
     Raises:
         TouchError: The data can't be read, or a checkpoint is of another training.
     """
-    workers = workers or Workers()
+    workers, recipe = workers or Workers(), recipe or ClipRecipe()
     data = ContactDataset(data_dir, split=Split.TRAIN)
     torch.manual_seed(seed)
     learner = _Learner(small_clip(words, dim=dim)).to(workers.device)
@@ -118,30 +110,34 @@ def train_clip(
         "seed": seed,
         "dim": dim,
         "words": words.fingerprint(),
-        "variant": f"{texts} {several} {prompt_weight} {read_weight} {workers.count}",
+        "variant": f"{recipe} {workers.count}",
     }
     stage = Stage("clip", out_dir / ".training", learner, schedule, identity, workers=workers)
     folder = out_dir / "clip"
     if stage.done and folder.exists():
         return folder
-    batches = ahead(_batches(data, seed, stage, workers))
+    sampler = Sampler(data, RENDERED, seed=seed)
+    batches = prefetched((batch, rendered(data, batch)) for batch in stage.batches(sampler))
 
     def losses(step: int) -> dict[str, Tensor]:
         batch, pixels = next(batches)
         rng = np.random.default_rng([seed, 56, workers.part(step)])
-        said = say(batch.states, texts, rng)
+        texts = draw_texts(batch.states, recipe.texts, rng)
         with workers.autocast():
-            spoken = text_features(learner.clip, words, said.texts).float()
+            language = text_features(learner.clip, words, texts.texts).float()
             images = image_features(learner.clip, pixels.to(workers.device)).float()
-        belong = true_of(said, workers.device) if several else None
-        terms = {"contrast": learner.loss.contrast(images, spoken, belong)}
-        if prompt_weight > 0:
-            found = _prompt_terms(learner, words, images, said.classes.to(workers.device), rng)
-            terms |= {name: prompt_weight * term for name, term in found.items()}
-        if read_weight > 0:
-            terms["read"] = read_weight * learner.meanings.loss(spoken, said)
-        near = (spoken @ images.T).argmax(dim=1).cpu()
-        right = fits(said.classes, said.classes, said.named)[near, torch.arange(len(near))]
+        matching = matches_of_all(texts, workers.device) if recipe.shares_texts else None
+        terms = {"contrast": learner.loss.contrast(images, language, matching)}
+        if recipe.prompt_weight > 0:
+            prompt_terms = _prompt_terms(
+                learner, words, images, texts.classes.to(workers.device), rng
+            )
+            terms |= {name: recipe.prompt_weight * term for name, term in prompt_terms.items()}
+        if recipe.read_weight > 0:
+            terms["read"] = recipe.read_weight * learner.class_directions.loss(language, texts)
+        nearest = (language @ images.T).argmax(dim=1).cpu()
+        true_texts = matches(texts.classes, texts.classes, texts.named)
+        right = true_texts[nearest, torch.arange(len(nearest))]
         temperature = 1 / learner.loss.contrast.scale.detach()
         return terms | {"right": right.float().mean(), "temperature": temperature}
 
@@ -157,20 +153,10 @@ def train_clip(
 def _prompt_terms(
     learner: _Learner, words: Words, images: Tensor, classes: Tensor, rng: np.random.Generator
 ) -> dict[str, Tensor]:
-    drawn = drawn_prompts(rng)
-    found = text_features(learner.clip, words, [text for of_slot in drawn for text in of_slot])
-    parts = found.float().split([len(of_slot) for of_slot in drawn])
+    prompts = draw_prompts(rng)
+    features = text_features(learner.clip, words, [text for texts in prompts for text in texts])
+    parts = features.float().split([len(texts) for texts in prompts])
     return {
         f"prompt_{slot}": learner.loss.against_prompts(images, part, classes[:, column])
         for column, (slot, part) in enumerate(zip(CLASSES, parts, strict=True))
     }
-
-
-def _batches(
-    data: ContactDataset, seed: int, stage: Stage, workers: Workers
-) -> Iterator[tuple[Batch, Tensor]]:
-    sampler = Sampler(data, RENDERED, seed=seed)
-    size = workers.share(stage.schedule.batch_size)
-    for step in range(stage.step, stage.schedule.steps):
-        batch = sampler.numbered(size, workers.part(step))
-        yield batch, rendered(data, batch)

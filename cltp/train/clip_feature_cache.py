@@ -1,7 +1,7 @@
-"""Features of captions and images, computed once each and kept on disk: the towers don't change.
+"""CLIP features of captions and images, computed once each and stored: the towers don't change.
 
-One file holds what has been computed so far for one pair of towers and data; it is replaced as a
-whole, carries its own checksum, and one that is damaged or of other towers or data is refused.
+One file holds the features computed so far for one pair of towers and data. It is replaced as a
+whole and carries its own checksum; a file that is damaged, or of other towers or data, is refused.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from safetensors import SafetensorError, safe_open
 from safetensors.torch import save_file
 from torch import Tensor
 
+from cltp.atomic_write import replacing
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch
 from cltp.encoder.clip_towers import Towers
@@ -28,13 +29,13 @@ SAVE_S = 120.0
 
 
 class FrozenFeatures:
-    """What the towers say of a data set's contacts, in their four mirror images, and of texts.
+    """Features of the four mirror images of a data set's contacts, and of texts.
 
     Args:
-        towers: Frozen.
-        data: Whose images they are.
-        folder: Where the file lies; None keeps everything in memory alone.
-        clock: For saving now and then [s].
+        towers: The frozen towers.
+        data: The contacts.
+        folder: Folder of the file; None keeps everything in memory alone.
+        clock: Source of the time between two writes of the file [s].
 
     Raises:
         TouchError: The file is damaged.
@@ -48,21 +49,22 @@ class FrozenFeatures:
         *,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._towers, self._data, self._clock = towers, data, clock
+        self.data = data
+        self._towers, self._clock = towers, clock
         self._texts: dict[str, Tensor] = {}
         # Rows 4 i to 4 i + 3: contact i as it is, mirrored along y, along x, along both.
         self._images = torch.zeros(4 * len(data), towers.feature_dim, dtype=torch.float16)
-        self._known = torch.zeros(4 * len(data), dtype=torch.bool)
+        self._computed = torch.zeros(4 * len(data), dtype=torch.bool)
         self._saved_s, self._changed = clock(), False
-        self.computed = 0
+        self.num_computed = 0
         self._path = None
         if folder is not None:
-            self._of = {
+            self._identity = {
                 "towers": fingerprint(towers),
                 "data": data.checksum(),
                 "contacts": str(len(data)),
             }
-            name = hashlib.sha256(json.dumps(self._of).encode()).hexdigest()[:16]
+            name = hashlib.sha256(json.dumps(self._identity).encode()).hexdigest()[:16]
             self._path = Path(folder) / f"features-{name}.safetensors"
             if self._path.exists():
                 self._read(self._path)
@@ -71,58 +73,56 @@ class FrozenFeatures:
         """Features of texts, shape (B, F)."""
         for text in texts:
             if text not in self._texts:
-                # One by one: what a batch held besides would show in the last bits.
+                # One by one: the other texts of a batch would change the last bits.
                 self._texts[text] = self._towers.texts([text])[0].cpu()
-                self._note(1)
+                self._count(1)
         return torch.stack([self._texts[text] for text in texts])
 
     def images(self, batch: Batch) -> Tensor:
-        """Features of the clean images of a batch, shape (B, F); moved ones are not kept."""
+        """Features of the clean images of a batch, shape (B, F); moved contacts are not stored."""
         mirror = torch.from_numpy(batch.mirror).long()
         rows = 4 * torch.from_numpy(batch.index) + 2 * mirror[:, 0] + mirror[:, 1]
-        for index in batch.index[~self._known[rows].numpy() & ~batch.moved]:
-            self._see(int(index))
-        found = self._images[rows].float()
+        for index in batch.index[~self._computed[rows].numpy() & ~batch.moved]:
+            self._compute_images(int(index))
+        features = self._images[rows].float()
         if batch.moved.any():
             moved = torch.from_numpy(batch.moved)
-            found[moved] = self._towers.images(rendered(self._data, batch)[moved]).cpu().float()
-        return found
+            pixels = rendered(self.data, batch)[moved]
+            features[moved] = self._towers.images(pixels).cpu().float()
+        return features
 
-    def _see(self, index: int) -> None:
+    def _compute_images(self, index: int) -> None:
         """Compute the four mirror images of one contact, always these together: see ``texts``."""
-        own = slice(4 * index, 4 * index + 4)
-        if self._known[own].all():
+        rows = slice(4 * index, 4 * index + 4)
+        if self._computed[rows].all():
             return
-        heights = self._data.height_mm(index)
-        sensor = sensor_named(self._data.column("sensor")[index])
-        every = [heights[:: 1 - 2 * y, :: 1 - 2 * x] for x in (0, 1) for y in (0, 1)]
-        pixels = torch.stack([render(height_mm, sensor) for height_mm in every])
-        self._images[own] = self._towers.images(pixels).cpu().half()
-        self._known[own] = True
-        self._note(4)
+        heights = self.data.height_mm(index)
+        sensor = sensor_named(self.data.column("sensor")[index])
+        mirrored = [heights[:: 1 - 2 * y, :: 1 - 2 * x] for x in (0, 1) for y in (0, 1)]
+        pixels = torch.stack([render(height_mm, sensor) for height_mm in mirrored])
+        self._images[rows] = self._towers.images(pixels).cpu().half()
+        self._computed[rows] = True
+        self._count(4)
 
     def save(self) -> None:
-        """Bring everything that is new to the disk."""
+        """Write all features, where any are new."""
         if self._path is None or not self._changed:
             return
         texts = sorted(self._texts)
-        width = self._images.shape[1]
+        features = [self._texts[text] for text in texts]
         content = {
             "images": self._images,
-            "known": self._known,
-            "texts": torch.stack([self._texts[t] for t in texts])
-            if texts
-            else torch.zeros(0, width),
+            "known": self._computed,
+            "texts": torch.stack(features) if texts else torch.zeros(0, self._images.shape[1]),
         }
-        about = {**self._of, "texts": json.dumps(texts), "sha256": _digest(content)}
+        metadata = {**self._identity, "texts": json.dumps(texts), "sha256": _digest(content)}
         self._path.parent.mkdir(parents=True, exist_ok=True)
-        beside = self._path.with_name(f"{self._path.name}.part")
-        save_file(content, beside, metadata=about)
-        beside.replace(self._path)
+        with replacing(self._path) as part:
+            save_file(content, part, metadata=metadata)
         self._changed = False
 
-    def _note(self, new: int) -> None:
-        self.computed += new
+    def _count(self, num_new: int) -> None:
+        self.num_computed += num_new
         self._changed = True
         if self._clock() - self._saved_s > SAVE_S:
             self.save()
@@ -131,15 +131,17 @@ class FrozenFeatures:
     def _read(self, path: Path) -> None:
         try:
             with safe_open(path, framework="pt") as file:
-                about = file.metadata() or {}
+                metadata = file.metadata() or {}
                 content = {name: file.get_tensor(name) for name in ("images", "known", "texts")}
-            texts = json.loads(about.get("texts", "[]"))
+            texts = json.loads(metadata.get("texts", "[]"))
         except (OSError, SafetensorError, ValueError) as error:
             raise TouchError(f"features in {path} are damaged; delete the file: {error}") from error
-        of = {name: about.get(name) for name in self._of}
-        if of != self._of or about.get("sha256") != _digest(content):
-            raise TouchError(f"features in {path} are damaged; delete the file, they come again")
-        self._images, self._known = content["images"], content["known"]
+        expected = {**self._identity, "sha256": _digest(content)}
+        if {name: metadata.get(name) for name in expected} != expected:
+            raise TouchError(
+                f"features in {path} are damaged; delete the file, they are computed again"
+            )
+        self._images, self._computed = content["images"], content["known"]
         self._texts = dict(zip(texts, content["texts"], strict=True))
 
 

@@ -1,8 +1,8 @@
-"""Curves of a training: a CSV file with a row a step, and a picture of it.
+"""Curves of a training: a CSV file with a row for each step, and a plot of it.
 
 The file survives ``kill -9`` together with its checkpoint: rows are on disk before the checkpoint
-that follows them, and rows after it are dropped when the training goes on, so that the file of an
-interrupted training is in the end the one of an undisturbed.
+that follows them, and rows after it are dropped when the training continues. The file of an
+interrupted training therefore ends up equal to that of an undisturbed one.
 """
 
 from __future__ import annotations
@@ -15,16 +15,17 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from cltp.atomic_write import replacing, write_atomically
 from cltp.errors import TouchError
 
 STEP, RATE = "step", "learning_rate"
 
 
 class CurveFile:
-    """Appends a row a step.
+    """Appends rows to a CSV file.
 
     Args:
-        path: Of the CSV file.
+        path: The CSV file.
         step: Steps that are done; later rows of an existing file are dropped.
     """
 
@@ -36,15 +37,13 @@ class CurveFile:
             self._path.unlink(missing_ok=True)
             return
         lines = self._path.read_text(encoding="utf-8").splitlines()
-        kept = [line for line in lines[1:] if line.split(",")[0].isdigit()]
-        kept = [line for line in kept if int(line.split(",")[0]) <= step]
+        numbered = [(line.split(",")[0], line) for line in lines[1:]]
+        rows = [line for number, line in numbered if number.isdigit() and int(number) <= step]
         self._names = lines[0].split(",")[2:] if lines else None
-        beside = self._path.with_name(f"{self._path.name}.part")
-        beside.write_text("".join(f"{line}\n" for line in [*lines[:1], *kept]), encoding="utf-8")
-        beside.replace(self._path)
+        write_atomically(self._path, "".join(f"{line}\n" for line in [*lines[:1], *rows]))
 
     def add(self, step: int, rate: float, terms: Mapping[str, float]) -> None:
-        """Note the terms of a step that is done; safe on disk after ``flush``."""
+        """Add the terms of a step that is done; they are on disk after ``flush``."""
         if self._names is None:
             self._names = list(terms)
             self._rows.append(",".join([STEP, RATE, *self._names]))
@@ -52,7 +51,7 @@ class CurveFile:
         self._rows.append(",".join([str(step), f"{rate:.6g}", *(f"{v:.7g}" for v in values)]))
 
     def flush(self) -> None:
-        """Bring what was noted to the disk."""
+        """Bring the added rows to the disk."""
         if not self._rows:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
@@ -101,9 +100,8 @@ def plot_curves(path: Path, picture: Path) -> None:
         axes[1, 0].plot(steps, temperature, color="black", linewidth=1)
         axes[1, 0].set_ylabel("temperature")
     axes[-1, 0].set_xlabel("step")
-    beside = picture.with_name(f"{picture.name}.part")
-    figure.savefig(beside, format="png", dpi=100)
-    beside.replace(picture)
+    with replacing(picture) as part:
+        figure.savefig(part, format="png", dpi=100)
 
 
 def smoothed(values: NDArray[np.float64], window: int = 50) -> NDArray[np.float64]:

@@ -1,8 +1,8 @@
-"""The processes that train together: which device each has, in which precision it computes.
+"""The processes that train together: the device and the precision of each.
 
-One process needs nothing of this. Several are started by ``accelerate launch`` (or torchrun) around
-the same command; each takes its share of every batch, negatives are gathered
-(``cltp.encoder.all_gather``), gradients averaged, and the first process alone writes files.
+A single process needs no setup. Several are started by ``accelerate launch`` (or torchrun) around
+the same command; each takes its part of every batch, negatives are gathered
+(``cltp.encoder.all_gather``), gradients are averaged, and the first process alone writes files.
 """
 
 from __future__ import annotations
@@ -19,23 +19,15 @@ from cltp.errors import TouchError
 PRECISIONS = ("no", "bf16")
 
 
-def _nothing() -> None:
-    """What a process alone waits for."""
-
-
-def _exact() -> AbstractContextManager[Any]:
-    return nullcontext()
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Workers:
-    """This process and those beside it; the default is one process on the CPU or accelerator.
+    """This process and the others; by default one process on the accelerator, else on the CPU.
 
     Attributes:
-        device: Where it computes.
-        index: Its number, from 0.
-        count: How many there are.
-        wait: Returns when all have come here.
+        device: Device of this process.
+        index: Number of this process, from 0.
+        count: Number of processes.
+        wait: Returns when all processes have called it.
         autocast: A context in which matrix products are computed in the chosen precision.
     """
 
@@ -44,15 +36,15 @@ class Workers:
     )
     index: int = 0
     count: int = 1
-    wait: Callable[[], None] = _nothing
-    autocast: Callable[[], AbstractContextManager[Any]] = _exact
+    wait: Callable[[], None] = lambda: None
+    autocast: Callable[[], AbstractContextManager[Any]] = nullcontext
 
     @property
     def is_first(self) -> bool:
         """Whether this process writes files and reports."""
         return self.index == 0
 
-    def share(self, batch_size: int) -> int:
+    def per_process(self, batch_size: int) -> int:
         """Contacts of a batch that each process takes.
 
         Raises:
@@ -66,12 +58,12 @@ class Workers:
         return batch_size // self.count
 
     def part(self, step: int) -> int:
-        """The number of this process's part of the batch of a step, counting parts as batches."""
+        """Number of this process's part of a step's batch, over the parts of all steps."""
         return step * self.count + self.index
 
 
-def joined(precision: str = "no") -> Workers:
-    """The workers that accelerate finds in the environment; alone where nothing started several.
+def joined_workers(precision: str = "no") -> Workers:
+    """The workers that accelerate finds in the environment; a single one when none are there.
 
     Args:
         precision: ``no`` (32 bits) or ``bf16``.
@@ -81,7 +73,7 @@ def joined(precision: str = "no") -> Workers:
     """
     if precision not in PRECISIONS:
         raise TouchError(f"unknown precision {precision!r}; known: {', '.join(PRECISIONS)}")
-    from accelerate import Accelerator  # a second to import, and needed here alone
+    from accelerate import Accelerator  # its import takes a second
 
     accelerator = Accelerator(mixed_precision=precision, cpu=not torch.cuda.is_available())
     return Workers(

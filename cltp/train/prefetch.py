@@ -1,4 +1,4 @@
-"""Batches made while the step before is computed."""
+"""Items made in a thread of their own while the ones before are used."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import TypeVar
 T = TypeVar("T")
 
 
-def ahead(items: Iterable[T], depth: int = 2) -> Iterator[T]:
-    """Yield ``items`` in order, with ``depth`` of them made ahead by one thread.
+def prefetched(items: Iterable[T], depth: int = 2) -> Iterator[T]:
+    """Yield ``items`` in order while one thread makes the next ``depth`` of them.
 
-    An exception in making an item is raised where that item would have come.
+    An exception in making an item is raised in the place of that item.
     """
     source = iter(items)
     with ThreadPoolExecutor(1) as pool:

@@ -1,4 +1,4 @@
-"""Progress of training for a person: a bar on a terminal, a plain line now and then elsewhere."""
+"""Progress of a training: bars on a terminal, a plain line every half minute elsewhere."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Bar:
     """A ``ProgressReport`` that draws bars, one for each stage; a context manager.
 
     Args:
-        stream: Where to; a plain line every ``line_s`` seconds when it is no terminal.
+        stream: Output; standard error when not given. It gets plain lines when it is no terminal.
         line_s: Seconds between plain lines.
-        clock: For them [s].
+        clock: Source of the time between them [s].
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class Bar:
     ) -> None:
         self._stream = stream or sys.stderr
         self._line_s, self._clock = line_s, clock
-        self._last = -line_s
+        self._printed_s = -line_s
         self._tasks: dict[str, TaskID] = {}
         self._bars: Progress | None = None
         if self._stream.isatty():
@@ -61,13 +61,12 @@ class Bar:
             self._bars.stop()
 
     def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-        """As ``cltp.train.stage.ProgressReport``."""
         text = " ".join(f"{name} {value:.3g}" for name, value in scores.items())
         if self._bars is not None:
             if stage not in self._tasks:
                 self._tasks[stage] = self._bars.add_task(stage, total=steps, scores="")
             self._bars.update(self._tasks[stage], completed=step, scores=text)
-        elif self._clock() - self._last >= self._line_s or step == steps:
-            self._last = self._clock()
+        elif self._clock() - self._printed_s >= self._line_s or step == steps:
+            self._printed_s = self._clock()
             self._stream.write(f"{stage} {step}/{steps} {text}\n")
             self._stream.flush()

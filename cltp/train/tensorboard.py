@@ -1,8 +1,8 @@
 """Curves of a training for TensorBoard, beside the CSV file that is always written.
 
 Needs the package ``tensorboard``, which the program itself does not (``pip install
-'tacgrasp[tensorboard]'``). The CSV file has every step; this has what people are shown, every ten
-steps, smoothed.
+'tacgrasp[tensorboard]'``). The CSV file has every step; these curves have the smoothed scores of
+every tenth step, as the progress bar shows them.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ def _stock_writer(folder: Path, step: int) -> Any:
     return SummaryWriter(str(folder), purge_step=step)
 
 
-class Board:
-    """A ``ProgressReport`` that writes event files, one folder a stage; a context manager.
+class TensorBoardReport:
+    """A ``ProgressReport`` that writes event files, one folder for each stage; a context manager.
 
     Args:
-        folder: Where to.
+        folder: Folder of the event files.
         writer: Opens the events of a stage's folder from a step on.
 
     Raises:
@@ -44,7 +44,7 @@ class Board:
         self._folder, self._open = folder, writer
         self._writers: dict[str, Any] = {}
 
-    def __enter__(self) -> Board:
+    def __enter__(self) -> TensorBoardReport:
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -53,7 +53,6 @@ class Board:
         self._writers.clear()
 
     def __call__(self, stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-        """As ``cltp.train.stage.ProgressReport``."""
         if stage not in self._writers:
             self._writers[stage] = self._open(self._folder / stage.replace(" ", "-"), step)
         for name, value in scores.items():

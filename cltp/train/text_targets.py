@@ -1,10 +1,10 @@
-"""What is said of each contact in a step of contrastive learning, and what else that is true of.
+"""One text for each contact of a step of contrastive learning, and the contacts it is true of.
 
 ``caption``: the paper's template, all five dimensions at once.
-``mixed``: half of the contacts so, the others by a prompt for one dimension
+``mixed``: that template for half of the contacts, for the others a prompt for one dimension
     (``cltp.texts.paraphrases``). A text that names one dimension alone is then nothing new in
-    zero-shot classification; it is true of many contacts of a batch, so that ``fits`` has to be
-    given to the loss.
+    zero-shot classification. It is true of many contacts of a batch, which the loss has to know
+    (``matches``).
 """
 
 from __future__ import annotations
@@ -23,20 +23,20 @@ from cltp.texts.paraphrases import prompts
 
 KINDS = ("caption", "mixed")
 
-CAPTION_SHARE = 0.5
-"""Of the texts of ``mixed``. Our choice: as many whole captions as prompts."""
+CAPTION_FRACTION = 0.5
+"""Fraction of captions among the texts of ``mixed``. Our choice: as many captions as prompts."""
 
-NOTHING = -1
+UNNAMED = -1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sayings:
+class TextTargets:
     """One text for each contact of a batch.
 
     Attributes:
-        texts: What is said, one text a contact.
-        classes: Shape (B, 5): the contacts' classes, in the order of ``CLASSES``; ``NOTHING``
-            where nobody named one, and in all dimensions without contact.
+        texts: The texts, one for each contact.
+        classes: Shape (B, 5): the contacts' classes, in the order of ``CLASSES``; ``UNNAMED`` for a
+            dimension without a label, and for all dimensions without contact.
         named: Shape (B, 5), bool: the dimensions that each text names.
     """
 
@@ -45,8 +45,8 @@ class Sayings:
     named: Tensor
 
 
-def say(states: Sequence[ContactState], kind: str, rng: np.random.Generator) -> Sayings:
-    """Word contacts.
+def draw_texts(states: Sequence[ContactState], kind: str, rng: np.random.Generator) -> TextTargets:
+    """Draw a text for each contact.
 
     Args:
         states: The contacts.
@@ -62,48 +62,48 @@ def say(states: Sequence[ContactState], kind: str, rng: np.random.Generator) -> 
     texts, named = [], torch.ones_like(classes, dtype=torch.bool)
     slots = list(CLASSES)
     for row, state in enumerate(states):
-        known = [n for n in range(len(slots)) if classes[row, n] != NOTHING]
-        if kind == "caption" or not known or rng.random() < CAPTION_SHARE:
+        labelled = [n for n in range(len(slots)) if classes[row, n] != UNNAMED]
+        if kind == "caption" or not labelled or rng.random() < CAPTION_FRACTION:
             texts.append(caption(state))
             continue
-        column = known[rng.integers(len(known))]
+        column = labelled[rng.integers(len(labelled))]
         slot = slots[column]
         wordings = prompts(slot, CLASSES[slot][int(classes[row, column])])
         texts.append(wordings[rng.integers(len(wordings))])
         named[row] = False
         named[row, column] = True
-    return Sayings(texts=texts, classes=classes, named=named)
+    return TextTargets(texts=texts, classes=classes, named=named)
 
 
 def class_numbers(states: Sequence[ContactState]) -> Tensor:
-    """Classes of contacts, shape (B, 5), ``NOTHING`` where a slot says nothing."""
-    found = []
+    """Classes of contacts, shape (B, 5); ``UNNAMED`` for a slot that the caption leaves out."""
+    rows = []
     for state in states:
         slots = slots_of(state)
         words = [(names, getattr(slots, slot)) for slot, names in CLASSES.items()]
-        found.append([NOTHING if w is None else names.index(w) for names, w in words])
-    return torch.tensor(found)
+        rows.append([UNNAMED if w is None else names.index(w) for names, w in words])
+    return torch.tensor(rows)
 
 
-def fits(contacts: Tensor, told: Tensor, named: Tensor) -> Tensor:
-    """Which contacts each text is true of, shape (contacts, texts).
+def matches(contacts: Tensor, texts: Tensor, named: Tensor) -> Tensor:
+    """Whether each text is true of each contact, shape (contacts, texts), bool.
 
     Args:
-        contacts: Classes, shape (contacts, 5).
-        told: Classes of the contact behind each text, shape (texts, 5).
-        named: The dimensions that each text names, shape (texts, 5).
+        contacts: Classes of the contacts, shape (contacts, 5).
+        texts: Classes of the contact behind each text, shape (texts, 5).
+        named: The dimensions that each text names, shape (texts, 5), bool.
     """
-    same = contacts[:, None] == told[None]
+    same = contacts[:, None] == texts[None]
     return (same | ~named[None]).all(dim=-1)
 
 
-def true_of(said: Sayings, device: torch.device) -> Tensor:
-    """Which contacts each text is true of, over the rows of all processes; see ``fits``."""
-    classes = gathered(said.classes.to(device))
-    return fits(classes, classes, gathered(said.named.to(device).long()).bool())
+def matches_of_all(targets: TextTargets, device: torch.device) -> Tensor:
+    """``matches`` over the rows of all processes."""
+    classes = gathered(targets.classes.to(device))
+    return matches(classes, classes, gathered(targets.named.to(device).long()).bool())
 
 
-def drawn_prompts(rng: np.random.Generator) -> list[list[str]]:
-    """For each dimension a prompt for every class, one of its wordings."""
+def draw_prompts(rng: np.random.Generator) -> list[list[str]]:
+    """For each dimension one prompt for every class, its wording drawn."""
     wordings = [[prompts(slot, name) for name in names] for slot, names in CLASSES.items()]
-    return [[of[rng.integers(len(of))] for of in of_slot] for of_slot in wordings]
+    return [[texts[rng.integers(len(texts))] for texts in classes] for classes in wordings]

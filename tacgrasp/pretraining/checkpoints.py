@@ -1,6 +1,6 @@
-"""What pre-training left in folders: read back, and refused where it can't be what is tried.
+"""Pre-trained encoders, read back from their folders; an unsuitable one is refused.
 
-Not here: training (``tacgrasp.pretraining.methods``) and trying
+Not here: training (``tacgrasp.pretraining.methods``) and measuring
 (``tacgrasp.pretraining.evaluate``).
 """
 
@@ -15,29 +15,28 @@ from cltp.checkpoints.tac3d_llm import load_clip
 from cltp.checkpoints.vision import load_vision_checkpoint
 from cltp.encoder.clip_towers import Towers
 from cltp.errors import TouchError
+from cltp.train.methods import IMAGE_METHODS
+from cltp.train.recipes import CltpRecipe
 from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.methods import ABOUT, Wish
+from tacgrasp.pretraining.methods import ABOUT
 from tacgrasp.pretraining.report.store import Budget
 
-VISION = ("tvl", "unitouch")
-"""Methods whose encoders take frames, so that others' image encoders can stand for them."""
-
 UNKNOWN = "shipped"
-"""Variant of weights that don't say how they came about, as those of the language model."""
+"""Variant of weights without a record of their training, as those of the language model."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrainedMethod:
-    """A method's folder, and how it came about.
+    """A method's folder, and how it was trained.
 
     Attributes:
-        folder: With ``encoder`` in it.
+        folder: Folder with ``encoder`` in it.
         variant: Preset, and what differs from the usual recipe.
-        budget: Of the pre-training; None where there was none, or nobody knows.
-        data: Checksum of the data that it learned from; None when nobody knows.
-        device: What it was trained on; None when nobody knows.
-        seed: Of its pre-training; None when nobody knows.
-        by_others: Whether the folder is a checkpoint in transformers' format instead.
+        budget: Budget of the pre-training; None where there was none, or it is unknown.
+        data: Checksum of the training data; None when unknown.
+        device: Device of the training; None when unknown.
+        seed: Seed of the pre-training; None when unknown.
+        is_external: Whether the folder is a checkpoint in transformers' format instead.
     """
 
     folder: Path
@@ -46,7 +45,7 @@ class TrainedMethod:
     data: str | None = None
     device: str | None = None
     seed: int | None = None
-    by_others: bool = False
+    is_external: bool = False
 
     def encoder(self) -> FrozenEncoder:
         """The encoder, frozen.
@@ -54,7 +53,7 @@ class TrainedMethod:
         Raises:
             WeightsError: It is missing, damaged, or its configuration does not match.
         """
-        if self.by_others:
+        if self.is_external:
             return load_vision_checkpoint(self.folder)
         return load_frozen(self.folder / "encoder")
 
@@ -68,16 +67,16 @@ class TrainedMethod:
         return load_clip(shared if shared.exists() else self.folder / "clip")
 
 
-def stored(method: str, out: Path) -> TrainedMethod:
-    """What a method learned, on whatever data.
+def find_method(method: str, out: Path) -> TrainedMethod:
+    """A trained method, on whatever data.
 
     Args:
-        method: Out of ``METHODS``.
+        method: Out of ``cltp.train.methods.METHODS``.
         out: Folder of all methods; for ``cltp`` also a folder of shipped weights.
 
     Raises:
         UsageError: It was not trained yet.
-        TouchError: What says how it was trained can't be read.
+        TouchError: The record of its training can't be read.
     """
     folder = out / method
     if method == "cltp" and not (folder / "encoder").exists() and (out / "encoder").exists():
@@ -88,7 +87,7 @@ def stored(method: str, out: Path) -> TrainedMethod:
         budget = Budget(steps=int(about["steps"]), batch_size=int(about["batch_size"]))
         return TrainedMethod(
             folder=folder,
-            variant=_variant(about["preset"], about["recipe"], also="also" in about),
+            variant=_variant(about["preset"], about["recipe"] or {}, also="also" in about),
             budget=budget if budget.steps else None,
             data=about["data"],
             device=about.get("device"),
@@ -97,59 +96,55 @@ def stored(method: str, out: Path) -> TrainedMethod:
     except FileNotFoundError:
         if folder == out and (folder / "clip").exists():
             return TrainedMethod(folder=folder, variant=UNKNOWN, budget=None)
-        raise UsageError(
-            f"{method} was not trained in {out}: no {path}; "
-            f"do `tacgrasp train {method.replace('_', '-')} --out {out}` first"
-        ) from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise _untrained(method, out, f"no {path}") from None
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise TouchError(f"{path} can't be read; train again: {error}") from error
 
 
-def checkpoint_of_others(method: str, folder: Path) -> TrainedMethod:
-    """An image encoder that others trained, tried as a vision-based method.
+def _untrained(method: str, out: Path, reason: str) -> UsageError:
+    command = f"tacgrasp train {method.replace('_', '-')} --out {out}"
+    return UsageError(f"{method} was not trained in {out}: {reason}; do `{command}` first")
+
+
+def external_checkpoint(method: str, folder: Path) -> TrainedMethod:
+    """An image encoder that others trained, in the place of a vision-based method.
 
     Raises:
         UsageError: The method is another one, or the folder is not there.
     """
-    if method not in VISION:
-        raise UsageError(f"--checkpoint is for {' or '.join(VISION)}, got {method!r}")
+    if method not in IMAGE_METHODS:
+        names = " or ".join(sorted(IMAGE_METHODS))
+        raise UsageError(f"--checkpoint is for {names}, got {method!r}")
     if not folder.is_dir():
         raise UsageError(f"--checkpoint {folder} is no directory")
     variant = f"checkpoint {folder.resolve().name}"
-    return TrainedMethod(folder=folder, variant=variant, budget=None, by_others=True)
+    return TrainedMethod(folder=folder, variant=variant, budget=None, is_external=True)
 
 
-def trained(method: str, out: Path, data: str) -> TrainedMethod:
-    """What a method learned on the data that it will be tried on.
+def find_method_of_data(method: str, out: Path, data: str) -> TrainedMethod:
+    """A method that was trained on the data that it will be measured on.
 
     Args:
-        method: Out of ``METHODS``.
+        method: Out of ``cltp.train.methods.METHODS``.
         out: Folder of all methods; for ``cltp`` also a folder of shipped weights.
-        data: Checksum of the data that it will be tried on.
+        data: Checksum of the data that it will be measured on.
 
     Raises:
         UsageError: It was not trained yet.
         TouchError: It was trained on other data, so that test contacts may be among them.
     """
-    found = stored(method, out)
-    if found.data is None:
-        raise UsageError(
-            f"{method} was not trained in {out} on data that are known: no {found.folder / ABOUT}; "
-            f"do `tacgrasp train {method.replace('_', '-')} --out {out}` first"
-        )
-    if found.data != data:
+    trained = find_method(method, out)
+    if trained.data is None:
+        raise _untrained(method, out, f"its data are unknown without {trained.folder / ABOUT}")
+    if trained.data != data:
         raise TouchError(
-            f"{method} in {found.folder} was trained on data {found.data[:12]}, these are "
+            f"{method} in {trained.folder} was trained on data {trained.data[:12]}, these are "
             f"{data[:12]}: test contacts could have been learned from; name the same data"
         )
-    return found
+    return trained
 
 
-def _variant(preset: str, recipe: dict[str, object] | None, *, also: bool) -> str:
-    usual = asdict(Wish().recipe())
-    other = [
-        f"{name}={value}"
-        for name, value in (recipe or usual).items()
-        if name not in ("with_images", "several") and value != usual[name]
-    ]
-    return "+".join([preset, *other, *(["also"] if also else [])])
+def _variant(preset: str, recipe: dict[str, object], *, also: bool) -> str:
+    usual = asdict(CltpRecipe())  # a stored recipe may have more entries, which older trainings had
+    changed = [f"{k}={v}" for k, v in recipe.items() if k in usual and v != usual[k]]
+    return "+".join([preset, *changed, *(["also"] if also else [])])

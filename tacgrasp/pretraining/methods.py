@@ -1,163 +1,108 @@
-"""Pre-train by every method on one data set with one budget, each into a folder of its own.
+"""Pre-train by one method on a data set, into a folder of its own.
 
-    OUT/clip/              the towers that all share
-    OUT/METHOD/encoder/    what a method learned; OUT/METHOD/about.json says how
-    OUT/encoder/           where ``tacgrasp train cltp`` puts the encoder that is shipped
+    OUT/clip/              the towers that all methods share
+    OUT/METHOD/encoder/    the encoder of a method; OUT/METHOD/about.json: how it was trained
 
-Every step is resumable, and what is done is not repeated. Measuring is in
-``tacgrasp.pretraining.evaluate``.
+Every stage continues where it was stopped, and is skipped when it is done. Not here: measuring
+(``tacgrasp.pretraining.evaluate``) and the order of several methods
+(``tacgrasp.pretraining.run_all``).
 """
 
 from __future__ import annotations
 
-import dataclasses
 import json
-from dataclasses import asdict, dataclass
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import torch
+from rich.console import Console
 
 from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
-from cltp.encoder.encoder import DEFAULT_PRESETS, PRESETS, EncoderConfig
-from cltp.evaluation.splits import LEARNING
-from cltp.train.alignment import SCHEDULE as CLTP_SCHEDULE
-from cltp.train.alignment import Recipe, train_cltp
+from cltp.encoder.encoder import PRESETS
+from cltp.evaluation.splits import LEARNING_NOISE
+from cltp.train.alignment import train_cltp
 from cltp.train.baselines import train_baseline
-from cltp.train.clip import SCHEDULE as CLIP_SCHEDULE
 from cltp.train.clip import train_clip
 from cltp.train.distributed import Workers
 from cltp.train.llm import train_words
-from cltp.train.stage import ProgressReport, Schedule, silent
+from cltp.train.methods import ALIGNED_METHODS, METHODS
+from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
+from cltp.train.stage import ProgressReport, silent
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.exchanges import TouchLessons
 
 ABOUT = "about.json"
-METHODS = ("cltp", "cltp_no_image", "random", "point_mae", "point_bert", "tvl", "unitouch")
-"""In the order in which ``all-methods`` trains them: what the paper is about first."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Wish:
-    """What a pre-training is to be, on the command line; None is the method's usual.
+class PretrainingRun:
+    """Folders, seed, progress and processes that all stages of one command share.
 
     Attributes:
-        preset: Out of ``cltp.encoder.encoder.PRESETS``.
-        steps: Optimiser steps.
-        batch_size: Contacts in a step.
-        texts: What is said of contacts.
-        prompt_weight: Of the contrast with one prompt a class.
-        head_weight: Of the state heads.
-        read_weight: Of letting CLIP's texts be read back.
-        moved: Share of contacts that are shifted and turned on the pad.
-        with_images: Whether L_T2I is minimised.
-        also: A further data set that CLTP learns from.
+        out: Folder of all methods.
+        data: A data set of contacts; its training split is used.
+        seed: Seed of weights, order and noise.
+        command: The command line, for ``about.json``.
+        report: Receives the progress.
+        workers: The processes that train together.
     """
 
-    preset: str | None = None
-    steps: int | None = None
-    batch_size: int | None = None
-    texts: str = "mixed"
-    prompt_weight: float = 1.0
-    head_weight: float = 1.0
-    read_weight: float = 1.0
-    moved: float = 0.0
-    with_images: bool = True
-    also: Path | None = None
+    out: Path
+    data: Path
+    seed: int = 0
+    command: str
+    report: ProgressReport = silent
+    workers: Workers = field(default_factory=Workers)
 
-    def config(self, method: str) -> EncoderConfig:
-        """The encoder.
-
-        Raises:
-            UsageError: There is no such preset.
-        """
-        name = self.preset_of(method)
-        if name not in PRESETS:
-            raise UsageError(f"unknown preset {name!r}; known: {', '.join(PRESETS)}")
-        return PRESETS[name]
-
-    def preset_of(self, method: str) -> str:
-        """Name of the encoder's preset."""
-        return self.preset or DEFAULT_PRESETS[method]
-
-    def schedule(self, usual: Schedule) -> Schedule:
-        """The usual schedule of a stage with as many steps and contacts as wished.
-
-        Raises:
-            TouchError: A number is not positive.
-        """
-        return dataclasses.replace(
-            usual,
-            steps=usual.steps if self.steps is None else self.steps,
-            batch_size=usual.batch_size if self.batch_size is None else self.batch_size,
-        )
-
-    def recipe(self) -> Recipe:
-        """What CLTP minimises."""
-        return Recipe(
-            with_images=self.with_images,
-            texts=self.texts,
-            several=self.texts != "caption",
-            prompt_weight=self.prompt_weight,
-            head_weight=self.head_weight,
-            moved=self.moved,
-        )
+    def announce(self, stage: str, folder: Path) -> None:
+        """Print the folder that a stage writes."""
+        if self.workers.is_first:
+            line = f"{stage}: writing {folder}"
+            Console(soft_wrap=True).print(line, markup=False, highlight=False)
 
 
 def pretrain_clip(
-    out: Path,
-    data: Path,
-    wish: Wish,
-    *,
-    seed: int = 0,
-    report: ProgressReport = silent,
-    workers: Workers | None = None,
+    run: PretrainingRun, recipe: ClipRecipe | None = None, schedule: Schedule = CLIP_SCHEDULE
 ) -> Path:
-    """Align the small CLIP that every method shares; ``wish.steps`` is its own budget here.
+    """Align the small CLIP that every method shares.
 
     Raises:
         TouchError: Data or a checkpoint can't be used.
     """
-    words = train_words(data, TouchLessons(), seed=seed)
+    run.announce("clip", run.out / "clip")
+    words = train_words(run.data, TouchLessons(), seed=run.seed)
     return train_clip(
-        data,
-        out,
+        run.data,
+        run.out,
         words,
-        schedule=wish.schedule(CLIP_SCHEDULE),
-        texts=wish.texts,
-        several=wish.texts != "caption",
-        prompt_weight=wish.prompt_weight,
-        read_weight=wish.read_weight,
-        seed=seed,
-        report=report,
-        workers=workers,
+        schedule=schedule,
+        recipe=recipe,
+        seed=run.seed,
+        report=run.report,
+        workers=run.workers,
     )
 
 
 def pretrain(
     method: str,
-    out: Path,
-    data: Path,
-    wish: Wish,
+    run: PretrainingRun,
+    schedule: Schedule = CLTP_SCHEDULE,
     *,
-    folder: Path | None = None,
-    seed: int = 0,
-    command: str,
-    report: ProgressReport = silent,
-    workers: Workers | None = None,
+    preset: str | None = None,
+    recipe: CltpRecipe | None = None,
+    also: Path | None = None,
 ) -> Path:
-    """Train one method behind the towers in ``out/clip``.
+    """Train one method behind the towers in ``run.out / "clip"``.
 
     Args:
-        method: Out of ``METHODS``.
-        out: Folder of all methods.
-        data: A data set of contacts.
-        wish: What the training is to be.
-        folder: Of this method; ``method_folder`` when not given.
-        seed: Of weights, order and noise.
-        command: For ``about.json``.
-        report: Told about progress.
-        workers: The processes that train together.
+        method: Out of ``cltp.train.methods.METHODS``.
+        run: Folders, seed, progress and processes.
+        schedule: How long and how fast the encoder learns.
+        preset: Encoder, out of ``cltp.encoder.encoder.PRESETS``; the method's own when not given.
+        recipe: What CLTP minimises.
+        also: A further data set that CLTP learns from.
 
     Returns:
         The method's folder.
@@ -168,78 +113,78 @@ def pretrain(
     """
     if method not in METHODS:
         raise UsageError(f"unknown method {method!r}; known: {', '.join(METHODS)}")
-    folder = folder or out / method
-    schedule = wish.schedule(CLTP_SCHEDULE)
-    clip = out / "clip"
-    config = wish.config(method)
-    if method in ("cltp", "cltp_no_image"):
-        wish = dataclasses.replace(wish, with_images=wish.with_images and method == "cltp")
+    preset, recipe = preset or METHODS[method].preset, recipe or CltpRecipe()
+    if preset not in PRESETS:
+        raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
+    folder = run.out / method
+    run.announce(method, folder / "encoder")
+    report = _labelled(run.report, method)
+    if method in ALIGNED_METHODS:
         train_cltp(
-            data,
+            run.data,
             folder,
-            also=() if wish.also is None else (wish.also,),
-            config=config,
+            also=() if also is None else (also,),
+            config=PRESETS[preset],
             schedule=schedule,
-            augmentation=LEARNING,
-            recipe=wish.recipe(),
-            clip_dir=clip,
-            seed=seed,
+            augmentation=LEARNING_NOISE,
+            recipe=recipe,
+            with_images=method == "cltp",
+            clip_dir=run.out / "clip",
+            seed=run.seed,
             report=report,
-            workers=workers,
+            workers=run.workers,
         )
     else:
         train_baseline(
             method,
-            data,
+            run.data,
             folder,
-            config=config,
+            config=PRESETS[preset],
             schedule=schedule,
-            augmentation=LEARNING,
-            clip_dir=clip,
-            seed=seed,
+            augmentation=LEARNING_NOISE,
+            clip_dir=run.out / "clip",
+            seed=run.seed,
             report=report,
-            workers=workers,
+            workers=run.workers,
         )
-    if workers is None or workers.is_first:
-        on = device_name((workers or Workers()).device)
-        _write_about(folder, method, wish, schedule, data, seed, command, on)
+    if run.workers.is_first:
+        about = {
+            "method": method,
+            "preset": preset,
+            "steps": 0 if method == "random" else schedule.steps,
+            "batch_size": schedule.batch_size,
+            "recipe": asdict(recipe) if method in ALIGNED_METHODS else None,
+            "data": ContactDataset(run.data).checksum(),
+            "seed": run.seed,
+            "device": device_name(run.workers.device),
+            "command": run.command,
+        }
+        if also is not None:
+            about["also"] = ContactDataset(also).checksum()
+        _write_about(folder / ABOUT, about)
     return folder
 
 
+def _labelled(report: ProgressReport, method: str) -> ProgressReport:
+    """Put the method before the names of stages that don't begin with it."""
+
+    def labelled(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+        report(stage if stage.startswith(method) else f"{method} {stage}", step, steps, scores)
+
+    return labelled
+
+
 def device_name(device: torch.device) -> str:
-    """What a device is called: ``cpu``, or the accelerator's name."""
+    """Name of a device: ``cpu``, or the accelerator's."""
     return torch.cuda.get_device_name(device) if device.type == "cuda" else device.type
 
 
-def _write_about(
-    folder: Path,
-    method: str,
-    wish: Wish,
-    schedule: Schedule,
-    data: Path,
-    seed: int,
-    command: str,
-    device: str,
-) -> None:
-    """Say how an encoder came about; a training that was done before keeps its device."""
-    aligned = method in ("cltp", "cltp_no_image")
-    content = {
-        "method": method,
-        "preset": wish.preset_of(method),
-        "steps": 0 if method == "random" else schedule.steps,
-        "batch_size": schedule.batch_size,
-        "recipe": asdict(wish.recipe()) if aligned else None,
-        "data": ContactDataset(data).checksum(),
-        "seed": seed,
-        "device": device,
-        "command": command,
-    }
-    if aligned and wish.also is not None:
-        content["also"] = ContactDataset(wish.also).checksum()
+def _write_about(path: Path, about: dict[str, object]) -> None:
+    """Write how an encoder was trained; a training that was done before keeps its device."""
     try:
-        before = json.loads((folder / ABOUT).read_text(encoding="utf-8"))
+        before = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         before = {}
-    if {**before, "device": device, "command": command} == content and "device" in before:
-        content["device"] = before["device"]
-    write_atomically(folder / ABOUT, json.dumps(content, indent=2) + "\n")
+    if {**before, "device": about["device"], "command": about["command"]} == about:
+        about["device"] = before.get("device", about["device"])
+    write_atomically(path, json.dumps(about, indent=2) + "\n")

@@ -1,155 +1,138 @@
-"""What ``tacgrasp train`` does for methods: one of them, their probes, or everything in pieces.
+"""The stages of ``tacgrasp train`` that pre-train: one method, its probes, or all methods.
 
-All of it can be stopped at any time and started again by the same command: stages go on at their
-checkpoints, encoded contacts are kept, and a result is written as soon as it is measured.
+Each can be stopped at any time and started again by the same command: stages continue at their
+checkpoints, encoded contacts are stored, and a result is written as soon as it is measured.
 """
 
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from contextlib import ExitStack
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import torch
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.data.dataset import ContactDataset
-from cltp.train.distributed import joined
+from cltp.train.distributed import joined_workers
+from cltp.train.methods import TRAINING_ORDER
 from cltp.train.progress import Bar
+from cltp.train.recipes import ClipRecipe, CltpRecipe, Schedule
 from cltp.train.stage import ProgressReport
-from cltp.train.tensorboard import Board
+from cltp.train.tensorboard import TensorBoardReport
 from tacgrasp.pretraining.evaluate import probe, retrieval, zero_shot
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
-from tacgrasp.pretraining.methods import METHODS, Wish, pretrain, pretrain_clip
+from tacgrasp.pretraining.methods import PretrainingRun, pretrain, pretrain_clip
 from tacgrasp.pretraining.report.report import report
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Order:
-    """What was asked for on the command line; see ``tacgrasp.cli.train.Pretrain``."""
+@contextmanager
+def pretraining_run(
+    out: Path,
+    data: Path,
+    *,
+    seed: int,
+    command: str,
+    threads: int | None = None,
+    precision: str = "no",
+    tensorboard: bool = False,
+) -> Iterator[PretrainingRun]:
+    """Open what the stages of one command share, with progress on the terminal.
 
-    out: Path
-    data: Path
-    results: Path
-    preset: str | None = None
-    steps: int | None = None
-    batch_size: int | None = None
-    clip_steps: int | None = None
-    with_images: bool = True
-    also: Path | None = None
-    texts: str = "mixed"
-    prompt_weight: float = 1.0
-    head_weight: float = 1.0
-    read_weight: float = 1.0
-    moved: float = 0.0
-    precision: str = "no"
-    seed: int = 0
-    seeds: int = 1
-    threads: int | None = None
-    tensorboard: bool = False
-    command: str = "tacgrasp train"
+    Args:
+        out: Folder of all methods.
+        data: A data set of contacts.
+        seed: Seed of weights, order and noise.
+        command: The command line, for ``about.json``.
+        threads: Threads of torch; one for each core when not given.
+        precision: Out of ``cltp.train.distributed.PRECISIONS``.
+        tensorboard: Whether curves are also written into ``out / "tensorboard"``.
 
-    def wish(self, steps: int | None, batch_size: int | None) -> Wish:
-        """A pre-training of so many steps."""
-        return Wish(
-            preset=self.preset,
-            steps=steps,
-            batch_size=batch_size,
-            texts=self.texts,
-            prompt_weight=self.prompt_weight,
-            head_weight=self.head_weight,
-            read_weight=self.read_weight,
-            moved=self.moved,
-            with_images=self.with_images,
-            also=self.also,
+    Raises:
+        TouchError: There is no data set, or tensorboard is not installed.
+    """
+    disable_progress_bar()  # of reading and writing weights, over in milliseconds
+    ContactDataset(data)  # refuses a folder without contacts before anything else is done
+    torch.set_num_threads(threads or os.cpu_count() or 1)
+    with ExitStack() as opened:
+        reports: list[ProgressReport] = [opened.enter_context(Bar())]
+        if tensorboard:
+            reports.append(opened.enter_context(TensorBoardReport(out / "tensorboard")))
+
+        def report_all(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+            for one in reports:
+                one(stage, step, steps, scores)
+
+        yield PretrainingRun(
+            out=out,
+            data=data,
+            seed=seed,
+            command=command,
+            report=report_all,
+            workers=joined_workers(precision),
         )
 
 
-def carry_out(stage: str, order: Order) -> None:
-    """Do one stage.
-
-    Args:
-        stage: ``clip``, a method with dashes, ``probe``, or ``all-methods``.
-        order: What was asked for.
+def run_probes(run: PretrainingRun, results: Path, seeds: int) -> None:
+    """Train and measure probes on every encoder of a run's folder, for several seeds.
 
     Raises:
-        UsageError: An unknown preset, or what is needed first was not trained.
+        UsageError: No encoder was trained.
+        TouchError: Data, an encoder or a result can't be used.
+    """
+    run.announce("probe", results)
+    for number in range(seeds):
+        probe(_evaluation(run, results, number))
+
+
+def run_all_methods(
+    run: PretrainingRun,
+    results: Path,
+    *,
+    seeds: int,
+    clip_recipe: ClipRecipe,
+    clip_schedule: Schedule,
+    cltp_recipe: CltpRecipe,
+    schedule: Schedule,
+    preset: str | None = None,
+) -> None:
+    """Pre-train CLIP and every method, measure them, and write the report.
+
+    Args:
+        run: Folders, seed, progress and processes.
+        results: Folder of results and of the report.
+        seeds: Number of seeds of probes, counted from the run's; those after the first for CLTP
+            alone.
+        clip_recipe: What CLIP minimises.
+        clip_schedule: How long and how fast CLIP learns.
+        cltp_recipe: What CLTP minimises.
+        schedule: How long and how fast each method learns.
+        preset: Encoder of all methods; each method's own when not given.
+
+    Raises:
+        UsageError: An unknown preset.
         TouchError: Data, weights or a checkpoint can't be used.
     """
-    disable_progress_bar()  # of reading and writing weights, over in milliseconds
-    for data in (order.data, order.also):
-        if data is not None:
-            ContactDataset(data)  # complains before anything else is done
-    torch.set_num_threads(order.threads or os.cpu_count() or 1)
-    method = stage.replace("-", "_")
-    with ExitStack() as open_ones:
-        if order.tensorboard and stage != "probe":
-            board = open_ones.enter_context(Board(order.out / "tensorboard"))
-        else:
-            board = None
-        bar = open_ones.enter_context(Bar())
-        shown = bar if board is None else _both(bar, board)
-        if stage in ("clip", "all-methods"):
-            _clip(order, shown)
-        if stage == "all-methods":
-            for each in METHODS:
-                _train(each, order, shown)
-            _measure(order, bar)
-        elif stage == "probe":
-            for number in range(order.seeds):
-                probe(_place(order, bar, number))
-        elif stage != "clip":
-            _train("cltp_no_image" if not order.with_images else method, order, shown)
+    pretrain_clip(run, clip_recipe, clip_schedule)
+    for method in TRAINING_ORDER:
+        pretrain(method, run, schedule, preset=preset, recipe=cltp_recipe)
+    run.announce("results", results)
+    evaluation = _evaluation(run, results)
+    zero_shot(evaluation)
+    retrieval(evaluation)
+    probe(evaluation)
+    for number in range(1, seeds):
+        probe(_evaluation(run, results, number), ("cltp",))
+    report(results, results, weights=run.out)
 
 
-def _both(one: ProgressReport, other: ProgressReport) -> ProgressReport:
-    def told(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-        one(stage, step, steps, scores)
-        other(stage, step, steps, scores)
-
-    return told
-
-
-def _clip(order: Order, bar: ProgressReport) -> None:
-    workers = joined(order.precision)
-    wish = order.wish(order.clip_steps, None)
-    pretrain_clip(order.out, order.data, wish, seed=order.seed, report=bar, workers=workers)
-
-
-def _train(method: str, order: Order, bar: ProgressReport) -> None:
-    def named(stage: str, step: int, steps: int, scores: object) -> None:
-        told = scores if isinstance(scores, dict) else {}
-        bar(stage if stage.startswith(method) else f"{method} {stage}", step, steps, told)
-
-    pretrain(
-        method,
-        order.out,
-        order.data,
-        order.wish(order.steps, order.batch_size),
-        seed=order.seed,
-        command=order.command,
-        report=named,
-        workers=joined(order.precision),
-    )
-
-
-def _place(order: Order, bar: ProgressReport, number: int = 0) -> EvaluationRun:
+def _evaluation(run: PretrainingRun, results: Path, number: int = 0) -> EvaluationRun:
     return EvaluationRun(
-        weights=order.out,
-        data=order.data,
-        results=order.results,
-        seed=order.seed + number,
-        command=order.command,
-        report=bar,
+        weights=run.out,
+        data=run.data,
+        results=results,
+        seed=run.seed + number,
+        command=run.command,
+        report=run.report,
     )
-
-
-def _measure(order: Order, bar: ProgressReport) -> None:
-    zero_shot(_place(order, bar))
-    retrieval(_place(order, bar))
-    probe(_place(order, bar))
-    for number in range(1, order.seeds):
-        probe(_place(order, bar, number), ("cltp",))
-    report(order.results, order.results, weights=order.out)

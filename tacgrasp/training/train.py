@@ -1,7 +1,8 @@
-"""From nothing to weights: contacts, tokenizer, CLIP, CLTP and Tac3D-LLM, each stage resumable.
+"""Train the weights of the language model: an encoder, CLIP, the projector and the model itself.
 
-Composes what ``sim`` makes and ``cltp`` learns. Every stage goes on where it was stopped and is
-skipped when it is done, so that the same command can be given again after anything.
+Composes ``sim``'s contacts, the encoder of ``tacgrasp.pretraining`` and ``cltp``'s training. Every
+stage continues where it was stopped and is skipped when it is done, so that the same command can be
+given again after any interruption.
 """
 
 from __future__ import annotations
@@ -12,10 +13,10 @@ import os
 import platform
 import shutil
 import time
-from collections.abc import Sequence
 from pathlib import Path
 
 import torch
+from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
@@ -27,125 +28,161 @@ from cltp.checkpoints.tac3d_llm import (
     write_card,
 )
 from cltp.data.dataset import ContactDataset
-from cltp.texts.tokenizer import Words
-from cltp.train.alignment import train_cltp
-from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.lessons.exchanges import TouchLessons
-from tacgrasp.pretraining.checkpoints import stored
-from tacgrasp.pretraining.methods import ABOUT
+from tacgrasp.pretraining.checkpoints import find_method
+from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
+from tacgrasp.pretraining.run_all import pretraining_run
 
-STAGES = ("clip", "cltp", "llm")
-CONTACTS = 24_000
 PARTS = ("clip", "encoder", "projector", "lm")
 PRETRAINED = "pretraining.json"
-"""Beside the encoder: how it came about, where ``take_pretrained`` took it."""
+"""File beside the encoder: how it was pre-trained."""
 
 BLIND_MARK = Path(".training") / "blind"
-"""Lies in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
+"""File in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
 
 
-def train(
-    stages: Sequence[str],
-    *,
-    out: Path,
-    data: Path,
-    contacts: int = CONTACTS,
-    seed: int = 0,
-    blind: bool = False,
-    threads: int | None = None,
-    command: str = "tacgrasp train all",
+def train_all(
+    out: Path, data: Path, *, contacts: int, seed: int = 0, threads: int | None = None
 ) -> None:
-    """Carry out stages in their order; what is missing of the data is made first.
+    """Run the stages clip, cltp and llm one after another, as their own commands do.
+
+    CLIP and CLTP are pre-trained in ``out / ".training" / "methods"``.
 
     Args:
-        stages: Out of ``STAGES``.
-        out: Folder of weights; checkpoints lie in its ``.training``.
-        data: Folder of contacts.
-        contacts: How many of them.
-        seed: Of data, weights, order, noise and wordings.
-        blind: Hides every instruction from the language model (the control of ``tacgrasp eval``).
-        threads: Of torch; by default one for each core.
-        command: For the model card.
+        out: Folder of weights.
+        data: Folder of contacts; missing ones are generated first.
+        contacts: Number of contacts.
+        seed: Seed of data, weights, order, noise and wordings.
+        threads: Threads of torch; one for each core when not given.
 
     Raises:
-        UsageError: An unknown stage, or a folder that holds a blind copy where none is asked for.
-        TouchError: Data, weights or a checkpoint can't be used; the message says what to do.
+        UsageError: ``out`` holds other weights.
+        TouchError: Data, weights or a checkpoint can't be used.
     """
-    unknown = [stage for stage in stages if stage not in STAGES]
-    if unknown or not stages:
-        raise UsageError(f"unknown stage {', '.join(unknown)!r}; known: {', '.join(STAGES)}, all")
+    _require_mark(out, blind=False)
+    generate(data, contacts=contacts, seed=seed)
+    methods = out / ".training" / "methods"
+    command = f"tacgrasp train all --contacts {contacts} --seed {seed}"
+    with pretraining_run(methods, data, seed=seed, command=command, threads=threads) as run:
+        pretrain_clip(run)
+        pretrain("cltp", run)
+    train_language_model(
+        out,
+        data,
+        contacts=contacts,
+        seed=seed,
+        threads=threads,
+        methods=methods,
+        command="tacgrasp train all",
+    )
+
+
+def train_language_model(
+    out: Path,
+    data: Path,
+    *,
+    contacts: int,
+    seed: int = 0,
+    threads: int | None = None,
+    methods: Path | None = None,
+    blind_of: Path | None = None,
+    command: str = "tacgrasp train llm",
+) -> None:
+    """Train the language model behind the encoder and CLIP in a folder, and write its card.
+
+    Args:
+        out: Folder of weights; checkpoints lie in its ``.training``.
+        data: Folder of contacts; missing ones are generated first.
+        contacts: Number of contacts.
+        seed: Seed of data, weights, order, noise and wordings.
+        threads: Threads of torch; one for each core when not given.
+        methods: Folder of pre-training from which the encoder and CLIP are copied first.
+        blind_of: Folder of weights whose encoder is copied first; every instruction is hidden from
+            the language model (the control of ``tacgrasp eval``).
+        command: The command line, for the model card.
+
+    Raises:
+        UsageError: ``out`` holds other weights, or both folders are given.
+        TouchError: Data, weights or a checkpoint can't be used.
+    """
+    if methods is not None and blind_of is not None:
+        raise UsageError("--methods and --blind-of exclude each other")
+    disable_progress_bar()  # of reading and writing weights, over in milliseconds
+    began_s = time.monotonic()
+    before = _digest(out)
+    if methods is not None:
+        take_pretrained(methods, out)
+    if blind_of is not None:
+        take_encoder(blind_of, out)
+    _require_mark(out, blind=blind_of is not None)
+    Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
+    generate(data, contacts=contacts, seed=seed)
+    torch.set_num_threads(threads or os.cpu_count() or 1)
+    words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
+    lessons = TouchLessons(blind=blind_of is not None)
+    with Bar() as report:
+        train_llm(data, out, words, lessons, seed=seed, report=report)
+    if _digest(out) == before:
+        return  # nothing was left to do: the card with its scores still holds
+    facts = {
+        "command": f"`{command} --contacts {contacts} --seed {seed}`",
+        "seed": str(seed),
+        "contacts": str(contacts),
+        "data checksum": ContactDataset(data).checksum(),
+        "torch": torch.__version__,
+        "python": platform.python_version(),
+        "last run took": f"{(time.monotonic() - began_s) / 60:.0f} min",
+        "size": f"{sum(size_bytes(out / name) for name in PARTS) / 1e6:.1f} MB",
+    }
+    if (out / "encoder" / PRETRAINED).exists():
+        about = json.loads((out / "encoder" / PRETRAINED).read_text(encoding="utf-8"))
+        checksums = " and ".join(about[key] for key in ("data", "also") if key in about)
+        facts["encoder and clip"] = (
+            f"`{about['command']}`: {about['preset']}, {about['steps']} steps of "
+            f"{about['batch_size']}, data checksum {checksums}"
+        )
+    write_card(out, facts, {})
+
+
+def _require_mark(out: Path, *, blind: bool) -> None:
     if (out / BLIND_MARK).exists() != blind:
         raise UsageError(
             f"{out} holds {'no ' if blind else 'an '}instruction-blind copy; "
             "choose another folder with --out"
         )
-    disable_progress_bar()  # of reading and writing weights, over in milliseconds
-    began = time.monotonic()
-    before = _digest(out)
-    generate(data, contacts=contacts, seed=seed)
-    torch.set_num_threads(threads or os.cpu_count() or 1)
-    lessons = TouchLessons(blind=blind)
-    words = _words(data, seed)
-    with Bar() as report:
-        if "clip" in stages:
-            train_clip(data, out, words, seed=seed, report=report)
-        if "cltp" in stages:
-            train_cltp(data, out, seed=seed, report=report)
-        if "llm" in stages:
-            train_llm(data, out, words, lessons, seed=seed, report=report)
-    if _digest(out) == before:
-        return  # all was done: the card with its scores still holds
-    facts = {
-        "command": f"`{command} --contacts {contacts} --seed {seed}`",
-        "seed": str(seed),
-        "contacts": str(contacts),
-        "data checksum": _data_checksum(data),
-        "torch": torch.__version__,
-        "python": platform.python_version(),
-        "last run took": f"{(time.monotonic() - began) / 60:.0f} min",
-        "size": f"{_bytes(out) / 1e6:.1f} MB",
-    }
-    if (out / "encoder" / PRETRAINED).exists():
-        about = json.loads((out / "encoder" / PRETRAINED).read_text(encoding="utf-8"))
-        learned = " and ".join(about[key] for key in ("data", "also") if key in about)
-        facts["encoder and clip"] = (
-            f"`{about['command']}`: {about['preset']}, {about['steps']} steps of "
-            f"{about['batch_size']}, data checksum {learned}"
-        )
-    write_card(out, facts, {})
 
 
 def take_pretrained(methods: Path, out: Path) -> None:
     """Begin a folder of weights with CLTP and its CLIP from a folder of methods.
 
     Args:
-        methods: What ``tacgrasp train clip`` and ``tacgrasp train cltp`` wrote with a budget.
-        out: Folder of weights; nothing is taken where an encoder of the same training is there.
+        methods: Folder that ``tacgrasp train clip`` and ``tacgrasp train cltp`` wrote.
+        out: Folder of weights; nothing is copied over an encoder of the same training.
 
     Raises:
         UsageError: CLTP was not trained there, or ``out`` holds another encoder.
         TouchError: The encoder can't be read, or takes points that sensors don't give.
     """
-    found = stored("cltp", methods)
-    about = (found.folder / ABOUT).read_text(encoding="utf-8")
-    kept = out / "encoder" / PRETRAINED
-    if kept.exists() and kept.read_text(encoding="utf-8") == about:
+    trained = find_method("cltp", methods)
+    about = (trained.folder / ABOUT).read_text(encoding="utf-8")
+    stored = out / "encoder" / PRETRAINED
+    if stored.exists() and stored.read_text(encoding="utf-8") == about:
         return
-    beside = out / "encoder.part"  # there while this is under way, or was interrupted
-    if (out / "encoder").exists() or ((out / "clip").exists() and not beside.exists()):
+    part = out / "encoder.part"  # exists while copying is under way, or was interrupted
+    if (out / "encoder").exists() or ((out / "clip").exists() and not part.exists()):
         raise UsageError(f"{out} holds another encoder; choose another folder with --out")
-    load_touching_encoder(found.folder / "encoder")
+    load_touching_encoder(trained.folder / "encoder")
     load_clip(methods / "clip")
-    for part in (beside, out / "clip"):
-        shutil.rmtree(part, ignore_errors=True)
-    shutil.copytree(found.folder / "encoder", beside)
+    for folder in (part, out / "clip"):
+        shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(trained.folder / "encoder", part)
     shutil.copytree(methods / "clip", out / "clip")
-    write_atomically(beside / PRETRAINED, about)
-    beside.rename(out / "encoder")
+    write_atomically(part / PRETRAINED, about)
+    part.rename(out / "encoder")
 
 
 def take_encoder(source: Path, out: Path) -> None:
@@ -162,20 +199,6 @@ def take_encoder(source: Path, out: Path) -> None:
     (out / BLIND_MARK).touch()
     if not (out / "encoder").exists():
         shutil.copytree(source / "encoder", out / "encoder")
-
-
-def _words(data: Path, seed: int) -> Words:
-    """The tokenizer, learnt anew in seconds: the same data and seed give the same one."""
-    return train_words(data, TouchLessons(), seed=seed)
-
-
-def _data_checksum(data: Path) -> str:
-    return ContactDataset(data).checksum()
-
-
-def _bytes(out: Path) -> int:
-    """Bytes of the weights, without checkpoints."""
-    return sum(size_bytes(out / name) for name in PARTS)
 
 
 def _digest(out: Path) -> str:

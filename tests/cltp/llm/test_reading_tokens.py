@@ -4,7 +4,7 @@ import pytest
 import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, felt, transformed
+from cltp.encoder.heads import HeadsOutput, StateHeads, transformed, with_read_numbers
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import LAST_DIGIT, NUM_READINGS, ReadingTokens
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -73,7 +73,7 @@ def test_felt_states_keep_their_words_and_take_the_numbers_that_were_read() -> N
         depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
         area=None,
     )  # fmt: skip
-    said, still = felt([true, nothing], transformed(SPOKEN.expand(2, -1)))
+    said, still = with_read_numbers([true, nothing], transformed(SPOKEN.expand(2, -1)))
     assert (said.depth, said.position, said.shape) == (true.depth, true.position, true.shape)
     read = [getattr(said, name) for name in NUMBERS]
     assert read == pytest.approx(SPOKEN[0].tolist(), rel=1e-4)
@@ -85,5 +85,5 @@ def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
         depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
         position=Position.CENTERED, area=Area.MEDIUM,
     )  # fmt: skip
-    (said,) = felt([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
+    (said,) = with_read_numbers([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
     assert (said.depth_mm, said.area_fraction, said.force_n) == (0.0, 1.0, 0.0)

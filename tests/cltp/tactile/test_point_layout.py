@@ -19,7 +19,7 @@ from cltp.encoder.encoder import VARIANTS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.encoder.tokenizers import adaptive_channels, cell_sizes
 from cltp.errors import TouchError
-from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.cloud import TactileCloud, grid_axes_mm
 from cltp.tactile.encoder_input import lattice_points, scaled
 from cltp.tactile.point_layout import CONTACT_ADAPTIVE, EVEN, FINE, Sampling
 from cltp.tactile.sensors import SENSORS
@@ -27,14 +27,13 @@ from tests.fakes.fake_contacts import fake_contact
 
 MINI = SENSORS["gelsight_mini"]
 ROWS, COLUMNS = 152, 204
-X = ((np.arange(COLUMNS) + 0.5) / COLUMNS - 0.5) * MINI.width_mm
-Y = (0.5 - (np.arange(ROWS) + 0.5) / ROWS) * MINI.height_mm
+X, Y = grid_axes_mm(MINI, ROWS, COLUMNS)
 
 
 def punch(x_mm: float, y_mm: float, radius_mm: float, depth_mm: float = 0.8) -> np.ndarray:
     """A dent with a flat floor and walls of a millimetre."""
-    away = np.hypot(X[None, :] - x_mm, Y[:, None] - y_mm)
-    return (depth_mm * np.clip(radius_mm + 1 - away, 0, 1)).astype(np.float32)
+    distance = np.hypot(X[None, :] - x_mm, Y[:, None] - y_mm)
+    return (depth_mm * np.clip(radius_mm + 1 - distance, 0, 1)).astype(np.float32)
 
 
 def points_mm(heights: np.ndarray, sampling: Sampling, seed: int = 0) -> np.ndarray:
@@ -49,18 +48,18 @@ def inside(points: np.ndarray, x_mm: float, y_mm: float, radius_mm: float) -> in
     return int((np.hypot(points[:, 0] - x_mm, points[:, 1] - y_mm) < radius_mm).sum())
 
 
-def test_points_crowd_where_the_gel_is_pressed() -> None:
+def test_adaptive_points_are_denser_in_the_contact() -> None:
     heights = punch(4.0, -3.0, 2.0)
-    even, pressed = (points_mm(heights, how) for how in (EVEN, CONTACT_ADAPTIVE))
-    assert pressed.shape == even.shape == (1024, 3)
-    assert inside(pressed, 4, -3, 2) > 4 * inside(even, 4, -3, 2)
-    assert np.abs(pressed[:, 0]).max() <= MINI.width_mm / 2
-    assert np.abs(pressed[:, 1]).max() <= MINI.height_mm / 2
-    # The field's far corner is still seen, if by few.
-    assert inside(pressed, -9, 6, 4) >= 3
+    even, adaptive = (points_mm(heights, layout) for layout in (EVEN, CONTACT_ADAPTIVE))
+    assert adaptive.shape == even.shape == (1024, 3)
+    assert inside(adaptive, 4, -3, 2) > 4 * inside(even, 4, -3, 2)
+    assert np.abs(adaptive[:, 0]).max() <= MINI.width_mm / 2
+    assert np.abs(adaptive[:, 1]).max() <= MINI.height_mm / 2
+    # A few points remain in the far corner.
+    assert inside(adaptive, -9, 6, 4) >= 3
 
 
-def test_crowded_points_stay_in_the_order_of_a_lattice() -> None:
+def test_adaptive_points_stay_in_the_order_of_a_lattice() -> None:
     grid = points_mm(punch(-5.0, 2.0, 1.0), CONTACT_ADAPTIVE).reshape(32, 32, 3)
     assert (np.diff(grid[..., 0].max(axis=0)) > 0).all()
     assert (grid[:, 1:, 0] > grid[:, :-1, 0].min(axis=0)).all()
@@ -69,11 +68,11 @@ def test_crowded_points_stay_in_the_order_of_a_lattice() -> None:
 
 
 @pytest.mark.parametrize("heights", [np.zeros((ROWS, COLUMNS), np.float32), punch(0, 0, 2, 0.05)])
-def test_an_untouched_field_is_sampled_evenly(heights: np.ndarray) -> None:
+def test_an_untouched_gel_is_sampled_evenly(heights: np.ndarray) -> None:
     np.testing.assert_array_equal(points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN))
 
 
-def test_a_field_that_is_pressed_all_over_is_sampled_evenly() -> None:
+def test_a_contact_over_the_whole_area_is_sampled_evenly() -> None:
     heights = np.full((ROWS, COLUMNS), 0.5, np.float32)
     np.testing.assert_allclose(
         points_mm(heights, CONTACT_ADAPTIVE), points_mm(heights, EVEN), atol=1e-3
@@ -101,28 +100,28 @@ def test_a_sampling_out_of_range_is_refused(bad: dict[str, float]) -> None:
         Sampling(**bad)  # type: ignore[arg-type]
 
 
-def test_parts_of_the_field_are_known_from_crowded_points() -> None:
-    field = 4 * MINI.height_mm / MINI.width_mm  # scaled: x fills -1 to 1
+def test_cell_sizes_follow_from_adaptive_points() -> None:
+    sensing_area = 4 * MINI.height_mm / MINI.width_mm  # scaled: x fills -1 to 1
     for sampling in (EVEN, CONTACT_ADAPTIVE):
         points = batch(punch(4.0, -3.0, 2.0), sampling)
-        parts = cell_sizes(points)
-        assert parts.sum().item() == pytest.approx(field, rel=0.1)
-        # Of the floor of the dent, a disc of 2 mm; its walls are partly as deep as asked.
+        sizes = cell_sizes(points)
+        assert sizes.sum().item() == pytest.approx(sensing_area, rel=0.1)
+        # The floor of the dent is a disc of 2 mm; its walls are partly as deep.
         deep = points[0, :, 2] > 0.5 * 0.8 / MINI.max_depth_mm
-        area_mm2 = parts[0, deep].sum().item() * (MINI.width_mm / 2) ** 2
+        area_mm2 = sizes[0, deep].sum().item() * (MINI.width_mm / 2) ** 2
         assert area_mm2 == pytest.approx(math.pi * 2.5**2, rel=0.15)
 
 
-def test_the_bearing_curve_of_crowded_points_is_that_of_even_ones() -> None:
+def test_height_quantiles_of_adaptive_points_are_those_of_even_ones() -> None:
     heights = punch(4.0, -3.0, 2.0)
     even = height_quantiles(batch(heights, EVEN), 64)
     points = batch(heights, CONTACT_ADAPTIVE)
-    weighed = height_quantiles(points, 64, cell_sizes(points))
-    unweighed = height_quantiles(points, 64)
-    assert (weighed - even)[:, 32:].abs().mean() < 0.2 * (unweighed - even)[:, 32:].abs().mean()
+    weighted = height_quantiles(points, 64, cell_sizes(points))
+    unweighted = height_quantiles(points, 64)
+    assert (weighted - even)[:, 32:].abs().mean() < 0.2 * (unweighted - even)[:, 32:].abs().mean()
 
 
-def test_crowded_channels_say_place_and_distance() -> None:
+def test_adaptive_channels_hold_position_and_distance() -> None:
     channels = adaptive_channels(batch(np.zeros((ROWS, COLUMNS), np.float32), EVEN))
     assert channels.shape == (1, 8, 32, 32)
     assert channels[0, 4].mean(dim=0).diff().min() > 0  # x rises along columns
@@ -153,7 +152,7 @@ def data(tmp_path: Path) -> ContactDataset:
 
 @pytest.mark.parametrize("noise", [CLEAN, NOISY])
 @pytest.mark.parametrize("sampling", [EVEN, CONTACT_ADAPTIVE, FINE])
-def test_batches_have_the_points_asked_for(
+def test_batches_have_the_points_of_their_layout(
     data: ContactDataset, noise: object, sampling: Sampling
 ) -> None:
     sampler = Sampler(data, noise, sampling=sampling)  # type: ignore[arg-type]

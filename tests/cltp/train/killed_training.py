@@ -9,29 +9,35 @@ from pathlib import Path
 import torch
 
 from cltp.encoder.encoder import PRESETS
-from cltp.train.alignment import Recipe, train_cltp
-from cltp.train.stage import ProgressReport, Schedule, Stage, silent
+from cltp.train.alignment import train_cltp
+from cltp.train.recipes import CltpRecipe, Schedule
+from cltp.train.stage import ProgressReport, silent
 
 
-def train_a_little(data: Path, weights: Path, report: ProgressReport = silent) -> None:
+def train_a_little(
+    data: Path, weights: Path, report: ProgressReport = silent, checkpoint_s: float = 60.0
+) -> None:
     """The training that is killed, or not."""
-    schedule = Schedule(steps=16, batch_size=6, learning_rate=1e-3)
-    recipe = Recipe(texts="mixed", several=True, prompt_weight=0.5)
     train_cltp(
-        data, weights, config=PRESETS["tiny"], schedule=schedule, recipe=recipe, report=report
+        data,
+        weights,
+        config=PRESETS["tiny"],
+        schedule=Schedule(steps=16, batch_size=6, learning_rate=1e-3),
+        recipe=CltpRecipe(prompt_weight=0.5),
+        checkpoint_s=checkpoint_s,
+        report=report,
     )
 
 
 def main(data: Path, weights: Path, last_step: int) -> None:
     """Train with a checkpoint after every step, and stop hard at ``last_step``."""
     torch.set_num_threads(1)
-    Stage.__init__.__kwdefaults__["checkpoint_s"] = 0.0
 
     def report(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
         if step == last_step:
             os.kill(os.getpid(), signal.SIGKILL)
 
-    train_a_little(data, weights, report)
+    train_a_little(data, weights, report, checkpoint_s=0.0)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from cltp.errors import TouchError
-from cltp.train.tensorboard import Board
+from cltp.train.tensorboard import TensorBoardReport
 
 
 class Written:
@@ -29,7 +29,7 @@ def test_each_stage_has_a_folder_that_goes_on_at_its_step(tmp_path: Path) -> Non
         opened.append(Written(folder, step))
         return opened[-1]
 
-    with Board(tmp_path, writer) as board:
+    with TensorBoardReport(tmp_path, writer) as board:
         board("tvl t2l", 30, 100, {"loss": 2.0, "temperature": 0.07})
         board("tvl t2l", 40, 100, {"loss": 1.0})
         board("clip", 10, 10, {"contrast": 3.0})
@@ -47,5 +47,5 @@ def test_a_missing_package_is_named_before_anything_is_trained(
     monkeypatch.delitem(sys.modules, "torch.utils.tensorboard", raising=False)
     monkeypatch.setitem(sys.modules, "tensorboard", None)
     with pytest.raises(TouchError, match=r"pip install 'tacgrasp\[tensorboard\]'"):
-        Board(tmp_path)
+        TensorBoardReport(tmp_path)
     assert not list(tmp_path.iterdir())

@@ -14,8 +14,8 @@ from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.captions import caption
 from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
-from cltp.train.clip import Meanings
-from cltp.train.text_targets import NOTHING, Sayings, class_numbers, fits, say
+from cltp.train.clip import ClassDirections
+from cltp.train.text_targets import UNNAMED, TextTargets, class_numbers, draw_texts, matches
 from tests.fakes.fake_contacts import fake_contact
 
 STATES = [fake_contact(seed).state for seed in range(12)]
@@ -25,20 +25,20 @@ EMPTY = ContactState(
 
 
 def test_captions_name_every_dimension() -> None:
-    told = say(STATES, "caption", np.random.default_rng(0))
-    assert told.texts == [caption(state) for state in STATES]
-    assert told.named.all()
+    targets = draw_texts(STATES, "caption", np.random.default_rng(0))
+    assert targets.texts == [caption(state) for state in STATES]
+    assert targets.named.all()
 
 
 def test_mixed_texts_are_captions_and_prompts_of_the_named_dimension() -> None:
-    told = say(STATES * 4, "mixed", np.random.default_rng(0))
-    for text, state, named in zip(told.texts, STATES * 4, told.named, strict=True):
+    targets = draw_texts(STATES * 4, "mixed", np.random.default_rng(0))
+    for text, state, named in zip(targets.texts, STATES * 4, targets.named, strict=True):
         if named.all():
             assert text == caption(state)
             continue
         (slot,) = (slot for slot, is_named in zip(CLASSES, named, strict=True) if is_named)
         assert text in prompts(slot, str(getattr(state, slot)))
-    assert 0.2 < told.named.all(dim=1).float().mean() < 0.8
+    assert 0.2 < targets.named.all(dim=1).float().mean() < 0.8
 
 
 def test_a_prompt_fits_its_class_and_a_caption_its_twins() -> None:
@@ -49,22 +49,22 @@ def test_a_prompt_fits_its_class_and_a_caption_its_twins() -> None:
         [True] + [False] * 4,
     )
     named = torch.stack([whole, texture, torch.tensor(shape)])
-    found = fits(contacts, contacts, named)
+    found = matches(contacts, contacts, named)
     assert found.tolist() == [[True, True, False], [True, True, False], [False, True, True]]
 
 
 def test_without_contact_nothing_but_that_is_said() -> None:
-    told = say([EMPTY], "mixed", np.random.default_rng(0))
-    assert told.texts == ["no contact."]
-    assert class_numbers([EMPTY]).tolist() == [[NOTHING] * 5]
+    targets = draw_texts([EMPTY], "mixed", np.random.default_rng(0))
+    assert targets.texts == ["no contact."]
+    assert class_numbers([EMPTY]).tolist() == [[UNNAMED] * 5]
     unnamed = dataclasses.replace(STATES[0], shape=None)
-    assert class_numbers([unnamed])[0, 0] == NOTHING
-    assert not fits(class_numbers([STATES[0]]), told.classes, told.named).any()
+    assert class_numbers([unnamed])[0, 0] == UNNAMED
+    assert not matches(class_numbers([STATES[0]]), targets.classes, targets.named).any()
 
 
 def test_unknown_kinds_are_refused() -> None:
     with pytest.raises(ValueError, match="caption, mixed"):
-        say(STATES, "songs", np.random.default_rng(0))
+        draw_texts(STATES, "songs", np.random.default_rng(0))
 
 
 def test_the_feature_of_a_text_knows_all_of_it_and_nothing_of_its_neighbours() -> None:
@@ -101,13 +101,13 @@ def test_a_stock_checkpoint_brings_its_own_tokenizer(tmp_path: Path) -> None:
 
 def test_texts_that_lie_at_their_meanings_are_read_back() -> None:
     torch.manual_seed(0)
-    meanings = Meanings(64)
-    classes = torch.tensor([[3, NOTHING, 1, NOTHING, 2], [5, NOTHING, 0, NOTHING, 4]])
+    meanings = ClassDirections(64)
+    classes = torch.tensor([[3, UNNAMED, 1, UNNAMED, 2], [5, UNNAMED, 0, UNNAMED, 4]])
     named = torch.tensor([[False, False, True, False, False], [False, True, True, False, False]])
-    said = Sayings(texts=["", ""], classes=classes, named=named)
+    said = TextTargets(texts=["", ""], classes=classes, named=named)
     depth = meanings.directions[2].detach()
     right, wrong = depth[[1, 0]] * 7.0, depth[[0, 1]]
     assert meanings.loss(right, said) < 0.01  # shape, not named, and texture, unknown, don't count
     assert meanings.loss(wrong, said) > 5.0
-    nothing = Sayings(texts=["", ""], classes=classes, named=torch.zeros_like(named))
+    nothing = TextTargets(texts=["", ""], classes=classes, named=torch.zeros_like(named))
     assert meanings.loss(wrong, nothing) == 0.0

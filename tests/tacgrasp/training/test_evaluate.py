@@ -165,8 +165,8 @@ def test_eval_prints_every_table_and_writes_json_and_card(
     assert "captions 4/4" in printed.err  # progress, in plain lines where there is no terminal
     found = json.loads(figures.read_text())
     assert found["captions"]["contacts"] == 4
-    assert found["captions"]["ceiling"]["shape"] is None
-    assert found["captions"]["ceiling"]["depth"] >= 0.5
+    assert found["captions"]["geometric_baseline"]["shape"] is None
+    assert found["captions"]["geometric_baseline"]["depth"] >= 0.5
     assert set(found["numbers"]["llm"]) == {
         "depth_mm",
         "position_mm",
@@ -180,7 +180,7 @@ def test_eval_prints_every_table_and_writes_json_and_card(
         assert found["paraphrases"][kind]["cases"] == 32
     card = (weights / "README.md").read_text()
     assert card.startswith("# Tac3D-LLM, small\n\nfacts\n\n## Scores\n")
-    assert "| captions, ceiling, depth | " in card
+    assert "| captions, geometric baseline, depth | " in card
     assert "old" not in card
 
 

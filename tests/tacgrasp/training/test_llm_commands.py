@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies import PolicyError
@@ -22,8 +23,9 @@ from tacgrasp.benchmarks.learning import llm_latency as bench_language
 from tacgrasp.benchmarks.loop import strawberry as bench_strawberry
 from tacgrasp.config.layers import load
 from tacgrasp.console import COMPLETED
+from tacgrasp.pretraining import methods as methods_module
 from tacgrasp.training import train
-from tests.fakes.tiny_weights import bump, make_weights
+from tests.fakes.tiny_weights import bump, make_data, make_weights
 from tests.paths import ROOT
 
 GOOD = "smooth sphere, deep 0.70 mm. Goal 0.95 - 1.90 N. Action: <decrease_force>. It is too firm."
@@ -367,27 +369,41 @@ class Trainer:
 
             return carry_out
 
-        monkeypatch.setattr(train, "generate", lambda *_, **__: None)
-        monkeypatch.setattr(train, "_words", lambda *_: None)
-        monkeypatch.setattr(train, "_data_checksum", lambda _: "abc")
-        monkeypatch.setattr(train, "train_clip", stage("clip", "clip"))
-        monkeypatch.setattr(train, "train_cltp", stage("cltp", "encoder"))
+        monkeypatch.setattr(train, "generate", lambda data, **_: data.exists() or make_data(data))
+        for module in (train, methods_module):
+            monkeypatch.setattr(module, "train_words", lambda *_, **__: None)
+        monkeypatch.setattr(methods_module, "train_clip", stage("clip", "clip"))
+        monkeypatch.setattr(methods_module, "train_cltp", stage("cltp", "encoder"))
         monkeypatch.setattr(train, "train_llm", stage("llm", "projector", "lm"))
 
 
 def test_train_all_carries_out_the_stages_in_order_and_writes_a_card(
-    weights: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    weights: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    trainer, out = Trainer(monkeypatch, weights), tmp_path / "w"
-    argv = ["train", "all", "--out", str(out), "--contacts", "40", "--threads", "1"]
-    assert main(argv) == 0
-    assert trainer.carried_out == [("clip", out), ("cltp", out), ("llm", out)]
+    trainer, out, data = Trainer(monkeypatch, weights), tmp_path / "w", tmp_path / "data"
+    argv = ["train", "all", "--out", str(out), "--data", str(data), "--contacts", "40"]
+    assert main([*argv, "--threads", "1"]) == 0
+    pretrained = out / ".training" / "methods"
+    stages = [("clip", pretrained), ("cltp", pretrained / "cltp"), ("llm", out)]
+    assert trainer.carried_out == stages
     assert not trainer.blind
+    printed = capsys.readouterr().out
+    for stage, folder in (("clip", "clip"), ("cltp", "cltp/encoder")):
+        assert f"{stage}: writing {pretrained / folder}\n" in printed
+    assert f"llm: writing {out}\n" in printed
+    for part in train.PARTS:
+        same = (out / part / "model.safetensors").read_bytes()
+        assert same == (weights / part / "model.safetensors").read_bytes()
     card = out / "README.md"
-    for fact in ("tacgrasp train all --contacts 40 --seed 0", "abc", "| size | "):
+    checksum = ContactDataset(data).checksum()
+    command = "tacgrasp train all --contacts 40 --seed 0"
+    for fact in (f"| `{command}` |", f"| `{command}`: small_graded, 5000 steps", checksum, "size"):
         assert fact in card.read_text()
     card.write_text(card.read_text() + "scored")
-    assert main(argv) == 0  # nothing was left to do: the card keeps its scores
+    assert main([*argv, "--threads", "2"]) == 0  # nothing was left to do: the card keeps its scores
     assert card.read_text().endswith("scored")
 
 
@@ -398,7 +414,8 @@ def test_a_blind_copy_stands_behind_the_same_encoder_in_a_folder_of_its_own(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     trainer, out = Trainer(monkeypatch, weights), tmp_path / "blind"
-    argv = ["train", "llm", "--out", str(out), "--blind-of", str(weights)]
+    data = ["--data", str(tmp_path / "data")]
+    argv = ["train", "llm", "--out", str(out), "--blind-of", str(weights), *data]
     assert main(argv) == 0
     assert trainer.blind
     assert trainer.carried_out == [("llm", out)]
@@ -431,6 +448,7 @@ def test_a_language_model_stands_behind_an_encoder_that_was_pretrained(
 ) -> None:
     trainer, out = Trainer(monkeypatch, weights), tmp_path / "weights"
     argv = ["train", "llm", "--out", str(out), "--methods", str(methods)]
+    argv += ["--data", str(tmp_path / "data")]
     assert main(argv) == 0
     assert trainer.carried_out == [("llm", out)]
     for part in ("clip", "encoder"):
@@ -470,11 +488,12 @@ def test_taking_an_encoder_goes_on_where_it_was_stopped(
     ("argv", "expected"),
     [
         ([], "expects one of clip, cltp, llm, all, point-mae"),
-        (["all", "--methods", "m"], "--methods is for `tacgrasp train llm`"),
+        (["all", "--methods", "m"], "unknown arguments: --methods m"),
         (["everything"], "got 'everything'"),
         (["all", "--threads", "0"], "--threads must be at least 1"),
         (["all", "--contacts", "0"], "at least 1 contact"),
-        (["all", "--blind-of", "w"], "--blind-of is for `tacgrasp train llm`"),
+        (["all", "--blind-of", "w"], "unknown arguments: --blind-of w"),
+        (["llm", "--blind-of", "w", "--methods", "m"], "exclude each other"),
         (["llm", "--blind-of", "nowhere"], "weights are missing: nowhere/encoder"),
         (["all", "--ouy", "w"], "did you mean --out"),
     ],

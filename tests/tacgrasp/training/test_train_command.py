@@ -1,0 +1,180 @@
+"""``tacgrasp train``: one trainer and one data set for each stage, whichever flags are present."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe
+from tacgrasp.__main__ import main
+from tacgrasp.pretraining import methods, run_all
+from tests.fakes.tiny_weights import make_data
+
+SHARED = [
+    [],
+    ["--seed", "3"],
+    ["--precision", "bf16"],
+    ["--threads", "1"],
+    ["--steps", "7"],
+    ["--batch-size", "8"],
+    ["--texts", "caption"],
+    ["--prompt-weight", "0.5"],
+]
+CLIP_FLAGS = [*SHARED, ["--read-weight", "0"]]
+CLTP_FLAGS = [
+    *SHARED,
+    ["--preset", "small"],
+    ["--head-weight", "0"],
+    ["--moved", "0.3"],
+    ["--also", "{data}"],
+]
+
+
+@pytest.fixture
+def data(tmp_path: Path) -> Path:
+    return make_data(tmp_path / "data", num=4)
+
+
+class Trainers:
+    """Notes the arguments of every trainer in the place of training."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.calls: list[tuple[str, tuple[Any, ...], dict[str, Any]]] = []
+
+        def trainer(name: str):  # type: ignore[no-untyped-def]
+            def note(data: Path, out: Path, *args: Any, **kwargs: Any) -> None:
+                out.mkdir(parents=True, exist_ok=True)
+                self.calls.append((name, (data, out, *args), kwargs))
+
+            return note
+
+        for name in ("train_clip", "train_cltp", "train_baseline"):
+            monkeypatch.setattr(methods, name, trainer(name))
+        monkeypatch.setattr(methods, "train_words", lambda *_, **__: "words")
+        monkeypatch.setattr(run_all, "joined_workers", lambda precision: methods.Workers())
+        monkeypatch.setattr(run_all.torch, "set_num_threads", lambda _: None)
+
+    def run(self, stage: str, data: Path, out: Path, flags: list[str]) -> tuple[Any, ...]:
+        places = ["--data", str(data), "--out", str(out)]
+        assert main(["train", stage, *places, *(flag.format(data=data) for flag in flags)]) == 0
+        (call,) = self.calls
+        return call
+
+
+@pytest.mark.parametrize("flags", CLIP_FLAGS, ids=" ".join)
+def test_clip_is_one_trainer_on_one_data_set_whichever_flags_are_present(
+    flags: list[str], data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    name, args, kwargs = Trainers(monkeypatch).run("clip", data, tmp_path / "out", flags)
+    assert (name, args) == ("train_clip", (data, tmp_path / "out", "words"))
+    changed = {
+        "recipe": kwargs["recipe"] != ClipRecipe(),
+        "schedule": kwargs["schedule"] != CLIP_SCHEDULE,
+        "seed": kwargs["seed"] != 0,
+    }
+    assert sum(changed.values()) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
+
+
+@pytest.mark.parametrize("flags", CLTP_FLAGS, ids=" ".join)
+def test_cltp_is_one_trainer_on_one_data_set_whichever_flags_are_present(
+    flags: list[str], data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    out = tmp_path / "out"
+    name, args, kwargs = Trainers(monkeypatch).run("cltp", data, out, flags)
+    assert (name, args) == ("train_cltp", (data, out / "cltp"))
+    assert kwargs["clip_dir"] == out / "clip"
+    assert kwargs["augmentation"] == methods.LEARNING_NOISE
+    changed = {
+        "recipe": kwargs["recipe"] != CltpRecipe(),
+        "schedule": kwargs["schedule"] != CLTP_SCHEDULE,
+        "config": kwargs["config"] != methods.PRESETS["small_graded"],
+        "also": kwargs["also"] != (),
+        "seed": kwargs["seed"] != 0,
+    }
+    assert sum(changed.values()) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
+
+
+def test_without_image_is_the_papers_ablation_in_a_folder_of_its_own(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    trainers, out = Trainers(monkeypatch), tmp_path / "out"
+    name, args, kwargs = trainers.run("cltp", data, out, ["--no-image"])
+    assert (name, args[1], kwargs["with_images"]) == ("train_cltp", out / "cltp_no_image", False)
+    assert (
+        f"cltp_no_image: writing {out / 'cltp_no_image' / 'encoder'}\n" in capsys.readouterr().out
+    )
+
+
+def test_the_flags_of_a_recipe_and_a_schedule_arrive_whole(
+    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flags = ["--texts", "caption", "--prompt-weight", "0.5", "--head-weight", "0.25"]
+    flags += ["--moved", "0.5", "--steps", "7", "--batch-size", "8"]
+    _, _, kwargs = Trainers(monkeypatch).run("cltp", data, tmp_path, flags)
+    assert kwargs["recipe"] == CltpRecipe(
+        texts="caption", prompt_weight=0.5, head_weight=0.25, moved=0.5
+    )
+    schedule = kwargs["schedule"]
+    assert (schedule.steps, schedule.batch_size) == (7, 8)
+    assert schedule.learning_rate == CLTP_SCHEDULE.learning_rate
+
+
+@pytest.mark.parametrize("stage", ["clip", "cltp", "point-mae", "random", "probe"])
+def test_pre_training_never_generates_its_data(
+    stage: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["train", stage, "--data", str(tmp_path / "none"), "--out", str(tmp_path)]) == 2
+    assert "is no data set of contacts" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("stage", "flag"),
+    [
+        ("clip", "--head-weight 1"),
+        ("clip", "--moved 0.1"),
+        ("clip", "--preset tiny"),
+        ("clip", "--contacts 40"),
+        ("clip", "--methods m"),
+        ("cltp", "--read-weight 1"),
+        ("cltp", "--clip-steps 5"),
+        ("cltp", "--contacts 40"),
+        ("cltp", "--blind-of w"),
+        ("cltp", "--results r"),
+        ("point-mae", "--texts caption"),
+        ("point-mae", "--also d"),
+        ("tvl", "--no-image"),
+        ("random", "--steps 5"),
+        ("probe", "--steps 5"),
+        ("llm", "--steps 5"),
+        ("llm", "--preset tiny"),
+        ("all", "--texts caption"),
+        ("all", "--methods m"),
+        ("all", "--blind-of w"),
+        ("all-methods", "--also d"),
+        ("all-methods", "--no-image"),
+    ],
+)
+def test_a_flag_of_another_stage_is_refused_by_name(
+    stage: str, flag: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["train", stage, *flag.split()]) == 2
+    assert f"unknown arguments: {flag}" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [
+        (["clip", "--read-weight", "-1"], "read_weight must be at least 0, got -1"),
+        (["cltp", "--prompt-weight", "-1"], "prompt_weight must be at least 0, got -1"),
+        (["cltp", "--head-weight", "-1"], "head_weight must be at least 0, got -1"),
+        (["all-methods", "--cltp.moved", "2"], "moved must be a fraction from 0 to 1, got 2"),
+        (["all-methods", "--seeds", "0"], "--seeds must be at least 1, got 0"),
+        (["probe", "--threads", "0"], "--threads must be at least 1, got 0"),
+    ],
+)
+def test_a_value_out_of_range_is_refused(
+    argv: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["train", *argv]) == 2
+    assert expected in capsys.readouterr().err
