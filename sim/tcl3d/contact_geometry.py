@@ -1,6 +1,6 @@
-"""A contact as it is named: what lies over the pad, and where it touches.
+"""The geometry of a contact, from which it is labelled: surface over the pad, and where it touches.
 
-Not here: its name (``sim.tcl3d.shape_labels``, ``sim.tcl3d.texture_labels``).
+Not here: the labels (``sim.tcl3d.shape_labels``, ``sim.tcl3d.texture_labels``).
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell
-from sim.tcl3d.masks import FloatArray, Mask, dilate
+from sim.tcl3d.masks import BoundingRectangle, FloatArray, Mask, bounding_rectangle, dilate
 
-_NEARBY_MM = 0.3  # what counts as about to touch
+_NEARBY_MM = 0.3  # largest gap of surface that is about to touch
 
 
 class ShapeLabel(NamedTuple):
-    """A shape, and whether a careful person would call it so without doubt."""
+    """A shape, and whether a careful person would give this label without doubt."""
 
     shape: Shape
     sure: bool
@@ -29,16 +29,16 @@ class ShapeLabel(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True)
 class ContactGeometry:
-    """What lies over the pad, and where it touches.
+    """Surface over the pad, and where it touches.
 
     Attributes:
-        gap_mm: Shape (H, W), the bare surface behind its foremost point [mm].
-        cells: Shape (H, W), number of the cell there, -1 where nothing is.
-        table: Cells by number.
-        touching: Shape (H, W), where pressure acts.
-        closed: Same, fine gaps closed (``sim.tcl3d.labels.in_contact``).
+        gap_mm: Shape (H, W), distance of the bare surface behind its foremost point [mm].
+        cells: Shape (H, W), index of the cell at each point, -1 where there is no surface.
+        cell_table: Cells by index.
+        touching: Shape (H, W), mask of points under pressure.
+        closed: ``touching`` with fine gaps closed (``sim.tcl3d.labels.in_contact``).
         depth_mm: Largest indentation [mm].
-        pitch_mm: Of the grid [mm].
+        pitch_mm: Pitch of the grid [mm].
     """
 
     gap_mm: FloatArray
@@ -51,16 +51,20 @@ class ContactGeometry:
 
     @cached_property
     def counts(self) -> NDArray[np.int64]:
-        """Shape (len(table),): with how many grid points each cell touches."""
+        """Number of touching grid points of each cell, shape (len(cell_table),)."""
         return self.count_cells(self.touching)
 
+    def rectangle(self, mask: Mask) -> BoundingRectangle:
+        """Smallest rectangle around a mask (H, W), not empty."""
+        return bounding_rectangle(mask, self.pitch_mm)
+
     def count_cells(self, mask: Mask) -> NDArray[np.int64]:
-        """Shape (len(table),): how many grid points of each cell lie in a mask (H, W)."""
+        """Number of grid points of each cell in a mask (H, W), shape (len(cell_table),)."""
         return np.bincount(self.cells[mask] + 1, minlength=len(self.cell_table) + 1)[1:]
 
 
 def with_nearby_surface(contact: ContactGeometry) -> ContactGeometry:
-    """A contact no larger than the fillet of an edge, with what lies just behind it."""
+    """Add the surface just behind a contact that is no larger than the fillet of an edge."""
     nearby = dilate(contact.touching, 4)
     touching = contact.touching | (nearby & (contact.gap_mm < _NEARBY_MM))
     closed = contact.closed | touching

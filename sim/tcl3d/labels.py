@@ -1,16 +1,17 @@
-"""The truth about a solved contact, as labels: from pressure and clean heights, never from a cloud.
+"""True labels of a solved contact, from its pressure and clean heights, never from a point cloud.
 
-One rule for every contact, whatever its shape:
+The rules are the same for every shape:
 
-- depth: the largest height;
-- in contact: where pressure acts, closed over gaps narrower than ``CLOSING_MM``, so that the
-  valleys of a fine texture count and the space between two dots does not;
-- position: the pressure-weighted centre of what is on the pad. For a cap it is the deepest point.
-  Where the two differ (tilted, textured, flat or cut contacts) the deepest point is as noisy as the
-  paper says of large ones, and the centre of the load is what a gripper has to bring to the middle;
+- depth: the largest height; - in contact: where pressure acts, with gaps narrower than
+``CLOSING_MM`` closed, so that the valleys
+  of a fine texture count and the space between two dots does not;
+- position: the pressure-weighted centre of the part on the pad. For a cap it is the deepest point.
+  Where the two differ (tilted, textured, flat or cut contacts), the deepest point is as noisy as
+  the paper reports for large contacts, and a gripper has to bring the centre of the load to the
+  middle;
 - cut: sides where at least ``CUT_MM`` of the border is in contact.
 
-Not here: shape and texture, which only the maker of a contact knows.
+Not here: shape and texture (``sim.tcl3d.shape_labels``, ``sim.tcl3d.texture_labels``).
 """
 
 from __future__ import annotations
@@ -34,27 +35,27 @@ from cltp.tactile.states import (
 from sim.tcl3d.masks import covered_fraction
 
 CLOSING_MM = 1.4
-"""Gaps in contact narrower than this are closed. Our choice: just below the longest period (1.5 mm)
-of ridged and woven textures, well below the shortest pitch (2 mm) of dots."""
+"""Width of gaps in contact up to which they are closed. Our choice: just below the longest period
+(1.5 mm) of ridged and woven textures, well below the shortest pitch (2 mm) of dots."""
 
 
 def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
-    """Where contacts touch, fine gaps closed.
+    """Masks (B, H, W) of contacts, fine gaps closed.
 
     Args:
         pressure: Shape (B, H, W), any unit.
-        pitch_mm: Of the grid [mm].
+        pitch_mm: Pitch of the grid [mm].
     """
     radius = max(1, round(CLOSING_MM / pitch_mm / 2))
     size = 2 * radius + 1
-    # What lies beyond the border is like the border: a contact that is cut does not end there.
+    # The border is continued outwards: a contact that is cut does not end there.
     padding = ((2 * radius,) * 2,) * 2
     masks = (np.pad(one, padding, mode="edge") for one in (pressure > 0).numpy())
     return np.stack([_all_in(_any_in(mask, size), size) for mask in masks])
 
 
 def _any_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
-    """Whether a point of each square of ``size`` is set: one axis after the other, by doubling."""
+    """Whether any point of each square of ``size`` is set; axis by axis, by doubling."""
     for _ in range(2):
         reached = 1
         while reached < size:
@@ -80,16 +81,16 @@ def label(
     shape: Shape,
     texture: Texture,
 ) -> ContactState:
-    """Label one solved contact over the whole field.
+    """Label one solved contact over the whole sensing area.
 
     Args:
         height_mm: Shape (H, W) [mm].
         pressure_kpa: Same shape [kPa], somewhere above 0.
         touching: Same shape, from ``in_contact``.
         force_n: Normal force on the pad [N].
-        sensor: Whose field it is.
-        shape: What was pressed.
-        texture: What was on it.
+        sensor: The sensor.
+        shape: Shape label.
+        texture: Texture label.
     """
     rows, columns = height_mm.shape
     x, y = grid_axes_mm(sensor, rows, columns)

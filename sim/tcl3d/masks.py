@@ -1,6 +1,6 @@
-"""Measures of masks on a grid, such as pieces, length and width, and of a gap over one.
+"""Measures of masks on a grid, such as pieces, length and width, and of a gap over a mask.
 
-Rows run downwards. Not here: what a mask is called (``sim.tcl3d.shape_labels``).
+Rows run downwards. Not here: labels (``sim.tcl3d.shape_labels``).
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from scipy.ndimage import label
 FloatArray = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-_CRUMB = 0.12  # of the largest piece: smaller ones don't count
-_DEGREES = range(0, 90, 5)  # in which a rectangle is laid about a mask
+_CRUMB = 0.12  # fraction of the largest piece up to which pieces don't count
+_DEGREES = range(0, 90, 5)  # orientations of bounding rectangles
 
 
 def covered_fraction(mask: Mask) -> float:
-    """Share of the grid that a mask covers."""
+    """Fraction of the grid that a mask covers."""
     return int(np.count_nonzero(mask)) / mask.size
 
 
 def dilate(mask: Mask, times: int = 1) -> Mask:
-    """A mask with the neighbours of its points above, below and beside, so many times over."""
+    """Add the neighbours above, below and on both sides of a mask's points, ``times`` times."""
     for _ in range(times):
         more = mask.copy()
         more[1:] |= mask[:-1]
@@ -37,7 +37,7 @@ def dilate(mask: Mask, times: int = 1) -> Mask:
 
 
 def count_pieces(mask: Mask) -> int:
-    """Parts of a mask (not empty) that are more than crumbs of the largest one."""
+    """Number of connected pieces of a mask (not empty), crumbs not counted."""
     parts, num = label(mask, structure=np.ones((3, 3)))
     if num == 1:
         return 1
@@ -46,7 +46,7 @@ def count_pieces(mask: Mask) -> int:
 
 
 def count_enclosed_points(mask: Mask) -> int:
-    """Grid points that a mask surrounds."""
+    """Number of grid points in holes of a mask."""
     parts, num = label(~mask)
     at_border = np.unique(np.concatenate([parts[0], parts[-1], parts[:, 0], parts[:, -1]]))
     inside = ~np.isin(np.arange(num + 1), np.append(at_border, 0))
@@ -54,15 +54,15 @@ def count_enclosed_points(mask: Mask) -> int:
 
 
 def border_fraction(mask: Mask) -> float:
-    """Share of a mask's outline that is the border of the grid."""
+    """Fraction of a mask's outline that is the border of the grid."""
     count = np.count_nonzero
     border = count(mask[0]) + count(mask[-1]) + count(mask[:, 0]) + count(mask[:, -1])
     inner = count(mask[1:] != mask[:-1]) + count(mask[:, 1:] != mask[:, :-1])
-    return border / max(border + 0.8 * inner, 1)  # stairs are longer than what they stand for
+    return border / max(border + 0.8 * inner, 1)  # a staircase is longer than its line
 
 
 def circle_fraction(mask: Mask) -> float:
-    """Share of a circle, fitted to a thin mask, along which the mask goes."""
+    """Fraction of a circle, fitted to a thin mask, that the mask covers."""
     row, column = np.nonzero(mask)
     if len(row) < 8:
         return 0.0
@@ -75,7 +75,7 @@ def circle_fraction(mask: Mask) -> float:
 
 
 class BoundingRectangle(NamedTuple):
-    """Smallest rectangle about a mask: sides [mm], direction of the longer [rad]."""
+    """Smallest rectangle around a mask: sides [mm], direction of the longer one [rad]."""
 
     length: float
     width: float
@@ -89,13 +89,8 @@ _COS, _SIN = (
 
 
 def bounding_rectangle(mask: Mask, pitch_mm: float) -> BoundingRectangle:
-    """Smallest rectangle about a mask (not empty), to 5°.
-
-    Args:
-        mask: Shape (H, W).
-        pitch_mm: Of the grid [mm].
-    """
-    # Whichever way it lies, it touches the mask at the first or the last point of a row.
+    """Smallest rectangle around a mask (H, W), not empty, in steps of 5°."""
+    # In any orientation it touches the mask at the first or the last point of a row.
     rows = np.flatnonzero(mask.any(axis=1))
     first = mask[rows].argmax(axis=1)
     last = mask.shape[1] - 1 - mask[rows, ::-1].argmax(axis=1)
@@ -109,7 +104,7 @@ def bounding_rectangle(mask: Mask, pitch_mm: float) -> BoundingRectangle:
 
 
 def angle_between(first: float, second: float) -> float:
-    """Angle between two directions without a sense [rad]."""
+    """Angle between two undirected lines [rad]."""
     difference = (first - second) % math.pi
     return min(difference, math.pi - difference)
 
@@ -119,7 +114,7 @@ def slopes(gap_mm: FloatArray, mask: Mask, pitch_mm: float) -> tuple[FloatArray,
     rows, columns = (np.flatnonzero(mask.any(axis=axis)) for axis in (1, 0))
     if not len(rows):
         return np.zeros(0), np.zeros(0)
-    # With the neighbours that differences are taken to.
+    # A margin of one point is needed for the differences.
     high, wide = (
         slice(max(0, int(occupied[0]) - 1), int(occupied[-1]) + 2) for occupied in (rows, columns)
     )
@@ -128,7 +123,7 @@ def slopes(gap_mm: FloatArray, mask: Mask, pitch_mm: float) -> tuple[FloatArray,
 
 
 def curvatures(gap_mm: FloatArray, mask: Mask, pitch_mm: float) -> tuple[float, float]:
-    """Principal curvatures [1/mm], smaller first, of a quadric fitted to part of a gap."""
+    """Principal curvatures [1/mm], smaller first, of a quadric fitted to a gap over a mask."""
     row, column = np.nonzero(mask)
     x, y = (column - column.mean()) * pitch_mm, (row.mean() - row) * pitch_mm
     terms = np.stack([x * x, x * y, y * y, x, y, np.ones_like(x)], axis=1)

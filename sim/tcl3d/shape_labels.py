@@ -1,19 +1,20 @@
-"""What a contact is called, from the geometry that touches: one of the 19 shapes, and how surely.
+"""Shape label of a contact: one of the 19 shapes, and whether it is certain.
 
-A box can give a plane, a cuboid, an edge or a corner; which one is decided by what lies under the
-pressure. Each grid point knows the cell of the surface that it belongs to (``sim.objects.solids``);
-flat faces, edges and tips follow from how many cells touch and how the gap runs over them, curved
-surfaces from their principal curvatures, patterns from how much of them touches.
+A box can give a plane, a cuboid, an edge or a corner; the surface under pressure decides. Each grid
+point has a cell of the surface (``sim.objects.solids``). Flat faces, edges and tips follow from the
+number of touching cells and from the gap over them, curved surfaces from their principal
+curvatures, patterns from the number of their elements that touch.
 
-A name is unsure where another would do nearly as well: close to a limit of the vocabulary, cut
-off by the pad, or of several things at once.
+A label is unsure where another one fits nearly as well: close to a limit of the vocabulary, cut off
+by the pad, or several shapes at once.
 
-Not here: depth, position, area (``sim.tcl3d.labels``), texture (``sim.objects.object``).
+Not here: depth, position, area (``sim.tcl3d.labels``), texture (``sim.tcl3d.texture_labels``).
 """
 
 from __future__ import annotations
 
 import math
+from collections import Counter
 
 import numpy as np
 
@@ -26,7 +27,6 @@ from sim.tcl3d.masks import (
     Mask,
     angle_between,
     border_fraction,
-    bounding_rectangle,
     circle_fraction,
     count_enclosed_points,
     count_pieces,
@@ -37,49 +37,47 @@ from sim.tcl3d.masks import (
 )
 
 PLANE_FRACTION = 0.80
-"""Share of the field from which a flat contact is a plane (``cltp.tactile.states.Shape``)."""
+"""Fraction of the sensing area from which a flat contact is a plane (``Shape``)."""
 
 CAP_RATIOS = (1.4, 4.0)
-"""Ratios of curvatures between sphere, ellipsoid and cylinder."""
+"""Limits of the ratio of curvatures between sphere, ellipsoid and cylinder."""
 
 BAR_MM = 1.6
-"""Widest bar that is a line: 1.5 mm and half a grid point."""
+"""Largest width of a line: 1.5 mm and half a grid point."""
 
 _RATIO_UNSURE = (0.95, 1.05)  # factors about a limit between which a ratio is unsure
-_RUNS_OUT, _RUNS_OUT_UNSURE = 0.32, 0.06  # of the depth, over a face: tilted rather than flat
-_CUT_UNSURE = 0.34  # of the outline, at the pad's border
-_CUT_STRAIGHT = 0.42  # the same for a rectangle, of which less needs to be seen
-_SHARP_MM = 1.6  # radius of curvature from which an edge is a round
-_ENDS_SEEN = 0.15  # share of an outline at the border up to which a face is seen as a whole
-_ASLANT = 0.2  # slope up to which a face that touches as a whole is seen as that face
-_LEVEL_MM = 0.35  # how far a round falls away within 0.6 mm, at most
+_RUNS_OUT, _RUNS_OUT_UNSURE = 0.32, 0.06  # range of the gap over a face, in depths: tilted above
+_CUT_UNSURE = 0.34  # fraction of the outline at the pad's border
+_CUT_STRAIGHT = 0.42  # the same for a rectangle, of which less is needed
+_SHARP_MM = 1.6  # radius of curvature from which an edge is round
+_ENDS_SEEN = 0.15  # fraction of an outline at the border up to which a face is whole
+_ASLANT = 0.2  # slope up to which a face that touches as a whole counts as that face
+_LEVEL_MM = 0.35  # largest drop of a round within 0.6 mm
 _LONG = 2.1  # elongation between corners and edges
-_FLAT_PER_MM = 1 / 120  # curvature of what is as good as flat
-_CAVITY_MM2 = 0.8  # smallest hole
-_TINY = 30  # grid points of a contact that is no larger than an edge's fillet
-_FEW = 3  # grid points that a cell must touch with to count
+_FLAT_PER_MM = 1 / 120  # curvature up to which a surface is flat
+_CAVITY_MM2 = 0.8  # area of the smallest hole
+_TINY = 30  # grid points up to which a contact is no larger than an edge's fillet
+_FEW = 3  # touching grid points from which a cell counts
 
 
 def name_shape(contact: ContactGeometry) -> ShapeLabel:
-    """Name the shape of what touches."""
+    """Label the shape of a contact."""
     if np.count_nonzero(contact.touching) < _TINY:
         contact = with_nearby_surface(contact)
     numbers = np.flatnonzero(contact.counts).tolist()
-    points_by_form: dict[Form, int] = {}
+    points: Counter[Form] = Counter()
     for number in numbers:
-        form = contact.cell_table[number].form
-        points_by_form[form] = points_by_form.get(form, 0) + int(contact.counts[number])
-    form = max(points_by_form, key=lambda one: points_by_form[one])
-    pure = points_by_form[form] >= 0.75 * sum(points_by_form.values())
+        points[contact.cell_table[number].form] += int(contact.counts[number])
+    form, most = points.most_common(1)[0]
+    pure = most >= 0.75 * points.total()
     touching_cells = [n for n in numbers if contact.counts[n] >= _FEW]
     of_form = [n for n in touching_cells if contact.cell_table[n].form is form]
     match form:
         case Form.BAR:
             label = _bars(contact, of_form)
         case Form.LOOP:
-            chosen = np.isin(
-                np.arange(len(contact.cell_table) + 1), of_form
-            )  # the last one: no cell
+            # One entry more than cells: -1 stands for none.
+            chosen = np.isin(np.arange(len(contact.cell_table) + 1), of_form)
             label = _loop(contact, chosen[contact.cells] & contact.touching)
         case Form.DOT:
             label = _several(contact, of_form, Shape.DOTS, enough=3)
@@ -95,9 +93,7 @@ def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
         return _one_bar(contact)
     directions, sizes = [], []
     for number in bars:
-        rectangle = bounding_rectangle(
-            (contact.cells == number) & contact.touching, contact.pitch_mm
-        )
+        rectangle = contact.rectangle((contact.cells == number) & contact.touching)
         sizes.append(rectangle.length)
         if rectangle.length > 2 * rectangle.width:
             directions.append(rectangle.angle)
@@ -111,7 +107,7 @@ def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
 
 
 def _one_bar(contact: ContactGeometry) -> ShapeLabel:
-    rectangle = bounding_rectangle(contact.touching, contact.pitch_mm)
+    rectangle = contact.rectangle(contact.touching)
     if rectangle.length < 1.8 * rectangle.width:
         return ShapeLabel(_cap(contact).shape, False)
     return ShapeLabel(Shape.LINE, rectangle.length > 2.2 * rectangle.width)
@@ -128,7 +124,7 @@ def _several(
 
 
 def _loop(contact: ContactGeometry, mask: Mask) -> ShapeLabel:
-    """Ring, crescent, or the side of a bent bar, by how far round the contact goes."""
+    """Ring, crescent, or the side of a bent bar, by the fraction of the circle in contact."""
     fraction = circle_fraction(mask)
     if fraction >= 0.8:
         return ShapeLabel(Shape.RING, fraction >= 0.82)
@@ -147,8 +143,8 @@ def _plain(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     of_cell = contact.cells == main
     mask = of_cell & contact.touching
     is_flank = cell.form is Form.TAPER and cell.outline in (None, Shape.PEAK)
-    if cell.outline is Shape.LINE and fraction >= 0.5:  # the edge of a blade, however it leans
-        rectangle = bounding_rectangle(contact.touching, contact.pitch_mm)
+    if cell.outline is Shape.LINE and fraction >= 0.5:  # the edge of a blade, at any lean
+        rectangle = contact.rectangle(contact.touching)
         return ShapeLabel(Shape.LINE, rectangle.length > 2.4 * rectangle.width and is_one_piece)
     if cell.form is not Form.CURVED and not is_flank and fraction >= 0.5:
         runs_out = float(np.ptp(np.percentile(contact.gap_mm[mask], [8, 92]))) / contact.depth_mm
@@ -172,7 +168,7 @@ def _plain(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
 
 
 def _rounds_off(contact: ContactGeometry) -> bool:
-    """Whether a curved surface is level where it touches first, instead of ending there."""
+    """Whether a curved surface is level at its foremost point, instead of ending there."""
     row, column = np.unravel_index(int(contact.gap_mm.argmin()), contact.gap_mm.shape)
     about = contact.gap_mm[max(row - 3, 0) : row + 4, max(column - 3, 0) : column + 4]
     return float(about.max()) < _LEVEL_MM
@@ -185,7 +181,7 @@ def _slope(contact: ContactGeometry, where: Mask) -> float:
 
 
 def _lies_level(contact: ContactGeometry) -> bool:
-    """Whether the flanks of what touches balance: a rod near its end, not on it."""
+    """Whether the flanks of a contact balance: a rod near its end, not on it."""
     down, right = slopes(contact.gap_mm, contact.touching, contact.pitch_mm)
     gentle = np.hypot(down, right) < 1.5
     if not gentle.any():
@@ -194,7 +190,7 @@ def _lies_level(contact: ContactGeometry) -> bool:
 
 
 def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
-    """A flat contact by its outline."""
+    """Label of a flat contact, by its outline."""
     covered = covered_fraction(contact.closed)
     if covered >= PLANE_FRACTION and cell.outline is Shape.HOLE:
         if count_enclosed_points(contact.closed) * contact.pitch_mm**2 > _CAVITY_MM2:
@@ -202,7 +198,7 @@ def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
         return ShapeLabel(Shape.PLANE, covered > 0.97)
     if covered >= PLANE_FRACTION:
         return ShapeLabel(Shape.PLANE, covered >= PLANE_FRACTION + 0.015)
-    rectangle = bounding_rectangle(mask, contact.pitch_mm)
+    rectangle = contact.rectangle(mask)
     is_whole = border_fraction(contact.closed) < _CUT_UNSURE and covered < PLANE_FRACTION - 0.05
     aspect = rectangle.length / rectangle.width
     if cell.outline in (Shape.RING, Shape.CRESCENT):
@@ -228,7 +224,7 @@ def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     """Edge, corner or peak: several cells touch, or one that ends."""
     near = dilate(contact.touching, 2)
     nearby = np.flatnonzero(contact.count_cells(near)).tolist()
-    rectangle = bounding_rectangle(contact.touching, contact.pitch_mm)
+    rectangle = contact.rectangle(contact.touching)
     elongation = rectangle.length / rectangle.width
     tapers = [n for n in nearby if contact.cell_table[n].form is Form.TAPER]
     if any(contact.cell_table[n].outline is Shape.PEAK for n in tapers):
@@ -257,7 +253,7 @@ def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
 
 
 def _bend(contact: ContactGeometry, touching_cells: list[int]) -> float | None:
-    """Angle between the normals of the two cells that touch most [rad]."""
+    """Angle between the normals of the two cells with most touching points [rad]."""
     if len(touching_cells) < 2:
         return None
     first, second = sorted(touching_cells, key=lambda n: -contact.counts[n])[:2]
@@ -277,7 +273,7 @@ def _bend(contact: ContactGeometry, touching_cells: list[int]) -> float | None:
 
 
 def _cap(contact: ContactGeometry) -> ShapeLabel:
-    """Sphere, ellipsoid, cylinder or line by the curvatures of what touches."""
+    """Sphere, ellipsoid, cylinder or line, by the curvatures of the contact."""
     low, high = curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)
     if high < _FLAT_PER_MM:
         return ShapeLabel(
@@ -299,8 +295,8 @@ def _cap(contact: ContactGeometry) -> ShapeLabel:
 
 
 def _top(contact: ContactGeometry) -> Mask:
-    """What touches first: there a quadric tells the curvatures, further out it overstates them."""
-    # Not only the tops of a texture: all that lies as near as they do.
+    """Foremost part of a contact; further out, a fitted quadric overstates the curvatures."""
+    # All surface as near as the tops of a texture, not the tops alone.
     reach = float(np.percentile(contact.gap_mm[contact.touching], 90))
     mask = dilate(contact.closed, 2) & (contact.gap_mm <= reach)
     if np.count_nonzero(mask) < 16:

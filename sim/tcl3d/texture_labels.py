@@ -1,6 +1,6 @@
-"""What the surface of a contact is like, and which of its labels lie too near a limit to be sure.
+"""Texture label of a contact, and the labels that lie too near to a limit to be certain.
 
-Not here: the name of its shape (``sim.tcl3d.shape_labels``).
+Not here: the shape label (``sim.tcl3d.shape_labels``).
 """
 
 from __future__ import annotations
@@ -19,30 +19,30 @@ from sim.tcl3d.contact_geometry import ContactGeometry
 SHAPE, TEXTURE, DEPTH, POSITION, AREA = DIMENSIONS
 
 DEPTH_MM, POSITION_MM, AREA_FACTOR = 0.0015, 0.02, 1.004
-"""Distances from a limit within which a label is unsure. Our choice: twice what the
-solver's tolerance moves a depth by, a small part of a grid point, and one such point in a rim."""
+"""Distances from a limit within which a label is unsure. Our choice: twice the error of a depth by
+the solver's tolerance, a small fraction of a grid point, and one such point along a rim."""
 
 SMOOTH_RELIEF_MM = 0.015
-"""Relief under a contact below which its surface is smooth: 10 µm and a little."""
+"""Relief under a contact up to which it is smooth: a little above 10 µm."""
 
 MIN_PERIODS = 1.3
-"""Widths of a texture's pitch that a contact must span for the texture to be told."""
+"""Number of a texture's periods that a contact must span for a certain label."""
 
 
 class TextureLabel(NamedTuple):
-    """A texture, and whether a careful person would call it so without doubt."""
+    """A texture, and whether a careful person would give this label without doubt."""
 
     texture: Texture
     sure: bool
 
 
 def name_texture(obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArray) -> TextureLabel:
-    """Name the texture of what touches.
+    """Label the texture of a contact.
 
     Args:
         obj: The pressed object.
         contact: Its contact geometry.
-        relief_mm: Shape (H, W), its skin's relief [mm].
+        relief_mm: Shape (H, W), relief of its skin [mm].
     """
     counts = np.bincount(obj.part_of_cell, weights=contact.counts, minlength=len(obj.parts))
     skin = obj.parts[int(counts.argmax())].skin
@@ -60,7 +60,7 @@ def name_texture(obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArr
 
 
 def uncertain_labels(state: ContactState, sensor: SensorSpec) -> set[str]:
-    """Which of depth, position and area are within a hair's breadth of another class."""
+    """Those of depth, position and area that lie too near to the limit of a class."""
     unsure = set()
     if any(abs(state.depth_mm - limit) < DEPTH_MM for limit in DEPTH_LIMITS_MM):
         unsure.add(DEPTH)
