@@ -19,7 +19,7 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
 from policies.errors import PolicyError
-from policies.extraction.extract import Extraction, extract
+from policies.extraction import Extraction, extract
 from policies.policy import Decision
 from primitives.primitive import PAD_DIRECTION, Primitive
 
@@ -201,7 +201,7 @@ def check_instruction(text: str, words: Words | None) -> None:
 def _known(word: str, words: Words) -> bool:
     if len(word) <= 2:
         return word in _SHORT  # pieces of longer words are tokens too
-    return words.knows(word) or words.knows(word.capitalize())
+    return words.has_token(word) or words.has_token(word.capitalize())
 
 
 def held_because(reply: Reply, found: Extraction, abstain_below: float) -> str:

@@ -1,31 +1,29 @@
-"""Contact states in the paper's words, in numbers, and back.
+"""Captions of contact states in the paper's words, in numbers, and reading them back.
 
 The template is the paper's, section 3.2: 'a [Texture] [Shape] object, pressed [Depth] in
-[Position] with [Area] contact area.' The slots hold the words of ``cltp.tactile.states`` as they
-stand ('pressed slight in top-left'), not inflected, so that every slot reads back exactly. Ours,
-where the paper is silent: a shape or texture that nobody named is left out ('an object, pressed
-...'), 'a' becomes 'an' before a vowel, and without contact the caption is ``NO_CONTACT``.
+[Position] with [Area] contact area.' The slots hold the words of ``cltp.tactile.states`` without
+inflection ('pressed slight in top-left'), so that every slot reads back exactly. Where the paper is
+silent we chose: an unknown shape or texture is left out ('an object, pressed ...'), 'a' becomes
+'an' before a vowel, and without contact the caption is ``NO_CONTACT``.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import StrEnum
-from typing import TypeVar
+from typing import Any
 
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture
+from cltp.tactile.states import DIMENSIONS, Area, ContactState, Depth, Position, Shape, Texture
 
 NO_CONTACT = "no contact."
-
-Word = TypeVar("Word", bound=StrEnum)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Slots:
-    """What a caption says; all None for ``NO_CONTACT``."""
+    """The words of a caption; all None for ``NO_CONTACT``."""
 
     texture: Texture | None = None
     shape: Shape | None = None
@@ -36,15 +34,8 @@ class Slots:
 
 def slots_of(state: ContactState) -> Slots:
     """The words of a state."""
-    if not state.in_contact:
-        return Slots()
-    return Slots(
-        texture=state.texture,
-        shape=state.shape,
-        depth=state.depth,
-        position=state.position,
-        area=state.area,
-    )
+    words: dict[str, Any] = {slot: getattr(state, slot) for slot in DIMENSIONS}
+    return Slots(**words) if state.in_contact else Slots()
 
 
 def caption(state: ContactState) -> str:
@@ -57,8 +48,8 @@ def caption(state: ContactState) -> str:
         return NO_CONTACT
     if state.position is None or state.area is None:
         raise TouchError("a contact with a depth needs a position and an area to be worded")
-    named = [str(word) for word in (state.texture, state.shape) if word is not None]
-    noun = " ".join([*named, "object"])
+    words = [str(word) for word in (state.texture, state.shape) if word is not None]
+    noun = " ".join([*words, "object"])
     article = "an" if noun[0] in "aeiou" else "a"
     return (
         f"{article} {noun}, pressed {state.depth} in {state.position} "
@@ -80,15 +71,15 @@ def numeric_caption(state: ContactState, sensor: SensorSpec) -> str:
     )
 
 
-def _any_of(words: type[StrEnum]) -> str:
-    longest_first = sorted((str(w) for w in words), key=len, reverse=True)
-    return "|".join(re.escape(w) for w in longest_first)
+def alternatives(words: Iterable[str]) -> str:
+    """A regular expression for any of some words; of 'very deep' it does not match 'deep' alone."""
+    return "|".join(re.escape(str(word)) for word in sorted(words, key=len, reverse=True))
 
 
+_GROUPS = {slot: rf"(?P<{slot}>{alternatives(words)})" for slot, words in DIMENSIONS.items()}
 _CAPTION = re.compile(
-    rf"an? (?:(?P<texture>{_any_of(Texture)}) )?(?:(?P<shape>{_any_of(Shape)}) )?object, "
-    rf"pressed (?P<depth>{_any_of(Depth)}) in (?P<position>{_any_of(Position)}) "
-    rf"with (?P<area>{_any_of(Area)}) contact area\.?"
+    "an? (?:{texture} )?(?:{shape} )?object, pressed {depth} in {position} "
+    r"with {area} contact area\.?".format_map(_GROUPS)
 )
 
 
@@ -101,21 +92,14 @@ def parse_caption(text: str) -> Slots:
     plain = " ".join(text.lower().split())
     if plain.rstrip(".") == NO_CONTACT.rstrip("."):
         return Slots()
-    found = _CAPTION.fullmatch(plain)
-    if found is None:
+    match = _CAPTION.fullmatch(plain)
+    if match is None:
         shown = plain if len(plain) <= 80 else plain[:77] + "..."
         raise TouchError(
             "expected 'a [texture] [shape] object, pressed [depth] in [position] with [area] "
             f"contact area.' in the words of cltp.tactile.states, got {shown!r}"
         )
-    return Slots(
-        texture=_word(Texture, found["texture"]),
-        shape=_word(Shape, found["shape"]),
-        depth=_word(Depth, found["depth"]),
-        position=_word(Position, found["position"]),
-        area=_word(Area, found["area"]),
-    )
-
-
-def _word(words: type[Word], value: str | None) -> Word | None:
-    return None if value is None else words(value)
+    words: dict[str, Any] = {
+        slot: classes(match[slot]) for slot, classes in DIMENSIONS.items() if match[slot]
+    }
+    return Slots(**words)

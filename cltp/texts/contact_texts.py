@@ -1,4 +1,4 @@
-"""Everything that is said of a stored contact, derived when asked for and the same every time."""
+"""All texts of a stored contact, derived from its labels and reproducible."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class ContactTexts:
     """The texts of one contact.
 
     Attributes:
-        caption: In the paper's template.
-        numbers: In mm, mm² and N, with tolerances.
-        paraphrase: In other words.
-        prompts: By dimension, those of the contact's own class; only of dimensions that are known.
-        questions: With their answers.
+        caption: Caption in the paper's template.
+        numbers: Caption in mm, mm² and N, with tolerances.
+        paraphrase: Caption in other words.
+        prompts: Prompts of the contact's own class, by dimension; only of named dimensions.
+        questions: Questions with their answers.
     """
 
     caption: str
@@ -35,7 +35,7 @@ class ContactTexts:
 
 
 def texts_of(data: ContactDataset, index: int) -> ContactTexts:
-    """The texts of a contact; they depend on its row alone, not on its place in the data.
+    """The texts of a contact; they depend on its labels alone, not on its index in the data.
 
     Raises:
         TouchError: Its labels can't be worded: a depth without position or area.

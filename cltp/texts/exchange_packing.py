@@ -1,8 +1,9 @@
-"""Questions and replies about contacts, packed into sequences for learning.
+"""Prompts and replies about contacts, packed into sequences for learning.
 
-A sequence is one contact's touch tokens followed by several (prompt, reply) segments. Each segment
-sees the touch and itself, not the other segments, and its positions start where the touch ends: the
-language model computes exactly what it would for each segment alone, but the touch only once.
+A sequence is the touch tokens of one contact followed by several (prompt, reply) segments. Each
+segment attends to the touch tokens and to itself, not to the other segments, and its positions
+start after the touch tokens: the language model computes exactly what it would for each segment
+alone, but the touch tokens only once.
 """
 
 from __future__ import annotations
@@ -24,8 +25,8 @@ class Exchange:
     """A prompt and the reply to be learned, as text.
 
     Attributes:
-        prompt: What a person asks for; empty for a text to be learned as a whole.
-        reply: What is to be said.
+        prompt: Request of a person; empty for a text to be learned as a whole.
+        reply: Text to be generated.
     """
 
     prompt: str
@@ -37,8 +38,8 @@ class Packed(NamedTuple):
 
     Attributes:
         ids: Shape (B, L).
-        labels: Shape (B, L): the token that should come next, ``NOT_LEARNED`` outside replies.
-        weights: Shape (B, L): of each label in the loss.
+        labels: Shape (B, L): the next token, ``NOT_LEARNED`` outside replies.
+        weights: Shape (B, L): weight of each label in the loss.
         positions: Shape (B, P + L).
         mask: Shape (B, 1, P + L, P + L), added to attention scores: 0 or -inf.
     """
@@ -51,12 +52,9 @@ class Packed(NamedTuple):
 
 
 def prompt_ids(words: Words, prompt: str, *, longest: int = 96) -> list[int]:
-    """``<user> prompt <reply>``: what stands before a reply.
+    """Tokens before a reply: ``<user> prompt <reply>``.
 
-    Args:
-        words: Tokenizer.
-        prompt: As a person wrote it.
-        longest: Tokens kept of a longer prompt: its beginning and its end, half each.
+    Of a prompt with more than ``longest`` tokens, beginning and end remain, half each.
     """
     ids = words.encode(prompt, trusted=False)
     if len(ids) > longest:
@@ -71,12 +69,12 @@ def pack(
     *,
     action_weight: float = 1.0,
 ) -> Packed:
-    """Pack, for each contact, its exchanges.
+    """Pack the exchanges of each contact.
 
     Args:
         words: Tokenizer.
         groups: For each of B contacts, one or more exchanges.
-        num_touch: Touch tokens P in front; 0 for learning from text alone.
+        num_touch: Number P of touch tokens; 0 for learning from text alone.
         action_weight: Weight of a label that is an action; others weigh 1.
     """
     rows = [_sequence(words, group, num_touch) for group in groups]

@@ -1,28 +1,27 @@
 """Questions about a stored contact and answers from its labels: words, numbers, yes and no.
 
-For data sets and benchmarks. Every pair is derived when asked for, from the contact and a seed.
+For data sets and benchmarks. Every pair follows from the contact and a seed alone.
 
-Not here: the questions that the language model is taught (``tacgrasp.lessons.questions``).
+Not here: the questions in the language model's training (``tacgrasp.lessons.questions``).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DIMENSIONS, ContactState
-from cltp.texts.paraphrases import drawn, with_article
+from cltp.texts.paraphrases import draw_index, with_article
 from cltp.texts.tolerances import Tolerances, tolerances
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class QuestionAnswer:
+class QuestionAnswer(NamedTuple):
     """A question and its answer.
 
     Attributes:
-        about: What is asked for: a slot, ``force``, ``cut`` or ``contact``.
-        question: As a person asks.
+        about: Subject: a dimension, ``force``, ``cut`` or ``contact``.
+        question: Question in the words of a person.
         answer: A whole sentence.
     """
 
@@ -48,51 +47,31 @@ _CLOSED = {
 UNTOUCHED = "Nothing touches the pad."
 
 
-def question_answers(
-    state: ContactState, sensor: SensorSpec, seed: int, *, level: float = 1.0
-) -> list[QuestionAnswer]:
+def question_answers(state: ContactState, sensor: SensorSpec, seed: int) -> list[QuestionAnswer]:
     """All questions that a contact's labels answer.
 
-    What nobody named or measured is not asked for. Of the yes/no questions, half are drawn to be
-    answered yes; a no says what is the case.
-
-    Args:
-        state: The labels.
-        sensor: Whose field it is.
-        seed: Draws wordings and yes/no questions, as ``cltp.texts.paraphrases.text_seed``.
-        level: Of the noise whose tolerances answers in numbers carry.
+    There are no questions about unknown labels. Half of the yes/no questions are drawn to be
+    answered yes; a no gives the true class. ``seed`` (``cltp.texts.paraphrases.text_seed``) draws
+    wordings and yes/no questions.
     """
-    touched = QuestionAnswer(
-        about="contact",
-        question="Does anything touch the pad?",
-        answer="Yes." if state.in_contact else f"No. {UNTOUCHED}",
-    )
+    answer = "Yes." if state.in_contact else f"No. {UNTOUCHED}"
+    pairs = [QuestionAnswer("contact", "Does anything touch the pad?", answer)]
     if not state.in_contact:
-        return [touched]
-    pairs = [touched]
-    numbers = _in_numbers(state, sensor, tolerances(state, sensor, level))
+        return pairs
+    numbers = _in_numbers(state, sensor, tolerances(state, sensor))
     for slot in _OPEN:
         word = getattr(state, slot)
         if word is None:
             continue
-        wording = _OPEN[slot][drawn(seed, slot, len(_OPEN[slot]))]
-        pairs.append(QuestionAnswer(about=slot, question=wording, answer=numbers[slot]))
+        question = _OPEN[slot][draw_index(seed, slot, len(_OPEN[slot]))]
+        pairs.append(QuestionAnswer(slot, question, numbers[slot]))
         pairs.append(_yes_or_no(slot, word, seed))
     if math.isfinite(state.force_n):
-        pairs.append(
-            QuestionAnswer(
-                about="force", question="How hard is it pressed?", answer=numbers["force"]
-            )
-        )
+        pairs.append(QuestionAnswer("force", "How hard is it pressed?", numbers["force"]))
     sides = " and ".join(sorted(state.cut))
-    pairs.append(
-        QuestionAnswer(
-            about="cut",
-            question="Does the contact run over the edge of the pad?",
-            answer=f"Yes, at the {sides}." if sides else "No, all of it is on the pad.",
-        )
-    )
-    return pairs
+    answer = f"Yes, at the {sides}." if sides else "No, all of it is on the pad."
+    question = "Does the contact run over the edge of the pad?"
+    return [*pairs, QuestionAnswer("cut", question, answer)]
 
 
 def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> dict[str, str]:
@@ -103,7 +82,7 @@ def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> 
         "depth": f"The press is {state.depth}: {state.depth_mm:.2f} ± {within.depth_mm:.2f} mm.",
         "position": (
             f"It is {state.position}: x {state.x_mm:+.1f}, y {state.y_mm:+.1f} ± "
-            f"{within.place_mm:.1f} mm."
+            f"{within.position_mm:.1f} mm."
         ),
         "area": f"The area is {state.area}: {area_mm2:.1f} ± {within.area_mm2:.1f} mm².",
         "force": f"With {state.force_n:.2f} ± {within.force_n:.2f} N.",
@@ -111,13 +90,13 @@ def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> 
 
 
 def _yes_or_no(slot: str, word: str, seed: int) -> QuestionAnswer:
-    asked = word
-    if drawn(seed, f"{slot}?", 2):
+    suggested = word
+    if draw_index(seed, f"{slot}?", 2):
         others = [other for other in DIMENSIONS[slot] if other != word]
-        asked = others[drawn(seed, f"{slot} other", len(others))]
-    said = with_article(word) if slot == "shape" else word
+        suggested = others[draw_index(seed, f"{slot} other", len(others))]
+    truth = with_article(word) if slot == "shape" else word
     return QuestionAnswer(
         about=slot,
-        question=_CLOSED[slot].format(word=asked, a=with_article(asked)),
-        answer="Yes." if asked == word else f"No, it is {said}.",
+        question=_CLOSED[slot].format(word=suggested, a=with_article(suggested)),
+        answer="Yes." if suggested == word else f"No, it is {truth}.",
     )

@@ -1,7 +1,7 @@
 """Text to tokens: a byte-level BPE of our own sentences, with one token for each action.
 
-Numbers are read and written digit by digit: ' -3.42' is ' -3', '.4' and '2'. Any
-text can be encoded: what the vocabulary lacks falls apart into pieces, in the end into bytes.
+Numbers are encoded digit by digit: ' -3.42' is ' -3', '.4' and '2'. Any text can be encoded: words
+outside the vocabulary become several tokens, if need be one for each byte.
 """
 
 from __future__ import annotations
@@ -30,12 +30,12 @@ ACTIONS = (
     "<reset>",
     "<none>",
 )
-"""The eight choices at the action's place in D_t. ``cltp`` knows them as words, no more."""
+"""The eight choices for the action in D_t. To ``cltp`` they are words only."""
 
 FILE = "tokenizer.json"
 
 PIECES = r" ?[+-]?\d|\.\d| ?\p{L}+| ?[^\s\p{L}\p{N}]+|\s+"
-"""What tokens don't reach beyond: one digit with its sign and space or with the point before it, a
+"""Units that no token crosses: one digit with its sign and space or with the point before it, a
 word, a run of other signs."""
 
 _ACTION = re.compile(r"(?<=\S)(?=(?:" + "|".join(ACTIONS) + "))")
@@ -45,20 +45,20 @@ class Words:
     """A tokenizer.
 
     Args:
-        tokenizer: With all of ``CONTROL`` and ``ACTIONS`` as single tokens.
+        tokenizer: Has all of ``CONTROL`` and ``ACTIONS`` as single tokens.
 
     Raises:
-        TouchError: It lacks one of them.
+        TouchError: One of them is missing.
     """
 
     def __init__(self, tokenizer: Tokenizer) -> None:
         self._tokenizer = tokenizer
-        found = {token: tokenizer.token_to_id(token) for token in (*CONTROL, *ACTIONS)}
-        ids = {token: number for token, number in found.items() if number is not None}
-        lacking = [token for token in found if token not in ids]
-        if lacking:
+        numbers = {token: tokenizer.token_to_id(token) for token in (*CONTROL, *ACTIONS)}
+        ids = {token: number for token, number in numbers.items() if number is not None}
+        missing = [token for token in numbers if token not in ids]
+        if missing:
             raise TouchError(
-                f"the tokenizer lacks {' '.join(lacking)}; it belongs to another version of weights"
+                f"the tokenizer lacks {' '.join(missing)}; it belongs to another version of weights"
             )
         self.pad, self.bos, self.eos, self.user, self.reply = (ids[t] for t in CONTROL)
         self.actions = [ids[token] for token in ACTIONS]
@@ -79,13 +79,13 @@ class Words:
             min_frequency=2,
             special_tokens=[
                 *(AddedToken(token, special=True) for token in CONTROL),
-                # The space before an action belongs to it: no token of its own.
+                # The space before an action belongs to the action's token.
                 *(AddedToken(token, special=True, lstrip=True) for token in ACTIONS),
             ],
             initial_alphabet=pre_tokenizers.ByteLevel.alphabet(),
             show_progress=False,
         )
-        # Pieces of numbers first, so that each is a token even where the texts have few.
+        # Pieces of numbers first, so that each becomes a token even if the texts have few.
         pieces = [f" {d} +{d} -{d}.{d}" for d in range(10)] * 1000
         tokenizer.train_from_iterator(chain(pieces, texts), trainer)
         return cls(tokenizer)
@@ -102,7 +102,7 @@ class Words:
             return cls(Tokenizer.from_file(str(path)))
         except TouchError:
             raise
-        except Exception as error:  # the library raises bare Exception for anything it can't read
+        except Exception as error:  # the library raises bare Exception for any unreadable file
             raise TouchError(f"no tokenizer could be read from {path}: {error}") from error
 
     def save(self, folder: Path) -> None:
@@ -118,25 +118,25 @@ class Words:
 
         Args:
             text: Any text.
-            trusted: False for what a person wrote: control tokens and actions spelled out in it
-                are then taken as letters and never become the tokens themselves.
+            trusted: False for a person's text: control tokens and actions spelled out in it are
+                encoded as letters, never as the tokens themselves.
         """
         if not trusted:
             for token in (*CONTROL, *ACTIONS):
                 text = text.replace(token, token.strip("<>"))
         return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
 
-    def knows(self, word: str) -> bool:
-        """Whether a word is a token of its own, as one that was common in training is."""
+    def has_token(self, word: str) -> bool:
+        """Whether a word is a single token, as words that were common in training are."""
         return len(self.encode(f" {word}", trusted=False)) == 1
 
     def decode(self, ids: Sequence[int]) -> str:
-        """Text of tokens; actions appear spelled, after a space, and control tokens don't."""
+        """Text of tokens: actions are spelled out after a space, control tokens are left out."""
         control = {self.pad, self.bos, self.eos, self.user, self.reply}
-        kept = [i for i in ids if i not in control]
-        return _ACTION.sub(" ", self._tokenizer.decode(kept, skip_special_tokens=False))
+        spoken = [i for i in ids if i not in control]
+        return _ACTION.sub(" ", self._tokenizer.decode(spoken, skip_special_tokens=False))
 
     def fingerprint(self) -> str:
-        """SHA-256 of the vocabulary: weights name the tokenizer that they were trained with."""
+        """SHA-256 of the vocabulary; weights store that of the tokenizer of their training."""
         vocabulary = sorted(self._tokenizer.get_vocab().items(), key=lambda item: item[1])
         return hashlib.sha256(json.dumps(vocabulary).encode()).hexdigest()

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as npst
 
-from cltp.data.contact import Contact, Gel, Split, pack_heights, unpack_heights
+from cltp.data.contact import Gel, Split, pack_heights, unpack_heights
 from cltp.data.dataset import SCHEMA, ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SENSORS
-from cltp.tactile.states import ContactState
+from cltp.tactile.states import NO_CONTACT_STATE
 from tests.fakes.fake_contacts import fake_contact
 
 
@@ -64,43 +64,20 @@ def test_further_sets_come_after_the_first(folder: Path, tmp_path: Path) -> None
 
 
 def test_a_contact_without_touch_and_with_a_gel_survives(tmp_path: Path) -> None:
-    nothing = ContactState(
-        depth_mm=0.0,
-        x_mm=0.0,
-        y_mm=0.0,
-        area_fraction=0.0,
-        force_n=0.0,
-        depth=None,
-        position=None,
-        area=None,
-    )
     gel = Gel(thickness_mm=3.5, young_mpa=0.145, poisson=0.48)
-    contact = Contact(
-        height_mm=np.zeros((20, 30), np.float32),
-        sensor=SENSORS["digit"],
-        state=nothing,
-        object="air",
-        series=0,
-        split=Split.TRAIN,
-        gel=gel,
-        seed=5,
+    contact = dataclasses.replace(
+        fake_contact(5), sensor=SENSORS["digit"], state=NO_CONTACT_STATE, gel=gel
     )
     with DatasetWriter(tmp_path) as writer:
         writer.add(contact)
     stored = ContactDataset(tmp_path).contact(0)
-    assert stored.state == nothing
+    assert stored.state == NO_CONTACT_STATE
     assert stored.gel is not None
     assert stored.gel.thickness_mm == pytest.approx(3.5)
     assert stored.sensor.name == "digit"
 
 
-@given(
-    npst.arrays(
-        np.float32,
-        (9, 11),
-        elements=st.floats(-32.0, 32.0, width=32, allow_nan=False),
-    )
-)
+@given(npst.arrays(np.float32, (9, 11), elements=st.floats(-32.0, 32.0, width=32, allow_nan=False)))
 def test_any_heights_come_back_within_half_a_step(heights: np.ndarray) -> None:
     back = unpack_heights(pack_heights(heights), 9, 11)
     np.testing.assert_allclose(back, heights, atol=0.00051)
@@ -112,10 +89,7 @@ def test_smooth_contacts_take_less_than_half_of_their_raw_size() -> None:
 
 
 def test_an_interrupted_writer_leaves_whole_shards_and_is_continued(tmp_path: Path) -> None:
-    with (
-        pytest.raises(KeyboardInterrupt),
-        DatasetWriter(tmp_path, shard_size=4) as writer,
-    ):
+    with pytest.raises(KeyboardInterrupt), DatasetWriter(tmp_path, shard_size=4) as writer:
         for seed in range(6):
             writer.add(fake_contact(seed))
         raise KeyboardInterrupt
@@ -192,16 +166,8 @@ def test_a_header_that_makes_no_sense_is_damage(about: object, folder: Path) -> 
     ],
 )
 def test_heights_that_are_none_are_refused(heights: np.ndarray, message: str) -> None:
-    good = fake_contact(0)
     with pytest.raises(TouchError, match=message):
-        Contact(
-            height_mm=heights,
-            sensor=good.sensor,
-            state=good.state,
-            object="x",
-            series=0,
-            split=Split.TRAIN,
-        )
+        dataclasses.replace(fake_contact(0), height_mm=heights)
 
 
 def test_what_was_measured_is_marked_and_shards_without_the_mark_keep_their_columns(

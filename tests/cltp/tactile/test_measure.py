@@ -3,14 +3,13 @@
 import numpy as np
 import pytest
 
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.measure import STIFFNESS_N_PER_MM3, contact_state
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Area, Depth, Position, Side
 
 SENSOR = sensor_named("gelsight_mini")
-X = ((np.arange(320) + 0.5) / 320 - 0.5) * SENSOR.width_mm
-Y = (0.5 - (np.arange(240) + 0.5) / 240) * SENSOR.height_mm
+X, Y = grid_axes_mm(SENSOR, 240, 320)
 
 
 def bump(x_mm: float, y_mm: float, depth_mm: float, radius_mm: float = 3.0) -> np.ndarray:
@@ -20,18 +19,18 @@ def bump(x_mm: float, y_mm: float, depth_mm: float, radius_mm: float = 3.0) -> n
 
 
 @pytest.mark.parametrize("num_points", [256, 1024, 4096, 20_000])
-@pytest.mark.parametrize("place", [(0.0, 0.0), (5.0, -3.0), (-4.0, 2.5)])
-def test_place_and_depth_of_a_bump_do_not_depend_on_how_it_is_sampled(num_points, place):
-    cloud = cloud_from_heights(bump(*place, 0.5), SENSOR, num_points=num_points)
+@pytest.mark.parametrize("position", [(0.0, 0.0), (5.0, -3.0), (-4.0, 2.5)])
+def test_position_and_depth_of_a_bump_do_not_depend_on_how_it_is_sampled(num_points, position):
+    cloud = cloud_from_heights(bump(*position, 0.5), SENSOR, num_points=num_points)
     state = contact_state(cloud)
-    assert (state.x_mm, state.y_mm) == pytest.approx(place, abs=0.15)
+    assert (state.x_mm, state.y_mm) == pytest.approx(position, abs=0.15)
     assert state.depth_mm == pytest.approx(0.5, abs=0.05)
 
 
-def test_area_is_the_share_that_lies_deeper_than_a_quarter():
+def test_area_is_the_fraction_that_lies_deeper_than_a_quarter():
     state = contact_state(cloud_from_heights(bump(0, 0, 0.5), SENSOR, num_points=4096))
-    share = np.pi * 3.0**2 * 0.75 / SENSOR.area_mm2
-    assert state.area_fraction == pytest.approx(share, rel=0.08)
+    fraction = np.pi * 3.0**2 * 0.75 / SENSOR.area_mm2
+    assert state.area_fraction == pytest.approx(fraction, rel=0.08)
 
 
 def test_force_is_the_stiffness_times_the_volume_above_a_fifth():
@@ -55,7 +54,7 @@ def test_an_untouched_gel_is_no_contact():
 
 
 @pytest.mark.parametrize(
-    ("place", "sides"),
+    ("position", "sides"),
     [
         ((0, 0), set()),
         ((9.5, 0), {Side.RIGHT}),
@@ -64,8 +63,8 @@ def test_an_untouched_gel_is_no_contact():
         ((9.5, -7), {Side.RIGHT, Side.BOTTOM}),
     ],
 )
-def test_the_sides_that_cut_a_contact_are_named(place, sides):
-    assert contact_state(cloud_from_heights(bump(*place, 0.5), SENSOR)).cut == sides
+def test_the_sides_that_cut_a_contact_are_named(position, sides):
+    assert contact_state(cloud_from_heights(bump(*position, 0.5), SENSOR)).cut == sides
 
 
 def test_a_second_shallower_bump_does_not_move_the_contact():
@@ -74,7 +73,7 @@ def test_a_second_shallower_bump_does_not_move_the_contact():
     assert (state.x_mm, state.y_mm) == pytest.approx((0.0, 0.0), abs=0.2)
 
 
-def test_a_cloud_without_points_in_some_places_is_measured_all_the_same():
+def test_a_cloud_without_points_in_some_positions_is_measured_all_the_same():
     points = cloud_from_heights(bump(2, 1, 0.5), SENSOR).points_mm
     kept = points[np.random.default_rng(0).random(len(points)) < 0.5]
     state = contact_state(TactileCloud(points_mm=kept, sensor=SENSOR))

@@ -2,6 +2,7 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
+from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensor_noise import (
     GAIN_LOG_RATIO,
     NoiseUnit,
@@ -16,31 +17,30 @@ SHAPE = (76, 102)
 
 
 def bump_mm() -> np.ndarray:
-    y = (0.5 - (np.arange(SHAPE[0]) + 0.5) / SHAPE[0]) * MINI.height_mm
-    x = ((np.arange(SHAPE[1]) + 0.5) / SHAPE[1] - 0.5) * MINI.width_mm
+    x, y = grid_axes_mm(MINI, *SHAPE)
     return 0.5 * np.exp(-(x[None, :] ** 2 + y[:, None] ** 2) / 4.0)
 
 
 def test_a_perfect_unit_only_loses_the_median() -> None:
     rng = np.random.default_rng(0)
     heights = bump_mm()
-    seen = NoiseUnit.draw(rng, level=0.0).apply(heights + 0.2, MINI, rng)
-    np.testing.assert_allclose(seen, heights - np.median(heights), atol=1e-6)
+    noisy = NoiseUnit.draw(rng, level=0.0).apply(heights + 0.2, MINI, rng)
+    np.testing.assert_allclose(noisy, heights - np.median(heights), atol=1e-6)
 
 
 def test_the_unit_scales_every_height_by_its_own_factor() -> None:
     rng = np.random.default_rng(0)
     heights = bump_mm()
-    seen = NoiseUnit(depth_scale=1.1).apply(heights, MINI, rng)
-    np.testing.assert_allclose(seen.max(), 1.1 * (heights.max() - np.median(heights)), atol=1e-5)
+    noisy = NoiseUnit(depth_scale=1.1).apply(heights, MINI, rng)
+    np.testing.assert_allclose(noisy.max(), 1.1 * (heights.max() - np.median(heights)), atol=1e-5)
 
 
 def test_a_tilt_has_the_slope_it_names() -> None:
     rng = np.random.default_rng(0)
-    seen = NoiseUnit(tilt_x=0.01, tilt_y=-0.02).apply(np.zeros(SHAPE), MINI, rng)
-    rise = seen[10, -1] - seen[10, 0]
+    noisy = NoiseUnit(tilt_x=0.01, tilt_y=-0.02).apply(np.zeros(SHAPE), MINI, rng)
+    rise = noisy[10, -1] - noisy[10, 0]
     assert rise == pytest.approx(0.01 * MINI.width_mm * (SHAPE[1] - 1) / SHAPE[1], rel=1e-4)
-    drop = seen[0, 10] - seen[-1, 10]  # row 0 is the top, y positive
+    drop = noisy[0, 10] - noisy[-1, 10]  # row 0 is the top, y positive
     assert drop == pytest.approx(-0.02 * MINI.height_mm * (SHAPE[0] - 1) / SHAPE[0], rel=1e-4)
 
 
@@ -71,8 +71,8 @@ def test_a_wave_along_one_axis_is_scaled_by_the_gain_of_that_axis(axis: int, gai
 
 def test_gains_keep_the_mean_and_their_product_is_one() -> None:
     heights = bump_mm()
-    seen = integrated_with_gains(heights, MINI, 1.4, 0.6)
-    assert seen.mean() == pytest.approx(heights.mean(), abs=1e-6)
+    noisy = integrated_with_gains(heights, MINI, 1.4, 0.6)
+    assert noisy.mean() == pytest.approx(heights.mean(), abs=1e-6)
     unit = NoiseUnit.draw(np.random.default_rng(5), gain_log_ratio=GAIN_LOG_RATIO)
     assert unit.gain_x * unit.gain_y == pytest.approx(1.0)
     assert unit.gain_x != unit.gain_y
@@ -95,11 +95,11 @@ def test_every_sensor_has_a_stated_noise_and_the_mini_s_is_the_one_measured():
 def test_a_dead_border_keeps_the_height_of_its_inner_edge():
     heights = np.tile(np.linspace(-1, 1, 320, dtype=np.float32), (240, 1))
     unit = NoiseUnit(border_mm=1.0)
-    seen = unit.apply(heights, MINI, np.random.default_rng(0))
+    noisy = unit.apply(heights, MINI, np.random.default_rng(0))
     dead = round(1.0 / MINI.mm_per_px)
-    assert (seen[:, :dead] == seen[:, dead : dead + 1]).all()
-    assert (seen[:, -dead:] == seen[:, -dead - 1 : -dead]).all()
-    np.testing.assert_allclose(seen[:, dead:-dead], heights[:, dead:-dead], atol=1e-5)
+    assert (noisy[:, :dead] == noisy[:, dead : dead + 1]).all()
+    assert (noisy[:, -dead:] == noisy[:, -dead - 1 : -dead]).all()
+    np.testing.assert_allclose(noisy[:, dead:-dead], heights[:, dead:-dead], atol=1e-5)
 
 
 def test_borders_are_drawn_up_to_the_widest():

@@ -1,17 +1,22 @@
 """Captions in the paper's template and back."""
 
+import dataclasses
 import itertools
 
 import pytest
 
 from cltp import TouchError
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.states import Area, ContactState, Depth, Position, Shape, Texture
-from cltp.texts.captions import NO_CONTACT, Slots, caption, numeric_caption, parse_caption, slots_of
-
-NOTHING = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
+from cltp.tactile.states import (
+    NO_CONTACT_STATE,
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Texture,
 )
+from cltp.texts.captions import NO_CONTACT, Slots, caption, numeric_caption, parse_caption, slots_of
 
 
 def state(
@@ -36,8 +41,8 @@ def state(
 
 
 def test_the_template_is_the_papers_word_for_word():
-    said = caption(state(shape=Shape.SPHERE, texture=Texture.SMOOTH))
-    assert said == "a smooth sphere object, pressed deep in bottom-center with small contact area."
+    text = caption(state(shape=Shape.SPHERE, texture=Texture.SMOOTH))
+    assert text == "a smooth sphere object, pressed deep in bottom-center with small contact area."
 
 
 @pytest.mark.parametrize(
@@ -54,25 +59,25 @@ def test_unnamed_slots_are_left_out_and_the_article_fits(shape, texture, start):
 
 
 def test_every_combination_of_words_reads_back_exactly():
-    seen = set()
+    texts = set()
     for shape, texture in itertools.product([None, *Shape], [None, *Texture]):
         for depth, position, area in itertools.product(Depth, Position, Area):
             one = state(depth, position, area, shape, texture)
             assert parse_caption(caption(one)) == slots_of(one)
-            seen.add(caption(one))
-    assert len(seen) == 20 * 6 * 4 * 9 * 5
+            texts.add(caption(one))
+    assert len(texts) == 20 * 6 * 4 * 9 * 5
 
 
-def test_no_contact_is_said_and_read():
-    assert caption(NOTHING) == NO_CONTACT
-    assert numeric_caption(NOTHING, sensor_named("gelsight_mini")) == NO_CONTACT
+def test_no_contact_has_a_caption_that_reads_back():
+    assert caption(NO_CONTACT_STATE) == NO_CONTACT
+    assert numeric_caption(NO_CONTACT_STATE, sensor_named("gelsight_mini")) == NO_CONTACT
     assert parse_caption("No contact") == Slots()
 
 
 def test_the_numeric_caption_gives_mm_mm2_and_newtons():
     # 5 % of 20.288 mm x 15.216 mm = 15.4 mm²
-    said = numeric_caption(state(), sensor_named("gelsight_mini"))
-    assert said == (
+    text = numeric_caption(state(), sensor_named("gelsight_mini"))
+    assert text == (
         "pressed 0.75 mm at x +1.0 mm, y -5.2 mm, with 15.4 mm² contact area and 1.23 N."
     )
 
@@ -88,9 +93,6 @@ def test_a_text_outside_the_template_is_refused_with_the_template(text):
 
 
 def test_a_state_with_depth_but_no_position_is_refused():
-    broken = ContactState(
-        depth_mm=1, x_mm=0, y_mm=0, area_fraction=0, force_n=0,
-        depth=Depth.DEEP, position=None, area=None,
-    )  # fmt: skip
+    broken = dataclasses.replace(state(), position=None, area=None)
     with pytest.raises(TouchError, match="position"):
         caption(broken)

@@ -1,5 +1,6 @@
 """Paraphrases, prompts and questions: drawn from a seed alone, true, and read back."""
 
+import dataclasses
 import itertools
 
 import numpy as np
@@ -12,6 +13,7 @@ from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     CLASSES,
     DIMENSIONS,
+    NO_CONTACT_STATE,
     Area,
     ContactState,
     Depth,
@@ -34,9 +36,10 @@ from cltp.texts.paraphrases import (
 from cltp.texts.question_answers import UNTOUCHED, question_answers
 
 MINI = SENSORS["gelsight_mini"]
-UNTOUCHED_STATE = ContactState(
-    depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
-)
+DISC = ContactState(
+    depth_mm=0.5, x_mm=0, y_mm=0, area_fraction=0.05, force_n=1, depth=Depth.MODERATE,
+    position=Position.CENTERED, area=Area.SMALL, shape=Shape.DISC, texture=Texture.ROUGH,
+)  # fmt: skip
 STATES = st.builds(
     ContactState,
     depth_mm=st.floats(0.05, 2),
@@ -55,24 +58,18 @@ STATES = st.builds(
 
 @given(STATES, st.integers(0, 2**32))
 def test_every_paraphrase_reads_back_exactly_and_is_the_same_again(state, seed):
-    said = paraphrase(state, seed)
-    assert read_paraphrase(said) == slots_of(state)
-    assert paraphrase(state, seed) == said
-    assert " a a" not in said
-    assert " a e" not in said
+    text = paraphrase(state, seed)
+    assert read_paraphrase(text) == slots_of(state)
+    assert paraphrase(state, seed) == text
+    assert " a a" not in text
+    assert " a e" not in text
 
 
-def test_no_two_words_of_a_dimension_are_said_alike_and_all_are_drawn():
+def test_no_two_words_of_a_dimension_are_worded_alike_and_all_are_drawn():
     texts = {
-        paraphrase(
-            ContactState(
-                depth_mm=0.5, x_mm=0, y_mm=0, area_fraction=0.05, force_n=1, depth=depth,
-                position=Position.CENTERED, area=Area.SMALL, shape=shape, texture=Texture.ROUGH,
-            ),
-            seed,
-        )
+        paraphrase(dataclasses.replace(DISC, shape=shape, depth=depth), seed)
         for shape, depth, seed in itertools.product(Shape, Depth, range(60))
-    }  # fmt: skip
+    }
     assert {read_paraphrase(text).shape for text in texts} == set(Shape)
     assert len(texts) > 19 * 4 * 30
     starts = [PARAPHRASES[i].split("{")[0] for i in (1, 3, 5)]
@@ -80,7 +77,7 @@ def test_no_two_words_of_a_dimension_are_said_alike_and_all_are_drawn():
 
 
 def test_no_contact_has_wordings_of_its_own():
-    assert {paraphrase(UNTOUCHED_STATE, seed) for seed in range(50)} == set(NOTHING)
+    assert {paraphrase(NO_CONTACT_STATE, seed) for seed in range(50)} == set(NOTHING)
     assert read_paraphrase("Nothing touches the gel.") == Slots()
 
 
@@ -91,10 +88,7 @@ def test_other_sentences_are_refused(text):
 
 
 def test_a_depth_without_a_position_can_t_be_worded():
-    broken = ContactState(
-        depth_mm=1, x_mm=0, y_mm=0, area_fraction=0, force_n=0,
-        depth=Depth.DEEP, position=None, area=None,
-    )  # fmt: skip
+    broken = dataclasses.replace(DISC, position=None, area=None)
     with pytest.raises(TouchError, match="position"):
         paraphrase(broken, 0)
 
@@ -119,7 +113,7 @@ def test_prompts_outside_the_vocabulary_are_refused(slot, word):
 
 
 @given(STATES, st.integers(0, 2**32))
-def test_answers_are_true_and_ask_only_for_what_is_known(state, seed):
+def test_answers_are_true_and_about_known_labels_only(state, seed):
     pairs = question_answers(state, MINI, seed)
     assert pairs == question_answers(state, MINI, seed)
     about = {pair.about for pair in pairs}
@@ -129,24 +123,20 @@ def test_answers_are_true_and_ask_only_for_what_is_known(state, seed):
         if pair.about not in DIMENSIONS:
             continue
         word = str(getattr(state, pair.about))
-        asked = [w for w in CLASSES[pair.about] if pair.question.endswith(f" {w}?")]
+        suggested = [w for w in CLASSES[pair.about] if pair.question.endswith(f" {w}?")]
         if pair.answer == "Yes.":
-            assert max(asked, key=len) == word
+            assert max(suggested, key=len) == word
         else:
             assert word in pair.answer
         if pair.answer.startswith("No, "):
-            assert max(asked, key=len) != word
+            assert max(suggested, key=len) != word
 
 
 def test_yes_and_no_are_about_as_frequent():
-    state = ContactState(
-        depth_mm=0.5, x_mm=0, y_mm=0, area_fraction=0.05, force_n=1, depth=Depth.MODERATE,
-        position=Position.CENTERED, area=Area.SMALL, shape=Shape.DISC, texture=Texture.ROUGH,
-    )  # fmt: skip
     closed = [
         pair.answer
         for seed in range(100)
-        for pair in question_answers(state, MINI, seed)
+        for pair in question_answers(DISC, MINI, seed)
         if pair.about in DIMENSIONS and (pair.answer == "Yes." or pair.answer.startswith("No"))
     ]
     assert len(closed) == 500
@@ -154,7 +144,7 @@ def test_yes_and_no_are_about_as_frequent():
 
 
 def test_an_untouched_pad_has_one_question():
-    (pair,) = question_answers(UNTOUCHED_STATE, MINI, 0)
+    (pair,) = question_answers(NO_CONTACT_STATE, MINI, 0)
     assert pair.answer == f"No. {UNTOUCHED}"
 
 
