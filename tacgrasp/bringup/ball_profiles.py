@@ -1,9 +1,10 @@
-"""How a sensor's gel lies around a ball, from our elastic layer: targets for its calibration."""
+"""Heights of a sensor's gel around a ball, from our elastic layer: targets for its calibration."""
 
 from __future__ import annotations
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 
 from cltp.sensing.ball_presses import ProfileTable
 from cltp.torch_threads import torch_threads
@@ -16,27 +17,26 @@ DEPTHS_MM = np.linspace(0.1, 1.4, 14)
 
 @torch_threads()
 def ball_profiles(sensor_name: str, diameter_mm: float) -> ProfileTable:
-    """Solve presses of a rigid ball of ``diameter_mm`` [mm] at ``DEPTHS_MM``, or to its equator.
+    """Solve presses of a rigid ball at ``DEPTHS_MM``, those above 0.8 of its radius left out.
 
     Raises:
-        ValueError: No gel is known for this sensor.
+        ValueError: The gel of this sensor is unknown.
     """
     ball = diameter_mm / 2
     depths = DEPTHS_MM[0.8 * ball > DEPTHS_MM]
-    at = (np.arange(2 * _HALF + 1) - _HALF) * PITCH_MM
-    r = np.hypot(at[:, None], at[None, :])
+    positions = (np.arange(2 * _HALF + 1) - _HALF) * PITCH_MM
+    r = np.hypot(positions[:, None], positions[None, :])
     gap = np.where(r < ball, ball - np.sqrt(np.clip(ball**2 - r**2, 0, None)), np.inf)
-    gel = ElasticLayer(gel_of(sensor_name), rows=len(at), columns=len(at), pitch_mm=PITCH_MM)
-    rows, press = [], None
+    gel = ElasticLayer(gel_of(sensor_name), rows=len(r), columns=len(r), pitch_mm=PITCH_MM)
+    rows: list[NDArray[np.float32]] = []
+    press: Press | None = None
     for depth in depths:
-        press = _pressed(gel, torch.from_numpy(gap)[None], float(depth), press)
+        press = gel.press_to_depth(
+            torch.from_numpy(gap)[None], torch.tensor(float(depth)), start=press, tol=1e-3
+        )
         rows.append(press.height_mm[0, _HALF, _HALF:].numpy())
     return ProfileTable(
         depths_mm=depths,
         r_mm=np.linspace(0.0, _HALF * PITCH_MM, _HALF + 1),
         height_mm=np.array(rows, dtype=np.float64),
     )
-
-
-def _pressed(gel: ElasticLayer, gap: torch.Tensor, depth_mm: float, start: Press | None) -> Press:
-    return gel.press_to_depth(gap, torch.tensor(depth_mm), start=start, tol=1e-3)

@@ -1,6 +1,6 @@
-"""Look at every device of a rig and at its file: what ``tacgrasp doctor`` prints. Nothing moves.
+"""Checks of a rig's file and of all its devices, for ``tacgrasp doctor``. Nothing moves.
 
-Not here: the checks of a device, which are its driver's.
+Not here: the checks of one device (its driver in ``tacgrasp.drivers``).
 """
 
 from __future__ import annotations
@@ -12,37 +12,36 @@ from pathlib import Path
 
 from primitives.errors import RobotError
 from primitives.execution import PadAxes
-from tacgrasp.config.hardware import HardwareConfig, SensorSettings
+from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.check import Finding
-from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tacgrasp.drivers.recorded.settings import RecordedSettings
+from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.rig.hardware import device_findings
 
 LIBRARIES = {
     "arm": ("ur-rtde", "1.6"),
     "gripper": ("dynamixel-sdk", "4."),
     "sensor": ("pyserial", "3."),
 }
-"""Library of each device, and the versions that the drivers were tested with."""
+"""Library of each device, and the start of the versions that its driver was tested with."""
 
 
-def examine(config: RunConfig) -> Sequence[Finding]:
-    """Every finding about the rig of a configuration, in the order of the devices.
+def rig_findings(config: RunConfig) -> Sequence[Finding]:
+    """Check the rig of a configuration: its file, the libraries, then every device.
 
     Raises:
         RobotError: The emulators of an emulated rig did not start.
     """
-    found = [*_of_the_file(config)]
+    findings = _file_findings(config)
     if config.hardware is None:
-        what = "simulated: there is nothing to connect"
-        return [*found, Finding(device="rig", name="devices", ok=True, detail=what)]
-    found += _libraries()
+        detail = "simulated: there is nothing to connect"
+        return [*findings, finding("rig", "devices", True, detail)]
+    findings += _library_findings()
     if config.devices == "hardware":
-        return [*found, *_of_the_devices(config.hardware)]
-    return [*found, *_emulated(config, config.hardware)]
+        return [*findings, *device_findings(config.hardware)]
+    return [*findings, *_emulated_findings(config, config.hardware)]
 
 
-def _of_the_file(config: RunConfig) -> list[Finding]:
+def _file_findings(config: RunConfig) -> list[Finding]:
     low, high = config.arm.workspace_low_m, config.arm.workspace_high_m
     box = " × ".join(f"{1000 * (b - a):.0f}" for a, b in zip(low, high, strict=True))
     limits = (
@@ -50,62 +49,27 @@ def _of_the_file(config: RunConfig) -> list[Finding]:
         f"{config.gripper.min_force_n:g} to {config.gripper.max_force_n:g} N"
     )
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
+    directions = f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame"
     return [
-        Finding(device="rig", name="limits", ok=True, detail=limits),
-        Finding(
-            device="rig",
-            name="pad axes",
-            ok=True,
-            detail=f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame",
-        ),
+        finding("rig", "limits", True, limits),
+        finding("rig", "pad axes", True, directions),
     ]
 
 
-def _libraries() -> list[Finding]:
-    found = []
+def _library_findings() -> list[Finding]:
+    findings = []
     for device, (package, tested) in LIBRARIES.items():
         try:
             version = metadata.version(package)
         except metadata.PackageNotFoundError:
             version = ""
-        found.append(
-            Finding(
-                device=device,
-                name="library",
-                ok=version.startswith(tested),
-                detail=f"{package} {version or 'not installed'}",
-                advice=""
-                if version.startswith(tested)
-                else f"the driver was tested with {package} {tested}x: install that (make setup)",
-            )
-        )
-    return found
+        detail = f"{package} {version or 'not installed'}"
+        advice = f"the driver was tested with {package} {tested}x: install that (make setup)"
+        findings.append(finding(device, "library", version.startswith(tested), detail, advice))
+    return findings
 
 
-def _of_the_devices(hardware: HardwareConfig) -> list[Finding]:
-    from tacgrasp.drivers.dynamixel import gripper as dynamixel
-    from tacgrasp.drivers.ur import arm as ur
-
-    return [
-        *ur.check(hardware.arm),
-        *dynamixel.check(hardware.gripper),
-        *_of_the_sensor(hardware.sensor),
-    ]
-
-
-def _of_the_sensor(settings: SensorSettings) -> Sequence[Finding]:
-    from tacgrasp.drivers.gelsight import connect as gelsight_mini
-    from tacgrasp.drivers.recorded import sensor as recorded
-    from tacgrasp.drivers.taxels import connect as taxels
-
-    if isinstance(settings, GelSightSettings):
-        return gelsight_mini.check(settings)
-    if isinstance(settings, RecordedSettings):
-        return recorded.check(settings)
-    return taxels.check(settings)
-
-
-def _emulated(config: RunConfig, hardware: HardwareConfig) -> list[Finding]:
+def _emulated_findings(config: RunConfig, hardware: HardwareConfig) -> list[Finding]:
     from sim.emulators.process.spawn import EmulatorProcess
     from tacgrasp.rig.emulated import settings_for
 
@@ -115,12 +79,11 @@ def _emulated(config: RunConfig, hardware: HardwareConfig) -> list[Finding]:
             tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder,
         ):
             ready = ", ".join(f"{name} {value}" for name, value in emulators.ready.items())
-            started = Finding(device="rig", name="emulators", ok=True, detail=ready)
             settings = settings_for(hardware, emulators, Path(folder))
-            return [started, *_of_the_devices(settings)]
+            return [finding("rig", "emulators", True, ready), *device_findings(settings)]
     except RobotError as error:
         advice = "see the message; python -m sim.emulators rig shows all of it"
-        return [Finding(device="rig", name="emulators", ok=False, detail=str(error), advice=advice)]
+        return [finding("rig", "emulators", False, str(error), advice)]
 
 
 def _listed(axis: Sequence[float]) -> str:

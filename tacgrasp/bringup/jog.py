@@ -1,7 +1,7 @@
-"""Move a rig by hand: a key is one small step, held to the same limits as everything else.
+"""Move a rig by hand: each key is one small step within the limits of a run.
 
-``command_of`` says what a key means and touches no device; ``Jogger`` carries it out. Not here: the
-keyboard and the screen (``tacgrasp.cli.jog``).
+``key_command`` maps a key to a command and uses no device; ``Jogger`` carries the command out. Not
+here: the keyboard and the screen (``tacgrasp.cli.jog``).
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from tacgrasp.console import contact_text
 from tacgrasp.rig.protocols import Rig
 
 SPEED_M_S = 0.02
-"""Of every step. Our choice: slow enough to be stopped by hand."""
+"""Speed of every step. Our choice: slow enough to be stopped by hand."""
 
 STEPS_MM = (0.2, 0.5, 1.0, 2.0, 5.0)
 FORCE_FACTOR = 1.25
-_STEP = 2  # 1 mm at first
+_FIRST_STEP = 2  # 1 mm
 
 _DIRECTIONS: Mapping[str, tuple[str, tuple[float, float, float]]] = {
     "w": ("pad", (0.0, 1.0, 0.0)),
@@ -38,7 +38,7 @@ _DIRECTIONS: Mapping[str, tuple[str, tuple[float, float, float]]] = {
     "j": ("base", (0.0, 1.0, 0.0)),
     "l": ("base", (0.0, -1.0, 0.0)),
 }
-"""Frame and direction of every key that moves: pad x right, y to the palm; base as the arm's."""
+"""Frame and direction of each moving key: pad x to the right, y to the palm; base of the arm."""
 
 HELP = (
     "w s a d  towards palm, fingertip, left, right of the pad      r f  up, down      "
@@ -50,14 +50,14 @@ HELP = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JogSettings:
-    """What the next key will do.
+    """Length of the next step and force of the next grip.
 
     Attributes:
         step: Index into ``STEPS_MM``.
-        force_n: Of the next grip [N].
+        force_n: Force of the next grip [N].
     """
 
-    step: int = _STEP
+    step: int = _FIRST_STEP
     force_n: float
 
     @property
@@ -94,27 +94,27 @@ class Stop:
 
 @dataclass(frozen=True, slots=True)
 class Help:
-    """Say what the keys are."""
+    """List the keys."""
 
 
 @dataclass(frozen=True, slots=True)
 class Quit:
-    """End."""
+    """End jogging."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unknown:
-    """A key that means nothing."""
+    """A key without a command."""
 
     key: str
 
 
 Command = JogStep | Grip | Open | Stop | Help | Quit | Unknown | None
-"""None: only the settings change."""
+"""None changes the settings only."""
 
 
-def command_of(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
-    """What a key means, and the settings after it."""
+def key_command(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
+    """The command of a key, and the settings after it."""
     if key in _DIRECTIONS:
         frame, direction = _DIRECTIONS[key]
         return JogStep(frame=frame, direction=direction, length_mm=settings.step_mm), settings
@@ -124,7 +124,7 @@ def command_of(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
     if key in ("+", "=", "-"):
         factor = 1 / FORCE_FACTOR if key == "-" else FORCE_FACTOR
         return None, replace(settings, force_n=settings.force_n * factor)
-    plain: Mapping[str, Command] = {
+    commands: Mapping[str, Command] = {
         "g": Grip(force_n=settings.force_n),
         "o": Open(),
         " ": Stop(),
@@ -134,11 +134,11 @@ def command_of(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
         "\x1b": Quit(),
         "\x03": Quit(),
     }
-    return plain.get(key, Unknown(key=key)), settings
+    return commands.get(key, Unknown(key=key)), settings
 
 
 class Jogger:
-    """Carries commands out on a rig, inside the limits (but that of an episode's travel)."""
+    """Carries commands out on a rig, within all limits but that of an episode's travel."""
 
     def __init__(self, rig: Rig, limits: Limits, axes: PadAxes, *, clear_mm: float) -> None:
         self._rig, self._limits = rig, limits
@@ -146,10 +146,10 @@ class Jogger:
         self._clear_m = clear_mm / 1000
 
     def carry_out(self, command: Command) -> str:
-        """Do it, and say what was done.
+        """Carry out a command and return its result as text.
 
         Raises:
-            LimitError: It would leave the limits; nothing was sent.
+            LimitError: The command is beyond the limits; nothing was sent.
             RobotError: A device failed.
         """
         if isinstance(command, JogStep):
@@ -170,7 +170,7 @@ class Jogger:
         return "\n".join(HELP) if isinstance(command, Help) else ""
 
     def contact(self) -> str:
-        """The contact now, in words.
+        """Description of the present contact.
 
         Raises:
             TouchError: The sensor failed.
@@ -178,12 +178,12 @@ class Jogger:
         return contact_text(contact_state(self._rig.sensor.read()))
 
     def _step(self, step: JogStep) -> str:
-        here = self._rig.arm.pose()
+        start = self._rig.arm.pose()
         length = clamp_step(step.length_mm, self._limits)
-        direction = self._in_base(step, here)
+        direction = self._base_direction(step, start)
         target = Pose(
-            position_m=here.position_m + 1e-3 * length.value * direction,
-            rotvec_rad=here.rotvec_rad,
+            position_m=start.position_m + 1e-3 * length.value * direction,
+            rotvec_rad=start.rotvec_rad,
         )
         check_workspace(target, self._limits)
         speed_m_s = min(SPEED_M_S, self._limits.max_speed_m_s)
@@ -192,8 +192,8 @@ class Jogger:
         note = f" ({length.note})" if length.note else ""
         return f"at ({x:.1f}, {y:.1f}, {z:.1f}) mm{note}"
 
-    def _in_base(self, step: JogStep, here: Pose) -> NDArray[np.float64]:
+    def _base_direction(self, step: JogStep, pose: Pose) -> NDArray[np.float64]:
         if step.frame == "base":
             return np.array(step.direction)
         x, y, _ = step.direction
-        return rotated(here.rotvec_rad, x * self._pad[0] + y * self._pad[1])
+        return rotated(pose.rotvec_rad, x * self._pad[0] + y * self._pad[1])

@@ -1,7 +1,7 @@
-"""Find how the pad sits on the tool centre point (TCP): from moves and what they do to a contact.
+"""Find how the pad sits on the tool centre point (TCP), from moves and the shifts of a contact.
 
-The hand goes small steps along the axes of the TCP past an object that stays where it is; a step
-towards +x of the pad takes the contact to -x on it. Not here: limits of the moves (``primitives``).
+The arm makes small steps along the axes of the TCP past a fixed object; a step towards +x of the
+pad moves the contact to -x on the pad. Not here: limits of the moves (``primitives``).
 """
 
 from __future__ import annotations
@@ -23,24 +23,25 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.protocols import Rig
 
 STEP_MM = 2.0
-"""Our choice: several times the error of a contact's position, and below the opening."""
+"""Length of a step. Our choice: several times the error of a contact's position, and below the
+opening."""
 
-WORST_MM = 0.8
-"""Largest misfit [mm] of a step: above it the object has moved along, or slipped."""
+MAX_MISFIT_MM = 0.8
+"""Largest misfit of a step [mm]; above it the object has moved along or slipped."""
 
 SQUARE_DEG = 10.0
-"""An axis this near to one of the TCP's is taken to be that one (mounts are made square)."""
+"""An axis of the pad this close to one of the TCP is set to it, because mounts are square."""
 
 SPEED_M_S = 0.02
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FoundAxes:
-    """The pad's axes and how well they explain the contacts.
+class MeasuredAxes:
+    """The pad's axes, and the quality of their fit.
 
     Attributes:
-        axes: In the TCP's frame.
-        misfit_mm: Largest distance between a contact's shift and what the axes explain [mm].
+        axes: Axes in the TCP's frame.
+        misfit_mm: Largest distance between a measured shift and the fit [mm].
     """
 
     axes: PadAxes
@@ -49,15 +50,15 @@ class FoundAxes:
 
 def find_pad_axes(
     rig: Rig, limits: Limits, *, force_n: float, clear_mm: float, report: Callable[[str], None]
-) -> FoundAxes:
-    """Step to both sides along each axis of the TCP, closing on the object every time.
+) -> MeasuredAxes:
+    """Step to both sides along each axis of the TCP, and close on the object after every step.
 
-    Ends where it began, open; after an error too it is open, unless the gripper has failed. The
-    object must stay where it is while the gripper is open.
+    The arm ends at its start with the gripper open; the gripper is open after an error too, unless
+    it has failed itself. The object must keep its place while the gripper is open.
 
     Raises:
         UsageError: ``clear_mm`` is not a positive number; nothing has moved.
-        TouchError: There is no contact, it is cut off by the pad's edge, or does not fit.
+        TouchError: No contact, a contact cut off by the pad's edge, or a shift that fits no pad.
         LimitError: A step would leave the workspace; nothing has moved.
         RobotError: A device failed.
     """
@@ -75,29 +76,30 @@ def find_pad_axes(
         check_workspace(target, limits)
     force = clamp_force(force_n, limits).value
     speed_m_s = min(SPEED_M_S, limits.max_speed_m_s)
-    centre, shifts = _felt_at(rig, force, clear_mm), []
+    centre, shifts = _contact_position(rig, force, clear_mm), []
     report(f"at the start ({centre[0]:+.1f}, {centre[1]:+.1f}) mm")
     for step, target in zip(steps, targets, strict=True):
         rig.arm.move_to(target, speed_m_s=speed_m_s)
-        at = _felt_at(rig, force, clear_mm)
-        shifts.append(at - centre)
+        contact = _contact_position(rig, force, clear_mm)
+        shifts.append(contact - centre)
         rig.arm.move_to(start, speed_m_s=speed_m_s)
         x, y, z = step
-        report(f"TCP ({x:+.0f}, {y:+.0f}, {z:+.0f}) mm: contact ({at[0]:+.1f}, {at[1]:+.1f}) mm")
+        position = f"({contact[0]:+.1f}, {contact[1]:+.1f})"
+        report(f"TCP ({x:+.0f}, {y:+.0f}, {z:+.0f}) mm: contact {position} mm")
     return axes_from_shifts(steps, np.array(shifts))
 
 
-def _felt_at(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.float64]:
-    """Where the contact is on the pad when the fingers are closed [mm]; they are open after it."""
+def _contact_position(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.float64]:
+    """Close, measure the position of the contact on the pad [mm], and open again."""
     rig.gripper.grip(force_n)
     try:
         state = contact_state(rig.sensor.read())
     finally:
         rig.gripper.open_by(clear_mm / 1000)
     if not state.in_contact or state.cut:
-        what = "runs over the pad's edge" if state.in_contact else "is not there"
+        problem = "runs over the pad's edge" if state.in_contact else "is missing"
         raise TouchError(
-            f"the contact {what}; put something small and firm, that stays where it is, at the "
+            f"the contact {problem}; put something small and firm, that stays where it is, at the "
             "middle of the pad, or raise --force-n"
         )
     return np.array([state.x_mm, state.y_mm])
@@ -105,18 +107,18 @@ def _felt_at(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.float64]:
 
 def axes_from_shifts(
     steps_tcp_mm: NDArray[np.float64], shifts_mm: NDArray[np.float64]
-) -> FoundAxes:
-    """The axes that explain how contacts shifted.
+) -> MeasuredAxes:
+    """Fit the pad's axes to the shifts of a contact.
 
     Least squares, then the nearest pair of perpendicular unit vectors (polar decomposition), then
-    square to the TCP where nearly so.
+    the TCP's own axes where these are close.
 
     Args:
-        steps_tcp_mm: Shape (n, 3), what the TCP went [mm, TCP frame].
-        shifts_mm: Shape (n, 2), what the contact went on the pad [mm].
+        steps_tcp_mm: Shape (n, 3), steps of the TCP [mm, TCP frame].
+        shifts_mm: Shape (n, 2), shifts of the contact on the pad [mm].
 
     Raises:
-        TouchError: Too few directions, or the shifts do not fit a rigid pad.
+        TouchError: Too few directions, or shifts that fit no rigid pad.
     """
     fitted, _, rank, _ = np.linalg.lstsq(steps_tcp_mm, -shifts_mm, rcond=None)
     if rank < 3:
@@ -127,13 +129,13 @@ def axes_from_shifts(
     if abs(float(nearest[0] @ nearest[1])) < 1e-9:
         pair = np.array(nearest)
     misfit_mm = float(np.abs(shifts_mm + steps_tcp_mm @ pair.T).max())
-    if strength.min() < 0.5 or misfit_mm > WORST_MM:
+    if strength.min() < 0.5 or misfit_mm > MAX_MISFIT_MM:
         raise TouchError(
             f"the contact did not go where a rigid pad takes it (up to {misfit_mm:.1f} mm off): "
             "did the object move along, or roll? Fix it and try again"
         )
     x, y = (tuple(float(v) for v in axis) for axis in pair)
-    return FoundAxes(
+    return MeasuredAxes(
         axes=PadAxes(x_tcp=(x[0], x[1], x[2]), y_tcp=(y[0], y[1], y[2])), misfit_mm=misfit_mm
     )
 
@@ -146,14 +148,14 @@ def _squared(axis: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def axes_named(right: str, palm: str) -> PadAxes:
-    """The axes of someone who looked: '+x', '-z' and so on, of the TCP.
+    """Axes of the pad from the names of axes of the TCP: '+x', '-z' and so on.
 
     Args:
-        right: Direction of the pad's right.
-        palm: Direction towards the palm.
+        right: Axis that points to the pad's right.
+        palm: Axis that points to the palm.
 
     Raises:
-        UsageError: Not such a name, or both along one axis.
+        UsageError: An invalid name, or two names of one axis.
     """
     vectors = [_vector(name) for name in (right, palm)]
     if any(a and b for a, b in zip(*vectors, strict=True)):
@@ -163,15 +165,15 @@ def axes_named(right: str, palm: str) -> PadAxes:
 
 
 def _vector(name: str) -> list[float]:
-    found = re.fullmatch(r"\s*([+-]?)([xyz])\s*", name)
-    if found is None:
+    match = re.fullmatch(r"\s*([+-]?)([xyz])\s*", name)
+    if match is None:
         raise UsageError(f"an axis of the TCP is one of +x -x +y -y +z -z, got {name!r}")
-    sign = -1.0 if found[1] == "-" else 1.0
-    return [sign if letter == found[2] else 0.0 for letter in "xyz"]
+    sign = -1.0 if match[1] == "-" else 1.0
+    return [sign if letter == match[2] else 0.0 for letter in "xyz"]
 
 
 def as_yaml(axes: PadAxes) -> Sequence[str]:
-    """The lines of a rig's file."""
+    """Lines for a rig's file."""
 
     def listed(axis: tuple[float, float, float]) -> str:
         return f"[{', '.join(f'{value + 0.0:g}' for value in axis)}]"

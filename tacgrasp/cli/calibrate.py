@@ -1,8 +1,7 @@
-"""``tacgrasp calibrate gelsight-mini|background|gripper|pad-axes``: what readings mean."""
+"""``tacgrasp calibrate gelsight-mini|background|gripper|pad-axes``: measurements on a bench."""
 
 from __future__ import annotations
 
-import datetime
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -10,6 +9,7 @@ from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli import calibrate_background, calibrate_gripper, calibrate_pad_axes
+from tacgrasp.cli.calibrate_gripper import parse_date
 from tacgrasp.cli.flags import parse, subcommand
 
 
@@ -17,18 +17,18 @@ from tacgrasp.cli.flags import parse, subcommand
 class CalibrateGelsightFlags:
     """Learn a GelSight Mini's heights from presses of a ball of known diameter.
 
-    Press a steel ball at 20 or more places all over the gel, one frame each, and take one frame
-    with nothing touching it. About a quarter of a minute.
+    Before: press a steel ball at 20 or more places all over the gel, take one frame of each press,
+    and one frame with nothing touching the gel. Learning takes about 15 s.
 
     Attributes:
         balls: Folder with the frames (320 × 240, colour).
-        diameter_mm: Of the ball [mm].
-        background: The untouched gel; background.png in the folder when not given.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel; background.png in the folder if omitted.
         out: File to write.
-        unit: What you call this unit, a serial number for instance; kept in the file.
-        source: Where the frames are from; the folder's name when not given.
-        date: Of the frames, like 2026-01-31; today when not given.
-        seed: Of the training.
+        unit: Name of this unit, its serial number for instance; stored in the file.
+        source: Origin of the frames; the folder's name if omitted.
+        date: Date of the frames, like 2026-01-31; today if omitted.
+        seed: Random seed of the training.
     """
 
     balls: Path
@@ -42,33 +42,29 @@ class CalibrateGelsightFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Dispatch to the devices that can be calibrated."""
-    devices: dict[str, Callable[[Sequence[str]], None]] = {
+    """Run the calibration named by the first argument."""
+    commands: dict[str, Callable[[Sequence[str]], None]] = {
         "gelsight-mini": _gelsight_mini,
         "background": calibrate_background.main,
         "gripper": calibrate_gripper.main,
         "pad-axes": calibrate_pad_axes.main,
     }
     name, rest = subcommand(
-        "calibrate", argv, {name: device.__doc__ or "" for name, device in devices.items()}
+        "calibrate", argv, {name: command.__doc__ or "" for name, command in commands.items()}
     )
     if name is not None:
-        devices[name](rest)
+        commands[name](rest)
     return 0
 
 
 def _gelsight_mini(argv: Sequence[str]) -> None:
-    """Photometric: colours to heights, from presses of a ball."""
+    """Learn heights from colours, from presses of a ball of known diameter."""
     flags = parse(CalibrateGelsightFlags, argv, prog="tacgrasp calibrate gelsight-mini")
     if not 1.0 <= flags.diameter_mm <= 100.0:
         raise UsageError(f"--diameter-mm must be 1 to 100, got {flags.diameter_mm}")
     if not flags.out.parent.is_dir():
         raise UsageError(f"--out {flags.out}: {flags.out.parent} is no folder")
-    date = flags.date or datetime.date.today().isoformat()
-    try:
-        datetime.date.fromisoformat(date)
-    except ValueError:
-        raise UsageError(f"--date must be like 2026-01-31, got {date}") from None
+    date = parse_date(flags.date).isoformat()
 
     from cltp.sensing.calibration import Calibration, save_calibration
     from cltp.tactile.sensors import sensor_named
@@ -78,7 +74,7 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
     from tacgrasp.bringup.ball_profiles import ball_profiles
     from tacgrasp.console import make_console
 
-    sensor, to = sensor_named("gelsight_mini"), make_console()
+    sensor, console = sensor_named("gelsight_mini"), make_console()
     balls = read_ball_frames(flags.balls, sensor, flags.background)
     with Bar(sys.stderr) as bar:
         trained = train_gradients(
@@ -90,8 +86,8 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
             seed=flags.seed,
             report=lambda step, steps: bar("calibrating", step, steps, {}),
         )
-    for index, why in trained.rejected.items():
-        to.print(f"left out  {balls.names[index]}: {why}")
+    for index, reason in trained.rejected.items():
+        console.print(f"left out  {balls.names[index]}: {reason}")
     save_calibration(
         flags.out,
         Calibration(
@@ -107,7 +103,9 @@ def _gelsight_mini(argv: Sequence[str]) -> None:
         ),
     )
     depths = sorted(press.depth_mm for press in trained.presses)
-    to.print(f"frames    {len(trained.presses)} of {len(balls.frames)}")
-    to.print(f"presses   {depths[0]:.2f} to {depths[-1]:.2f} mm deep")
-    to.print(f"residual  {trained.residual:.3f} mm per mm, slopes around the ball")
-    to.print(f"written   {flags.out}; check it with: tacgrasp bench balls --data {flags.balls}")
+    console.print(f"frames    {len(trained.presses)} of {len(balls.frames)}")
+    console.print(f"presses   {depths[0]:.2f} to {depths[-1]:.2f} mm deep")
+    console.print(f"residual  {trained.residual:.3f} mm per mm, slopes around the ball")
+    console.print(
+        f"written   {flags.out}; check it with: tacgrasp bench balls --data {flags.balls}"
+    )

@@ -12,18 +12,18 @@ from tacgrasp.cli.flags import parse
 
 @dataclass(frozen=True)
 class CalibrateBackgroundFlags:
-    """Average frames of the untouched gel into the background that a rig's file names.
+    """Average frames of the untouched gel into the background named in a rig's file.
 
-    Free the gel, let its LEDs warm up for a minute, and take it with the light and the crop that
-    the rig will have. Heights are read from what differs from it.
+    Free the gel, let its LEDs warm up for a minute, and use the rig's light and crop. Heights are
+    computed from the difference to the background.
 
     Attributes:
-        unit: What the rig's file calls this unit.
-        device: The camera: its path under /dev/v4l/by-id, or its index.
-        images: A folder of untouched frames instead.
+        unit: Name of this unit in the rig's file.
+        device: Camera: its path under /dev/v4l/by-id, or its index.
+        images: Folder of frames of the untouched gel, in place of a camera.
         out: File to write, a .png.
-        frames: How many are averaged.
-        crop_share: Cut off on each side, as in the rig's file.
+        frames: Number of frames to average.
+        crop_share: Fraction cut off on each side of a frame, as in the rig's file.
     """
 
     unit: str
@@ -35,7 +35,7 @@ class CalibrateBackgroundFlags:
 
 
 def main(argv: Sequence[str]) -> None:
-    """The untouched gel of a GelSight Mini."""
+    """Take the picture of a GelSight Mini with nothing touching it."""
     flags = parse(CalibrateBackgroundFlags, argv, prog="tacgrasp calibrate background")
     if not 2 <= flags.frames <= 1000:
         raise UsageError(f"--frames must be 2 to 1000, got {flags.frames}")
@@ -63,7 +63,7 @@ def main(argv: Sequence[str]) -> None:
         raise UsageError(f"{'.'.join(map(str, first['loc']))} {first['msg']}".strip()) from None
     background = take_background(settings, num_frames=flags.frames)
     save_background(flags.out, background)
-    to = make_console()
-    to.print(f"background  {background.num_frames} frames of unit {background.unit}")
-    to.print(f"taken       {background.taken:%Y-%m-%d %H:%M}")
-    to.print(f"written     {flags.out}")
+    console = make_console()
+    console.print(f"background  {background.num_frames} frames of unit {background.unit}")
+    console.print(f"taken       {background.taken:%Y-%m-%d %H:%M}")
+    console.print(f"written     {flags.out}")

@@ -21,20 +21,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CalibrateGripperFlags:
-    """Measure force over current, so that the gripper can be asked for newtons.
+    """Measure the gripper's force over its current, from which the driver sets newtons.
 
-    Put a scale between the open fingers. They squeeze it with one current after another, and you
-    type in what it shows. With --readings nothing moves: a file of readings is fitted.
+    Put a scale between the open fingers. The gripper squeezes it with one current after another,
+    and you type the force that it shows. With --readings nothing moves: a file is fitted.
 
     Attributes:
-        rig: The rig's YAML file; its hardware.gripper says which gripper, and where the
-            calibration is kept.
-        readings: CSV file with the columns current_ma and force_n, instead of squeezing.
-        max_ma: Largest current [mA]; the rig's max_current_ma when not given.
-        steps: How many currents.
-        source: What the force was read from; kept in the file.
-        date: Of the readings, like 2026-01-31; today when not given.
-        out: File to write, instead of the one that the rig's file names.
+        rig: Path of the rig's YAML file, whose section hardware.gripper names the gripper and the
+            file of its calibration.
+        readings: CSV file with the columns current_ma and force_n, to fit instead of measuring.
+        max_ma: Largest current [mA]; the rig's max_current_ma if omitted.
+        steps: Number of currents.
+        source: Instrument that showed the force; stored in the file.
+        date: Date of the readings, like 2026-01-31; today if omitted.
+        out: File to write; the one named in the rig's file if omitted.
     """
 
     rig: Path
@@ -47,7 +47,7 @@ class CalibrateGripperFlags:
 
 
 def main(argv: Sequence[str]) -> None:
-    """Force over current of a gripper: from a scale, or from a file of readings."""
+    """Measure force over current of a gripper, with a scale or from a file of readings."""
     flags = parse(CalibrateGripperFlags, argv, prog="tacgrasp calibrate gripper")
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
@@ -55,30 +55,35 @@ def main(argv: Sequence[str]) -> None:
 
     if not 3 <= flags.steps <= 50:
         raise UsageError(f"--steps must be 3 to 50, got {flags.steps}")
-    date = _date(flags.date)
+    date = parse_date(flags.date)
     config, _ = load(None, str(flags.rig), os.environ)
     if config.hardware is None:
         raise UsageError(
             f"--rig {flags.rig} has no section hardware, hence no gripper to calibrate"
         )
-    settings, to = config.hardware.gripper, make_console()
+    settings, console = config.hardware.gripper, make_console()
     out = flags.out or settings.calibration
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
     if flags.readings is not None:
         calibration = _fitted(flags, settings, flags.readings, date)
     else:
-        calibration = _measured(flags, settings, date, to)
+        calibration = _measured(flags, settings, date, console)
     save_calibration(out, calibration)
-    to.print(f"readings  {calibration.num_readings}, up to {calibration.max_force_n:.2f} N")
-    to.print(
+    console.print(f"readings  {calibration.num_readings}, up to {calibration.max_force_n:.2f} N")
+    console.print(
         f"line      {calibration.newtons_per_ma:.5f} N/mA from {calibration.friction_ma:.1f} mA on"
     )
-    to.print(f"residual  {calibration.residual_n:.3f} N")
-    to.print(f"written   {out}, for {settings.unit} ({settings.model})")
+    console.print(f"residual  {calibration.residual_n:.3f} N")
+    console.print(f"written   {out}, for {settings.unit} ({settings.model})")
 
 
-def _date(text: str) -> datetime.date:
+def parse_date(text: str) -> datetime.date:
+    """Date of a flag; today for an empty text.
+
+    Raises:
+        UsageError: No date in the form 2026-01-31.
+    """
     try:
         return datetime.date.fromisoformat(text) if text else datetime.date.today()
     except ValueError:
@@ -100,20 +105,20 @@ def _fitted(
 
 
 def _measured(
-    flags: CalibrateGripperFlags, settings: DynamixelSettings, date: datetime.date, to: Console
+    flags: CalibrateGripperFlags, settings: DynamixelSettings, date: datetime.date, console: Console
 ) -> GripperCalibration:
     from tacgrasp.drivers.dynamixel.fingers import connect_fingers
     from tacgrasp.drivers.dynamixel.measure_calibration import calibrate_gripper, steps_ma
 
     fingers = connect_fingers(settings)
     try:
-        to.print("put the scale between the fingers, at zero; they will close")
-        _typed("press Enter when it is there, Ctrl-C to leave: ")
-        most_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma
+        console.print("put the scale between the fingers, at zero; they will close")
+        _read_line("press Enter when it is there, Ctrl-C to leave: ")
+        max_ma = settings.max_current_ma if flags.max_ma is None else flags.max_ma
         return calibrate_gripper(
             fingers,
             _ask_force,
-            steps_ma(most_ma, flags.steps),
+            steps_ma(max_ma, flags.steps),
             date=date,
             source=flags.source or "read by a person",
         )
@@ -122,9 +127,9 @@ def _measured(
 
 
 def _ask_force(current_ma: float) -> float:
-    """What a person reads off the scale [N]; asks again until it is a number from 0 on."""
+    """Ask for the force on the scale [N], until the answer is a number from 0 on."""
     while True:
-        text = _typed(f"{current_ma:.0f} mA; force on the scale [N]: ")
+        text = _read_line(f"{current_ma:.0f} mA; force on the scale [N]: ")
         try:
             force_n = float(text.replace(",", "."))
         except ValueError:
@@ -133,7 +138,7 @@ def _ask_force(current_ma: float) -> float:
             return force_n
 
 
-def _typed(prompt: str) -> str:
+def _read_line(prompt: str) -> str:
     try:
         return input(prompt)
     except EOFError:

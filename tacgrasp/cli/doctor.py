@@ -1,4 +1,4 @@
-"""``tacgrasp doctor``: is a rig fit to run, and if not, what to do."""
+"""``tacgrasp doctor``: check a rig and advise on every fault."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class DoctorFlags:
-    """Look at every device of a rig; nothing moves. 0 when all is well, 1 when something is not.
+    """Check every device of a rig; nothing moves. Exit code 0 if all checks pass, 1 if not.
 
     Attributes:
-        rig: Name of a rig, or the path of its YAML file.
-        task: Whose limits are shown.
+        rig: Name of a rig, or path of its YAML file.
+        task: Task whose limits are shown.
     """
 
     rig: str = "sim"
@@ -29,38 +29,38 @@ class DoctorFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Print what was found, and what to do about it."""
+    """Print the result of every check, with advice for those that failed."""
     flags = parse(DoctorFlags, argv, prog="tacgrasp doctor")
-    from tacgrasp.bringup.doctor import examine
+    from tacgrasp.bringup.doctor import rig_findings
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
 
     config, _ = load(flags.task, flags.rig, os.environ)
-    found = examine(config)
-    _print(make_console(), found)
-    return 0 if all(finding.ok for finding in found) else 1
+    findings = rig_findings(config)
+    _print(make_console(), findings)
+    return 0 if all(finding.ok for finding in findings) else 1
 
 
-def _print(out: Console, found: Sequence[Finding]) -> None:
+def _print(out: Console, findings: Sequence[Finding]) -> None:
     if out.is_terminal:
         from rich.table import Table
         from rich.text import Text
 
         table = Table(show_lines=False)
-        for column in ("device", "what", "", "found", "what to do"):
+        for column in ("device", "check", "", "result", "what to do"):
             table.add_column(column, overflow="fold")
-        for one in found:
-            shown = Text("ok", style="green") if one.ok else Text("not ok", style="bold red")
-            table.add_row(one.device, one.name, shown, one.detail, one.advice)
+        for finding in findings:
+            text = Text("ok", style="green") if finding.ok else Text("not ok", style="bold red")
+            table.add_row(finding.device, finding.name, text, finding.detail, finding.advice)
         out.print(table)
     else:
-        for one in found:
-            verdict = "ok" if one.ok else "NOT OK"
-            todo = f" | {one.advice}" if one.advice else ""
-            out.print(f"{one.device:8} {one.name:27} {verdict:7} {one.detail}{todo}")
-    wrong = sum(not one.ok for one in found)
+        for finding in findings:
+            verdict = "ok" if finding.ok else "NOT OK"
+            advice = f" | {finding.advice}" if finding.advice else ""
+            out.print(f"{finding.device:8} {finding.name:27} {verdict:7} {finding.detail}{advice}")
+    num_failed = sum(not finding.ok for finding in findings)
     out.print(
-        f"{wrong} of {len(found)} findings are not ok: the rig is not fit to run"
-        if wrong
-        else f"all {len(found)} findings are ok"
+        f"{num_failed} of {len(findings)} findings are not ok: the rig is not fit to run"
+        if num_failed
+        else f"all {len(findings)} findings are ok"
     )

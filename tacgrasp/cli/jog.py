@@ -1,4 +1,4 @@
-"""``tacgrasp jog``: move a rig by keyboard in small limited steps, and see what it feels."""
+"""``tacgrasp jog``: move a rig by keyboard in small limited steps, and see the contact."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ from tacgrasp.cli.flags import parse
 if TYPE_CHECKING:
     from tacgrasp.bringup.jog import Jogger, JogSettings
 
-LOOK_S = 0.4
-"""How often the contact is shown while no key is pressed [s]."""
+REFRESH_S = 0.4
+"""Interval between displays of the contact while no key is pressed [s]."""
 
 
 @dataclass(frozen=True)
 class JogFlags:
-    """Move a rig by hand; one key is one small step. ? lists the keys.
+    """Move a rig by hand, one small step for each key; ? lists the keys.
 
     Nothing moves before the first key: the arm does not go to its start pose.
 
     Without a terminal, every character of standard input is a key.
 
     Attributes:
-        rig: Name of a rig, or the path of its YAML file.
-        task: Whose clear_mm is used to open.
-        seed: Of the simulated or emulated world.
-        force_n: First force [N]; the rig's first force when not given.
+        rig: Name of a rig, or path of its YAML file.
+        task: Task whose clear_mm the gripper opens by.
+        seed: Random seed of the simulated or emulated world.
+        force_n: Force of the first grip [N]; the rig's first force if omitted.
     """
 
     rig: str = "sim"
@@ -57,13 +57,13 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.rig.factory import make_rig
 
     config, _ = load(flags.task, flags.rig, os.environ)
-    hardware = None if config.hardware is None else config.hardware.where_it_stands()
+    hardware = None if config.hardware is None else config.hardware.without_start_pose()
     config = config.model_copy(update={"seed": flags.seed, "hardware": hardware})
     limits, out = config.limits(), make_console()
     rig = make_rig(config)
     try:
-        asked_n = rig.first_force_n if flags.force_n is None else flags.force_n
-        settings = JogSettings(force_n=clamp_force(asked_n, limits).value)
+        force_n = rig.first_force_n if flags.force_n is None else flags.force_n
+        settings = JogSettings(force_n=clamp_force(force_n, limits).value)
         axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
         jogger = Jogger(rig, limits, axes, clear_mm=config.primitives.clear_mm)
         for line in HELP:
@@ -77,43 +77,43 @@ def main(argv: Sequence[str]) -> int:
         rig.arm.stop()
         rig.disconnect()
         if out.is_terminal:
-            out.print()  # what is said next has a line of its own
+            out.print()  # ends the line of the contact
     return 0
 
 
 def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Console) -> None:
     from cltp import TouchError
     from primitives import LimitError
-    from tacgrasp.bringup.jog import Quit, command_of
+    from tacgrasp.bringup.jog import Quit, key_command
 
     for key in keys:
-        said = ""
+        result = ""
         if key:
-            command, settings = command_of(key, settings)
+            command, settings = key_command(key, settings)
             if isinstance(command, Quit):
                 return
             try:
-                said = jogger.carry_out(command) if command is not None else "ready"
+                result = jogger.carry_out(command) if command is not None else "ready"
             except LimitError as error:
-                said = f"refused: {error}"
+                result = f"refused: {error}"
         try:
-            felt = jogger.contact()
+            contact = jogger.contact()
         except TouchError as error:
-            felt = f"no touch: {error}"
-        line = f"step {settings.step_mm:g} mm, force {settings.force_n:.2f} N | {felt}"
-        _show(out, line, said)
+            contact = f"no touch: {error}"
+        line = f"step {settings.step_mm:g} mm, force {settings.force_n:.2f} N | {contact}"
+        _show(out, line, result)
 
 
-def _show(out: Console, line: str, said: str) -> None:
+def _show(out: Console, line: str, result: str) -> None:
     if not out.is_terminal:
-        out.print(f"{said} | {line}" if said else line)
+        out.print(f"{result} | {line}" if result else line)
         return
-    anew = Control(ControlType.CARRIAGE_RETURN, (ControlType.ERASE_IN_LINE, 2))
-    if said:
-        out.control(anew)
-        out.print(said, soft_wrap=True)
-    out.control(anew)
-    # cut to the width: of a line that is broken into two, only the second would be overwritten
+    clear_line = Control(ControlType.CARRIAGE_RETURN, (ControlType.ERASE_IN_LINE, 2))
+    if result:
+        out.control(clear_line)
+        out.print(result, soft_wrap=True)
+    out.control(clear_line)
+    # cut to the width: only the last part of a wrapped line would be overwritten
     out.print(line[: out.width - 1], end="", soft_wrap=True)
 
 
@@ -125,14 +125,14 @@ def _characters(read: Callable[[int], str]) -> Iterator[str]:
 
 @contextmanager
 def _keyboard() -> Iterator[Iterator[str]]:
-    """Single keys of the terminal, '' when none came for a while; the terminal is set back."""
+    """Single keys of the terminal, '' after ``REFRESH_S`` without one; restores the terminal."""
     descriptor = sys.stdin.fileno()
     before = termios.tcgetattr(descriptor)
     tty.setcbreak(descriptor)
 
     def keys() -> Iterator[str]:
         while True:
-            ready, _, _ = select.select([descriptor], [], [], LOOK_S)
+            ready, _, _ = select.select([descriptor], [], [], REFRESH_S)
             yield os.read(descriptor, 1).decode("latin-1") if ready else ""
 
     try:

@@ -6,9 +6,10 @@ The same drivers run on emulators (``tacgrasp.rig.emulated``). Not here: the dri
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -20,6 +21,9 @@ from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.guard import GuardedArm
@@ -28,6 +32,8 @@ from tacgrasp.rig.protocols import WatchedSensor
 if TYPE_CHECKING:
     from sim.grasp.rig import Truth
     from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper
+
+_SensorDriver = tuple[Callable[..., WatchedSensor], Callable[[], Sequence[Finding]]]
 
 AT_START_MM = 0.5
 """Largest distance from the start pose at which the arm needs no move to it."""
@@ -118,7 +124,7 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(arm.disconnect)
         guarded = GuardedArm(arm, [lambda: _check_gripper(gripper), sensor.check_alive])
         stack.callback(guarded.disconnect)
-        gripper.fail_fast_while(guarded.moves)
+        gripper.fail_fast_while(guarded.is_moving)
         logged = LoggedArm(guarded, log, lambda: arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
@@ -140,7 +146,34 @@ def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor
     Raises:
         TouchError: The sensor can't be reached or used.
     """
-    return settings.connect(np.random.default_rng([config.seed, 2]))
+    rng = np.random.default_rng([config.seed, 2])
+    connect_driver, _ = _sensor_driver(settings)
+    return connect_driver(rng=rng)
+
+
+def device_findings(hardware: HardwareConfig) -> list[Finding]:
+    """Check arm, gripper and sensor for ``tacgrasp doctor``; nothing moves."""
+    from tacgrasp.drivers.dynamixel import gripper
+    from tacgrasp.drivers.ur import preflight
+
+    _, check_sensor = _sensor_driver(hardware.sensor)
+    arm_findings = preflight.check(hardware.arm)
+    return [*arm_findings, *gripper.check(hardware.gripper), *check_sensor()]
+
+
+def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
+    """Functions that connect and check a sensor; each driver of a sensor has its lines here."""
+    if isinstance(settings, GelSightSettings):
+        from tacgrasp.drivers.gelsight import connect as gelsight
+
+        return partial(gelsight.connect_gelsight, settings), partial(gelsight.check, settings)
+    if isinstance(settings, RecordedSettings):
+        from tacgrasp.drivers.recorded import sensor as recorded
+
+        return lambda rng: recorded.connect_recorded(settings), partial(recorded.check, settings)
+    from tacgrasp.drivers.taxels import connect as taxels
+
+    return partial(taxels.connect_taxels, settings), partial(taxels.check, settings)
 
 
 def _check_gripper(gripper: DynamixelGripper) -> None:

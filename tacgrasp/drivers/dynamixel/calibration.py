@@ -77,7 +77,7 @@ class GripperCalibration(SettingsBase):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Reading:
+class ForceReading:
     """One force read off a scale at a set current.
 
     Raises:
@@ -98,7 +98,7 @@ class Reading:
 
 
 def fit_calibration(
-    readings: Sequence[Reading],
+    readings: Sequence[ForceReading],
     settings: DynamixelSettings,
     *,
     date: datetime.date,
@@ -143,7 +143,7 @@ def fit_calibration(
         raise RobotError(f"these readings make no calibration: {_first_error(error)}") from None
 
 
-def read_readings(path: Path) -> Sequence[Reading]:
+def read_readings(path: Path) -> Sequence[ForceReading]:
     """Read readings from a CSV file with the columns current_ma and force_n.
 
     Raises:
@@ -161,7 +161,7 @@ def read_readings(path: Path) -> Sequence[Reading]:
                     values = float(row["current_ma"]), float(row["force_n"])
                 except (TypeError, ValueError):
                     raise RobotError(f"line {rows.line_num}: {expected}, got {row}") from None
-                readings.append(Reading(current_ma=values[0], force_n=values[1]))
+                readings.append(ForceReading(current_ma=values[0], force_n=values[1]))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise RobotError(f"{expected}: {error}") from None
     return readings

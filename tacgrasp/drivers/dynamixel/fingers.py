@@ -33,7 +33,7 @@ _CURRENT_TOLERANCE, _CURRENT_TOLERANCE_UNITS = 0.25, 6
 _log = logging.getLogger(__name__)
 
 
-class Fingers:
+class ServoFingers:
     """Connected fingers; made by ``connect_fingers``.
 
     Attributes:
@@ -253,7 +253,7 @@ def _at_rest(previous: PollSample, sample: PollSample) -> bool:
 
 def connect_fingers(
     settings: DynamixelSettings, *, clock: Callable[[], float] = time.monotonic
-) -> Fingers:
+) -> ServoFingers:
     """Open the port, check the servos, and let them hold their positions; nothing moves.
 
     Servos with torque on (a grip kept by an earlier run) stay as they are.
@@ -279,7 +279,7 @@ def connect_fingers(
         bus.close()
         raise
     bus.arm_is_moving = lambda: True  # from here on the arm may move, as far as this driver knows
-    return Fingers(bus, ServoPoller(bus, settings, clock), settings, clock)
+    return ServoFingers(bus, ServoPoller(bus, settings, clock), settings, clock)
 
 
 def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> None:

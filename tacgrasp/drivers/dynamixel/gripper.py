@@ -21,7 +21,7 @@ from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, load_calibration, refusal
 from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
-from tacgrasp.drivers.dynamixel.fingers import Fingers, connect_fingers
+from tacgrasp.drivers.dynamixel.fingers import ServoFingers, connect_fingers
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
 from tacgrasp.drivers.serial_ports import adapter_serial
@@ -36,7 +36,7 @@ _log = logging.getLogger(__name__)
 class DynamixelGripper:
     """One or two servos under force control; made by ``connect_gripper``."""
 
-    def __init__(self, fingers: Fingers, calibration: GripperCalibration) -> None:
+    def __init__(self, fingers: ServoFingers, calibration: GripperCalibration) -> None:
         self._fingers, self._calibration = fingers, calibration
         self._force_n, self._closed = 0.0, False
 

@@ -9,8 +9,8 @@ import datetime
 from collections.abc import Callable, Sequence
 
 from primitives.errors import LimitError
-from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, Reading, fit_calibration
-from tacgrasp.drivers.dynamixel.fingers import Fingers
+from tacgrasp.drivers.dynamixel.calibration import ForceReading, GripperCalibration, fit_calibration
+from tacgrasp.drivers.dynamixel.fingers import ServoFingers
 
 ReadForce = Callable[[float], float]
 """Takes the set current [mA] and returns the force on the scale [N]."""
@@ -25,7 +25,7 @@ def steps_ma(max_ma: float, steps: int) -> Sequence[float]:
 
 
 def calibrate_gripper(
-    fingers: Fingers,
+    fingers: ServoFingers,
     read_force: ReadForce,
     currents_ma: Sequence[float],
     *,
@@ -60,7 +60,7 @@ def calibrate_gripper(
         for current_ma in sorted(currents_ma):
             fingers.squeeze(current_ma)
             set_ma = fingers.unit_ma * max(1, round(current_ma / fingers.unit_ma))
-            readings.append(Reading(current_ma=set_ma, force_n=read_force(set_ma)))
+            readings.append(ForceReading(current_ma=set_ma, force_n=read_force(set_ma)))
     finally:
         if not fingers.poller.fault:
             fingers.open_to(start_m)

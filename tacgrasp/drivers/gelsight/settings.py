@@ -73,3 +73,11 @@ class GelSightSettings(SettingsBase):
         if self.device is not None:
             return f"camera {self.device}"
         return f"video {self.video}" if self.video is not None else f"images in {self.images}"
+
+    @property
+    def sensor_name(self) -> str:
+        return "gelsight_mini"
+
+    @property
+    def is_live(self) -> bool:
+        return self.is_camera

@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import Literal
 
-import numpy as np
 from pydantic import Field
 
 from tacgrasp.base.settings import SettingsBase
-from tacgrasp.drivers.check import Finding
-
-if TYPE_CHECKING:
-    from tacgrasp.drivers.recorded.sensor import RecordedSensor
 
 
 class RecordedSettings(SettingsBase):
@@ -42,14 +36,3 @@ class RecordedSettings(SettingsBase):
     @property
     def is_live(self) -> bool:
         return False
-
-    def connect(self, rng: np.random.Generator) -> RecordedSensor:
-        """Open the recording; its points are recorded too, so that ``rng`` is not used."""
-        from tacgrasp.drivers.recorded.sensor import connect_recorded
-
-        return connect_recorded(self)
-
-    def check(self) -> Sequence[Finding]:
-        from tacgrasp.drivers.recorded.sensor import check
-
-        return check(self)

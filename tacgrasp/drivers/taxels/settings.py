@@ -30,3 +30,11 @@ class TaxelSettings(SettingsBase):
     read_timeout_s: Number = Field(default=0.5, ge=0.05, le=5)
     stale_s: Number = Field(default=0.15, ge=0.02, le=5)
     connect_timeout_s: Number = Field(default=1.5, ge=0.1, le=10)
+
+    @property
+    def sensor_name(self) -> str:
+        return self.sensor
+
+    @property
+    def is_live(self) -> bool:
+        return True

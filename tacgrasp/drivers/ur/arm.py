@@ -1,9 +1,9 @@
-"""A UR arm as a ``primitives.devices.Arm``: orders to its worker, faults latched.
+"""A UR arm as a ``primitives.devices.Arm``: commands to its worker process, faults latched.
 
-``connect_arm`` looks at the controller (``ur_preflight``), starts a worker (``ur_worker``) and
-gives it orders. A fault is latched: after it every call but ``stop`` and ``disconnect`` raises with
-the same explanation, until an operator calls ``reset``, which starts a new worker. Nothing here
-reconnects by itself, and no answer is older than the worker's last round.
+``connect_arm`` checks the controller (``preflight``), starts a worker (``worker``) and sends it
+commands. A fault is latched: after it every call but ``stop`` and ``disconnect`` raises with the
+same explanation, until an operator calls ``reset``, which starts a new worker. Nothing here
+reconnects by itself, and no returned state is older than the worker's last round.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,28 +34,28 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerPhase,
     WorkerState,
 )
-from tacgrasp.drivers.ur.worker_process import LOOK_S, WorkerProcess
+from tacgrasp.drivers.ur.worker_process import POLL_S, WorkerProcess
 
 __all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
 
 log = logging.getLogger(__name__)
 
-HUNG_S = 0.25
-"""A worker whose rounds have stopped for so long hangs [s]; the watchdog has stopped the arm."""
+HANG_S = 0.25
+"""Longest time without a round of a live worker [s]; by then the watchdog has stopped the arm."""
 
 STOP_S = 1.0
 END_S = 2.0
-REACT_S = 2.0
-"""Longest time that a move may take beyond what the worker itself allows [s]."""
+REACTION_S = 2.0
+"""Longest time that a move may take beyond the worker's own time limit [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ArmTiming:
-    """How regularly the arm is supervised, and how soon it moves, since the last (re)start.
+    """Regularity of the supervision and delay of the motion, since the last (re)start.
 
     Attributes:
-        period: Time between two rounds of supervision; 8 ms is meant at 125 Hz.
-        command_to_motion: From an order to the first data that show a speed above 1 mm/s.
+        period: Time between two rounds of supervision; 8 ms at the nominal 125 Hz.
+        command_to_motion: Time from a command to the first data with a speed above 1 mm/s.
     """
 
     period: Distribution
@@ -65,7 +66,7 @@ def connect_arm(settings: UrSettings) -> UrArm:
     """Check the controller, start the worker, and wait until the arm is under supervision.
 
     Raises:
-        RobotError: The arm is not ready; what was found and what to do. Nothing has moved.
+        RobotError: The arm is not ready; nothing has moved.
     """
     arm = UrArm(settings)
     arm.start()
@@ -76,7 +77,7 @@ class UrArm:
     """A UR arm; see ``primitives.devices.Arm`` for the contract of each method.
 
     Attributes:
-        sent: What the last command put on the wire, in the controller's words; '' for nothing.
+        sent: The last command on the wire, in the controller's words; empty for none.
     """
 
     def __init__(
@@ -86,7 +87,7 @@ class UrArm:
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        """Start nothing yet; see ``connect_arm``. The clock must be that of the worker."""
+        """Start nothing yet; see ``connect_arm``. The clock must be the worker's."""
         self.settings = settings
         self._clock, self._sleep = clock, sleep
         self._lock = threading.RLock()
@@ -99,13 +100,13 @@ class UrArm:
 
     @property
     def fault(self) -> str:
-        """The latched fault, '' while all is well."""
+        """The latched fault; empty while there is none."""
         return self._fault
 
     # -- Arm -------------------------------------------------------------------------------------
 
     def pose(self) -> Pose:
-        """The measured pose of the TCP, not older than a round of supervision."""
+        """Measured pose of the TCP, not older than a round of supervision."""
         return self._as_pose(self._state())
 
     def move_to(
@@ -113,19 +114,19 @@ class UrArm:
     ) -> Pose:
         """Move on a straight line; returns the pose reached, at rest and within tolerance."""
         self.sent, state = "", self._state()
-        order = self._order(
+        command = self._new_command(
             ArmCommand.MOVE,
             (*pose.position_m.tolist(), *pose.rotvec_rad.tolist()),
             float(speed_m_s),
             float(acceleration_m_s2),
         )
-        if why := refusal(order, state.pose, self.settings):
-            raise LimitError(why)
-        self._send(order)
-        takes_s = expected_duration_s(order, state.pose) / max(0.01, state.speed_fraction)
-        longest_s = takes_s + self.settings.move_margin_s + REACT_S
-        state = self._await(order.number, longest_s)
-        if state.done != order.number:
+        if reason := refusal(command, state.pose, self.settings):
+            raise LimitError(reason)
+        self._send(command)
+        duration_s = expected_duration_s(command, state.pose) / max(0.01, state.speed_fraction)
+        timeout_s = duration_s + self.settings.move_margin_s + REACTION_S
+        state = self._wait_for(command.number, timeout_s)
+        if state.done != command.number:
             raise RobotError("the move was cut short by a stop")
         if state.outcome == CommandOutcome.REFUSED:
             raise LimitError(state.text)
@@ -133,54 +134,54 @@ class UrArm:
         return self._as_pose(state)
 
     def stop(self) -> None:
-        """Bring the arm to rest; from outside where the worker can't. Never raises."""
+        """Bring the arm to rest, without the worker if needed. Never raises."""
         self.sent = ""
         try:
             if self._fault:
                 self._make_safe()
                 return
-            order = self._order(ArmCommand.STOP)
-            self._send(order)
-            self._await(order.number, STOP_S)
+            command = self._new_command(ArmCommand.STOP)
+            self._send(command)
+            self._wait_for(command.number, STOP_S)
         except Exception as error:
-            # whatever it is: stopping the arm by another way matters more
+            # any error: it matters more to stop the arm by another method
             log.warning("UR stop: %s", error)
             self._make_safe()
 
     def disconnect(self) -> None:
         """Stop, end the program and the worker. Idempotent, never raises."""
         with self._lock:
-            owner = self._worker
-            if owner is None:
+            worker = self._worker
+            if worker is None:
                 return
             try:
                 if not self._fault:
-                    self._send(self._order(ArmCommand.END))
-                    owner.wait(END_S)
+                    self._send(self._new_command(ArmCommand.END))
+                    worker.wait(END_S)
             except Exception as error:
                 log.warning("UR disconnect: %s", error)
-            if not owner.ended_well:
+            if not worker.exited_cleanly:
                 self._unsafe = self._unsafe or not self._fault
                 self._make_safe()
-            owner.close()
+            worker.close()
             self._worker = None
             self._fault = self._fault or "the UR arm is disconnected"
 
     # -- operator --------------------------------------------------------------------------------
 
     def reset(self, *, unlock_protective_stop: bool = False) -> None:
-        """Start anew after a fault. Only on an operator's word, who has looked at the arm.
+        """Start again after a fault; only for an operator who has looked at the arm.
 
         Args:
-            unlock_protective_stop: Also release a protective stop (the controller wants at least
-                five seconds between the stop and this).
+            unlock_protective_stop: Also release a protective stop (the controller requires at least
+                five seconds between the stop and the release).
 
         Raises:
             RobotError: The arm is not ready.
         """
         self.disconnect()
         if unlock_protective_stop:
-            with Dashboard(self.settings.host) as dashboard:
+            with closing(Dashboard(self.settings.host)) as dashboard:
                 log.info("UR: %s", dashboard.ask("unlock protective stop"))
         self.start()
 
@@ -188,24 +189,24 @@ class UrArm:
         """Check the controller and start the worker; once, or after ``disconnect``.
 
         Raises:
-            RobotError: The arm is not ready, or connected already.
+            RobotError: The arm is not ready, or is already connected.
         """
         with self._lock:
             if self._worker is not None:
                 raise RobotError("the UR arm is connected already: disconnect or reset it")
             preflight(self.settings)
-            self._unsafe = True  # whatever program is found on the controller from here on is ours
+            self._unsafe = True  # from here on a program on the controller is ours
             self._number, self._worker = 0, WorkerProcess(self.settings)
             try:
                 self._worker.await_ready(self._clock, self._sleep)
                 self._fault, self._unsafe = "", False
-                self._check_place()
+                self._check_start_position()
             except BaseException:
                 self.disconnect()
                 raise
 
     def timing(self) -> ArmTiming:
-        """How regular the supervision was, and how soon motion followed a command.
+        """Regularity of the supervision, and delay from commands to motion.
 
         Raises:
             RobotError: The arm is not connected.
@@ -218,11 +219,11 @@ class UrArm:
                 command_to_motion=self._worker.distribution(MOTION),
             )
 
-    # -- orders and state ------------------------------------------------------------------------
+    # -- commands and state ----------------------------------------------------------------------
 
-    def _order(
+    def _new_command(
         self,
-        order: ArmCommand,
+        kind: ArmCommand,
         pose: tuple[float, ...] = (0.0,) * 6,
         speed_m_s: float = 0.0,
         acceleration_m_s2: float = 0.0,
@@ -230,95 +231,97 @@ class UrArm:
         with self._lock:
             self._number += 1
             return CommandRecord(
-                order=order, number=self._number, sent_s=self._clock(), pose=pose,
+                kind=kind, number=self._number, sent_s=self._clock(), pose=pose,
                 speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2,
             )  # fmt: skip
 
-    def _send(self, order: CommandRecord) -> None:
-        owner = self._connected()
+    def _send(self, command: CommandRecord) -> None:
+        worker = self._connected()
         try:
-            owner.send(order)
-            self.sent = _in_words(order, self.settings)
+            worker.send(command)
+            self.sent = _command_text(command, self.settings)
         except OSError as error:
-            self._state()  # says why, if the worker could
-            self._latch(f"the UR arm's worker takes no orders any more ({error})")
+            self._state()  # raises the worker's fault, if it has published one
+            self._latch(f"the UR arm's worker takes no commands any more ({error})")
 
-    def _await(self, number: int, longest_s: float) -> WorkerState:
-        """Wait until an order (or a later one) has ended."""
-        until_s = self._clock() + longest_s
+    def _wait_for(self, number: int, timeout_s: float) -> WorkerState:
+        """Wait until a command (or a later one) has ended."""
+        until_s = self._clock() + timeout_s
         while True:
             state = self._state()
             if state.done >= number:
                 return state
             if self._clock() > until_s:
                 self._latch(
-                    f"the UR arm's worker has not carried out an order in {longest_s:.1f} s"
+                    f"the UR arm's worker has not carried out a command in {timeout_s:.1f} s"
                 )
-            self._sleep(LOOK_S)
+            self._sleep(POLL_S)
 
     def _connected(self) -> WorkerProcess:
-        owner = self._worker
-        if owner is None or self._fault:
+        worker = self._worker
+        if worker is None or self._fault:
             raise RobotError(self._fault or "the UR arm is not connected")
-        return owner
+        return worker
 
     def _state(self) -> WorkerState:
-        """The worker's state, if it lives and all is well; latches what is not."""
-        owner = self._connected()
-        # Asked first: what an ended worker left is complete; a pause of ours is none of its.
-        ended, now_s = owner.has_ended, self._clock()
-        state = owner.read()
+        """State of a live worker without a fault; latches any fault."""
+        worker = self._connected()
+        # Before reading: the state of an ended worker is final, and a pause here is not counted.
+        ended, now_s = worker.has_ended, self._clock()
+        state = worker.read()
         if state.phase != WorkerPhase.READY:
-            owner.wait(HUNG_S)  # it brakes the arm now, and will say how
-            self._latch(owner.read().text)
+            worker.wait(HANG_S)  # the worker brakes the arm now, and publishes the method
+            self._latch(worker.read().text)
         if ended:
-            self._latch(owner.last_said(state))
+            self._latch(worker.exit_message(state))
         silent_s = now_s - state.beat_s
-        if silent_s > HUNG_S:
+        if silent_s > HANG_S:
             self._latch(f"supervision of the UR arm has hung for {1e3 * silent_s:.0f} ms")
         return state
 
-    def _check_place(self) -> None:
-        """The TCP must start inside the workspace, or every move back in would begin outside."""
+    def _check_start_position(self) -> None:
+        """The TCP must start inside the workspace, or every move back would begin outside."""
         state = self._connected().read()
-        here = CommandRecord(order=ArmCommand.MOVE, number=0, sent_s=0.0, pose=state.pose,
-                           speed_m_s=self.settings.max_speed_m_s,
-                           acceleration_m_s2=self.settings.max_acceleration_m_s2)  # fmt: skip
-        if why := refusal(here, state.pose, self.settings):
-            raise LimitError(f"the arm starts where it may not be: {why}. Jog it at the pendant")
+        stay = CommandRecord(
+            kind=ArmCommand.MOVE, number=0, sent_s=0.0, pose=state.pose,
+            speed_m_s=self.settings.max_speed_m_s,
+            acceleration_m_s2=self.settings.max_acceleration_m_s2,
+        )  # fmt: skip
+        if reason := refusal(stay, state.pose, self.settings):
+            raise LimitError(f"the arm starts where it may not be: {reason}. Jog it at the pendant")
 
-    def _latch(self, why: str) -> None:
-        """Latch a fault, stop the arm by whatever way is left, and raise it."""
+    def _latch(self, reason: str) -> None:
+        """Latch a fault, stop the arm by any method that is left, and raise the fault."""
         with self._lock:
             if not self._fault:
                 advice = "Look at the arm, clear the cause, then reset it."
-                self._fault, self._unsafe = f"UR arm: {why}. {advice}", True
+                self._fault, self._unsafe = f"UR arm: {reason}. {advice}", True
                 log.error("%s", self._fault)
         self._make_safe()
         raise RobotError(self._fault)
 
     def _make_safe(self) -> None:
-        """After a fault: end the worker, and tell the controller to stop, until that was heard."""
+        """After a fault: end the worker and stop the arm from outside, until that is confirmed."""
         with self._lock:
             if not self._unsafe:
                 return
             if self._worker is not None:
-                self._worker.wait(HUNG_S)  # it brakes the arm itself
+                self._worker.wait(HANG_S)  # the worker brakes the arm itself
                 self._worker.kill()
-            how = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
-            self._unsafe = how != CONFIRMED
-            log.warning("UR arm after a fault: %s", how or "no way to reach the controller is left")
+            method = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
+            self._unsafe = method != CONFIRMED
+            log.warning("UR arm after a fault: %s", method or "the controller can't be reached")
 
     def _as_pose(self, state: WorkerState) -> Pose:
         rotvec = nearest_rotvec(state.pose[3:], self._rotvec)
         return Pose(position_m=np.array(state.pose[:3]), rotvec_rad=np.array(rotvec))
 
 
-def _in_words(order: CommandRecord, settings: UrSettings) -> str:
-    """What the worker tells the controller for an order."""
-    if order.order == ArmCommand.MOVE:
-        pose = ", ".join(f"{value:.6f}" for value in order.pose)
-        return f"moveL([{pose}], {order.speed_m_s:g}, {order.acceleration_m_s2:g}, asynchronous)"
-    return (
-        f"stopL({settings.stop_deceleration_m_s2:g})" if order.order == ArmCommand.STOP else "end"
-    )
+def _command_text(command: CommandRecord, settings: UrSettings) -> str:
+    """The command of the worker to the controller, for records."""
+    if command.kind == ArmCommand.MOVE:
+        pose = ", ".join(f"{value:.6f}" for value in command.pose)
+        limits = f"{command.speed_m_s:g}, {command.acceleration_m_s2:g}"
+        return f"moveL([{pose}], {limits}, asynchronous)"
+    is_stop = command.kind == ArmCommand.STOP
+    return f"stopL({settings.stop_deceleration_m_s2:g})" if is_stop else "end"

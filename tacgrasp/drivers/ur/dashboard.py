@@ -1,19 +1,19 @@
 """A UR controller's dashboard and RTDE ports in plain Python, every wait bounded.
 
-Used before the library is loaded, and to stop an arm when the library has lost it. The library
-holds the interpreter while it connects: a controller that accepts and is silent would freeze it.
-Not here: judging what is found (``ur_preflight``), commands that move.
+Used before the library is loaded, and to stop an arm that the library has lost. The library holds
+the interpreter while it connects: a controller that accepts a connection and stays silent would
+freeze this process.
+Not here: the checks of a controller (``preflight``), commands that move.
 
 Source: Universal Robots' dashboard server documentation and RTDE guide, protocol version 2.
 """
 
 from __future__ import annotations
 
-import contextlib
 import socket
 import struct
 from collections.abc import Sequence
-from types import TracebackType
+from contextlib import closing, suppress
 
 from primitives.errors import RobotError
 
@@ -24,24 +24,24 @@ INPUTS = (
     *(f"input_int_register_{i}" for i in range(8)),
     *(f"input_double_register_{i}" for i in range(18)),
 )
-"""The registers that the control library claims."""
+"""Registers claimed by the control library."""
 
 CONFIRMED = "dashboard stop"
-"""What ``stop_from_outside`` says when the controller has confirmed it."""
+"""Result of ``stop_from_outside`` after a confirmed stop."""
 
 _LENGTHS = {"DOUBLE": "d", "INT32": "i", "UINT32": "I", "VECTOR3D": "3d", "VECTOR6D": "6d"}
 
 
-class _Line:
-    """A TCP connection whose every wait ends."""
+class _Connection:
+    """A TCP connection with a time-out for every wait."""
 
     def __init__(self, host: str, port: int, name: str, timeout_s: float) -> None:
-        self._name, self._where = name, f"{host}:{port}"
+        self._name, self._address = name, f"{host}:{port}"
         try:
             self._socket = socket.create_connection((host, port), timeout=timeout_s)
-        except (OSError, UnicodeError) as error:  # the latter: it can't even be a host's name
+        except (OSError, UnicodeError) as error:  # UnicodeError: not a possible host name
             raise RobotError(
-                f"no {name} at {self._where}: {error}; look whether the controller is on, the "
+                f"no {name} at {self._address}: {error}; check that the controller is on, the "
                 "cable in, and the address right"
             ) from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -51,40 +51,41 @@ class _Line:
         try:
             self._socket.sendall(data)
         except OSError as error:
-            raise RobotError(f"the {self._name} at {self._where} is lost: {error}") from None
+            raise RobotError(f"the {self._name} at {self._address} is lost: {error}") from None
 
     def receive(self) -> bytes:
         try:
             data = self._socket.recv(65536)
         except OSError as error:
             wait_s = self._socket.gettimeout()
-            what = f"said nothing for {wait_s} s" if isinstance(error, TimeoutError) else f"{error}"
+            silent = isinstance(error, TimeoutError)
+            problem = f"said nothing for {wait_s} s" if silent else f"{error}"
             raise RobotError(
-                f"the {self._name} at {self._where} {what}; restart the controller"
+                f"the {self._name} at {self._address} {problem}; restart the controller"
             ) from None
         if not data:
             raise RobotError(
-                f"the {self._name} at {self._where} hung up; check the address, or restart the "
+                f"the {self._name} at {self._address} hung up; check the address, or restart the "
                 "controller"
             )
         return data
 
     def close(self) -> None:
-        with contextlib.suppress(OSError):
+        with suppress(OSError):
             self._socket.shutdown(socket.SHUT_WR)
         self._socket.close()
 
 
 class Dashboard:
-    """The dashboard server: a line, an answer. A context manager."""
+    """A client of the dashboard server, which answers each line with a line."""
 
     def __init__(self, host: str, timeout_s: float = 0.4) -> None:
         """Connect and read the greeting.
 
         Raises:
-            RobotError: Nothing answers, or something else than a dashboard server.
+            RobotError: No answer, or the answer of another server.
         """
-        self._line = _Line(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
+        self._connection = _Connection(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
         self._text = b""
         try:
             greeting = self._read()
@@ -97,49 +98,38 @@ class Dashboard:
             self.close()
             raise
 
-    def __enter__(self) -> Dashboard:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
-
     def ask(self, line: str) -> str:
         """Send a line and return the answer.
 
         Raises:
             RobotError: No answer in time, or the connection is lost.
         """
-        self._line.send(line.encode() + b"\n")
+        self._connection.send(line.encode() + b"\n")
         return self._read()
 
     def close(self) -> None:
-        """Hang up. Idempotent."""
-        self._line.close()
+        """Close the connection. Idempotent."""
+        self._connection.close()
 
     def _read(self) -> str:
         while b"\n" not in self._text:
             if len(self._text) > 4096:
                 raise RobotError("the UR dashboard sent 4096 bytes without an end of line")
-            self._text += self._line.receive()
+            self._text += self._connection.receive()
         line, _, self._text = self._text.partition(b"\n")
         return line.decode("utf-8", "replace").strip()
 
 
 class Rtde:
-    """A listener on the RTDE port. A context manager."""
+    """A client of the RTDE port."""
 
     def __init__(self, host: str, timeout_s: float = 0.4) -> None:
         """Connect and agree on the protocol.
 
         Raises:
-            RobotError: Nothing answers, or not in RTDE.
+            RobotError: No answer, or none in RTDE.
         """
-        self._line = _Line(host, RTDE_PORT, "UR RTDE port", timeout_s)
+        self._connection = _Connection(host, RTDE_PORT, "UR RTDE port", timeout_s)
         self._buffer = bytearray()
         self._names: list[str] = []
         self._layout = struct.Struct(">")
@@ -150,17 +140,6 @@ class Rtde:
         except RobotError:
             self.close()
             raise
-
-    def __enter__(self) -> Rtde:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        self.close()
 
     def version(self) -> tuple[int, int]:
         """Major and minor version of the controller.
@@ -175,7 +154,7 @@ class Rtde:
         return major, minor
 
     def inputs_in_use(self, names: Sequence[str] = INPUTS) -> list[str]:
-        """Input registers that another client has; those that are free are ours until we hang up.
+        """Input registers in use by another client; the free ones are ours until ``close``.
 
         Raises:
             RobotError: No answer.
@@ -185,23 +164,23 @@ class Rtde:
         return [name for name, kind in zip(names, types, strict=False) if kind == "IN_USE"]
 
     def subscribe(self, names: Sequence[str], rate_hz: float) -> list[str]:
-        """Ask for a stream of variables; returns those that the controller does not know.
+        """Request a stream of variables; returns those that the controller does not have.
 
         Raises:
-            RobotError: No answer, or types that are not understood.
+            RobotError: No answer, or variables of an unknown type.
         """
-        wish = struct.pack(">d", rate_hz) + ",".join(names).encode()
-        types = self._ask("O", wish)[1:].decode("ascii", "replace").split(",")
-        known = [(n, t) for n, t in zip(names, types, strict=False) if t != "NOT_FOUND"]
-        if len(types) != len(names) or any(kind not in _LENGTHS for _, kind in known):
+        request = struct.pack(">d", rate_hz) + ",".join(names).encode()
+        types = self._ask("O", request)[1:].decode("ascii", "replace").split(",")
+        available = [(n, t) for n, t in zip(names, types, strict=False) if t != "NOT_FOUND"]
+        if len(types) != len(names) or any(kind not in _LENGTHS for _, kind in available):
             raise RobotError(f"the controller answered {len(names)} variables with {types}")
-        self._names = [name for name, _ in known]
-        self._layout = struct.Struct(">" + "".join(_LENGTHS[kind] for _, kind in known))
-        self._sizes = [int(_LENGTHS[kind][:-1] or 1) for _, kind in known]
+        self._names = [name for name, _ in available]
+        self._layout = struct.Struct(">" + "".join(_LENGTHS[kind] for _, kind in available))
+        self._sizes = [int(_LENGTHS[kind][:-1] or 1) for _, kind in available]
         return [name for name in names if name not in self._names]
 
     def start(self) -> None:
-        """Let the stream run.
+        """Start the stream.
 
         Raises:
             RobotError: The controller refuses or is silent.
@@ -210,10 +189,10 @@ class Rtde:
             raise RobotError("the controller does not start its RTDE stream")
 
     def sample(self) -> dict[str, tuple[float, ...]]:
-        """Wait for the next data: the numbers of each variable.
+        """Wait for the next sample: the numbers of each variable.
 
         Raises:
-            RobotError: None in time, or malformed.
+            RobotError: No sample in time, or a malformed one.
         """
         body = self._next("U")[1:]
         if len(body) != self._layout.size:
@@ -226,17 +205,17 @@ class Rtde:
         return values
 
     def close(self) -> None:
-        """Hang up. Idempotent."""
-        self._line.close()
+        """Close the connection. Idempotent."""
+        self._connection.close()
 
     def _ask(self, kind: str, body: bytes) -> bytes:
-        self._line.send(struct.pack(">HB", 3 + len(body), ord(kind)) + body)
+        self._connection.send(struct.pack(">HB", 3 + len(body), ord(kind)) + body)
         return self._next(kind)
 
     def _next(self, kind: str) -> bytes:
-        for _ in range(50):  # others than the awaited are messages or late data
-            got, body = self._packet()
-            if got == ord(kind):
+        for _ in range(50):  # packets of other kinds are messages or late data
+            packet_kind, body = self._packet()
+            if packet_kind == ord(kind):
                 return body
         raise RobotError(f"the controller did not answer a packet {kind!r} of RTDE")
 
@@ -253,7 +232,7 @@ class Rtde:
                     body = bytes(self._buffer[3:size])
                     del self._buffer[:size]
                     return kind, body
-            self._buffer += self._line.receive()
+            self._buffer += self._connection.receive()
 
 
 def stop_from_outside(
@@ -263,27 +242,29 @@ def stop_from_outside(
     dashboard: Dashboard | None = None,
     timeout_s: float = 0.15,
 ) -> str:
-    """End the program on the controller without the library, by whatever way is left.
+    """End the program on the controller without the library. Never raises.
 
-    The open dashboard connection first, then a new one, then a one-line script, which replaces the
-    program and brakes. Returns what was done, '' when no way was left. Never raises. Only the
-    dashboard confirms (``CONFIRMED``); whether a script was heard is not known.
+    Tries the open dashboard connection, then a new one, then a one-line script, which replaces the
+    program and brakes. Only the dashboard confirms (``CONFIRMED``); a script has no confirmation.
+
+    Returns:
+        The method that was used; empty if none worked.
     """
 
-    def open_line() -> str:
+    def stop_by_open_connection() -> str:
         return "" if dashboard is None else dashboard.ask("stop")
 
-    def new_line() -> str:
-        with Dashboard(host, timeout_s) as fresh:
+    def stop_by_new_connection() -> str:
+        with closing(Dashboard(host, timeout_s)) as fresh:
             return fresh.ask("stop")
 
-    for way in (open_line, new_line):
-        with contextlib.suppress(RobotError, OSError):
-            if way().lower().startswith("stopped"):
+    for stop in (stop_by_open_connection, stop_by_new_connection):
+        with suppress(RobotError, OSError):
+            if stop().lower().startswith("stopped"):
                 return CONFIRMED
-    with contextlib.suppress(RobotError, OSError):
-        line = _Line(host, SCRIPT_PORT, "UR script port", timeout_s)
-        line.send(f"stopl({deceleration_m_s2:g})\n".encode())
-        line.close()
+    with suppress(RobotError, OSError):
+        connection = _Connection(host, SCRIPT_PORT, "UR script port", timeout_s)
+        connection.send(f"stopl({deceleration_m_s2:g})\n".encode())
+        connection.close()
         return "stopl sent to the script port, unconfirmed"
     return ""

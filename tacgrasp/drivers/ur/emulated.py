@@ -1,17 +1,18 @@
-"""Settings of the emulated UR arm: its tool, and the simulated workspace."""
+"""Settings of the emulated UR arm: its tool and the simulated workspace."""
 
 from __future__ import annotations
 
 from tacgrasp.drivers.ur.settings import UrSettings
 
 TOOL_M = (0.0, 0.0, 0.15)
-"""The tool that the emulator starts with."""
+"""Tool offset at the start of the emulator [m]."""
 
 
 def emulated_arm(host: str) -> UrSettings:
     """Settings for an emulator at a loopback address.
 
-    A move ends when the emulated world has followed, which takes its own time on a busy machine.
+    The margin of a move is long: a move ends when the emulated world has followed, which takes
+    longer on a busy machine.
     """
     return UrSettings(
         host=host,

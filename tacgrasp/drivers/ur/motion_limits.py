@@ -1,7 +1,7 @@
-"""What a UR arm is allowed to be asked for: the last check before a move is sent.
+"""Bounds of a UR arm's moves: the last check before a move is sent.
 
-Pure functions. A task's own limits (``primitives.limits``) are above this one; these bounds come
-from the rig's file alone and are checked in the process that owns the arm.
+Pure functions. A task's own limits (``primitives.limits``) are narrower; these bounds come from the
+rig's file alone and are checked in the process that owns the arm.
 """
 
 from __future__ import annotations
@@ -13,34 +13,36 @@ from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import CommandRecord
 
 SLACK = 1e-9
-"""Relative slack of a comparison with a bound: a bound itself is allowed."""
+"""Relative tolerance of a comparison with a bound: the bound itself is allowed."""
 
 
-def refusal(order: CommandRecord, here: Sequence[float], settings: UrSettings) -> str:
-    """Why a move must not be sent, '' when it may.
+def refusal(command: CommandRecord, present: Sequence[float], settings: UrSettings) -> str:
+    """Reason to refuse a move; empty for none.
 
     Args:
-        order: The move.
-        here: Present pose, six numbers [m, rad].
+        command: The move.
+        present: Present pose, six numbers [m, rad].
         settings: The bounds.
     """
-    numbers = (*order.pose, order.speed_m_s, order.acceleration_m_s2)
-    if len(order.pose) != 6 or not all(math.isfinite(v) for v in numbers):
+    numbers = (*command.pose, command.speed_m_s, command.acceleration_m_s2)
+    if len(command.pose) != 6 or not all(math.isfinite(v) for v in numbers):
         return f"a move needs finite numbers, got {numbers}"
-    for name, value, most, unit in (
-        ("speed", order.speed_m_s, settings.max_speed_m_s, "m/s"),
-        ("acceleration", order.acceleration_m_s2, settings.max_acceleration_m_s2, "m/s²"),
+    for name, value, limit, unit in (
+        ("speed", command.speed_m_s, settings.max_speed_m_s, "m/s"),
+        ("acceleration", command.acceleration_m_s2, settings.max_acceleration_m_s2, "m/s²"),
     ):
-        if not 0 < value <= most * (1 + SLACK):
-            return f"{name} {value:g} {unit} must be above 0 and at most the rig's {most:g} {unit}"
-    box = zip("xyz", order.pose, settings.workspace_low_m, settings.workspace_high_m, strict=False)
+        if not 0 < value <= limit * (1 + SLACK):
+            return f"{name} {value:g} {unit} must be above 0 and at most the rig's {limit:g} {unit}"
+    box = zip(
+        "xyz", command.pose, settings.workspace_low_m, settings.workspace_high_m, strict=False
+    )
     for axis, value, low, high in box:
         if not low - SLACK <= value <= high + SLACK:
             return (
                 f"{axis} = {value:.4f} m is outside the arm's workspace ({low:g} to {high:g} m); "
                 "nothing was sent"
             )
-    turn_rad = turn_between_rad(order.pose[3:], here[3:])
+    turn_rad = turn_between_rad(command.pose[3:], present[3:])
     if turn_rad > settings.max_turn_rad + 1e-6:
         return (
             f"the tool would turn by {turn_rad:.3f} rad, at most {settings.max_turn_rad:g} rad is "
@@ -54,18 +56,18 @@ def distance_m(a: Sequence[float], b: Sequence[float]) -> float:
     return math.dist(a[:3], b[:3])
 
 
-def expected_duration_s(order: CommandRecord, here: Sequence[float]) -> float:
-    """How long a move takes on its trapezoid [s]; turning counts like metres, as on a UR."""
-    length = distance_m(order.pose, here) or turn_between_rad(order.pose[3:], here[3:])
-    top = min(order.speed_m_s, math.sqrt(length * order.acceleration_m_s2))
-    return 0.0 if top == 0 else length / top + top / order.acceleration_m_s2
+def expected_duration_s(command: CommandRecord, present: Sequence[float]) -> float:
+    """Duration of a move on its trapezoid [s]; radians count like metres, as on a UR."""
+    length = distance_m(command.pose, present) or turn_between_rad(command.pose[3:], present[3:])
+    top = min(command.speed_m_s, math.sqrt(length * command.acceleration_m_s2))
+    return 0.0 if top == 0 else length / top + top / command.acceleration_m_s2
 
 
 def turn_between_rad(a: Sequence[float], b: Sequence[float]) -> float:
     """Angle between two orientations given as rotation vectors [rad], 0 to pi.
 
-    The same orientation has several rotation vectors (half a turn has two): components differ where
-    the angle is 0.
+    One orientation has several rotation vectors (half a turn has two), so that the angle may be 0
+    between different vectors.
     """
     p, q = _quaternion(a), _quaternion(b)
     cosine = abs(sum(x * y for x, y in zip(p, q, strict=True)))
@@ -82,9 +84,9 @@ def _quaternion(rotvec: Sequence[float]) -> tuple[float, float, float, float]:
 
 
 def nearest_rotvec(rotvec: Sequence[float], near: Sequence[float]) -> tuple[float, ...]:
-    """The rotation vector of the same orientation that lies nearest to another one [rad].
+    """The rotation vector of the same orientation that is nearest to another one [rad].
 
-    A controller may state half a turn as (pi, 0, 0) now and (-pi, 0, 0) a moment later.
+    A controller may report half a turn as (pi, 0, 0) once and (-pi, 0, 0) a moment later.
     """
     angle = math.hypot(*rotvec)
     if angle < 1e-9:

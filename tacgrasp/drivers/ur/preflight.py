@@ -1,7 +1,7 @@
-"""Is a UR controller as it must be before anything is commanded? Looked at without the library.
+"""Checks of a UR controller before any command, without the library.
 
-``look`` gathers findings for ``tacgrasp doctor``; ``preflight`` refuses with the first bad one.
-Bounded: a controller that is silent, garbles or refuses is told within two seconds.
+``controller_findings`` runs all checks, for ``tacgrasp doctor``; ``preflight`` refuses with the
+first failed one. Bounded: a silent, garbled or refusing controller is reported within two seconds.
 """
 
 from __future__ import annotations
@@ -11,25 +11,26 @@ import re
 import socket
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
+from functools import partial
 
 import numpy as np
 
 from primitives.errors import RobotError
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.ur.dashboard import SCRIPT_PORT, Dashboard, Rtde
 from tacgrasp.drivers.ur.settings import UrSettings
 
 log = logging.getLogger(__name__)
 
-DEVICE = "arm"
-ENOUGH = 100
-"""Gaps between data from which their 99 % quantile is judged."""
+MIN_GAPS = 100
+"""Fewest gaps between data for a check of their 99 % quantile."""
 
-OLDEST = (5, 6)
-"""From here on the dashboard tells whether the controller is in remote control."""
+MIN_VERSION = (5, 6)
+"""First PolyScope 5 whose dashboard reports remote control."""
 
-OLDEST_X = (10, 11)
-"""PolyScope X before this takes the library's script and never runs it."""
+MIN_VERSION_X = (10, 11)
+"""First PolyScope X that runs the library's script; older ones accept it and never run it."""
 
 SAFETY_BITS = {
     2: "protective stop",
@@ -52,90 +53,83 @@ WATCHED = (
 REQUIRED = frozenset(WATCHED) - {"payload", "payload_cog", "tcp_offset"}
 
 
-def safety_words(bits: int) -> str:
-    """What safety_status_bits say is wrong, '' when nothing."""
-    wrong = [words for bit, words in SAFETY_BITS.items() if bits >> bit & 1]
-    return ", ".join(wrong)
+def safety_text(bits: int) -> str:
+    """Meaning of safety_status_bits that stop the arm; empty for none."""
+    return ", ".join(text for bit, text in SAFETY_BITS.items() if bits >> bit & 1)
 
 
 def preflight(settings: UrSettings) -> None:
     """Refuse a controller that is not ready, before the library is loaded.
 
     Raises:
-        RobotError: What was found and what to do.
+        RobotError: The first failed check and its remedy.
     """
-    for finding in look(settings, seconds=0.08):
-        log.debug("%s: %s", finding.name, finding.detail)
-        if not finding.ok:
+    for result in controller_findings(settings, seconds=0.08):
+        log.debug("%s: %s", result.name, result.detail)
+        if not result.ok:
             raise RobotError(
-                f"the UR arm at {settings.host} is not ready: {finding.name}: {finding.detail}. "
-                f"{finding.advice}"
+                f"the UR arm at {settings.host} is not ready: {result.name}: {result.detail}. "
+                f"{result.advice}"
             )
 
 
 def check(settings: UrSettings) -> Sequence[Finding]:
-    """What ``tacgrasp doctor`` says of the arm; takes about a second, moves and sets nothing."""
-    return look(settings, seconds=1.0)
+    """Check the arm for ``tacgrasp doctor``; takes about a second, moves and sets nothing."""
+    return controller_findings(settings, seconds=1.0)
 
 
-def look(
+def controller_findings(
     settings: UrSettings, *, seconds: float, clock: Callable[[], float] = time.monotonic
 ) -> list[Finding]:
-    """All findings, in the order of asking; ends early where the rest can't be asked.
+    """Run the checks in order; ends early if the remaining ones can't be run.
 
     Args:
-        settings: Which controller, and what it is to be.
-        seconds: How long to listen to its data [s].
+        settings: The arm's section of the rig's file.
+        seconds: Time of listening to the data stream [s].
         clock: Monotonic clock [s].
     """
     findings: list[Finding] = []
     try:
-        with Dashboard(settings.host) as dashboard:
+        with closing(Dashboard(settings.host)) as dashboard:
             findings += _on_dashboard(dashboard, clock)
     except RobotError as error:
-        findings.append(_bad("dashboard", str(error), "Nothing was moved."))
-    if any(not finding.ok for finding in findings):
+        findings.append(_finding("dashboard", False, str(error), "Nothing was moved."))
+    if any(not result.ok for result in findings):
         return findings
     try:
-        with Rtde(settings.host) as rtde:
+        with closing(Rtde(settings.host)) as rtde:
             findings += _on_rtde(rtde, settings, seconds, clock)
     except RobotError as error:
-        findings.append(_bad("RTDE", str(error), "Nothing was moved."))
+        findings.append(_finding("RTDE", False, str(error), "Nothing was moved."))
     findings.append(_script_port(settings.host))
     return findings
 
 
-def _good(name: str, found: str) -> Finding:
-    return Finding(device=DEVICE, name=name, ok=True, detail=found)
-
-
-def _bad(name: str, found: str, advice: str) -> Finding:
-    return Finding(device=DEVICE, name=name, ok=False, detail=found, advice=advice)
-
-
-def _judged(name: str, ok: bool, found: str, advice: str) -> Finding:
-    return _good(name, found) if ok else _bad(name, found, advice)
+_finding = partial(finding, "arm")
 
 
 def _on_dashboard(dashboard: Dashboard, clock: Callable[[], float]) -> list[Finding]:
-    began_s = clock()
+    start_s = clock()
     version = dashboard.ask("PolyscopeVersion")
-    took_ms = 1e3 * (clock() - began_s)
-    findings = [_good("dashboard", f"answers within {took_ms:.1f} ms"), _version(version)]
+    duration_ms = 1e3 * (clock() - start_s)
+    findings = [
+        _finding("dashboard", True, f"answers within {duration_ms:.1f} ms"),
+        _version(version),
+    ]
     if not findings[-1].ok:
         return findings
     remote = dashboard.ask("is in remote control")
-    findings.append(_judged(
+    findings.append(_finding(
         "remote control", remote.lower() == "true", remote,
         "Switch the pendant to Remote Control (top right; enable it in the settings first).",
     ))  # fmt: skip
     mode = dashboard.ask("robotmode")
-    findings.append(_judged(
+    findings.append(_finding(
         "robot mode", mode.lower() == "robotmode: running", mode,
         "Power the arm on and release its brakes at the pendant.",
     ))  # fmt: skip
     safety = dashboard.ask("safetystatus")
-    findings.append(_judged(
+    findings.append(_finding(
         "safety", safety.lower() in ("safetystatus: normal", "safetystatus: reduced"), safety,
         "Find out why it stopped, clear the reason and release the stop at the pendant.",
     ))  # fmt: skip
@@ -143,45 +137,45 @@ def _on_dashboard(dashboard: Dashboard, clock: Callable[[], float]) -> list[Find
     return findings
 
 
-def _version(said: str) -> Finding:
-    numbers = re.search(r"(\d+)\.(\d+)", said)
+def _version(answer: str) -> Finding:
+    numbers = re.search(r"(\d+)\.(\d+)", answer)
     if numbers is None:
-        return _bad("version", f"no version in {said[:60]!r}", "Check the address.")
+        return _finding("version", False, f"no version in {answer[:60]!r}", "Check the address.")
     version = (int(numbers[1]), int(numbers[2]))
-    fits = OLDEST <= version < (6, 0) or OLDEST_X <= version < (11, 0)
-    return _judged(
-        "version", fits, f"PolyScope {version[0]}.{version[1]}",
-        f"Needed: PolyScope {OLDEST[0]}.{OLDEST[1]} or newer of 5, or {OLDEST_X[0]}.{OLDEST_X[1]} "
-        "or newer of 10 (X): update the controller.",
+    supported = MIN_VERSION <= version < (6, 0) or MIN_VERSION_X <= version < (11, 0)
+    return _finding(
+        "version", supported, f"PolyScope {version[0]}.{version[1]}",
+        "Needed: PolyScope {}.{} or newer of 5, or {}.{} or newer of 10 (X): update the "
+        "controller.".format(*MIN_VERSION, *MIN_VERSION_X),
     )  # fmt: skip
 
 
 def _no_program(dashboard: Dashboard, clock: Callable[[], float]) -> Finding:
-    """A program of ours that has just been left ends by its watchdog: give it that time."""
-    began_s = clock()
-    while "true" in (said := dashboard.ask("running").lower()):
-        if clock() - began_s > 0.3:
-            return _bad(
-                "program", said, "Another program runs on the arm: stop it at the pendant, or end "
-                "the other client.",
+    """Wait until a program of ours that was just abandoned has ended by its watchdog."""
+    start_s = clock()
+    while "true" in (answer := dashboard.ask("running").lower()):
+        if clock() - start_s > 0.3:
+            return _finding(
+                "program", False, answer,
+                "Another program runs on the arm: stop it at the pendant, or end the other client.",
             )  # fmt: skip
         time.sleep(0.05)
-    return _good("program", "none runs")
+    return _finding("program", True, "none runs")
 
 
 def _on_rtde(
     rtde: Rtde, settings: UrSettings, seconds: float, clock: Callable[[], float]
 ) -> list[Finding]:
-    findings = [_good("RTDE", "controller {}.{}".format(*rtde.version()))]
-    taken = rtde.inputs_in_use()
-    findings.append(_judged(
-        "registers", not taken, f"{len(taken)} in use, {taken[0]} first" if taken else "free",
+    findings = [_finding("RTDE", True, "controller {}.{}".format(*rtde.version()))]
+    in_use = rtde.inputs_in_use()
+    findings.append(_finding(
+        "registers", not in_use, f"{len(in_use)} in use, {in_use[0]} first" if in_use else "free",
         "Another client, EtherNet/IP, PROFINET or a MODBUS unit has them: end or disable it.",
     ))  # fmt: skip
     missing = rtde.subscribe(WATCHED, settings.supervision_hz)
     if REQUIRED & set(missing):
-        lacking = ", ".join(sorted(REQUIRED & set(missing)))
-        findings.append(_bad("variables", f"missing: {lacking}", "Update the controller."))
+        names = ", ".join(sorted(REQUIRED & set(missing)))
+        findings.append(_finding("variables", False, f"missing: {names}", "Update the controller."))
         return findings
     if missing:
         rtde.subscribe([n for n in WATCHED if n not in missing], settings.supervision_hz)
@@ -200,16 +194,16 @@ def _on_rtde(
 def _stream(stamps: list[float], arrivals: list[float], settings: UrSettings) -> Finding:
     gaps_ms = 1e3 * np.diff(arrivals)
     p50, p99, worst = (float(np.percentile(gaps_ms, p)) for p in (50, 99, 100))
-    found = (
+    detail = (
         f"every {p50:.1f} ms (p50), {p99:.1f} ms (p99), {worst:.1f} ms (max) at "
         f"{settings.supervision_hz:g} Hz"
     )
     if stamps[-1] <= stamps[0]:
-        return _bad("data", "its time stands still", "Restart the controller.")
-    # This process runs at ordinary priority: judge when there is enough to leave a stray pause out.
-    even = len(gaps_ms) < ENOUGH or p99 < settings.stale_ms
-    return _judged(
-        "data", even, found,
+        return _finding("data", False, "its time stands still", "Restart the controller.")
+    # This process has ordinary priority: few gaps may hold a stray pause and are not checked.
+    even = len(gaps_ms) < MIN_GAPS or p99 < settings.stale_ms
+    return _finding(
+        "data", even, detail,
         f"Gaps must stay below {settings.stale_ms:g} ms: use a direct cable and a machine that is "
         "not busy.",
     )  # fmt: skip
@@ -219,36 +213,44 @@ def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> list[F
     bits = int(sample["safety_status_bits"][0])
     fraction = sample["target_speed_fraction"][0]
     findings = [
-        _judged(
-            "safety bits", not safety_words(bits), safety_words(bits) or "normal",
+        _finding(
+            "safety bits", not safety_text(bits), safety_text(bits) or "normal",
             "Release the stop at the pendant.",
         ),
-        _judged(
+        _finding(
             "speed slider", fraction >= settings.min_speed_fraction, f"{fraction:.0%}",
             f"Move the pendant's speed slider to at least {settings.min_speed_fraction:.0%}.",
         ),
-        _place(sample["actual_TCP_pose"][:3], sample.get("tcp_offset"), settings),
+        _tcp(sample["actual_TCP_pose"][:3], sample.get("tcp_offset"), settings),
     ]  # fmt: skip
     if "payload" in sample:
         kg = sample["payload"][0]
-        then = "as set" if abs(kg - settings.payload_kg) < 1e-3 else "set when connected"
-        findings.append(_good("payload", f"{kg:.3g} kg; {settings.payload_kg:g} kg {then}"))
+        setting = "as set" if abs(kg - settings.payload_kg) < 1e-3 else "set when connected"
+        findings.append(
+            _finding("payload", True, f"{kg:.3g} kg; {settings.payload_kg:g} kg {setting}")
+        )
     return findings
 
 
-def _place(
+def _tcp(
     position: tuple[float, ...], offset: tuple[float, ...] | None, settings: UrSettings
 ) -> Finding:
-    where = f"({position[0]:.3f}, {position[1]:.3f}, {position[2]:.3f}) m"
-    wanted = (*settings.tcp_offset_m, *settings.tcp_offset_rad)
-    if offset is not None and np.allclose(offset, wanted, atol=1e-5):
-        return _good("TCP", f"as set, at {where}")
-    return _good("TCP", f"another one is set now, at {where}; {list(wanted)} set when connected")
+    position_text = f"({position[0]:.3f}, {position[1]:.3f}, {position[2]:.3f}) m"
+    configured = (*settings.tcp_offset_m, *settings.tcp_offset_rad)
+    if offset is not None and np.allclose(offset, configured, atol=1e-5):
+        return _finding("TCP", True, f"as set, at {position_text}")
+    return _finding(
+        "TCP",
+        True,
+        f"another one is set now, at {position_text}; {list(configured)} set when connected",
+    )
 
 
 def _script_port(host: str) -> Finding:
     try:
         socket.create_connection((host, SCRIPT_PORT), timeout=0.4).close()
     except OSError as error:
-        return _bad("script port", f"{host}:{SCRIPT_PORT}: {error}", "Allow it in the firewall.")
-    return _good("script port", "open")
+        return _finding(
+            "script port", False, f"{host}:{SCRIPT_PORT}: {error}", "Allow it in the firewall."
+        )
+    return _finding("script port", True, "open")

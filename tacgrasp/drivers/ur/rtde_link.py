@@ -1,9 +1,9 @@
-"""ur_rtde as the UR arm's worker uses it: connect, set up, sample, move, stop; a False is an error.
+"""The worker's use of ur_rtde: connect, set up, sample, move, stop; a returned False is an error.
 
-What the library gets wrong is kept in here (each measured against 1.6.5): failures are False and
-not exceptions; a dropped link shows in ``isConnected`` alone; getters return old values for ever;
+This module hides the library's pitfalls (each measured with 1.6.5): failures are False instead of
+exceptions; a dropped link shows in ``isConnected`` alone; getters return old values for ever;
 ``stopL`` is a joint-space stop until the first asynchronous one; its reconnect never recovers.
-Not here: when to do what (``ur_worker``).
+Not here: the sequence of calls (``supervisor``).
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from primitives.errors import RobotError
-from tacgrasp.drivers.ur.preflight import safety_words
+from tacgrasp.drivers.ur.preflight import safety_text
 from tacgrasp.drivers.ur.settings import UrSettings
 
-STILL_M_S = 1e-3
+REST_M_S = 1e-3
 PLAYING = 2
 RUNNING = 7
 ZEROED_N = 5.0
-"""Largest force that a sensor that was just zeroed at rest may say [N]."""
+"""Largest force of a sensor just zeroed at rest [N]."""
 
 VARIABLES = [
     "timestamp", "actual_TCP_pose", "actual_TCP_speed", "actual_TCP_force", "robot_mode",
@@ -33,13 +33,13 @@ VARIABLES = [
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RtdeSample:
-    """What the controller last sent, as the library holds it.
+    """The controller's last data, as the library holds them.
 
     Attributes:
-        stamp_s: The controller's time of it [s].
+        stamp_s: The controller's time of the data [s].
         pose, speed, force: Of the TCP, six numbers each [m, rad; m/s, rad/s; N, N m].
-        robot_mode, runtime_state, safety_bits: As RTDE numbers them.
-        speed_fraction: The speed slider, 0 to 1.
+        robot_mode, runtime_state, safety_bits: In RTDE's numbering.
+        speed_fraction: Position of the speed slider, 0 to 1.
     """
 
     stamp_s: float
@@ -58,16 +58,16 @@ class RtdeSample:
 
     @property
     def force_n(self) -> float:
-        """Size of the force on the tool [N]."""
+        """Magnitude of the force on the tool [N]."""
         return math.hypot(*self.force[:3])
 
-    def wrong(self) -> str:
-        """What forbids to go on, '' when nothing.
+    def problem(self) -> str:
+        """Reason to stop; empty for none.
 
-        Protective and emergency flags alone would miss a safeguard stop: all safety bits count.
+        All safety bits count: protective and emergency flags alone would miss a safeguard stop.
         """
-        if words := safety_words(self.safety_bits):
-            return f"the controller reports: {words}"
+        if text := safety_text(self.safety_bits):
+            return f"the controller reports: {text}"
         if self.robot_mode != RUNNING:
             return f"the arm is not running (robot mode {self.robot_mode}, expected {RUNNING})"
         if self.runtime_state != PLAYING:
@@ -84,79 +84,80 @@ class UrLink:
     def __init__(
         self,
         settings: UrSettings,
-        step: Callable[[str], None],
+        report_step: Callable[[str], None],
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        """Connect; may hang for ever on a controller that falls silent: the owner bounds it.
+        """Connect; may hang for ever on a silent controller: the owner bounds the wait.
 
         Args:
-            settings: Which controller.
-            step: Told what is being done, so that the owner can say where a start hung.
-            sleep: Lets time pass [s].
+            settings: The arm's section of the rig's file.
+            report_step: Called with each step, so that the owner can name the one that hangs.
+            sleep: Waits [s].
 
         Raises:
             RobotError: The controller refuses.
         """
-        step("loading ur_rtde")
+        report_step("loading ur_rtde")
         import rtde_control
         import rtde_receive
 
         self._settings, self._sleep = settings, sleep
         rate_hz = settings.supervision_hz
         try:
-            step("connecting to receive")
+            report_step("connecting to receive")
             self._receive: Any = rtde_receive.RTDEReceiveInterface(
                 settings.host, rate_hz, VARIABLES
             )
-            step("connecting to control: upload of the control script")
+            report_step("connecting to control: upload of the control script")
             self._control: Any = rtde_control.RTDEControlInterface(settings.host, rate_hz)
         except RuntimeError as error:
             raise RobotError(
                 f"ur_rtde can't connect to {settings.host}: {error}. See tacgrasp doctor"
             ) from None
 
-    def set_up(self, step: Callable[[str], None]) -> None:
-        """Payload, TCP, zeroed force sensor, stop mode: all at rest, all read back.
+    def set_up(self, report_step: Callable[[str], None]) -> None:
+        """Set payload, TCP, zero of the force sensor and stop mode, at rest, and read them back.
 
         Raises:
-            RobotError: Something was not taken as set, or the arm is not at rest.
+            RobotError: The controller did not accept a value, or the arm is not at rest.
         """
         settings, control = self._settings, self._control
-        step("waiting for the program to run")
-        self._until(lambda s: s.runtime_state == PLAYING, "the program does not start")
-        self._until(lambda s: s.speed_m_s < STILL_M_S, "the arm is not at rest")
-        if wrong := self.sample().wrong():
-            raise RobotError(wrong)
-        step("setting payload and TCP")
+        report_step("waiting for the program to run")
+        self._wait_until(lambda s: s.runtime_state == PLAYING, "the program does not start")
+        self._wait_until(lambda s: s.speed_m_s < REST_M_S, "the arm is not at rest")
+        if problem := self.sample().problem():
+            raise RobotError(problem)
+        report_step("setting payload and TCP")
         tcp = [*settings.tcp_offset_m, *settings.tcp_offset_rad]
-        _taken(control.setPayload(settings.payload_kg, list(settings.payload_cog_m)), "payload")
-        _taken(control.setTcp(tcp), "TCP")
-        got = control.getTCPOffset()
-        if len(got) != 6 or any(abs(a - b) > 1e-6 for a, b in zip(got, tcp, strict=True)):
-            raise RobotError(f"the controller took the TCP offset as {got}, not {tcp}")
+        cog_m = list(settings.payload_cog_m)
+        _check_accepted(control.setPayload(settings.payload_kg, cog_m), "payload")
+        _check_accepted(control.setTcp(tcp), "TCP")
+        offset = control.getTCPOffset()
+        if len(offset) != 6 or any(abs(a - b) > 1e-6 for a, b in zip(offset, tcp, strict=True)):
+            raise RobotError(f"the controller took the TCP offset as {offset}, not {tcp}")
         self._wait_for_payload()
-        step("zeroing the force sensor")
-        _taken(control.zeroFtSensor(), "zero of the force sensor")
-        self._until(lambda s: s.force_n < ZEROED_N, "the force sensor does not come to zero")
-        step("setting up stops")
-        # Until the first asynchronous stop, stopL brakes in joint space; make it the straight one.
+        report_step("zeroing the force sensor")
+        _check_accepted(control.zeroFtSensor(), "zero of the force sensor")
+        self._wait_until(lambda s: s.force_n < ZEROED_N, "the force sensor does not come to zero")
+        report_step("setting up stops")
+        # The first asynchronous stop switches stopL from joint space to a straight line.
         self.stop()
 
     def arm_watchdog(self) -> None:
-        """From now on the program ends unless it is kicked: rounds must begin at once.
+        """Arm the watchdog: from now on the program ends unless ``kick`` is called.
 
         Raises:
-            RobotError: The controller did not take it.
+            RobotError: The controller did not accept it.
         """
-        _taken(self._control.setWatchdog(self._settings.watchdog_hz), "watchdog")
+        _check_accepted(self._control.setWatchdog(self._settings.watchdog_hz), "watchdog")
 
     @property
     def connected(self) -> bool:
-        """Both connections stand. The library's other calls go on saying True when they don't."""
+        """Whether both connections stand; the library's other calls return True even if not."""
         return bool(self._control.isConnected() and self._receive.isConnected())
 
     def sample(self) -> RtdeSample:
-        """What the controller last sent; may be old: compare stamps."""
+        """The controller's last data; may be old: compare stamps."""
         receive = self._receive
         return RtdeSample(
             stamp_s=receive.getTimestamp(),
@@ -170,55 +171,53 @@ class UrLink:
         )
 
     def operation(self) -> tuple[int, bool]:
-        """Number of the last asynchronous operation, and whether it still runs."""
+        """Number of the last asynchronous operation, and whether it is running."""
         status = self._control.getAsyncOperationProgressEx()
         return status.operationId(), status.isAsyncOperationRunning()
 
     def move(self, pose: tuple[float, ...], speed_m_s: float, acceleration_m_s2: float) -> None:
-        """Begin a straight move; asynchronous, since the other kind can't be stopped.
+        """Begin a straight move; asynchronous, since a synchronous one can't be stopped.
 
         Raises:
             RobotError: The library refused it.
         """
-        begun = self._control.moveL(list(pose), speed_m_s, acceleration_m_s2, True)
-        _taken(begun, "move")
+        accepted = self._control.moveL(list(pose), speed_m_s, acceleration_m_s2, True)
+        _check_accepted(accepted, "move")
 
     def stop(self) -> None:
-        """Begin to brake on the present course; returns nothing that could be checked."""
+        """Begin to brake on the present course; the library returns no result to check."""
         self._control.stopL(self._settings.stop_deceleration_m_s2, True)
 
     def kick(self) -> None:
-        """Let the controller's watchdog know that we live.
+        """Send the signal that the controller's watchdog expects.
 
         Raises:
-            RobotError: The library could not send it, or it would hang: it waits for a program that
-                has ended.
+            RobotError: The library could not send it, or would hang, waiting for an ended program.
         """
         alive = self._control.isProgramRunning() and self._control.kickWatchdog()
-        _taken(alive, "sign of life")
+        _check_accepted(alive, "sign of life")
 
     def end(self) -> None:
-        """End the program; the end of the process hangs up (``disconnect`` sleeps for 0.5 s)."""
+        """End the program; the end of the process disconnects (``disconnect`` sleeps for 0.5 s)."""
         self._control.stopScript()
 
     def _wait_for_payload(self) -> None:
-        wanted_kg = self._settings.payload_kg
+        set_kg = self._settings.payload_kg
         for _ in range(50):
-            if abs(self._receive.getPayload() - wanted_kg) < 1e-6:
+            if abs(self._receive.getPayload() - set_kg) < 1e-6:
                 return
             self._sleep(0.01)
-        got_kg = self._receive.getPayload()
-        raise RobotError(f"the controller took the payload as {got_kg} kg, not {wanted_kg} kg")
+        read_kg = self._receive.getPayload()
+        raise RobotError(f"the controller took the payload as {read_kg} kg, not {set_kg} kg")
 
-    def _until(self, true_of: Callable[[RtdeSample], bool], otherwise: str) -> None:
+    def _wait_until(self, condition: Callable[[RtdeSample], bool], failure: str) -> None:
         for _ in range(100):
-            if true_of(self.sample()):
+            if condition(self.sample()):
                 return
             self._sleep(0.01)
-        raise RobotError(f"{otherwise} (waited 1 s)")
+        raise RobotError(f"{failure} (waited 1 s)")
 
 
-def _taken(answer: object, what: str) -> None:
-    """The library's failures are False."""
-    if answer is not True:
-        raise RobotError(f"the controller did not take the {what}: ur_rtde said {answer!r}")
+def _check_accepted(result: object, name: str) -> None:
+    if result is not True:
+        raise RobotError(f"the controller did not take the {name}: ur_rtde said {result!r}")

@@ -1,6 +1,6 @@
-"""Settings of a UR arm, as a rig's file gives them: address, tool, and the bounds of every motion.
+"""Settings of a UR arm: the section ``hardware.arm`` of a rig's file.
 
-The bounds here are hard: the worker refuses what passes them, whatever a task or a flag asks for.
+The bounds are hard: the worker refuses a motion beyond them, whatever a task or a flag allows.
 """
 
 from __future__ import annotations
@@ -16,28 +16,29 @@ class UrSettings(SettingsBase):
     """A UR e-Series arm (or PolyScope X), driven by ur_rtde. Ports are fixed by the controller.
 
     Attributes:
-        kind: Which driver.
+        kind: Name of the driver.
         host: Address of the controller.
-        payload_kg: Mass of gripper, sensor and what is held [kg].
-        payload_cog_m: Its centre of gravity, seen from the flange [m].
-        tcp_offset_m: Flange to tool centre point [m].
-        tcp_offset_rad: Its rotation vector [rad].
-        workspace_low_m: Corner of the box that the TCP must stay in [m, base frame].
-        workspace_high_m: Its opposite corner [m, base frame].
-        max_speed_m_s: Fastest move [m/s].
+        payload_kg: Mass of gripper, sensor and held object [kg].
+        payload_cog_m: Centre of gravity of the payload in the flange frame [m].
+        tcp_offset_m: Position of the tool centre point (TCP) in the flange frame [m].
+        tcp_offset_rad: Rotation vector of the TCP in the flange frame [rad].
+        workspace_low_m: Lower corner of the box that the TCP must stay in [m, base frame].
+        workspace_high_m: Upper corner of the box [m, base frame].
+        max_speed_m_s: Largest speed of a move [m/s].
         max_acceleration_m_s2: Largest acceleration of a move [m/s²].
         max_turn_rad: Largest change of the tool's orientation in one move [rad].
         stop_deceleration_m_s2: Deceleration of a stop [m/s²]; 10 brings 0.4 m/s to rest in 40 ms.
-        max_contact_force_n: A larger force on the tool in motion is a fault [N]; the force sensor
-            is zeroed at rest when the arm is connected.
-        watchdog_hz: The controller ends the program when it hears nothing for 1 / watchdog_hz.
+        max_contact_force_n: Largest force on the tool in motion; a larger one is a fault [N]. The
+            force sensor is zeroed at rest when the arm is connected.
+        watchdog_hz: The controller ends the program after 1 / watchdog_hz without a signal [Hz].
             20, not the library's usual 10: with a dead link, 100 ms of waiting and 40 ms of braking
             from 0.4 m/s would leave nothing of 150 ms.
         supervision_hz: Rate of data and of supervision [Hz].
-        stale_ms: Data older than this is a fault [ms].
-        min_speed_fraction: Least position of the speed slider, 0 to 1.
-        reach_tolerance_mm: A move that ends farther from its target is a fault [mm].
-        move_margin_s: A move may take this much longer than its trapezoid before it is a fault [s].
+        stale_ms: Largest age of data; older data are a fault [ms].
+        min_speed_fraction: Lowest position of the speed slider, 0 to 1.
+        reach_tolerance_mm: Largest distance from the target at the end of a move; more is a fault
+            [mm].
+        move_margin_s: Time that a move may take beyond its trapezoid before it is a fault [s].
         start_timeout_s: Longest start of the worker [s].
     """
 
@@ -64,10 +65,18 @@ class UrSettings(SettingsBase):
 
     @model_validator(mode="after")
     def _box_is_not_empty(self) -> UrSettings:
-        low, high = self.workspace_low_m, self.workspace_high_m
-        if any(a >= b for a, b in zip(low, high, strict=True)):
-            raise ValueError(
-                f"workspace_low_m {list(low)} must be below workspace_high_m {list(high)} "
-                "in x, y and z"
-            )
+        check_box(self.workspace_low_m, self.workspace_high_m)
         return self
+
+
+def check_box(low_m: Vector, high_m: Vector) -> None:
+    """Check the corners of a workspace box.
+
+    Raises:
+        ValueError: The box is empty.
+    """
+    if any(low >= high for low, high in zip(low_m, high_m, strict=True)):
+        raise ValueError(
+            f"workspace_low_m {list(low_m)} must be below workspace_high_m {list(high_m)} "
+            "in x, y and z"
+        )

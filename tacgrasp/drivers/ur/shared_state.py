@@ -1,12 +1,14 @@
-"""What the UR arm's worker and its owner tell each other: fixed layouts, nothing pickled.
+"""The messages between the UR arm's worker and its owner, in fixed layouts without pickling.
 
-Orders go down a pipe, one fixed-size record each; the end of the pipe tells the worker that its
-owner is gone. The state comes back in a block of shared memory that the worker alone writes: a
-checksum tells a torn read. Clocks are CLOCK_MONOTONIC, which all processes of a machine share.
+Commands go down a pipe, one record of fixed size each; the end of the pipe tells the worker that
+its owner is gone. The state comes back in a block of shared memory that only the worker writes; a
+checksum detects a torn read. Times are CLOCK_MONOTONIC, which all processes of a machine share.
 """
 
 from __future__ import annotations
 
+import bisect
+import itertools
 import math
 import mmap
 import os
@@ -22,7 +24,7 @@ TEXT_BYTES = 480
 
 
 class ArmCommand(IntEnum):
-    """What the worker is told to do."""
+    """Kind of a command to the worker."""
 
     MOVE = 1
     STOP = 2
@@ -30,7 +32,7 @@ class ArmCommand(IntEnum):
 
 
 class WorkerPhase(IntEnum):
-    """Where the worker is in its life."""
+    """Phase in the life of the worker."""
 
     STARTING = 1
     READY = 2
@@ -39,7 +41,7 @@ class WorkerPhase(IntEnum):
 
 
 class CommandOutcome(IntEnum):
-    """How the order of ``WorkerState.done`` ended."""
+    """Outcome of the command ``WorkerState.done``."""
 
     NONE = 0
     DONE = 1
@@ -49,17 +51,17 @@ class CommandOutcome(IntEnum):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CommandRecord:
-    """One order.
+    """One command.
 
     Attributes:
-        order: What to do.
-        number: Rises by one from order to order.
-        sent_s: When it was given, monotonic [s].
-        pose: Of a move, six numbers [m, rad].
-        speed_m_s, acceleration_m_s2: Of a move.
+        kind: Kind of the command.
+        number: Rises by one from command to command.
+        sent_s: Time of sending, monotonic [s].
+        pose: Target of a move, six numbers [m, rad].
+        speed_m_s, acceleration_m_s2: Speed and acceleration of a move.
     """
 
-    order: ArmCommand
+    kind: ArmCommand
     number: int
     sent_s: float
     pose: tuple[float, ...] = (0.0,) * 6
@@ -67,38 +69,39 @@ class CommandRecord:
     acceleration_m_s2: float = 0.0
 
     def packed(self) -> bytes:
-        """As it goes down the pipe; short enough that a write is never split."""
+        """Bytes for the pipe, so few that a write is never split."""
         return _COMMAND.pack(
-            self.order, self.number, self.sent_s, *self.pose,
+            self.kind, self.number, self.sent_s, *self.pose,
             self.speed_m_s, self.acceleration_m_s2,
         )  # fmt: skip
 
     @classmethod
     def unpacked(cls, data: bytes) -> CommandRecord:
-        """The order in ``COMMAND_BYTES`` bytes.
+        """The command in ``COMMAND_BYTES`` bytes.
 
         Raises:
-            ValueError: It is none.
+            ValueError: The bytes are no command.
         """
-        order, number, sent_s, *pose, speed, acceleration = _COMMAND.unpack(data)
+        kind, number, sent_s, *pose, speed, acceleration = _COMMAND.unpack(data)
         return cls(
-            order=ArmCommand(order), number=number, sent_s=sent_s, pose=tuple(pose),
+            kind=ArmCommand(kind), number=number, sent_s=sent_s, pose=tuple(pose),
             speed_m_s=speed, acceleration_m_s2=acceleration,
         )  # fmt: skip
 
 
 @dataclass(slots=True, kw_only=True)
 class WorkerState:
-    """What the worker knows; it alone changes it.
+    """State of the worker, which alone changes it.
 
     Attributes:
-        phase: Of its life.
-        done: Number of the last order that ended; ``outcome``: how.
-        beat_s: When its loop last came round, monotonic [s].
-        data_s: When the controller's data last changed, monotonic [s].
+        phase: Phase of the worker's life.
+        done: Number of the last finished command.
+        outcome: Outcome of that command.
+        beat_s: Time of the last round of supervision, monotonic [s].
+        data_s: Time of the last change of the controller's data, monotonic [s].
         pose, speed, force: Of the TCP, base frame [m, rad; m/s, rad/s; N, N m].
-        speed_fraction: The speed slider, 0 to 1.
-        text: While starting what it does, then the latched fault, or why an order was refused.
+        speed_fraction: Position of the speed slider, 0 to 1.
+        text: Present step of the start; later the latched fault, or the reason of a refusal.
     """
 
     phase: int = WorkerPhase.STARTING
@@ -130,10 +133,10 @@ BLOCK_BYTES = _COUNTS_AT + NUM_COUNTERS * _COUNTS.size
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Distribution:
-    """A distribution of times [ms], in steps of 0.1 ms; NaN where nothing was measured.
+    """A distribution of times [ms], in steps of 0.1 ms; NaN without measurements.
 
     Attributes:
-        count: How many were measured.
+        count: Number of measurements.
         p50_ms, p99_ms, max_ms: Median, 99 % quantile and maximum.
     """
 
@@ -147,11 +150,11 @@ class SharedStateBlock:
     """The shared memory of a worker and its owner.
 
     Attributes:
-        fd: File descriptor to hand to the worker.
+        fd: File descriptor for the worker.
     """
 
     def __init__(self, fd: int | None = None) -> None:
-        """Create the block, or open the one that the owner has handed over."""
+        """Create the block, or open the block of a file descriptor from the owner."""
         if fd is None:
             with tempfile.TemporaryFile() as file:
                 file.truncate(BLOCK_BYTES)
@@ -160,7 +163,7 @@ class SharedStateBlock:
         self._memory = mmap.mmap(fd, BLOCK_BYTES)
 
     def write(self, state: WorkerState) -> None:
-        """Publish a state (the worker)."""
+        """Publish a state (called by the worker)."""
         text = state.text.encode()[:TEXT_BYTES]
         body = _STATE.pack(
             state.phase, state.done, state.outcome, state.beat_s, state.data_s,
@@ -169,10 +172,10 @@ class SharedStateBlock:
         self._memory[: _STATE.size + _SUM.size] = body + _SUM.pack(zlib.crc32(body))
 
     def read(self) -> WorkerState:
-        """The state that was last published whole (the owner).
+        """Last published state (called by the owner).
 
         Raises:
-            RobotError: None can be read.
+            RobotError: No whole state can be read.
         """
         for _ in range(1000):
             data = self._memory[: _STATE.size + _SUM.size]
@@ -188,30 +191,28 @@ class SharedStateBlock:
         raise RobotError("the UR arm's worker has left a torn state; reset the arm")
 
     def count(self, counter: int, seconds: float) -> None:
-        """Add one time to a counter (the worker)."""
-        at = _COUNTS_AT + counter * _COUNTS.size
+        """Add one time to a counter (called by the worker)."""
+        start = _COUNTS_AT + counter * _COUNTS.size
         milliseconds = 1e3 * seconds
-        one = at + 4 * min(NUM_BINS - 1, max(0, int(milliseconds / BIN_MS)))
-        (n,) = struct.unpack_from("<I", self._memory, one)
-        struct.pack_into("<I", self._memory, one, n + 1)
-        most = at + 4 * NUM_BINS
-        if milliseconds > struct.unpack_from("<d", self._memory, most)[0]:
-            struct.pack_into("<d", self._memory, most, milliseconds)
+        bin_at = start + 4 * min(NUM_BINS - 1, max(0, int(milliseconds / BIN_MS)))
+        (count,) = struct.unpack_from("<I", self._memory, bin_at)
+        struct.pack_into("<I", self._memory, bin_at, count + 1)
+        max_at = start + 4 * NUM_BINS
+        if milliseconds > struct.unpack_from("<d", self._memory, max_at)[0]:
+            struct.pack_into("<d", self._memory, max_at, milliseconds)
 
     def distribution(self, counter: int) -> Distribution:
-        """What a counter has gathered (the owner)."""
-        *bins, most_ms = _COUNTS.unpack_from(self._memory, _COUNTS_AT + counter * _COUNTS.size)
+        """Distribution of a counter (called by the owner)."""
+        *bins, max_ms = _COUNTS.unpack_from(self._memory, _COUNTS_AT + counter * _COUNTS.size)
         total = sum(bins)
         if total == 0:
             return Distribution(count=0, p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan)
-        quantiles = []
-        for share in (0.5, 0.99):
-            seen, at = 0, 0
-            while seen < share * total:
-                seen += bins[at]
-                at += 1
-            quantiles.append(min(at * BIN_MS, most_ms))
-        return Distribution(count=total, p50_ms=quantiles[0], p99_ms=quantiles[1], max_ms=most_ms)
+        cumulative = list(itertools.accumulate(bins))
+        p50_ms, p99_ms = (
+            min((bisect.bisect_left(cumulative, fraction * total) + 1) * BIN_MS, max_ms)
+            for fraction in (0.5, 0.99)
+        )
+        return Distribution(count=total, p50_ms=p50_ms, p99_ms=p99_ms, max_ms=max_ms)
 
     def close(self) -> None:
         """Free the memory. Idempotent."""

@@ -1,15 +1,14 @@
-"""The disposable process that alone owns the connection to a UR arm.
+"""The process that alone owns the connection to a UR arm; it is replaced after a fault.
 
 ``python -m tacgrasp.drivers.ur.worker FD SETTINGS``, started by
-``tacgrasp.drivers.ur.worker_process``: connect, set up, supervise (``ur_supervisor``). The first
-thing wrong is latched: the arm is braked by every way left and the process ends, since the library
-never recovers from a lost link. The end of the order pipe means that the owner is gone: brake and
+``tacgrasp.drivers.ur.worker_process``: connect, set up, supervise (``supervisor``). The first fault
+is latched: the arm is braked by every available method and the process ends, since the library
+never recovers from a lost link. The end of the command pipe means that the owner is gone: brake and
 end.
 """
 
 from __future__ import annotations
 
-import contextlib
 import gc
 import math
 import os
@@ -17,6 +16,7 @@ import signal
 import sys
 import threading
 import time
+from contextlib import suppress
 from pathlib import Path
 from typing import NoReturn
 
@@ -25,13 +25,13 @@ from tacgrasp.drivers.ur.dashboard import Dashboard, stop_from_outside
 from tacgrasp.drivers.ur.rtde_link import UrLink
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import SharedStateBlock, WorkerPhase, WorkerState
-from tacgrasp.drivers.ur.supervisor import OwnerGoneError, Supervisor, within
+from tacgrasp.drivers.ur.supervisor import OwnerGoneError, Supervisor, returned_within
 
 LIBRARY_END_S = 0.2
 DASHBOARD_S = 0.1
-"""Longest wait for the dashboard, which is asked when a stop can't wait [s]."""
+"""Time-out of the dashboard connection that is kept for an urgent stop [s]."""
 
-ROUNDS, LIBRARY = 10, 12
+SUPERVISION_PRIORITY, LIBRARY_PRIORITY = 10, 12
 """Real-time priorities (SCHED_FIFO) of supervision and of the library's threads."""
 
 
@@ -40,35 +40,34 @@ def main(argv: list[str]) -> NoReturn:
     block = SharedStateBlock(int(argv[0]))
     settings = UrSettings.model_validate_json(argv[1])
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the owner's: it stops the arm
-    # A library that hangs holds the interpreter: only the kernel can end this process then.
+    # A hanging library holds the interpreter: only the kernel can end this process then.
     signal.alarm(math.ceil(settings.start_timeout_s) + 1)
     starting = WorkerState()
 
-    def step(text: str) -> None:
+    def report_step(text: str) -> None:
         starting.text, starting.beat_s = text, time.monotonic()
         block.write(starting)
 
     try:
-        link = UrLink(settings, step)
-        _ask_for_real_time()
-        link.set_up(step)
+        link = UrLink(settings, report_step)
+        _request_real_time()
+        link.set_up(report_step)
         dashboard = Dashboard(settings.host, DASHBOARD_S)
         supervisor = Supervisor(settings, link, block, sys.stdin.fileno())
         supervisor.state.phase = WorkerPhase.READY
         gc.collect()
-        gc.disable()  # a collection would be a hole in the supervision
+        gc.disable()  # a collection would be a gap in the supervision
         link.arm_watchdog()
     except Exception as error:
-        _last_words(block, starting, f"{error}" or repr(error))
+        _exit_with_fault(block, starting, f"{error}" or repr(error))
     signal.alarm(0)
-    signal.signal(signal.SIGTERM, _gone)
+    signal.signal(signal.SIGTERM, _on_terminate)
     try:
         supervisor.run()
-    except OwnerGoneError as gone:
-        supervisor.state.phase, supervisor.state.text = WorkerPhase.ENDED, str(gone)
+    except OwnerGoneError as error:
+        supervisor.state.phase, supervisor.state.text = WorkerPhase.ENDED, str(error)
         supervisor.brake()
-        ended = within(LIBRARY_END_S, link.end)
-        if not ended:
+        if not returned_within(LIBRARY_END_S, link.end):
             _stop_from_outside(settings, dashboard)
         supervisor.publish(time.monotonic())
         os._exit(0)
@@ -76,36 +75,36 @@ def main(argv: list[str]) -> NoReturn:
         text = str(error) if isinstance(error, RobotError) else repr(error)
         supervisor.state.phase, supervisor.state.text = WorkerPhase.FAULT, text
         supervisor.publish(supervisor.state.beat_s)
-        ways = [supervisor.brake(), _stop_from_outside(settings, dashboard)]
-        told = ", ".join(filter(None, ways)) or "no way to tell it is left but its own watchdog"
-        _last_words(block, supervisor.state, f"{text} (stop: {told})")
+        methods = [supervisor.brake(), _stop_from_outside(settings, dashboard)]
+        stop = ", ".join(filter(None, methods)) or "only the controller's own watchdog is left"
+        _exit_with_fault(block, supervisor.state, f"{text} (stop: {stop})")
 
 
 def _stop_from_outside(settings: UrSettings, dashboard: Dashboard) -> str:
     return stop_from_outside(settings.host, settings.stop_deceleration_m_s2, dashboard=dashboard)
 
 
-def _ask_for_real_time() -> None:
-    """Run before ordinary work where the system allows it; else a busy machine shows as jitter.
+def _request_real_time() -> None:
+    """Run before ordinary work where the system allows it; otherwise a busy machine adds jitter.
 
-    The library's threads come first: its calls spin while they wait for an answer, and with equal
-    priorities they kept the thread that receives it off the processor, measured up to a second.
+    The library's threads get the higher priority: its calls spin while they wait for an answer, and
+    with equal priorities they kept the receiving thread off the processor, up to a measured second.
     """
-    with contextlib.suppress(OSError, AttributeError):
+    with suppress(OSError, AttributeError):
         for task in Path("/proc/self/task").iterdir():
-            rounds = int(task.name) == threading.get_native_id()
-            priority = os.sched_param(ROUNDS if rounds else LIBRARY)
+            supervises = int(task.name) == threading.get_native_id()
+            priority = os.sched_param(SUPERVISION_PRIORITY if supervises else LIBRARY_PRIORITY)
             os.sched_setscheduler(int(task.name), os.SCHED_FIFO, priority)
 
 
-def _gone(signum: int, frame: object) -> NoReturn:
-    raise OwnerGoneError("told to end by a signal")
+def _on_terminate(signum: int, frame: object) -> NoReturn:
+    raise OwnerGoneError("ended by a signal")
 
 
-def _last_words(block: SharedStateBlock, state: WorkerState, text: str) -> NoReturn:
+def _exit_with_fault(block: SharedStateBlock, state: WorkerState, text: str) -> NoReturn:
     state.phase, state.text = WorkerPhase.FAULT, text
     block.write(state)
-    with contextlib.suppress(OSError, ValueError):
+    with suppress(OSError, ValueError):
         sys.stderr.flush()
     os._exit(1)
 

@@ -1,17 +1,17 @@
-"""The UR arm's worker process as its owner holds it: start, orders, state, end. All bounded.
+"""The UR arm's worker process, seen from its owner: start, commands, state, end. All waits bounded.
 
-Not here: what a fault means (``ur``), what the worker does (``ur_worker``).
+Not here: the reaction to a fault (``arm``), the inside of the process (``worker``).
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
 import subprocess
 import sys
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 from primitives.errors import RobotError
@@ -24,48 +24,48 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerState,
 )
 
-LOOK_S = 0.002
-"""How often the worker's state is looked at while waiting for it [s]."""
+POLL_S = 0.002
+"""Interval between two looks at the worker's state while waiting for it [s]."""
 
-BURY_S = 5.0
+KILL_WAIT_S = 5.0
 
 
 class WorkerProcess:
-    """One worker process with its order pipe and its block of shared memory.
+    """One worker process with its command pipe and its block of shared memory.
 
     Attributes:
-        pid: The worker's process.
+        pid: Id of the process.
     """
 
     def __init__(self, settings: UrSettings) -> None:
-        """Start the worker; it is not ready yet."""
+        """Start the process; ``await_ready`` waits until it supervises the arm."""
         self._settings = settings
         self._block = SharedStateBlock()
         self._block.write(WorkerState(text="starting Python", beat_s=time.monotonic()))
-        self._said = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
+        self._output = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
         packages = str(Path(__file__).resolve().parents[3])
         path = os.pathsep.join(filter(None, [packages, os.environ.get("PYTHONPATH", "")]))
-        self._worker = subprocess.Popen(
+        self._process = subprocess.Popen(
             [
                 sys.executable, "-m", "tacgrasp.drivers.ur.worker", str(self._block.fd),
                 settings.model_dump_json(),
             ],
             stdin=subprocess.PIPE,
-            stdout=self._said,
-            stderr=self._said,
+            stdout=self._output,
+            stderr=self._output,
             pass_fds=(self._block.fd,),
             env=os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1"},
             start_new_session=True,  # a Ctrl-C in the terminal is for the owner alone
         )  # fmt: skip
-        self.pid = self._worker.pid
-        if self._worker.stdin is not None:
-            os.set_blocking(self._worker.stdin.fileno(), False)
+        self.pid = self._process.pid
+        if self._process.stdin is not None:
+            os.set_blocking(self._process.stdin.fileno(), False)
 
     def await_ready(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
-        """Wait until the arm is under supervision; the library may hang, so this is bounded.
+        """Wait until the arm is supervised, at most ``start_timeout_s``: the library may hang.
 
         Raises:
-            RobotError: It can't be, or not in ``start_timeout_s``; with what it was doing.
+            RobotError: The start failed or took too long; the message has its last step.
         """
         until_s = clock() + self._settings.start_timeout_s
         while True:
@@ -73,30 +73,31 @@ class WorkerProcess:
             if state.phase == WorkerPhase.READY:
                 return
             if state.phase == WorkerPhase.FAULT or ended:
-                why = state.text if state.phase == WorkerPhase.FAULT else self.last_said(state)
-                raise RobotError(f"the UR arm can't be used: {why}")
+                fault = state.phase == WorkerPhase.FAULT
+                reason = state.text if fault else self.exit_message(state)
+                raise RobotError(f"the UR arm can't be used: {reason}")
             if clock() > until_s:
                 raise RobotError(
                     f"the UR arm was not ready within {self._settings.start_timeout_s:g} s, while "
                     f"{state.text}; restart the controller if it is so again"
                 )
-            sleep(LOOK_S)
+            sleep(POLL_S)
 
-    def send(self, order: CommandRecord) -> None:
-        """Hand an order over; never waits.
+    def send(self, command: CommandRecord) -> None:
+        """Send a command without waiting.
 
         Raises:
             OSError: The worker is gone, or has not read for a long time.
         """
-        if self._worker.stdin is None or self._worker.stdin.closed:
-            raise BrokenPipeError("the worker's order pipe is closed")
-        os.write(self._worker.stdin.fileno(), order.packed())
+        if self._process.stdin is None or self._process.stdin.closed:
+            raise BrokenPipeError("the worker's command pipe is closed")
+        os.write(self._process.stdin.fileno(), command.packed())
 
     def read(self) -> WorkerState:
-        """What the worker last published.
+        """Last state published by the worker.
 
         Raises:
-            RobotError: Nothing whole, or it was freed by another thread.
+            RobotError: No whole state, or the memory was freed by another thread.
         """
         try:
             return self._block.read()
@@ -104,42 +105,42 @@ class WorkerProcess:
             raise RobotError("the UR arm is disconnected") from None
 
     def distribution(self, counter: int) -> Distribution:
-        """What one of the worker's counters has gathered."""
+        """Distribution of one of the worker's counters."""
         return self._block.distribution(counter)
 
     @property
     def has_ended(self) -> bool:
-        """The process is gone."""
-        return self._worker.poll() is not None
+        """Whether the process has ended."""
+        return self._process.poll() is not None
 
     @property
-    def ended_well(self) -> bool:
-        """The process is gone, as it was told."""
-        return self._worker.poll() == 0
+    def exited_cleanly(self) -> bool:
+        """Whether the process has ended with exit code 0, as after a command to end."""
+        return self._process.poll() == 0
 
     def wait(self, seconds: float) -> None:
-        """Wait for its end, at most so long [s]."""
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._worker.wait(seconds)
+        """Wait for the end of the process, at most so long [s]."""
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(seconds)
 
     def kill(self) -> None:
-        """End it at once, if it has not ended. Idempotent."""
+        """Kill the process if it has not ended. Idempotent."""
         if not self.has_ended:
-            self._worker.kill()
-            self.wait(BURY_S)
+            self._process.kill()
+            self.wait(KILL_WAIT_S)
 
-    def last_said(self, state: WorkerState) -> str:
-        """Why it ended without a word: exit code and the end of its output."""
-        self._said.seek(0)
-        said = " ".join(self._said.read().decode(errors="replace").split()[-40:])
-        code = self._worker.poll()
-        return f"its worker ended (exit {code}) while {state.text or 'working'}: {said}"
+    def exit_message(self, state: WorkerState) -> str:
+        """Message for an end without a fault: exit code and the last words of the output."""
+        self._output.seek(0)
+        words = " ".join(self._output.read().decode(errors="replace").split()[-40:])
+        code = self._process.poll()
+        return f"its worker ended (exit {code}) while {state.text or 'working'}: {words}"
 
     def close(self) -> None:
-        """Be rid of it, however it is, and of what it left. Idempotent."""
-        if self._worker.stdin is not None:
-            with contextlib.suppress(OSError):
-                self._worker.stdin.close()
+        """End the process and free its pipe, output and memory. Idempotent."""
+        if self._process.stdin is not None:
+            with suppress(OSError):
+                self._process.stdin.close()
         self.kill()
-        self._said.close()
+        self._output.close()
         self._block.close()

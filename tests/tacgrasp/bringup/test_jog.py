@@ -28,7 +28,7 @@ from tacgrasp.bringup.jog import (
     Quit,
     Stop,
     Unknown,
-    command_of,
+    key_command,
 )
 from tacgrasp.cli.jog import _show
 from tests.fakes.patient_rig import patient_rig
@@ -61,7 +61,7 @@ def jogger(rig):
     [("w", "pad", (0, 1, 0)), ("a", "pad", (-1, 0, 0)), ("f", "base", (0, 0, -1))],
 )
 def test_a_letter_is_one_step_of_the_chosen_length(key, frame, direction):
-    command, after = command_of(key, SETTINGS)
+    command, after = key_command(key, SETTINGS)
     assert command == JogStep(frame=frame, direction=direction, length_mm=1.0)
     assert after == SETTINGS
 
@@ -69,31 +69,31 @@ def test_a_letter_is_one_step_of_the_chosen_length(key, frame, direction):
 def test_brackets_choose_the_step_within_its_range_and_move_nothing():
     settings = SETTINGS
     for _ in range(10):
-        command, settings = command_of("]", settings)
+        command, settings = key_command("]", settings)
         assert command is None
     assert settings.step_mm == STEPS_MM[-1]
     for _ in range(10):
-        _, settings = command_of("[", settings)
+        _, settings = key_command("[", settings)
     assert settings.step_mm == STEPS_MM[0]
 
 
 def test_plus_and_minus_change_the_force_of_the_next_grip_and_send_nothing():
-    command, more = command_of("+", SETTINGS)
+    command, more = key_command("+", SETTINGS)
     assert command is None
-    assert command_of("g", more)[0] == Grip(force_n=1.25)
-    assert command_of("-", more)[1].force_n == pytest.approx(1.0)
+    assert key_command("g", more)[0] == Grip(force_n=1.25)
+    assert key_command("-", more)[1].force_n == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize(
     ("key", "kind"), [("o", Open), (" ", Stop), ("?", Help), ("q", Quit), ("\x03", Quit)]
 )
 def test_the_other_keys(key, kind):
-    assert isinstance(command_of(key, SETTINGS)[0], kind)
+    assert isinstance(key_command(key, SETTINGS)[0], kind)
 
 
 @pytest.mark.parametrize("key", ["", "x", "\x00", "7", "\n"])
 def test_any_other_key_sends_nothing(jogger, rig, key):
-    command, _ = command_of(key, SETTINGS)
+    command, _ = key_command(key, SETTINGS)
     assert command == Unknown(key=key)
     before = rig.arm.pose()
     assert "no command" in jogger.carry_out(command)
@@ -101,9 +101,9 @@ def test_any_other_key_sends_nothing(jogger, rig, key):
 
 
 def test_a_step_along_the_pad_goes_along_its_axes_in_the_base(jogger, rig):
-    jogger.carry_out(command_of("s", SETTINGS)[0])  # fingertip: down, as the fingers point
+    jogger.carry_out(key_command("s", SETTINGS)[0])  # fingertip: down, as the fingers point
     assert rig.arm.pose().position_m == pytest.approx([0.45, -0.10, 0.199])
-    jogger.carry_out(command_of("d", SETTINGS)[0])
+    jogger.carry_out(key_command("d", SETTINGS)[0])
     assert rig.arm.pose().position_m == pytest.approx([0.451, -0.10, 0.199])
 
 

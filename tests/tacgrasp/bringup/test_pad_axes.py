@@ -78,7 +78,7 @@ def test_on_a_rig_the_axes_are_found_and_the_arm_is_back_with_the_gripper_open()
 
 def test_without_a_contact_it_says_what_to_put_there():
     rig = build("cherry_tomato", 3, start_offset_mm=(60, 60))
-    with pytest.raises(TouchError, match=r"is not there; put something small and firm"):
+    with pytest.raises(TouchError, match=r"is missing; put something small and firm"):
         find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=lambda _: None)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from primitives import RobotError
 from tacgrasp.drivers.dynamixel.calibration import (
-    Reading,
+    ForceReading,
     fit_calibration,
     load_calibration,
     read_readings,
@@ -26,8 +26,8 @@ SETTINGS = DynamixelSettings(
 )
 
 
-def readings(*pairs: tuple[float, float]) -> list[Reading]:
-    return [Reading(current_ma=current, force_n=force) for current, force in pairs]
+def readings(*pairs: tuple[float, float]) -> list[ForceReading]:
+    return [ForceReading(current_ma=current, force_n=force) for current, force in pairs]
 
 
 LINE = readings((20, 0.0), (60, 0.4), (110, 1.4), (160, 2.4), (260, 4.4))  # 0.02 N/mA from 40 mA on
@@ -80,7 +80,7 @@ def test_readings_that_make_no_line_are_refused(pairs, match):
 )
 def test_a_reading_that_is_none_is_refused(current, force):
     with pytest.raises(RobotError, match="reading"):
-        Reading(current_ma=current, force_n=force)
+        ForceReading(current_ma=current, force_n=force)
 
 
 def test_what_is_saved_is_loaded_again_and_nothing_else_is_left(tmp_path):

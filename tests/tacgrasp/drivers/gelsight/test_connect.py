@@ -14,9 +14,9 @@ from cltp.sensing.calibration import Calibration, save_calibration
 from cltp.sensing.photometric import COLOUR_SCALE, GradientNet
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
+from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
-from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tests.paths import SHARED_DATA
 

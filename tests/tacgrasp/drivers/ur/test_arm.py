@@ -28,7 +28,7 @@ from tacgrasp.drivers.ur.motion_limits import (
     refusal,
     turn_between_rad,
 )
-from tacgrasp.drivers.ur.preflight import look, preflight
+from tacgrasp.drivers.ur.preflight import controller_findings, preflight
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     PERIOD,
@@ -177,7 +177,7 @@ def test_a_controller_that_is_not_ready_is_refused_soon_and_nothing_moves(
 
 def test_a_ready_controller_passes_every_check(kept, emulator, settings):
     kept.disconnect()
-    findings = look(settings, seconds=0.1)
+    findings = controller_findings(settings, seconds=0.1)
     assert [f.name for f in findings if not f.ok] == []
     assert {"remote control", "version", "speed slider", "registers", "data", "TCP"} <= {
         f.name for f in findings
@@ -510,10 +510,10 @@ def test_a_pose_that_is_not_finite_or_not_whole_never_gets_as_far_as_the_driver(
             Pose(position_m=np.array(position), rotvec_rad=np.array(DOWN_RAD))
 
 
-def order(**changes):
-    given = {"order": ArmCommand.MOVE, "number": 1, "sent_s": 0.0, "pose": (*START_M, *DOWN_RAD),
-             "speed_m_s": 0.1, "acceleration_m_s2": 1.0}  # fmt: skip
-    return CommandRecord(**(given | changes))
+def move_command(**changes):
+    fields = {"kind": ArmCommand.MOVE, "number": 1, "sent_s": 0.0, "pose": (*START_M, *DOWN_RAD),
+              "speed_m_s": 0.1, "acceleration_m_s2": 1.0}  # fmt: skip
+    return CommandRecord(**(fields | changes))
 
 
 @pytest.mark.parametrize(
@@ -529,23 +529,23 @@ def order(**changes):
 )
 def test_the_last_check_refuses(changes, words):
     settings = emulated_arm("127.0.0.9")
-    assert refusal(order(), (*START_M, *DOWN_RAD), settings) == ""
-    assert words in refusal(order(**changes), (*START_M, *DOWN_RAD), settings)
+    assert refusal(move_command(), (*START_M, *DOWN_RAD), settings) == ""
+    assert words in refusal(move_command(**changes), (*START_M, *DOWN_RAD), settings)
 
 
 def test_bounds_themselves_are_allowed():
     settings = emulated_arm("127.0.0.9")
     corner = (*settings.workspace_low_m, *DOWN_RAD)
-    at_bounds = order(pose=corner, speed_m_s=0.4, acceleration_m_s2=10.0)
+    at_bounds = move_command(pose=corner, speed_m_s=0.4, acceleration_m_s2=10.0)
     assert refusal(at_bounds, (*START_M, *DOWN_RAD), settings) == ""
 
 
 def test_the_expected_time_is_that_of_the_trapezoid():
     here = (START_M[0] - 0.1, *START_M[1:], *DOWN_RAD)
-    assert expected_duration_s(order(speed_m_s=0.1, acceleration_m_s2=1.0), here) == pytest.approx(
-        1.1
-    )
-    assert expected_duration_s(order(), order().pose) == 0.0
+    assert expected_duration_s(
+        move_command(speed_m_s=0.1, acceleration_m_s2=1.0), here
+    ) == pytest.approx(1.1)
+    assert expected_duration_s(move_command(), move_command().pose) == 0.0
 
 
 def test_half_a_turn_has_two_rotation_vectors_and_no_turn_between_them():
@@ -596,16 +596,18 @@ def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set(
         stamp_s=1.0, pose=(0,) * 6, speed=(0,) * 6, force=(0,) * 6,
         robot_mode=7, runtime_state=2, safety_bits=1 << 4, speed_fraction=1.0,
     )  # fmt: skip
-    assert "safeguard stop" in sample.wrong()
+    assert "safeguard stop" in sample.problem()
 
 
 def test_orders_and_states_survive_their_fixed_layout():
-    sent = order(sent_s=12.5, number=7)
+    sent = move_command(sent_s=12.5, number=7)
     assert CommandRecord.unpacked(sent.packed()) == sent
     owners = SharedStateBlock()
     workers = SharedStateBlock(os.dup(owners.fd))
-    state = WorkerState(phase=WorkerPhase.FAULT, done=3, outcome=CommandOutcome.REFUSED, beat_s=1.5, data_s=1.25,
-                  pose=tuple(range(6)), text="link, dropped °")  # fmt: skip
+    state = WorkerState(
+        phase=WorkerPhase.FAULT, done=3, outcome=CommandOutcome.REFUSED, beat_s=1.5, data_s=1.25,
+        pose=tuple(range(6)), text="link, dropped °",
+    )  # fmt: skip
     workers.write(state)
     assert owners.read() == state
     for milliseconds in (8.0, 8.0, 8.0, 30.0):
