@@ -1,4 +1,4 @@
-"""Hold Ctrl-C and SIGTERM back while something must not be cut in two."""
+"""Delay Ctrl-C and SIGTERM while something must not be interrupted."""
 
 from __future__ import annotations
 
@@ -10,25 +10,24 @@ from typing import Any
 
 
 @contextmanager
-def interrupts_held() -> Iterator[None]:
-    """Hold Ctrl-C and SIGTERM back for a moment, so that none can cut a chunk in two.
+def delayed_interrupts() -> Iterator[None]:
+    """Delay Ctrl-C and SIGTERM until the end of the block; their handlers run right after.
 
-    Their handlers run right after. Only the main thread receives signals in Python; elsewhere there
-    is nothing to hold.
+    Only the main thread receives signals in Python; in any other thread this does nothing.
     """
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    held: list[int] = []
-    before: dict[signal.Signals, Any] = {}
+    received: list[int] = []
+    handlers: dict[signal.Signals, Any] = {}
     try:
         for number in (signal.SIGINT, signal.SIGTERM):
             if callable(handler := signal.getsignal(number)):
-                before[number] = handler
-                signal.signal(number, lambda which, _frame: held.append(which))
+                handlers[number] = handler
+                signal.signal(number, lambda signum, _frame: received.append(signum))
         yield
     finally:
-        for number, handler in before.items():
+        for number, handler in handlers.items():
             signal.signal(number, handler)
-        for missed in held:
+        for missed in received:
             signal.raise_signal(missed)

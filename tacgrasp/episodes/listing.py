@@ -1,6 +1,6 @@
-"""What lies in a directory of episodes, as tables for people.
+"""Tables of recorded episodes, for people.
 
-Not here: reading (``tacgrasp.episodes.reader``), printing (the command line owns the console).
+Not here: reading (``tacgrasp.episodes.reader``), printing (``tacgrasp.cli.episodes``).
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.reader import read_episode
 from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase
 
+_YES_NO = {True: "yes", False: "no", None: "not tried"}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EpisodeSummary:
@@ -26,24 +28,14 @@ class EpisodeSummary:
     Attributes:
         path: The file.
         size_bytes: Its size.
-        episode: What is in it; None when it can't be read.
-        problem: Why it can't be read or is incomplete; empty otherwise.
+        episode: Its content; None when it can't be read.
+        problem: Error of reading it, or damage of an incomplete file; empty otherwise.
     """
 
     path: Path
     size_bytes: int
     episode: Episode | None
     problem: str
-
-
-def summarise(path: Path) -> EpisodeSummary:
-    """Read one file; what is wrong with it is part of the answer."""
-    size = path.stat().st_size if path.is_file() else 0
-    try:
-        episode = read_episode(path)
-    except EpisodeError as error:
-        return EpisodeSummary(path=path, size_bytes=size, episode=None, problem=str(error))
-    return EpisodeSummary(path=path, size_bytes=size, episode=episode, problem=episode.problem)
 
 
 def list_episodes(directory: Path) -> list[EpisodeSummary]:
@@ -56,46 +48,50 @@ def list_episodes(directory: Path) -> list[EpisodeSummary]:
         raise EpisodeError(
             f"{directory} is not a directory; name the one that episodes were recorded to"
         )
-    return [summarise(path) for path in sorted(directory.glob("*.mcap"))]
+    return [_summary(path) for path in sorted(directory.glob("*.mcap"))]
+
+
+def _summary(path: Path) -> EpisodeSummary:
+    size = path.stat().st_size if path.is_file() else 0
+    try:
+        episode = read_episode(path)
+    except EpisodeError as error:
+        return EpisodeSummary(path=path, size_bytes=size, episode=None, problem=str(error))
+    return EpisodeSummary(path=path, size_bytes=size, episode=episode, problem=episode.problem)
 
 
 def duration_s(episode: Episode) -> float:
-    """From the header to the end, or to the last tick of a run that was killed [s]."""
+    """Time from the header to the end, or to the last step of a killed run [s]."""
     last = episode.end or (episode.steps[-1] if episode.steps else episode.header)
     return last.stamp.monotonic_s - episode.header.stamp.monotonic_s
 
 
 def table(summaries: Sequence[EpisodeSummary]) -> Table:
     """One row per episode."""
-    shown = Table(header_style="bold", expand=False)
-    shown.add_column("episode", no_wrap=True)
-    for column in ("task", "policy"):
-        shown.add_column(column, overflow="fold")
-    shown.add_column("ticks", justify="right")
-    for column in ("end", "declared", "verified", "truth"):
-        shown.add_column(column, overflow="fold")
-    shown.add_column("time", justify="right")
-    shown.add_column("size", justify="right")
+    grid = Table(header_style="bold", expand=False)
+    grid.add_column("episode", no_wrap=True)
+    for column in ("task", "policy", "steps", "end", "declared", "verified", "truth"):
+        grid.add_column(column, overflow="fold", justify="right" if column == "steps" else "left")
+    for column in ("time", "size"):
+        grid.add_column(column, justify="right")
     for summary in summaries:
-        shown.add_row(*_row(summary))
-    return shown
+        grid.add_row(*_row(summary))
+    return grid
 
 
 def info(path: Path) -> Table:
-    """Everything about one episode but its touches.
+    """Everything about one episode but its clouds.
 
     Raises:
         EpisodeError: As for ``read_episode``.
     """
     episode = read_episode(path)
     header, end = episode.header, episode.end
-    shown = Table.grid(padding=(0, 2))
-    shown.add_column(style="bold")
-    shown.add_column(overflow="fold")
     started = datetime.fromtimestamp(header.stamp.wall_s, tz=UTC)
+    recover = f"`tacgrasp episodes recover {path}` makes a finished file of it"
     rows = {
         "file": f"{path} ({_size(path.stat().st_size)})",
-        "complete": "yes" if episode.complete else f"no: {_incomplete(path, episode)}",
+        "complete": "yes" if episode.complete else f"no: {episode.problem}; {recover}",
         "task": header.task,
         "instruction": header.instruction,
         "policy": header.policy,
@@ -105,19 +101,22 @@ def info(path: Path) -> Table:
         f"{header.sensor.height_mm:.1f} mm",
         "started": f"{started:%Y-%m-%d %H:%M:%S} UTC",
         "duration": f"{duration_s(episode):.2f} s",
-        "ticks": _ticks_in_words(episode),
-        "actions": _actions_in_words(episode),
+        "steps": _steps_text(episode),
+        "actions": _actions_text(episode),
         "end": end.reason if end else "not recorded: the run was killed or crashed",
         "message": end.message if end else "",
-        "declared success": _yes_no(end.declared_success) if end else "",
-        "verified success": _yes_no(end.verified_success) if end else "",
-        "truth": _truth(end),
+        "declared success": _YES_NO[end.declared_success] if end else "",
+        "verified success": _YES_NO[end.verified_success] if end else "",
+        "truth": _truth_text(end),
         "versions": ", ".join(f"{name} {version}" for name, version in header.versions.items()),
     }
+    grid = Table.grid(padding=(0, 2))
+    grid.add_column(style="bold")
+    grid.add_column(overflow="fold")
     for name, value in rows.items():
         if value:
-            shown.add_row(name, escape(value))
-    return shown
+            grid.add_row(name, escape(value))
+    return grid
 
 
 def _row(summary: EpisodeSummary) -> list[str]:
@@ -134,41 +133,34 @@ def _row(summary: EpisodeSummary) -> list[str]:
         escape(name),
         escape(episode.header.task),
         escape(episode.header.policy),
-        str(_num_turns(episode)),
+        str(_num_loop_steps(episode)),
         f"[{colour}]{escape(outcome)}[/{colour}]",
-        _yes_no(end.declared_success) if end else "",
-        _yes_no(end.verified_success) if end else "",
-        escape(_truth_in_short(end)),
+        _YES_NO[end.declared_success] if end else "",
+        _YES_NO[end.verified_success] if end else "",
+        escape(_short_truth_text(end)),
         f"{duration_s(episode):.1f} s",
         size,
     ]
 
 
-def _num_turns(episode: Episode) -> int:
-    return sum(tick.phase == StepPhase.LOOP for tick in episode.steps)
+def _num_loop_steps(episode: Episode) -> int:
+    return sum(step.phase == StepPhase.LOOP for step in episode.steps)
 
 
-def _ticks_in_words(episode: Episode) -> str:
-    turns = _num_turns(episode)
-    checks = len(episode.steps) - turns
-    return f"{turns}" + (f" and {checks} touches of verification" if checks else "")
+def _steps_text(episode: Episode) -> str:
+    num_steps = _num_loop_steps(episode)
+    num_checks = len(episode.steps) - num_steps
+    return f"{num_steps}" + (f" and {num_checks} of the verification" if num_checks else "")
 
 
-def _actions_in_words(episode: Episode) -> str:
-    counts = Counter(
-        tick.executed.primitive.value
-        for tick in episode.steps
-        if tick.executed is not None and tick.executed.primitive is not None
-    )
+def _actions_text(episode: Episode) -> str:
+    executed = [step.executed.primitive for step in episode.steps if step.executed is not None]
+    counts = Counter(primitive.value for primitive in executed if primitive is not None)
     return ", ".join(f"{count} × {name}" for name, count in counts.items())
 
 
-def _incomplete(path: Path, episode: Episode) -> str:
-    return f"{episode.problem}; `tacgrasp episodes recover {path}` makes a finished file of it"
-
-
-def _truth(end: EpisodeEnd | None) -> str:
-    """Facts that hold by name, others with their value."""
+def _truth_text(end: EpisodeEnd | None) -> str:
+    """Facts that hold by name, others with their value, in the order of the record."""
     words = []
     for name, value in (end.truth or {}).items() if end else ():
         if isinstance(value, bool):
@@ -178,15 +170,11 @@ def _truth(end: EpisodeEnd | None) -> str:
     return ", ".join(words)
 
 
-def _truth_in_short(end: EpisodeEnd | None) -> str:
+def _short_truth_text(end: EpisodeEnd | None) -> str:
     """The facts that hold; when none does, that the first does not."""
     facts = {k: v for k, v in (end.truth or {}).items() if isinstance(v, bool)} if end else {}
-    held = [name for name, value in facts.items() if value]
-    return ", ".join(held or [f"not {name}" for name in list(facts)[:1]])
-
-
-def _yes_no(value: bool | None) -> str:
-    return {True: "yes", False: "no", None: "not tried"}[value]
+    positive = [name for name, value in facts.items() if value]
+    return ", ".join(positive or [f"not {name}" for name in list(facts)[:1]])
 
 
 def _size(size_bytes: int) -> str:

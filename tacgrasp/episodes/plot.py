@@ -1,7 +1,4 @@
-"""An episode as one picture: every touch, and how force, depth and position went.
-
-Not here: live viewers.
-"""
+"""Draw an episode as one picture: every cloud, and force, depth and position over time."""
 
 from __future__ import annotations
 
@@ -26,26 +23,22 @@ from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import refusal
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, StepPhase, StepRecord
+from tacgrasp.episodes.record import PHASE_LABELS, Episode, StepPhase, StepRecord
 
 MAX_PICTURES = 24
-"""More touches than this are thinned out evenly, the first and the last kept. Our choice."""
+"""Largest number of drawn clouds; more are thinned out evenly, first and last stay. Our choice."""
 
 SCALE_TOP_MM = 0.9
-"""Top of the fixed colour scale [mm], where 'very deep' begins (``cltp.tactile.states``)."""
+"""Top of the colour scale [mm], the start of 'very deep' (``cltp.tactile.states``)."""
 
 _COLUMNS = 6
 _HEAT = "magma_r"  # the untouched gel is light
 _FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
-_SHORT_PHASE = {
-    StepPhase.VERIFY_BEFORE: "before the lift",
-    StepPhase.VERIFY_AFTER: "after the lift",
-}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Touch:
-    """What the picture shows of a cloud: largest indentation and where the pressed part is [mm]."""
+class _Contact:
+    """Largest indentation of a cloud and the position of its pressed part [mm]."""
 
     depth_mm: float
     x_mm: float
@@ -56,11 +49,11 @@ def plot_episode(path: Path, png_path: Path) -> None:
     """Draw the episode in ``path`` to ``png_path``.
 
     Raises:
-        EpisodeError: The episode can't be read or has no touch, or the picture can't be written.
+        EpisodeError: The episode can't be read or has no step, or the picture can't be written.
     """
     episode = read_episode(path)
     if not episode.steps:
-        raise EpisodeError(f"{path} has no touch to draw: the run ended before its first tick")
+        raise EpisodeError(f"{path} has no touch to draw: the run ended before its first step")
     figure = draw_episode(episode, path.name)
     try:
         figure.savefig(png_path, format="png", dpi=110, facecolor="white")
@@ -69,54 +62,41 @@ def plot_episode(path: Path, png_path: Path) -> None:
 
 
 def draw_episode(episode: Episode, name: str) -> Figure:
-    """The picture as a figure; ``name`` goes into the title. The episode has at least one tick."""
-    shown = _thinned(episode.steps)
-    rows = math.ceil(len(shown) / _COLUMNS)
+    """The picture of an episode with at least one step; ``name`` goes into the title."""
+    drawn = _thinned(episode.steps)
+    rows = math.ceil(len(drawn) / _COLUMNS)
     height_in = 1.0 + 1.75 * rows + 4.2
     figure = Figure(figsize=(13, height_in))
     FigureCanvasAgg(figure)
-    top = 1 - 0.95 / height_in
-    split = 4.4 / height_in
-    pictures = GridSpec(
-        rows, _COLUMNS, figure, 0.04, split + 0.1 / height_in, 0.93, top, wspace=0.08, hspace=0.32
-    )
-    curves = GridSpec(
-        2,
-        2,
-        figure,
-        0.07,
-        0.6 / height_in,
-        0.97,
-        split - 0.55 / height_in,
-        width_ratios=(1.7, 1),
-        hspace=0.16,
-        wspace=0.12,
-    )
+    top, bottom = 1 - 0.95 / height_in, 4.5 / height_in
+    curves_box = (0.07, 0.6 / height_in, 0.97, 3.85 / height_in)
+    pictures = GridSpec(rows, _COLUMNS, figure, 0.04, bottom, 0.93, top, wspace=0.08, hspace=0.32)
+    curves = GridSpec(2, 2, figure, *curves_box, width_ratios=(1.7, 1), hspace=0.16, wspace=0.12)
     _title(figure, episode, name, height_in)
     scale = Normalize(0.0, SCALE_TOP_MM)
-    for place, tick in enumerate(shown):
-        _draw_cloud(figure.add_subplot(pictures[place // _COLUMNS, place % _COLUMNS]), tick, scale)
-    bar = figure.add_axes((0.945, split + 0.1 / height_in, 0.012, top - split - 0.1 / height_in))
+    for index, step in enumerate(drawn):
+        _draw_cloud(figure.add_subplot(pictures[divmod(index, _COLUMNS)]), step, scale)
+    bar = figure.add_axes((0.945, bottom, 0.012, top - bottom))
     figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, extend="max", label="indentation [mm]")
-    touches = [_touch(tick.cloud) for tick in episode.steps]
-    _draw_curves(figure, curves, episode, touches)
-    _draw_path(figure.add_subplot(curves[:, 1]), episode, touches)
+    contacts = [_contact(step.cloud) for step in episode.steps]
+    _draw_curves(figure, curves, episode, contacts)
+    _draw_path(figure.add_subplot(curves[:, 1]), episode, contacts)
     return figure
 
 
-def _thinned(ticks: Sequence[StepRecord]) -> list[StepRecord]:
-    if len(ticks) <= MAX_PICTURES:
-        return list(ticks)
-    return [ticks[i] for i in np.linspace(0, len(ticks) - 1, MAX_PICTURES).round().astype(int)]
+def _thinned(steps: Sequence[StepRecord]) -> list[StepRecord]:
+    if len(steps) <= MAX_PICTURES:
+        return list(steps)
+    return [steps[i] for i in np.linspace(0, len(steps) - 1, MAX_PICTURES).round().astype(int)]
 
 
-def _touch(cloud: TactileCloud) -> _Touch:
+def _contact(cloud: TactileCloud) -> _Contact:
     """Centre of the points pressed at least half as deep as the deepest one."""
     points = cloud.points_mm
     depth = float(points[:, 2].max())
     pressed = points[points[:, 2] >= depth / 2]
     x, y = pressed[:, :2].mean(axis=0)
-    return _Touch(depth_mm=max(depth, 0.0), x_mm=float(x), y_mm=float(y))
+    return _Contact(depth_mm=max(depth, 0.0), x_mm=float(x), y_mm=float(y))
 
 
 def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> None:
@@ -126,37 +106,32 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
         outcome += " (unfinished file)"
     outcome = textwrap.shorten(outcome, 85, placeholder=" …")
     seed = "" if header.seed is None else f", seed {header.seed}"
-    figure.text(
-        0.04,
-        1 - 0.36 / height_in,
-        f"{header.task}, {header.policy}{seed} → {outcome}",
-        fontsize=15,
-        weight="bold",
-    )
-    said = f"“{header.instruction}”   {name}"
+    title = f"{header.task}, {header.policy}{seed} → {outcome}"
+    figure.text(0.04, 1 - 0.36 / height_in, title, fontsize=15, weight="bold")
+    subtitle = f"“{header.instruction}”   {name}"
     if len(episode.steps) > MAX_PICTURES:
-        said += f"   ({MAX_PICTURES} of {len(episode.steps)} touches shown)"
-    figure.text(0.04, 1 - 0.62 / height_in, said, fontsize=10, color=_MUTED)
+        subtitle += f"   ({MAX_PICTURES} of {len(episode.steps)} touches shown)"
+    figure.text(0.04, 1 - 0.62 / height_in, subtitle, fontsize=10, color=_MUTED)
 
 
-def _draw_cloud(axes: Axes, tick: StepRecord, scale: Normalize) -> None:
-    x, y, z = tick.cloud.points_mm.astype(np.float64).T
+def _draw_cloud(axes: Axes, step: StepRecord, scale: Normalize) -> None:
+    x, y, z = step.cloud.points_mm.astype(np.float64).T
     axes.tripcolor(x, y, z, cmap=_HEAT, norm=scale, shading="gouraud")
     axes.set_facecolor(colormaps[_HEAT](0.0))  # between the outermost points and the pad's edge
-    _outline_pad(axes, tick.cloud.sensor)
+    _outline_pad(axes, step.cloud.sensor)
     axes.set_xticks([])
     axes.set_yticks([])
-    axes.set_title(f"{tick.index}  {_caption(tick)}", fontsize=9.5, pad=4)
+    axes.set_title(f"{step.index}  {_caption(step)}", fontsize=9.5, pad=4)
 
 
-def _caption(tick: StepRecord) -> str:
-    if tick.phase != StepPhase.LOOP:
-        return _SHORT_PHASE[tick.phase]
-    decision = tick.decision
+def _caption(step: StepRecord) -> str:
+    if step.phase != StepPhase.LOOP:
+        return PHASE_LABELS[step.phase]
+    decision = step.decision
     if decision is None:
         return "no decision"
     if decision.action is not None:
-        return f"→ {decision.action.value}" + ("" if tick.executed else " (not done)")
+        return f"→ {decision.action.value}" + ("" if step.executed else " (not done)")
     return "success declared" if decision.success else "no action"
 
 
@@ -173,21 +148,21 @@ def _outline_pad(axes: Axes, sensor: SensorSpec) -> None:
 
 
 def _draw_curves(
-    figure: Figure, grid: GridSpec, episode: Episode, touches: Sequence[_Touch]
+    figure: Figure, grid: GridSpec, episode: Episode, contacts: Sequence[_Contact]
 ) -> None:
     """Commanded force and felt depth over time, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
-    time_s = [tick.stamp.monotonic_s - start_s for tick in episode.steps]
+    time_s = [step.stamp.monotonic_s - start_s for step in episode.steps]
     force = figure.add_subplot(grid[0, 0])
     depth = figure.add_subplot(grid[1, 0], sharex=force)
-    commanded = [tick.gripper.force_n for tick in episode.steps]
+    commanded = [step.gripper.force_n for step in episode.steps]
     force.step(time_s, commanded, where="post", color=_FORCE, lw=2)
     force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
     force.set_ylabel("commanded\nforce [N]")
     force.set_ylim(0, 1.35 * max(*commanded, 0.1))
-    depth.plot(time_s, [touch.depth_mm for touch in touches], "o-", color=_DEPTH, lw=2, ms=5)
+    depth.plot(time_s, [contact.depth_mm for contact in contacts], "o-", color=_DEPTH, lw=2, ms=5)
     depth.set_ylabel("largest\nindentation [mm]")
-    depth.set_ylim(0, 1.3 * max(*(touch.depth_mm for touch in touches), 0.1))
+    depth.set_ylim(0, 1.3 * max(*(contact.depth_mm for contact in contacts), 0.1))
     depth.set_xlabel("time since start [s]")
     force.tick_params(labelbottom=False)
     for axes in (force, depth):
@@ -199,69 +174,60 @@ def _draw_curves(
         _label_times(force, time_s, episode.steps)
 
 
-def _label_times(axes: Axes, time_s: Sequence[float], ticks: Sequence[StepRecord]) -> None:
-    """Words above the curves, but none on top of another."""
+def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord]) -> None:
+    """Label the steps above the curves; a label that would cover another is left out."""
     free_s = -math.inf
-    for at_s, tick in zip(time_s, ticks, strict=True):
-        if at_s >= free_s:
-            _label_time(axes, at_s, tick)
-            free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
+    for at_s, step in zip(time_s, steps, strict=True):
+        if at_s < free_s:
+            continue
+        free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
+        axes.annotate(
+            _caption(step).removeprefix("→ ").replace("_", " "),
+            (at_s, 0.99),
+            xycoords=("data", "axes fraction"),
+            xytext=(2, 0),
+            textcoords="offset points",
+            fontsize=8,
+            rotation=30,
+            va="bottom",
+            color="#444444",
+        )
 
 
-def _label_time(axes: Axes, at_s: float, tick: StepRecord) -> None:
-    words = _caption(tick).removeprefix("→ ").replace("_", " ")
-    axes.annotate(
-        words,
-        (at_s, 0.99),
-        xycoords=("data", "axes fraction"),
-        xytext=(2, 0),
-        textcoords="offset points",
-        fontsize=8,
-        rotation=30,
-        va="bottom",
-        color="#444444",
-    )
-
-
-def _draw_path(axes: Axes, episode: Episode, touches: Sequence[_Touch]) -> None:
-    """Where on the pad the contact was, touch after touch."""
+def _draw_path(axes: Axes, episode: Episode, contacts: Sequence[_Contact]) -> None:
+    """Path of the contact on the pad."""
     _outline_pad(axes, episode.header.sensor)
     sensor = episode.header.sensor
     for third in (-1, 1):  # the nine cells of the position words
         axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
         axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
-    felt = [(t, i) for t, i in zip(touches, episode.steps, strict=True) if t.depth_mm > 0.05]
-    x, y = [t.x_mm for t, _ in felt], [t.y_mm for t, _ in felt]
+    path = [(c, s) for c, s in zip(contacts, episode.steps, strict=True) if c.depth_mm > 0.05]
+    x, y = [contact.x_mm for contact, _ in path], [contact.y_mm for contact, _ in path]
     axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
-    axes.scatter(x, y, c=range(len(felt)), cmap="viridis", s=60, zorder=3, ec="white")
-    for words, touch in _labels(felt):
-        axes.annotate(
-            words,
-            (touch.x_mm, touch.y_mm),
-            xytext=(6, 5),
-            textcoords="offset points",
-            fontsize=9,
-        )
+    axes.scatter(x, y, c=range(len(path)), cmap="viridis", s=60, zorder=3, ec="white")
+    for label, at in _labels(path):
+        point = (at.x_mm, at.y_mm)
+        axes.annotate(label, point, xytext=(6, 5), textcoords="offset points", fontsize=9)
     axes.set_title("contact on the pad [mm], +y towards the palm", fontsize=10)
     axes.tick_params(labelsize=8)
 
 
-def _labels(felt: Sequence[tuple[_Touch, StepRecord]]) -> list[tuple[str, _Touch]]:
-    """Numbers of the touches; those at one place share a label, and none covers another."""
-    runs: list[list[tuple[_Touch, StepRecord]]] = []
-    for touch, tick in felt:
-        if runs and _apart_mm(runs[-1][0][0], touch) < 0.6:
-            runs[-1].append((touch, tick))
+def _labels(path: Sequence[tuple[_Contact, StepRecord]]) -> list[tuple[str, _Contact]]:
+    """Numbers of the steps; those at one position share a label, and none covers another."""
+    runs: list[list[tuple[_Contact, StepRecord]]] = []
+    for contact, step in path:
+        if runs and _distance_mm(runs[-1][0][0], contact) < 0.6:
+            runs[-1].append((contact, step))
         else:
-            runs.append([(touch, tick)])
-    placed: list[tuple[str, _Touch]] = []
+            runs.append([(contact, step)])
+    labels: list[tuple[str, _Contact]] = []
     for run in runs:
-        (touch, first), (_, last) = run[0], run[-1]
-        if all(_apart_mm(touch, other) > 1.2 for _, other in placed):
-            words = str(first.index) if first is last else f"{first.index}–{last.index}"
-            placed.append((words, touch))
-    return placed
+        (contact, first), (_, last) = run[0], run[-1]
+        if all(_distance_mm(contact, other) > 1.2 for _, other in labels):
+            text = str(first.index) if first is last else f"{first.index}–{last.index}"
+            labels.append((text, contact))
+    return labels
 
 
-def _apart_mm(a: _Touch, b: _Touch) -> float:
+def _distance_mm(a: _Contact, b: _Contact) -> float:
     return math.hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm)

@@ -1,27 +1,26 @@
 """Read the records of an MCAP file from its start, as far as they are whole.
 
 The stock reader starts at the summary at a file's end, which a killed run never wrote. A scan needs
-no summary: it takes each record whose bytes are all there, leaves out a chunk whose checksum does
-not fit, and stops where the bytes end.
+no summary: it reads each complete record, leaves out a chunk with a wrong checksum, and stops where
+the bytes end.
 
-Not here: what the records mean (``tacgrasp.episodes.reader``).
+Not here: the meaning of the records (``tacgrasp.episodes.reader``).
 """
 
 from __future__ import annotations
 
 import io
 import struct
-import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import lz4.frame
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Channel, Chunk, McapRecord, Message, Metadata, Schema
+from mcap.records import Chunk, McapRecord, Message, Metadata
+from mcap.stream_reader import breakup_chunk
 from mcap.writer import MCAP0_MAGIC
 
 from tacgrasp.episodes.errors import EpisodeError
@@ -31,13 +30,13 @@ _PREFIX = struct.Struct("<BQ")  # opcode, length of what follows
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scan:
-    """What a file holds.
+    """Content of a file.
 
     Attributes:
         groups: Schemas, channels, messages and metadata in the order of the file; the records of
             one chunk are one group.
-        finished: True when footer and closing magic are there and everything between is whole.
-        problem: What is missing or damaged, for people; empty when finished.
+        finished: True when footer and closing magic exist and everything between is whole.
+        problem: Missing or damaged parts, for people; empty when finished.
     """
 
     groups: tuple[tuple[McapRecord, ...], ...]
@@ -51,7 +50,7 @@ class Scan:
 
 
 class _DamagedError(Exception):
-    """The next record is not whole."""
+    """The next record is incomplete or damaged."""
 
 
 def scan_file(path: Path) -> Scan:
@@ -100,7 +99,7 @@ def _scan(data: bytes) -> Scan:
         try:
             if group := _group(opcode, payload):
                 groups.append(group)
-        except _DamagedError as damage:  # its length is right: what follows can still be read
+        except _DamagedError as damage:  # its length is right: the next record can still be read
             problems.append(f"{damage} at byte {start} of {len(data)}, left out")
     if finished and data[offset:] != MCAP0_MAGIC:
         problems.append("the closing bytes are missing or followed by others")
@@ -109,10 +108,10 @@ def _scan(data: bytes) -> Scan:
 
 
 def _missing(payload: bytes, groups: list[tuple[McapRecord, ...]]) -> list[str]:
-    """What the file's own count of its messages says of those that were found."""
-    found = sum(isinstance(record, Message) for group in groups for record in group)
+    """Compare the file's own count of its messages with the number that was read."""
+    num_read = sum(isinstance(record, Message) for group in groups for record in group)
     (written,) = struct.unpack_from("<Q", payload.ljust(8, b"\0"))  # first field of Statistics
-    return [] if found == written else [f"{found} messages were found where {written} were written"]
+    return [] if num_read == written else [f"{num_read} messages were read, {written} written"]
 
 
 def _next_record(data: bytes, offset: int) -> tuple[int, bytes]:
@@ -128,54 +127,12 @@ def _next_record(data: bytes, offset: int) -> tuple[int, bytes]:
 
 
 def _group(opcode: int, payload: bytes) -> tuple[McapRecord, ...]:
-    """Records of a chunk, or a single record that counts; nothing for the others (indexes)."""
+    """Records of a chunk, or a metadata record; nothing for the others (indexes)."""
+    stream = ReadDataStream(io.BytesIO(payload))
     try:
         if opcode == Opcode.CHUNK:
-            return tuple(_chunk_records(Chunk.read(_stream(payload))))
+            return tuple(breakup_chunk(Chunk.read(stream), validate_crc=True))
         # Outside chunks nothing has a checksum; our schemas, channels and messages are all inside.
-        record = _record(opcode, payload) if opcode == Opcode.METADATA else None
-    except (McapError, ValueError, struct.error) as error:
+        return (Metadata.read(stream),) if opcode == Opcode.METADATA else ()
+    except (McapError, ValueError, RuntimeError, zstandard.ZstdError, struct.error) as error:
         raise _DamagedError(f"a record can't be read ({error or type(error).__name__})") from None
-    return () if record is None else (record,)
-
-
-def _record(opcode: int, payload: bytes) -> McapRecord | None:
-    stream = _stream(payload)
-    if opcode == Opcode.MESSAGE:
-        return Message.read(stream, len(payload))
-    if opcode == Opcode.SCHEMA:
-        return Schema.read(stream)
-    if opcode == Opcode.CHANNEL:
-        return Channel.read(stream)
-    if opcode == Opcode.METADATA:
-        return Metadata.read(stream)
-    return None
-
-
-def _chunk_records(chunk: Chunk) -> Iterator[McapRecord]:
-    data = _decompressed(chunk)
-    if chunk.uncompressed_crc and zlib.crc32(data) != chunk.uncompressed_crc:
-        raise _DamagedError("a chunk's checksum does not fit")
-    offset = 0
-    while offset < len(data):
-        opcode, payload = _next_record(data, offset)
-        offset += _PREFIX.size + len(payload)
-        record = _record(opcode, payload)
-        if record is not None:
-            yield record
-
-
-def _decompressed(chunk: Chunk) -> bytes:
-    try:
-        if chunk.compression == "zstd":
-            return zstandard.ZstdDecompressor().decompress(chunk.data, chunk.uncompressed_size)
-        if chunk.compression == "lz4":
-            unpacked: bytes = lz4.frame.decompress(chunk.data)
-            return unpacked
-    except (zstandard.ZstdError, RuntimeError) as error:
-        raise _DamagedError(f"a chunk can't be unpacked ({error})") from None
-    return chunk.data
-
-
-def _stream(payload: bytes) -> ReadDataStream:
-    return ReadDataStream(io.BytesIO(payload))

@@ -16,12 +16,12 @@ _LITTLE = np.dtype("<f4")
 
 
 def wall_ns(stamp: Stamp) -> int:
-    """The wall clock of a stamp in whole nanoseconds, as MCAP wants it (never negative)."""
+    """Wall clock of a stamp in whole nanoseconds; MCAP allows no negative time."""
     return max(0, round(stamp.wall_s * 1e9))
 
 
 def encode_cloud(cloud: TactileCloud, stamp: Stamp) -> bytes:
-    """Serialise a cloud; ``stamp`` is used when the cloud has no clock of its own."""
+    """Serialise a cloud; ``stamp`` is the time of a cloud without a stamp of its own."""
     points = cloud.points_mm.astype(_LITTLE, copy=False)
     message = PointCloud(frame_id=FRAME_ID, point_stride=3 * _LITTLE.itemsize)
     message.timestamp.FromNanoseconds(wall_ns(cloud.stamp or stamp))
@@ -33,11 +33,11 @@ def encode_cloud(cloud: TactileCloud, stamp: Stamp) -> bytes:
 
 
 def decode_cloud(data: bytes, sensor: SensorSpec, stamp: Stamp | None) -> TactileCloud:
-    """Restore a cloud that ``encode_cloud`` made.
+    """Restore a cloud from ``encode_cloud``.
 
     Raises:
         ValueError: Not a point cloud of ours.
-        TouchError: The points can't be a touch of ``sensor``.
+        TouchError: The points don't fit ``sensor``.
     """
     message = PointCloud()
     try:

@@ -27,7 +27,7 @@ from mcap_protobuf.schema import build_file_descriptor_set
 from cltp.tactile.cloud import Stamp
 from tacgrasp.episodes.codec import json_schema, non_finite_number, to_json
 from tacgrasp.episodes.errors import EpisodeError
-from tacgrasp.episodes.interrupts import interrupts_held
+from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.paths import refusal, sync_directory
 from tacgrasp.episodes.record import (
     FORMAT,
@@ -158,7 +158,7 @@ class EpisodeWriter:
             raise EpisodeError(
                 f"{self.path} is closed, {part} can't be written; see the error before"
             )
-        with interrupts_held():
+        with delayed_interrupts():
             try:
                 yield
                 self._mcap.flush()

@@ -11,7 +11,7 @@ from typing import TypeVar
 from primitives import RobotError
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError
-from tacgrasp.episodes.interrupts import interrupts_held
+from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.record import TruthFacts
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Outcome, Verification
@@ -60,7 +60,7 @@ def close(ending: Ending) -> Outcome:
         Exception: A bug in a device; the record is ended all the same.
     """
     rig, steps, end = ending.rig, ending.steps, ending.end
-    with interrupts_held():
+    with delayed_interrupts():
         try:
             truth = read_truth(rig)  # before the gripper opens
         finally:

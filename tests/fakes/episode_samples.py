@@ -60,7 +60,7 @@ def executed(primitive: Primitive | None) -> Executed:
     )
 
 
-def tick(
+def step_record(
     index: int,
     *,
     phase: StepPhase = StepPhase.LOOP,
@@ -99,16 +99,16 @@ def end() -> EpisodeEnd:
     )
 
 
-def record(path: Path, ticks: Sequence[StepRecord], *, with_end: bool = True) -> list[int]:
-    """Record ``ticks``; returns the size of the file after the header and after each tick [bytes].
+def record(path: Path, steps: Sequence[StepRecord], *, with_end: bool = True) -> list[int]:
+    """Record ``steps``; returns the size of the file after the header and after each step [bytes].
 
     A process killed at any moment leaves a file of a size between two of these.
     """
     sizes = []
     with EpisodeWriter(path, header()) as writer:
         sizes.append(path.stat().st_size)
-        for one in ticks:
-            writer.write_step(one)
+        for step in steps:
+            writer.write_step(step)
             sizes.append(path.stat().st_size)
         if with_end:
             writer.finish(end())

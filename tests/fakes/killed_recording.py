@@ -13,7 +13,7 @@ from pathlib import Path
 
 from cltp.tactile.cloud import TactileCloud
 from tacgrasp.episodes.writer import EpisodeWriter
-from tests.fakes.episode_samples import header, tick
+from tests.fakes.episode_samples import header, step_record
 
 READY = 0xFFFF_FFFF_FFFF_FFFF
 WORD = struct.Struct("<Q")
@@ -46,7 +46,7 @@ def main(kind: str, folder: Path, pipe: int) -> int:
         return __main__.main(["run", "--task", "strawberry", "--record", str(folder)])
     with AcknowledgingWriter(folder / "killed.mcap", header()) as writer:
         for index in itertools.count():
-            writer.write_step(tick(index))
+            writer.write_step(step_record(index))
     return 0
 
 

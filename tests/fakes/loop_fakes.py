@@ -40,7 +40,7 @@ def touch() -> TactileCloud:
 
 
 class FakeClock:
-    """Stands still but for sleeps."""
+    """A clock that only sleeps advance."""
 
     def __init__(self) -> None:
         self.now_s = 100.0
@@ -67,11 +67,11 @@ class FakeRig:
         self.clock = FakeClock()
         self.start_pose = START
         self.first_force_n = 1.0
-        self.arm = FakeArm(self.called)
-        self.gripper = FakeGripper(self.called)
-        self.sensor = FakeSensor(self.called)
+        self.arm = FakeArm(self.log_call)
+        self.gripper = FakeGripper(self.log_call)
+        self.sensor = FakeSensor(self.log_call)
 
-    def called(self, name: str) -> None:
+    def log_call(self, name: str) -> None:
         self.calls.append(name)
         if self._before is not None:
             self._before(name, len(self.calls) - 1)
@@ -94,87 +94,92 @@ class FakeRig:
 
 
 class FakeArm:
-    def __init__(self, called: Callable[[str], None]) -> None:
-        self._called, self._pose = called, START
+    def __init__(self, log_call: Callable[[str], None]) -> None:
+        self._log_call, self._pose = log_call, START
 
     def pose(self) -> Pose:
-        self._called("arm.pose")
+        self._log_call("arm.pose")
         return self._pose
 
     def move_to(
         self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
     ) -> Pose:
-        self._called("arm.move_to")
+        self._log_call("arm.move_to")
         self._pose = pose
         return pose
 
     def stop(self) -> None:
-        self._called("arm.stop")
+        self._log_call("arm.stop")
 
     def disconnect(self) -> None:
-        self._called("arm.disconnect")
+        self._log_call("arm.disconnect")
 
 
 class FakeGripper:
-    def __init__(self, called: Callable[[str], None]) -> None:
-        self._called = called
-        self.now = GripperState(width_m=0.05, force_n=0.0, closed=False)
+    def __init__(self, log_call: Callable[[str], None]) -> None:
+        self._log_call = log_call
+        self.current = GripperState(width_m=0.05, force_n=0.0, closed=False)
 
     def state(self) -> GripperState:
-        self._called("gripper.state")
-        return self.now
+        self._log_call("gripper.state")
+        return self.current
 
     def grip(self, force_n: float) -> GripperState:
-        self._called("gripper.grip")
-        self.now = GripperState(width_m=0.02, force_n=force_n, closed=True)
-        return self.now
+        self._log_call("gripper.grip")
+        self.current = GripperState(width_m=0.02, force_n=force_n, closed=True)
+        return self.current
 
     def open_by(self, clear_m: float) -> GripperState:
-        self._called("gripper.open_by")
-        self.now = GripperState(width_m=0.02 + clear_m, force_n=0.0, closed=False)
-        return self.now
+        self._log_call("gripper.open_by")
+        self.current = GripperState(width_m=0.02 + clear_m, force_n=0.0, closed=False)
+        return self.current
 
     def stop(self) -> None:
-        self._called("gripper.stop")
+        self._log_call("gripper.stop")
 
     def disconnect(self) -> None:
-        self._called("gripper.disconnect")
+        self._log_call("gripper.disconnect")
 
 
 class FakeSensor:
-    def __init__(self, called: Callable[[str], None]) -> None:
-        self._called = called
+    def __init__(self, log_call: Callable[[str], None]) -> None:
+        self._log_call = log_call
 
     @property
     def spec(self) -> SensorSpec:
         return SENSOR
 
     def read(self) -> TactileCloud:
-        self._called("sensor.read")
+        self._log_call("sensor.read")
         return touch()
 
     def disconnect(self) -> None:
-        self._called("sensor.disconnect")
+        self._log_call("sensor.disconnect")
 
 
-class Says:
-    """A policy that says these texts in order, the last one for ever; errors are raised."""
+class Scripted:
+    """A policy that answers with these texts in order, then with the last one; raises errors."""
 
-    name = "says"
+    name = "scripted"
 
     def __init__(self, *texts: str | Exception) -> None:
-        self._texts, self.asked = texts, 0
+        self._texts, self.num_asks = texts, 0
 
     def start(self) -> None:
-        self.asked = 0
+        self.num_asks = 0
 
     def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
-        text = self._texts[min(self.asked, len(self._texts) - 1)]
-        self.asked += 1
+        text = self._texts[min(self.num_asks, len(self._texts) - 1)]
+        self.num_asks += 1
         if isinstance(text, Exception):
             raise text
-        found = extract(text)
-        return Decision(text=text, action=found.action, success=found.success, reason=found.reason)
+        extraction = extract(text)
+        return Decision(
+            text=text,
+            action=extraction.action,
+            success=extraction.success,
+            reason=extraction.reason,
+        )
 
 
 class ListRecorder:
@@ -211,7 +216,7 @@ def config(**loop: float) -> RunConfig:
 
 
 def play(
-    policy: Says,
+    policy: Scripted,
     *,
     rig: FakeRig | None = None,
     verify: Callable[[Rig, Steps, RunConfig], Verification] = holds,

@@ -22,7 +22,7 @@ from tests.fakes.loop_fakes import (
     TWO,
     FakeRig,
     ListRecorder,
-    Says,
+    Scripted,
     config,
     play,
     slips,
@@ -31,51 +31,51 @@ from tests.fakes.loop_fakes import (
 
 
 def test_a_declared_and_verified_grasp_is_a_success_and_is_held() -> None:
-    outcome, rig, recorder = play(Says(DOWN, LIGHT, GOOD))
+    outcome, rig, recorder = play(Scripted(DOWN, LIGHT, GOOD))
     assert outcome.reason is EndReason.SUCCESS
     assert (outcome.declared, outcome.verified, outcome.num_actions) == (True, True, 2)
-    assert [tick.executed is not None for tick in recorder.steps] == [True, True, False]
-    assert rig.gripper.now.closed
+    assert [step.executed is not None for step in recorder.steps] == [True, True, False]
+    assert rig.gripper.current.closed
     assert recorder.ends[0].reason == "success"
 
 
 def test_a_text_that_only_declares_success_moves_nothing() -> None:
-    _, rig, _ = play(Says(GOOD))
+    _, rig, _ = play(Scripted(GOOD))
     assert rig.moves == 0
     assert rig.calls.count("gripper.grip") == 1  # the first grasp
 
 
 def test_a_text_with_success_and_action_acts_and_must_declare_again() -> None:
-    outcome, rig, recorder = play(Says(BOTH, GOOD))
+    outcome, rig, recorder = play(Scripted(BOTH, GOOD))
     assert rig.moves == 1
     assert len(recorder.steps) == 2
     assert outcome.reason is EndReason.SUCCESS
 
 
 def test_a_declared_success_that_the_lift_denies_is_unverified_and_released() -> None:
-    outcome, rig, _ = play(Says(GOOD), verify=slips)
+    outcome, rig, _ = play(Scripted(GOOD), verify=slips)
     assert outcome.reason is EndReason.UNVERIFIED
     assert (outcome.declared, outcome.verified) == (True, False)
-    assert not rig.gripper.now.closed
+    assert not rig.gripper.current.closed
 
 
 @pytest.mark.parametrize("text", [NOTHING, TWO])
 def test_no_action_or_two_holds_still_asks_again_and_ends_with_no_action(text: str) -> None:
-    policy = Says(text)
+    policy = Scripted(text)
     outcome, rig, recorder = play(policy, settings=config(max_asks=3))
     assert outcome.reason is EndReason.NO_ACTION
-    assert policy.asked == 3
+    assert policy.num_asks == 3
     assert rig.moves == 0
-    assert [tick.decision is not None for tick in recorder.steps] == [True] * 3
+    assert [step.decision is not None for step in recorder.steps] == [True] * 3
 
 
 def test_asks_in_vain_are_counted_in_a_row_only() -> None:
-    outcome, _, _ = play(Says(NOTHING, DOWN, NOTHING, GOOD), settings=config(max_asks=2))
+    outcome, _, _ = play(Scripted(NOTHING, DOWN, NOTHING, GOOD), settings=config(max_asks=2))
     assert outcome.reason is EndReason.SUCCESS
 
 
 def test_as_many_actions_as_the_task_allows_end_with_max_steps() -> None:
-    outcome, rig, recorder = play(Says(DOWN, LIGHT, DOWN, LIGHT), settings=config(max_steps=3))
+    outcome, rig, recorder = play(Scripted(DOWN, LIGHT, DOWN, LIGHT), settings=config(max_steps=3))
     assert outcome.reason is EndReason.MAX_STEPS
     assert outcome.num_actions == 3
     assert rig.moves == 2
@@ -84,22 +84,22 @@ def test_as_many_actions_as_the_task_allows_end_with_max_steps() -> None:
 
 def test_time_ends_with_timeout() -> None:
     rig = FakeRig(lambda name, _: rig.clock.sleep(10) if name == "sensor.read" else None)
-    outcome, _, _ = play(Says(DOWN), rig=rig, settings=config(timeout_s=25))
+    outcome, _, _ = play(Scripted(DOWN), rig=rig, settings=config(timeout_s=25))
     assert outcome.reason is EndReason.TIMEOUT
     assert outcome.num_actions == 3  # felt at 10, 20 and 30 s
 
 
 def test_the_second_reset_ends_with_contact_lost_and_is_not_carried_out() -> None:
-    outcome, _, recorder = play(Says(RESET, DOWN, RESET))
+    outcome, _, recorder = play(Scripted(RESET, DOWN, RESET))
     assert outcome.reason is EndReason.CONTACT_LOST
-    done = [t.executed.primitive if t.executed else None for t in recorder.steps]
-    assert done == [Primitive.RESET, Primitive.MOVE_DOWN, None]
+    executed = [step.executed.primitive if step.executed else None for step in recorder.steps]
+    assert executed == [Primitive.RESET, Primitive.MOVE_DOWN, None]
 
 
 def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> None:
     settings = config(max_steps=100)
     arm = settings.arm.model_copy(update={"max_travel_mm": 10.0})
-    outcome, rig, _ = play(Says(DOWN), settings=settings.model_copy(update={"arm": arm}))
+    outcome, rig, _ = play(Scripted(DOWN), settings=settings.model_copy(update={"arm": arm}))
     assert outcome.reason is EndReason.LIMIT
     assert rig.moves == 3  # 9 mm; the fourth would make it 12
 
@@ -107,17 +107,19 @@ def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> N
 def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
     settings = config(max_steps=100)
     gripper = settings.gripper.model_copy(update={"max_force_n": 2.0})
-    outcome, rig, _ = play(Says(LIGHT), settings=settings.model_copy(update={"gripper": gripper}))
+    outcome, rig, _ = play(
+        Scripted(LIGHT), settings=settings.model_copy(update={"gripper": gripper})
+    )
     assert outcome.reason is EndReason.LIMIT
     assert rig.calls.count("gripper.grip") == 3  # 1.0, 1.5, 2.0; then nothing would be sent
 
 
 def failing(device_call: str, error: Exception, times: int) -> Callable[[str, int], None]:
-    left = [times]
+    remaining = [times]
 
     def before(name: str, _: int) -> None:
-        if name == device_call and left[0] > 0:
-            left[0] -= 1
+        if name == device_call and remaining[0] > 0:
+            remaining[0] -= 1
             raise error
 
     return before
@@ -125,44 +127,44 @@ def failing(device_call: str, error: Exception, times: int) -> Callable[[str, in
 
 def test_a_sensor_that_comes_back_is_survived_and_noted() -> None:
     rig = FakeRig(failing("sensor.read", TouchError("no fresh frame"), 2))
-    outcome, _, recorder = play(Says(GOOD), rig=rig, settings=config(max_faults=3))
+    outcome, _, recorder = play(Scripted(GOOD), rig=rig, settings=config(max_faults=3))
     assert outcome.reason is EndReason.SUCCESS
     assert "no fresh frame" in recorder.steps[0].note
 
 
 def test_a_sensor_that_stays_away_ends_with_fault_and_nothing_moves() -> None:
     rig = FakeRig(failing("sensor.read", TouchError("unplugged"), 99))
-    outcome, _, recorder = play(Says(DOWN), rig=rig, settings=config(max_faults=3))
+    outcome, _, recorder = play(Scripted(DOWN), rig=rig, settings=config(max_faults=3))
     assert outcome.reason is EndReason.FAULT
     assert "unplugged" in outcome.message
     assert rig.calls.count("sensor.read") == 3
     assert rig.moves == 0
-    assert not rig.gripper.now.closed
+    assert not rig.gripper.current.closed
     assert recorder.ends[0].reason == "fault"
 
 
 def test_a_policy_that_fails_is_asked_again_then_ends_with_fault() -> None:
     broken = PolicyError("no such weights")
-    assert play(Says(broken, GOOD))[0].reason is EndReason.SUCCESS
-    policy = Says(broken)
+    assert play(Scripted(broken, GOOD))[0].reason is EndReason.SUCCESS
+    policy = Scripted(broken)
     outcome, rig, _ = play(policy, settings=config(max_faults=2))
     assert outcome.reason is EndReason.FAULT
-    assert policy.asked == 2
+    assert policy.num_asks == 2
     assert rig.moves == 0
 
 
 def test_a_recorder_that_fails_stops_the_robot_and_ends_with_fault() -> None:
-    outcome, rig, recorder = play(Says(DOWN), recorder=ListRecorder(full_at=1))
+    outcome, rig, recorder = play(Scripted(DOWN), recorder=ListRecorder(full_at=1))
     assert outcome.reason is EndReason.FAULT
     assert "disk is full" in outcome.message
     assert len(recorder.steps) == 1
     assert "arm.stop" in rig.calls
-    assert not rig.gripper.now.closed
+    assert not rig.gripper.current.closed
 
 
 def test_a_recorder_that_refuses_the_end_makes_a_success_a_fault() -> None:
     recorder = ListRecorder(full_at=1)
-    outcome, _, _ = play(Says(GOOD), recorder=recorder)
+    outcome, _, _ = play(Scripted(GOOD), recorder=recorder)
     assert outcome.reason is EndReason.FAULT
     assert recorder.ends == []
 
@@ -174,9 +176,9 @@ def test_a_bug_makes_the_robot_safe_ends_the_record_and_is_raised() -> None:
         raise ZeroDivisionError
 
     with pytest.raises(ZeroDivisionError):
-        play(Says(DOWN), rig=rig, recorder=recorder, observers=[bug])
+        play(Scripted(DOWN), rig=rig, recorder=recorder, observers=[bug])
     assert "arm.stop" in rig.calls
-    assert not rig.gripper.now.closed
+    assert not rig.gripper.current.closed
     assert recorder.ends[0].reason == "fault"
 
 
@@ -184,32 +186,32 @@ def test_a_bug_makes_the_robot_safe_ends_the_record_and_is_raised() -> None:
 @pytest.mark.parametrize(
     ("policy", "reason"),
     [
-        (Says(NOTHING), EndReason.NO_ACTION),
-        (Says(RESET), EndReason.CONTACT_LOST),
-        (Says(PolicyError("broken")), EndReason.FAULT),
+        (Scripted(NOTHING), EndReason.NO_ACTION),
+        (Scripted(RESET), EndReason.CONTACT_LOST),
+        (Scripted(PolicyError("broken")), EndReason.FAULT),
     ],
 )
 def test_a_failed_episode_leaves_the_gripper_as_the_task_says(
-    policy: Says, reason: EndReason, on_failure: str
+    policy: Scripted, reason: EndReason, on_failure: str
 ) -> None:
     settings = with_end(config(), on_success="hold", on_failure=on_failure)
     outcome, rig, _ = play(policy, settings=settings)
     assert outcome.reason is reason
-    assert rig.gripper.now.closed is (on_failure == "hold")
+    assert rig.gripper.current.closed is (on_failure == "hold")
 
 
 @pytest.mark.parametrize("on_success", ["hold", "release"])
 def test_a_success_leaves_the_gripper_as_the_task_says(on_success: str) -> None:
     settings = with_end(config(), on_success=on_success, on_failure="release")
-    _, rig, _ = play(Says(GOOD), settings=settings)
-    assert rig.gripper.now.closed is (on_success == "hold")
+    _, rig, _ = play(Scripted(GOOD), settings=settings)
+    assert rig.gripper.current.closed is (on_success == "hold")
 
 
 SCRIPT = (DOWN, LIGHT, RESET, GOOD)
 
 
 def device_calls() -> list[str]:
-    outcome, rig, _ = play(Says(*SCRIPT), verify=verify_by_lifting)
+    outcome, rig, _ = play(Scripted(*SCRIPT), verify=verify_by_lifting)
     assert outcome.reason is EndReason.SUCCESS
     return rig.calls
 
@@ -226,13 +228,13 @@ def test_ctrl_c_in_any_device_call_leaves_the_robot_safe_and_the_episode_ended(i
             raise KeyboardInterrupt
 
     rig = FakeRig(interrupt)
-    outcome, _, recorder = play(Says(*SCRIPT), rig=rig, verify=verify_by_lifting)
+    outcome, _, recorder = play(Scripted(*SCRIPT), rig=rig, verify=verify_by_lifting)
     after = rig.calls[index + 1 :]
     if index < CLOSING:
         assert outcome.reason is EndReason.OPERATOR
         assert "arm.stop" in after
         assert "arm.move_to" not in after
-        assert not rig.gripper.now.closed  # the strawberry's on_failure is release
+        assert not rig.gripper.current.closed  # the strawberry's on_failure is release
     else:
         assert CALLS[index] in after  # a step of making safe is taken up again
     assert len(recorder.ends) == 1
@@ -248,7 +250,7 @@ def test_a_robot_error_in_any_device_call_stops_the_arm_and_ends_the_episode(
             raise error
 
     rig = FakeRig(fail)
-    outcome, _, recorder = play(Says(*SCRIPT), rig=rig, verify=verify_by_lifting)
+    outcome, _, recorder = play(Scripted(*SCRIPT), rig=rig, verify=verify_by_lifting)
     expected = EndReason.LIMIT if isinstance(error, LimitError) else EndReason.FAULT
     assert outcome.reason is expected
     assert str(error) in outcome.message
@@ -259,7 +261,7 @@ def test_a_robot_error_in_any_device_call_stops_the_arm_and_ends_the_episode(
 
 def test_what_was_said_before_a_fault_is_recorded() -> None:
     rig = FakeRig(failing("arm.move_to", RobotError("protective stop"), 1))
-    _, _, recorder = play(Says(DOWN), rig=rig)
+    _, _, recorder = play(Scripted(DOWN), rig=rig)
     assert recorder.steps[-1].decision is not None
     assert recorder.steps[-1].decision.text == DOWN
     assert "protective stop" in recorder.steps[-1].note
@@ -272,7 +274,7 @@ def test_a_gripper_that_will_not_release_is_a_fault_even_after_ctrl_c() -> None:
         if name == "gripper.open_by":
             raise RobotError("bus dead")
 
-    outcome, _, _ = play(Says(DOWN), rig=FakeRig(before))
+    outcome, _, _ = play(Scripted(DOWN), rig=FakeRig(before))
     assert outcome.reason is EndReason.FAULT
     assert "could not be opened: bus dead" in outcome.message
     assert "stopped by the operator" in outcome.message
@@ -284,36 +286,36 @@ def test_a_gripper_whose_own_fault_keeps_it_from_releasing_says_why_once() -> No
         if name in ("gripper.grip", "gripper.open_by", "gripper.state"):
             raise RobotError("servo 1 is gone")
 
-    outcome, _, _ = play(Says(DOWN), rig=FakeRig(before))
+    outcome, _, _ = play(Scripted(DOWN), rig=FakeRig(before))
     assert outcome.reason is EndReason.FAULT
     assert outcome.message.count("servo 1 is gone") == 1
     assert "the gripper could not be opened; what it grips may still be held" in outcome.message
 
 
 def test_the_verification_records_a_touch_before_and_after_the_lift() -> None:
-    _, _, recorder = play(Says(GOOD), verify=verify_by_lifting)
-    phases = [tick.phase for tick in recorder.steps]
+    _, _, recorder = play(Scripted(GOOD), verify=verify_by_lifting)
+    phases = [step.phase for step in recorder.steps]
     assert phases == [StepPhase.LOOP, StepPhase.VERIFY_BEFORE, StepPhase.VERIFY_AFTER]
     lifted = recorder.steps[-1].tcp_pose.position_m - recorder.steps[0].tcp_pose.position_m
     assert lifted[2] == pytest.approx(config().verify.lift_mm / 1000)
     assert abs(lifted[:2]).max() < 1e-9
 
 
-def test_observers_are_told_every_turn_after_it_is_recorded() -> None:
+def test_observers_are_told_every_step_after_it_is_recorded() -> None:
     recorder = ListRecorder()
-    told: list[tuple[int, int]] = []
+    notified: list[tuple[int, int]] = []
     play(
-        Says(DOWN, GOOD),
+        Scripted(DOWN, GOOD),
         recorder=recorder,
-        observers=[lambda record: told.append((record.index, len(recorder.steps)))],
+        observers=[lambda record: notified.append((record.index, len(recorder.steps)))],
     )
-    assert told == [(0, 1), (1, 2)]
+    assert notified == [(0, 1), (1, 2)]
 
 
 @pytest.mark.parametrize("text", [DOWN, LIGHT, GOOD])
 def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> None:
     settings = config().model_copy(update={"dry_run": True})
-    outcome, rig, recorder = play(Says(text), settings=settings, verify=not_lifted)
+    outcome, rig, recorder = play(Scripted(text), settings=settings, verify=not_lifted)
     assert set(rig.calls) <= {"sensor.read", "arm.pose", "gripper.state"}
     assert outcome.reason in (EndReason.MAX_STEPS, EndReason.UNVERIFIED)
     assert outcome.num_actions == 0

@@ -46,7 +46,7 @@ def test_what_can_not_be_taken_is_one_line(images, tmp_path, capsys):
         (("--images", images, "--crop-share", "0.7"), "crop_share"),
     ]:
         assert calibrate("--unit", "mine", "--out", out, *flags) != 0
-        said = capsys.readouterr().err
-        assert message in said and len(said.splitlines()) == 1
+        error = capsys.readouterr().err
+        assert message in error and len(error.splitlines()) == 1
     assert not out.exists()
     assert calibrate("--unit", "mine", "--images", images, "--out", tmp_path / "x.jpg") == 2

@@ -151,7 +151,7 @@ def test_a_truncated_episode_is_shown_as_incomplete(
     assert "incomplete: " in capsys.readouterr().out
 
 
-def test_the_paper_demo_prints_a_line_a_turn_the_end_and_the_truth(
+def test_the_paper_demo_prints_a_line_a_step_the_end_and_the_truth(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["demo", "paper", "--record", str(tmp_path)]) == 0
@@ -166,7 +166,7 @@ def test_the_paper_demo_prints_a_line_a_turn_the_end_and_the_truth(
 
 
 @pytest.mark.parametrize("name", ["gentle", "missed", "slips"])
-def test_a_demo_comes_out_as_told(
+def test_a_demo_comes_out_as_scripted(
     name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["demo", name, "--record", str(tmp_path)]) == 0
@@ -178,7 +178,7 @@ def test_demos_are_listed_without_a_name(capsys: pytest.CaptureFixture[str]) -> 
     assert capsys.readouterr().out.startswith("paper ")
 
 
-def test_a_replay_shows_the_same_turns_as_the_run(
+def test_a_replay_shows_the_same_steps_as_the_run(
     episode: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert main(["replay", str(episode)]) == 0

@@ -11,13 +11,13 @@ from primitives.devices import Pose
 from sim.grasp.rig import build
 from tacgrasp.episodes import EpisodeWriter, read_episode
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
-from tests.fakes.episode_samples import end, header, same, tick
+from tests.fakes.episode_samples import end, header, same, step_record
 
 
 @pytest.fixture
 def log():
-    ticks = iter(range(100))
-    return CommandLog(lambda: float(next(ticks)))
+    steps = iter(range(100))
+    return CommandLog(lambda: float(next(steps)))
 
 
 @pytest.fixture
@@ -72,14 +72,14 @@ def test_commands_are_read_from_an_episode_as_they_were_written(tmp_path: Path, 
     arm.move_to(moved(rig.start_pose, np.pi / 1000))
     first = log.take()
     arm.stop()
-    written = replace(tick(0), commands=first)
+    written = replace(step_record(0), commands=first)
     last = replace(end(), commands=log.take())
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
         writer.write_step(written)
-        writer.write_step(tick(1))
+        writer.write_step(step_record(1))
         writer.finish(last)
     episode = read_episode(path)
-    assert same(episode.steps, (written, tick(1)))
+    assert same(episode.steps, (written, step_record(1)))
     assert same(episode.end, last)
     assert [c.asked for c in episode.end.commands] == ["stop"]

@@ -42,27 +42,27 @@ from tests.fakes.episode_samples import (
     record,
     same,
     stamp,
-    tick,
+    step_record,
 )
 
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
 def test_what_is_recorded_is_read_again_to_the_last_bit(tmp_path: Path) -> None:
-    ticks = [
-        tick(0),
-        tick(1, action=None),
-        tick(2, phase=StepPhase.VERIFY_BEFORE),
-        tick(3, phase=StepPhase.VERIFY_AFTER),
+    steps = [
+        step_record(0),
+        step_record(1, action=None),
+        step_record(2, phase=StepPhase.VERIFY_BEFORE),
+        step_record(3, phase=StepPhase.VERIFY_AFTER),
     ]
-    record(tmp_path / "e.mcap", ticks)
+    record(tmp_path / "e.mcap", steps)
     episode = read_episode(tmp_path / "e.mcap")
     assert episode.complete and episode.problem == ""
     assert same(episode.header, header())
     assert same(episode.end, end())
     assert len(episode.steps) == 4
     assert same(episode.steps[0].executed, executed(Primitive.MOVE_DOWN))
-    for read, written in zip(episode.steps, ticks, strict=True):
+    for read, written in zip(episode.steps, steps, strict=True):
         assert same(read, written)
         assert read.cloud.points_mm.dtype == np.float32
         assert read.cloud.points_mm.tobytes() == written.cloud.points_mm.tobytes()
@@ -180,7 +180,7 @@ def test_a_description_goes_on_over_lines_and_serves_several_names() -> None:
 
 def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Path) -> None:
     jsonschema = pytest.importorskip("jsonschema")
-    record(tmp_path / "e.mcap", [tick(0), tick(1)])
+    record(tmp_path / "e.mcap", [step_record(0), step_record(1)])
     clouds = checked = 0
     with (tmp_path / "e.mcap").open("rb") as file:
         reader = make_reader(file, validate_crcs=True, decoder_factories=[DecoderFactory()])
@@ -195,7 +195,7 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
             assert cloud.frame_id == "gel" and [f.name for f in cloud.fields] == ["x", "y", "z"]
             assert cloud.timestamp.ToNanoseconds() == pytest.approx(message.log_time, abs=1e9)
             points = np.frombuffer(cloud.data, "<f4").reshape(-1, 3)
-            assert points.tobytes() == tick(clouds).cloud.points_mm.tobytes()
+            assert points.tobytes() == step_record(clouds).cloud.points_mm.tobytes()
             clouds += 1
     assert (clouds, checked) == (2, 1 + 2 * 3 + 1)  # header, two of decision, action, state; end
 
@@ -203,7 +203,7 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
 def test_a_loop_that_raises_leaves_a_finished_file_without_an_end(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     with pytest.raises(RuntimeError, match="bug"), EpisodeWriter(path, header()) as writer:
-        writer.write_step(tick(0))
+        writer.write_step(step_record(0))
         raise RuntimeError("bug")
     episode = read_episode(path)
     assert episode.complete and len(episode.steps) == 1 and episode.end is None
@@ -215,8 +215,8 @@ def test_a_number_that_is_not_finite_is_refused_and_the_file_stays_whole(tmp_pat
         with pytest.raises(
             EpisodeError, match=r"StepState\.tick_ms is nan; expected a finite number"
         ):
-            writer.write_step(tick(0, step_ms=float("nan")))
-        writer.write_step(tick(1))
+            writer.write_step(step_record(0, step_ms=float("nan")))
+        writer.write_step(step_record(1))
     episode = read_episode(path)
     assert episode.complete and [t.index for t in episode.steps] == [1]
 
@@ -228,7 +228,7 @@ def test_an_episode_ends_once(tmp_path: Path) -> None:
             writer.finish(end())
 
 
-def test_ctrl_c_in_mid_write_waits_until_the_tick_is_whole(
+def test_ctrl_c_in_mid_write_waits_until_the_step_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     path = tmp_path / "e.mcap"
@@ -236,8 +236,8 @@ def test_ctrl_c_in_mid_write_waits_until_the_tick_is_whole(
         with monkeypatch.context() as patch:
             patch.setattr(os, "fsync", lambda _fd: signal.raise_signal(signal.SIGINT))
             with pytest.raises(KeyboardInterrupt):
-                writer.write_step(tick(0))
-        writer.write_step(tick(1))
+                writer.write_step(step_record(0))
+        writer.write_step(step_record(1))
         writer.finish(end())
     episode = read_episode(path)
     assert episode.complete and len(episode.steps) == 2 and episode.end is not None
@@ -332,16 +332,16 @@ def largest_file(size_bytes: int) -> Iterator[None]:
 
 
 @pytest.mark.parametrize("room", [1, 5000, 9000])
-def test_a_disk_full_in_mid_episode_surfaces_at_that_tick_and_keeps_the_others(
+def test_a_disk_full_in_mid_episode_surfaces_at_that_step_and_keeps_the_others(
     tmp_path: Path, room: int
 ) -> None:
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
         for index in range(3):
-            writer.write_step(tick(index))
+            writer.write_step(step_record(index))
         with largest_file(path.stat().st_size + room):
             with pytest.raises(EpisodeError, match=r"step 3 .*size limit.*episodes recover"):
-                writer.write_step(tick(3))
+                writer.write_step(step_record(3))
             with pytest.raises(EpisodeError, match="its end can't be written; see the error"):
                 writer.finish(end())
     episode = read_episode(path)
@@ -358,7 +358,7 @@ def test_a_disk_that_fails_to_sync_is_an_error(
     with EpisodeWriter(tmp_path / "e.mcap", header()) as writer:
         monkeypatch.setattr(os, "fsync", fail)
         with pytest.raises(EpisodeError, match=r"can't write step 0 to .*the disk is full"):
-            writer.write_step(tick(0))
+            writer.write_step(step_record(0))
         monkeypatch.undo()
 
 
@@ -371,7 +371,7 @@ def test_a_summary_that_does_not_fit_is_an_error_unless_another_is_on_its_way(
         largest_file(1 << 30),
         EpisodeWriter(first, header()) as writer,
     ):
-        writer.write_step(tick(0))
+        writer.write_step(step_record(0))
         resource.setrlimit(
             resource.RLIMIT_FSIZE,
             (first.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),
@@ -381,7 +381,7 @@ def test_a_summary_that_does_not_fit_is_an_error_unless_another_is_on_its_way(
         largest_file(1 << 30),
         EpisodeWriter(second, header()) as writer,
     ):
-        writer.write_step(tick(0))
+        writer.write_step(step_record(0))
         resource.setrlimit(
             resource.RLIMIT_FSIZE,
             (second.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),

@@ -11,12 +11,12 @@ from primitives.primitive import Primitive
 from tacgrasp.episodes import EpisodeError, StepPhase, read_episode
 from tacgrasp.episodes.listing import duration_s, info, list_episodes, table
 from tacgrasp.episodes.plot import MAX_PICTURES, draw_episode, plot_episode
-from tests.fakes.episode_samples import record, tick
+from tests.fakes.episode_samples import record, step_record
 
 
-def shown(what: Table) -> str:
+def shown(content: Table) -> str:
     console = Console(file=io.StringIO(), width=220)
-    console.print(what)
+    console.print(content)
     return console.file.getvalue()  # type: ignore[attr-defined]
 
 
@@ -25,8 +25,8 @@ def row_of(text: str, name: str) -> str:
 
 
 def test_the_list_tells_finished_unfinished_and_unreadable_apart(tmp_path: Path) -> None:
-    ticks = [tick(0), tick(1), tick(2, phase=StepPhase.VERIFY_BEFORE)]
-    sizes = record(tmp_path / "done.mcap", ticks)
+    steps = [step_record(0), step_record(1), step_record(2, phase=StepPhase.VERIFY_BEFORE)]
+    sizes = record(tmp_path / "done.mcap", steps)
     (tmp_path / "killed.mcap").write_bytes((tmp_path / "done.mcap").read_bytes()[: sizes[2]])
     (tmp_path / "text.mcap").write_text("hello")
     (tmp_path / "other.txt").write_text("not listed")
@@ -47,10 +47,11 @@ def test_a_directory_that_is_none_can_not_be_listed(tmp_path: Path) -> None:
 
 def test_info_tells_the_instruction_the_end_and_what_to_do(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
-    sizes = record(path, [tick(0), tick(1), tick(2, phase=StepPhase.VERIFY_AFTER)])
+    steps = [step_record(0), step_record(1), step_record(2, phase=StepPhase.VERIFY_AFTER)]
+    sizes = record(path, steps)
     text = shown(info(path))
     assert "hold the 'berry' – gently" in text
-    assert "2 and 1 touches of verification" in text
+    assert "2 and 1 of the verification" in text
     assert "Grasp completed successfully" in text
     assert "2 × move_down" in text
     assert "held, not bruised, slip_mm 0.1, count 3" in text
@@ -60,20 +61,20 @@ def test_info_tells_the_instruction_the_end_and_what_to_do(tmp_path: Path) -> No
 
 
 def test_the_duration_is_measured_on_the_monotonic_clock(tmp_path: Path) -> None:
-    record(tmp_path / "e.mcap", [tick(0), tick(3)])
+    record(tmp_path / "e.mcap", [step_record(0), step_record(3)])
     assert duration_s(read_episode(tmp_path / "e.mcap")) == pytest.approx(20 / 3)
-    record(tmp_path / "f.mcap", [tick(0), tick(3)], with_end=False)
+    record(tmp_path / "f.mcap", [step_record(0), step_record(3)], with_end=False)
     assert duration_s(read_episode(tmp_path / "f.mcap")) == pytest.approx(3.5 / 3)
 
 
 def test_the_picture_has_a_panel_for_each_touch_and_says_what_was_done(tmp_path: Path) -> None:
-    ticks = [
-        tick(0),
-        replace(tick(1, action=Primitive.RESET), executed=None),
-        tick(2, action=None),
-        tick(3, phase=StepPhase.VERIFY_AFTER),
+    steps = [
+        step_record(0),
+        replace(step_record(1, action=Primitive.RESET), executed=None),
+        step_record(2, action=None),
+        step_record(3, phase=StepPhase.VERIFY_AFTER),
     ]
-    record(tmp_path / "e.mcap", ticks)
+    record(tmp_path / "e.mcap", steps)
     figure = draw_episode(read_episode(tmp_path / "e.mcap"), "e.mcap")
     titles = [axes.get_title() for axes in figure.axes]
     panels = [t for t in titles if t[:1].isdigit()]
@@ -87,7 +88,7 @@ def test_the_picture_has_a_panel_for_each_touch_and_says_what_was_done(tmp_path:
 
 def test_a_long_episode_is_thinned_to_its_first_and_last_touch(tmp_path: Path) -> None:
     num = MAX_PICTURES + 7
-    record(tmp_path / "e.mcap", [tick(i % 8) for i in range(num - 1)] + [tick(9)])
+    record(tmp_path / "e.mcap", [step_record(i % 8) for i in range(num - 1)] + [step_record(9)])
     figure = draw_episode(read_episode(tmp_path / "e.mcap"), "e.mcap")
     panels = [axes.get_title() for axes in figure.axes if axes.get_title()[:1].isdigit()]
     assert len(panels) == MAX_PICTURES
@@ -95,7 +96,7 @@ def test_a_long_episode_is_thinned_to_its_first_and_last_touch(tmp_path: Path) -
 
 
 def test_the_picture_is_written_as_png(tmp_path: Path) -> None:
-    record(tmp_path / "e.mcap", [tick(0)])
+    record(tmp_path / "e.mcap", [step_record(0)])
     plot_episode(tmp_path / "e.mcap", tmp_path / "e.png")
     pixels = imread(tmp_path / "e.png")
     assert pixels.shape[1] == 1430
@@ -106,6 +107,6 @@ def test_a_picture_that_can_not_be_made_is_a_clear_error(tmp_path: Path) -> None
     record(tmp_path / "none.mcap", [])
     with pytest.raises(EpisodeError, match="no touch to draw"):
         plot_episode(tmp_path / "none.mcap", tmp_path / "e.png")
-    record(tmp_path / "e.mcap", [tick(0)])
+    record(tmp_path / "e.mcap", [step_record(0)])
     with pytest.raises(EpisodeError, match=r"can't write .*does not exist"):
         plot_episode(tmp_path / "e.mcap", tmp_path / "missing" / "e.png")

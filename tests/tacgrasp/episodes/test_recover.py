@@ -12,16 +12,16 @@ from mcap.writer import Writer
 
 from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepRecord, read_episode
 from tacgrasp.episodes.recover import recover
-from tests.fakes.episode_samples import header, record, same, tick
+from tests.fakes.episode_samples import header, record, same, step_record
 
-TICKS = [tick(index) for index in range(4)]
+STEPS = [step_record(index) for index in range(4)]
 
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[bytes, list[int]]:
-    """A finished episode of four ticks, and its size after the header and after each tick."""
+    """A finished episode of four steps, and its size after the header and after each step."""
     path = tmp_path_factory.mktemp("recorded") / "e.mcap"
-    sizes = record(path, TICKS)
+    sizes = record(path, STEPS)
     return path.read_bytes(), sizes
 
 
@@ -44,7 +44,7 @@ def sampled_cuts(size: int, boundaries: Sequence[int]) -> list[int]:
     return sorted(cut for cut in near | drawn if boundaries[0] <= cut < size)
 
 
-def test_a_file_cut_anywhere_still_gives_every_whole_tick(
+def test_a_file_cut_anywhere_still_gives_every_whole_step(
     recorded: tuple[bytes, list[int]], tmp_path: Path
 ) -> None:
     data, sizes = recorded
@@ -57,7 +57,7 @@ def test_a_file_cut_anywhere_still_gives_every_whole_tick(
         whole = sum(size <= cut for size in sizes[1:])
         assert whole <= len(episode.steps) <= whole + 1  # its index may be all that is missing
         assert not episode.complete and episode.problem
-        assert_prefix(episode.steps, TICKS)
+        assert_prefix(episode.steps, STEPS)
 
 
 def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
@@ -90,17 +90,17 @@ def test_a_flipped_byte_never_changes_what_is_read(
     except EpisodeError as error:
         assert str(path) in str(error)
         return
-    assert len(episode.steps) == len(TICKS) or not episode.complete
+    assert len(episode.steps) == len(STEPS) or not episode.complete
     for read in episode.steps:
-        assert same(read, TICKS[read.index])
-        assert read.cloud.points_mm.tobytes() == TICKS[read.index].cloud.points_mm.tobytes()
+        assert same(read, STEPS[read.index])
+        assert read.cloud.points_mm.tobytes() == STEPS[read.index].cloud.points_mm.tobytes()
 
 
-def test_a_damaged_chunk_costs_its_own_tick_alone(
+def test_a_damaged_chunk_costs_its_own_step_alone(
     recorded: tuple[bytes, list[int]], tmp_path: Path
 ) -> None:
     data, sizes = bytearray(recorded[0]), recorded[1]
-    data[(sizes[1] + sizes[2]) // 2] ^= 0xFF  # in the middle of tick 1
+    data[(sizes[1] + sizes[2]) // 2] ^= 0xFF  # in the middle of step 1
     path = tmp_path / "e.mcap"
     path.write_bytes(data)
     episode = read_episode(path)
@@ -137,7 +137,7 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
     episode = read_episode(path)
     assert episode.complete and episode.end is None and len(episode.steps) == 3
     assert same(episode.header, header())
-    assert_prefix(episode.steps, TICKS)
+    assert_prefix(episode.steps, STEPS)
     assert stock_count(path) == stock_count(path, "/touch/cloud") == 3
     with path.open("rb") as file:
         names = {m.name: m.metadata for m in make_reader(file).iter_metadata()}
@@ -189,7 +189,7 @@ def test_a_second_recovery_keeps_both_originals(
 def test_an_episode_that_is_being_recorded_is_not_recovered(tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
-        writer.write_step(TICKS[0])
+        writer.write_step(STEPS[0])
         assert len(read_episode(path).steps) == 1  # but it can be read
         with pytest.raises(EpisodeError, match="still being recorded"):
             recover(path)

@@ -79,13 +79,13 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
         n: value for n, value in truth.items() if isinstance(value, bool)
     }
     assert episode.end.truth["force_n"] == pytest.approx(truth["force_n"], rel=0.05)
-    actions = [t.decision.action for t in episode.steps if t.decision is not None]
+    actions = [step.decision.action for step in episode.steps if step.decision is not None]
     assert len(actions) == outcome.num_actions + 1
 
 
 def test_every_command_is_recorded_as_asked_sent_and_reached(printed_and_episode):
     _, _, episode = printed_and_episode
-    commands = [c for tick in episode.steps for c in tick.commands]
+    commands = [c for step in episode.steps for c in step.commands]
     assert not any(c.error for c in commands)
     first = commands[0]
     assert first.asked.startswith("grip with ")
@@ -114,7 +114,7 @@ def test_a_dry_run_feels_and_decides_and_moves_nothing(tmp_path: Path):
         assert before[0][name] == after[0][name]
     assert before[1]["width_m"] == after[1]["width_m"]
     episode = read_episode(path)
-    assert not [c for tick in episode.steps for c in tick.commands]
+    assert not [c for step in episode.steps for c in step.commands]
     assert episode.header.dry_run
 
 

@@ -47,7 +47,7 @@ class Device:
     def __init__(self):
         self.error = None
 
-    def look(self):
+    def check(self):
         if self.error is not None:
             raise self.error
 
@@ -64,7 +64,7 @@ def device():
 
 @pytest.fixture
 def guarded(arm, device):
-    guarded = GuardedArm(arm, [device.look])
+    guarded = GuardedArm(arm, [device.check])
     yield guarded
     guarded.disconnect()
 
@@ -94,7 +94,7 @@ def test_a_move_with_all_well_arrives_and_nothing_is_stopped(guarded, arm):
     assert arm.stops == 0
 
 
-def test_the_arms_own_fault_is_told_as_it_is(guarded, arm):
+def test_the_arms_own_fault_is_raised_as_it_is(guarded, arm):
     arm.error = RobotError("protective stop")
     arm.ended.set()
     with pytest.raises(RobotError, match=r"^protective stop$"):

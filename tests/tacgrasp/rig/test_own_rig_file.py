@@ -45,7 +45,7 @@ def rig(emulators, tmp_path):
         emulators.control.clear(device)
 
 
-def where(emulators):
+def positions(emulators):
     arm, hand = (emulators.control.facts(name) for name in ("ur", "dynamixel"))
     return [arm["tcp_x_m"], arm["tcp_y_m"], arm["tcp_z_m"], hand["width_m"]]
 
@@ -65,13 +65,13 @@ def complaint(rig, folder, capsys):
 def changed(rig, path, value):
     rig = copy.deepcopy(rig)
     *sections, field = path.split(".")
-    place = rig
+    section_fields = rig
     for section in sections:
-        place = place[section]
+        section_fields = section_fields[section]
     if value is None:
-        del place[field]
+        del section_fields[field]
     else:
-        place[field] = value
+        section_fields[field] = value
     return rig
 
 
@@ -124,10 +124,10 @@ BAD_FIELDS = {
 @pytest.mark.parametrize("name", BAD_FIELDS)
 def test_a_wrong_field_is_named_before_any_device_is_touched(name, rig, tmp_path, capsys):
     path, value, expected = BAD_FIELDS[name]
-    rig["hardware"]["arm"]["host"] = "127.77.254.254"  # nobody there: it must not matter
-    code, said = complaint(changed(rig, path, value), tmp_path, capsys)
+    rig["hardware"]["arm"]["host"] = "127.77.254.254"  # no device answers there: none may be needed
+    code, message = complaint(changed(rig, path, value), tmp_path, capsys)
     assert code == 2
-    assert re.search(expected, said), said
+    assert re.search(expected, message), message
 
 
 BAD_DEVICES = {
@@ -157,16 +157,16 @@ def test_a_device_that_does_not_fit_is_refused_in_one_line_and_nothing_moves(
     path, value, expected = BAD_DEVICES[name]
     if name == "start too far":
         rig["hardware"]["start"]["position_m"] = [0.45, -0.10, 0.205]
-    before = where(emulators)
-    code, said = complaint(changed(rig, path, value), tmp_path, capsys)
+    before = positions(emulators)
+    code, message = complaint(changed(rig, path, value), tmp_path, capsys)
     assert code == 3
-    assert expected in said
-    assert where(emulators) == pytest.approx(before, abs=1e-9)
+    assert expected in message
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
 
 
 BAD_ANSWERS = {
     "an address that answers with garbage": ("ur", "garbage", "no UR dashboard"),
-    "an address that does not answer": ("ur", "mute", "said nothing"),
+    "an address that does not answer": ("ur", "mute", "message nothing"),
     "a port that another program has": ("dynamixel", "port_taken", "another program"),
     "servos that do not answer": ("dynamixel", "silence", "answer"),
     "an array that is unplugged": ("taxels", "unplugged", "no serial port"),
@@ -178,16 +178,16 @@ def test_a_device_that_answers_wrongly_is_refused_in_one_line_and_nothing_moves(
     name, rig, emulators, tmp_path, capsys
 ):
     device, fault, expected = BAD_ANSWERS[name]
-    before = where(emulators)
+    before = positions(emulators)
     emulators.control.inject(device, fault)
-    code, said = complaint(rig, tmp_path, capsys)
+    code, message = complaint(rig, tmp_path, capsys)
     assert code == 3
-    assert expected in said
-    assert where(emulators) == pytest.approx(before, abs=1e-9)
+    assert expected in message
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
 
 
 @pytest.fixture
-def played(tmp_path):
+def recording(tmp_path):
     """Settings of a recording of one touch."""
     heights = np.zeros((60, 80))
     heights[20:40, 30:50] = 0.5
@@ -196,25 +196,25 @@ def played(tmp_path):
     return {"kind": "recorded", "path": "touches"}
 
 
-def test_nothing_is_grasped_by_what_was_felt_in_the_past(rig, emulators, played, tmp_path, capsys):
-    before = where(emulators)
-    rig["hardware"]["sensor"] = played
-    code, said = complaint(rig, tmp_path, capsys)
+def test_a_recorded_sensor_grasps_nothing(rig, emulators, recording, tmp_path, capsys):
+    before = positions(emulators)
+    rig["hardware"]["sensor"] = recording
+    code, message = complaint(rig, tmp_path, capsys)
     assert code == 2
-    assert "nothing is felt" in said
-    assert where(emulators) == pytest.approx(before, abs=1e-9)
+    assert "nothing is felt" in message
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
 
 
-def test_a_recording_is_decided_on_in_a_dry_run(rig, emulators, played, tmp_path, capsys):
-    before = where(emulators)
-    rig["hardware"]["sensor"] = played
+def test_a_recording_is_decided_on_in_a_dry_run(rig, emulators, recording, tmp_path, capsys):
+    before = positions(emulators)
+    rig["hardware"]["sensor"] = recording
     path = tmp_path / "mine.yaml"
     path.write_text(yaml.safe_dump(rig))
     argv = ["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path), "--dry-run"]
     assert main(argv) == 0, capsys.readouterr().err
     (episode,) = tmp_path.glob("*.mcap")
     assert float(read_episode(episode).steps[0].cloud.points_mm[:, 2].max()) > 0.4
-    assert where(emulators) == pytest.approx(before, abs=1e-9)
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
 
 
 def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
@@ -223,11 +223,11 @@ def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
     rig["hardware"]["start"] |= {"position_m": [0.45, -0.10, 0.30], "max_way_mm": 10}
     path = tmp_path / "mine.yaml"
     path.write_text(yaml.safe_dump(rig))
-    before = where(emulators)
+    before = positions(emulators)
     monkeypatch.setattr("sys.stdin", io.StringIO("r"))
     assert main(["jog", "--rig", str(path)]) == 0, capsys.readouterr().err
     assert "at (450.0, -100.0, 201.0) mm" in capsys.readouterr().out
-    after = where(emulators)
+    after = positions(emulators)
     assert after[2] - before[2] == pytest.approx(0.001, abs=2e-5)
     monkeypatch.setattr("sys.stdin", io.StringIO("f"))
     assert main(["jog", "--rig", str(path)]) == 0
@@ -236,26 +236,26 @@ def test_jogging_begins_where_the_arm_stands_however_far_its_start_is(
 def test_a_port_that_is_another_devices_is_refused(rig, emulators, tmp_path, capsys):
     rig["hardware"]["gripper"]["port"] = emulators.ready["sensor_port"]
     rig["hardware"]["sensor"] |= {"port": emulators.ready["gripper_port"], "connect_timeout_s": 1}
-    code, said = complaint(rig, tmp_path, capsys)
+    code, message = complaint(rig, tmp_path, capsys)
     assert code == 3
-    assert "taxel array" in said
+    assert "taxel array" in message
 
 
 def test_a_calibration_out_of_date_is_refused(rig, emulators, tmp_path, capsys):
     path = tmp_path / "gripper_calibration.yaml"
     path.write_text(re.sub(r"date: \S+", "date: '2020-01-31'", path.read_text()))
-    code, said = complaint(rig, tmp_path, capsys)
+    code, message = complaint(rig, tmp_path, capsys)
     assert code == 3
-    assert "days old" in said
+    assert "days old" in message
 
 
 def test_the_environment_can_not_change_what_is_bolted_to_the_bench(
     rig, tmp_path, capsys, monkeypatch
 ):
     monkeypatch.setenv("TACGRASP_HARDWARE__ARM__HOST", "127.0.0.9")
-    code, said = complaint(rig, tmp_path, capsys)
+    code, message = complaint(rig, tmp_path, capsys)
     assert code == 2
-    assert "hardware is set in the rig's file alone" in said
+    assert "hardware is set in the rig's file alone" in message
 
 
 @pytest.mark.slow

@@ -38,7 +38,7 @@ def test_the_shift_is_the_distance_on_the_pad() -> None:
 
 
 @pytest.mark.parametrize(
-    ("after", "said"),
+    ("after", "message"),
     [
         (replace(HELD, x_mm=0.8, y_mm=0.8), "moved 1.1 mm"),
         (replace(HELD, area_fraction=0.05), "50% of its area"),
@@ -46,10 +46,10 @@ def test_the_shift_is_the_distance_on_the_pad() -> None:
         (NOTHING, "nothing is felt any more"),
     ],
 )
-def test_a_contact_that_changed_does_not_pass_and_says_why(after: ContactState, said: str) -> None:
+def test_a_changed_contact_does_not_pass_and_says_why(after: ContactState, message: str) -> None:
     verification = compare(HELD, after, SETTINGS)
     assert not verification.passed
-    assert said in verification.message
+    assert message in verification.message
 
 
 def test_nothing_felt_before_the_lift_does_not_pass() -> None:
