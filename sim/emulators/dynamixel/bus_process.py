@@ -13,29 +13,15 @@ from collections.abc import Callable
 from contextlib import closing
 
 from sim.emulators.dynamixel import control_table as at
+from sim.emulators.dynamixel import packets as protocol
 from sim.emulators.dynamixel.control_table import BAUDS, MODELS
 from sim.emulators.dynamixel.faults import BusFaults
 from sim.emulators.dynamixel.fingers import Fingers, GripLoad, Linkage, SpringLoad
 from sim.emulators.dynamixel.options import DynamixelOptions, ServoOptions
-from sim.emulators.dynamixel.packets import (
-    ALERT,
-    BAD_CRC,
-    BROADCAST,
-    FAST_SYNC_READ,
-    PING,
-    SYNC_READ,
-    SYNC_WRITE,
-    PacketInstruction,
-    PacketReader,
-    fast_sync_status,
-    status,
-    u16,
-)
 from sim.emulators.dynamixel.servo import EmulatedServo
 from sim.emulators.dynamixel.wire import Wire
 from sim.emulators.process.control import Facts
-from sim.emulators.process.lifetime import serve
-from sim.emulators.process.real_time import request_real_time
+from sim.emulators.process.lifetime import request_real_time, serve
 
 _BUSY_S, _IDLE_S = 0.002, 0.010
 
@@ -65,7 +51,7 @@ class DynamixelEmulator:
         ]
         self._fingers = Fingers(self._servos, linkage, load or SpringLoad(), self._lock, clock())
         self._fingers.step(clock())
-        self._wire, self._reader = Wire(), PacketReader()
+        self._wire, self._reader = Wire(), protocol.PacketReader()
         self._faults = BusFaults(self._servos, self._wire, clock)
         self._late: list[tuple[float, bytes]] = []
         self._instructions = 0
@@ -159,20 +145,20 @@ class DynamixelEmulator:
                 else:
                     self._wire.write(output)
 
-    def _execute(self, instruction: PacketInstruction) -> list[bytes]:
+    def _execute(self, instruction: protocol.PacketInstruction) -> list[bytes]:
         code, parameters = instruction.code, instruction.parameters
         addressed = [servo for servo in self._servos if servo.id == instruction.servo_id]
-        if instruction.servo_id != BROADCAST:
+        if instruction.servo_id != protocol.BROADCAST:
             if not instruction.intact:
-                return [self._status(servo, BAD_CRC) for servo in addressed]
+                return [self._status(servo, protocol.BAD_CRC) for servo in addressed]
             return [self._answer(servo, code, parameters) for servo in addressed]
         if not instruction.intact:
             return []
-        if code == PING:
+        if code == protocol.PING:
             return [self._answer(servo, code, parameters) for servo in self._servos]
-        if code in (SYNC_READ, FAST_SYNC_READ) and len(parameters) > 4:
+        if code in (protocol.SYNC_READ, protocol.FAST_SYNC_READ) and len(parameters) > 4:
             return self._sync_read(code, parameters)
-        if code == SYNC_WRITE and len(parameters) > 4:
+        if code == protocol.SYNC_WRITE and len(parameters) > 4:
             self._sync_write(parameters)
         return []
 
@@ -186,14 +172,14 @@ class DynamixelEmulator:
     def _status(self, servo: EmulatedServo, error: int, data: bytes = b"") -> bytes:
         if self._faults.is_silent(servo.id):
             return b""
-        return status(servo.id, self._with_alert(servo, error), data)
+        return protocol.status(servo.id, self._with_alert(servo, error), data)
 
     def _with_alert(self, servo: EmulatedServo, error: int) -> int:
-        return error | (ALERT if servo.table[at.HARDWARE_ERROR] else 0)
+        return error | (protocol.ALERT if servo.table[at.HARDWARE_ERROR] else 0)
 
     def _sync_read(self, code: int, parameters: bytes) -> list[bytes]:
         """Answer in the order of the ids; the servos after a missing one stay silent."""
-        address, length = u16(parameters), u16(parameters[2:])
+        address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
         parts = []
         for servo_id in parameters[4:]:
             servo = next((s for s in self._servos if s.id == servo_id), None)
@@ -201,14 +187,14 @@ class DynamixelEmulator:
                 break
             error, data = servo.table.read(address, length)
             parts.append((servo_id, self._with_alert(servo, error), data))
-        if code == FAST_SYNC_READ:
+        if code == protocol.FAST_SYNC_READ:
             complete = len(parts) == len(parameters[4:])
-            return [fast_sync_status(parts)] if complete else []
-        return [status(servo_id, error, data) for servo_id, error, data in parts]
+            return [protocol.fast_sync_status(parts)] if complete else []
+        return [protocol.status(servo_id, error, data) for servo_id, error, data in parts]
 
     def _sync_write(self, parameters: bytes) -> None:
         """Write to several servos at once; none of them answers, not even with a refusal."""
-        address, length = u16(parameters), u16(parameters[2:])
+        address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
         written: frozenset[int] = frozenset()
         for start in range(4, len(parameters), 1 + length):
             data = parameters[start + 1 : start + 1 + length]

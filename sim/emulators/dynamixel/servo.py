@@ -11,17 +11,8 @@ from __future__ import annotations
 import math
 
 from sim.emulators.dynamixel import control_table as at
+from sim.emulators.dynamixel import packets as protocol
 from sim.emulators.dynamixel.control_table import ControlTable, EmulatedServoModel
-from sim.emulators.dynamixel.packets import (
-    NO_ACCESS,
-    NO_INSTRUCTION,
-    OK,
-    PING,
-    READ,
-    REBOOT,
-    WRITE,
-    u16,
-)
 
 NO_LOAD_TICKS_S = 4800.0
 """Largest speed [ticks/s]. Source: XC330-T288 at 11.1 V, 65 rev/min."""
@@ -78,24 +69,25 @@ class EmulatedServo:
     def execute(self, code: int, parameters: bytes) -> tuple[int, bytes, frozenset[int]]:
         """Carry out an instruction; returns error number, data and written addresses."""
         nothing: frozenset[int] = frozenset()
-        if code == PING:
-            return OK, bytes(self.table.read(at.MODEL, 2)[1]) + bytes([self.table[6]]), nothing
-        if code == REBOOT:
+        if code == protocol.PING:
+            model = bytes(self.table.read(at.MODEL, 2)[1])
+            return protocol.OK, model + bytes([self.table[at.FIRMWARE]]), nothing
+        if code == protocol.REBOOT:
             self.table.start_up()
             self.position %= 4096  # the turn count is lost
-            return OK, b"", frozenset({at.TORQUE})
-        if code == READ and len(parameters) == 4:
-            address, length = u16(parameters), u16(parameters[2:])
+            return protocol.OK, b"", frozenset({at.TORQUE})
+        if code == protocol.READ and len(parameters) == 4:
+            address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
             return *self.table.read(address, length), nothing
-        if code == WRITE and len(parameters) > 2:
-            return self.write(u16(parameters), parameters[2:])
-        return NO_INSTRUCTION, b"", nothing
+        if code == protocol.WRITE and len(parameters) > 2:
+            return self.write(protocol.u16(parameters), parameters[2:])
+        return protocol.NO_INSTRUCTION, b"", nothing
 
     def write(self, address: int, data: bytes) -> tuple[int, bytes, frozenset[int]]:
         """Write registers; torque can't be switched on during a hardware error."""
         turns_on = address == at.TORQUE and data[:1] == b"\x01"
         if turns_on and self.table[at.HARDWARE_ERROR] & self.table[at.SHUTDOWN]:
-            return NO_ACCESS, b"", frozenset()
+            return protocol.NO_ACCESS, b"", frozenset()
         was_on = self.torque
         error, written = self.table.write(address, data)
         if at.TORQUE in written and self.torque and not was_on:

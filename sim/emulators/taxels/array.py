@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 
 from cltp.sensing.taxel_packets import PacketParser, TaxelFrame, TaxelMark, counts_of, encode_frame
 from sim.emulators.process.control import Facts
-from sim.emulators.process.lifetime import serve
-from sim.emulators.process.real_time import request_real_time
+from sim.emulators.process.lifetime import request_real_time, serve
 from sim.emulators.taxels.ball import PressedBall
 from sim.emulators.taxels.options import TaxelOptions
 

@@ -16,8 +16,7 @@ from contextlib import closing
 import numpy as np
 
 from sim.emulators.process.control import Facts
-from sim.emulators.process.lifetime import serve
-from sim.emulators.process.real_time import request_real_time
+from sim.emulators.process.lifetime import request_real_time, serve
 from sim.emulators.ur.child import Follow, RemoteWorld
 from sim.emulators.ur.controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur.motion import MotionSegment

@@ -15,7 +15,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from sim.emulators.process.real_time import request_real_time
+from sim.emulators.process.lifetime import request_real_time
 from sim.emulators.ur.controller import Controller
 from sim.emulators.ur.sessions import (
     DASHBOARD_PORT,

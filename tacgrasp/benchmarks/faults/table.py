@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
 
@@ -96,6 +96,13 @@ _COLUMNS = (
 )
 
 
+_REACTIONS: Mapping[str, str] = {
+    InjectionPhase.START: "nothing moved.",
+    InjectionPhase.MOTION: "the arm came to rest.",
+    InjectionPhase.TRANSIENT: "the arm moved on and arrived.",
+}
+
+
 def table_of(rows: Sequence[FaultRow]) -> Table:
     """Table for the screen; rows of faults that did not pass are red."""
     table = Table(title="faults of the emulated rig: p50 / max")
@@ -129,16 +136,8 @@ def markdown_of(rows: Sequence[FaultRow], command: str) -> str:
         "",
     ]
     for row in rows:
-        lines += [f"- **{row.name}**: {_reaction(row)} “{row.told}”"]
+        lines += [f"- **{row.name}**: {_REACTIONS[row.phase]} “{row.told}”"]
     return "\n".join(lines) + "\n"
-
-
-def _reaction(row: FaultRow) -> str:
-    if row.phase == InjectionPhase.START:
-        return "nothing moved."
-    if row.phase == InjectionPhase.TRANSIENT:
-        return "the arm moved on and arrived."
-    return "the arm came to rest."
 
 
 def _cells(row: FaultRow) -> tuple[str, ...]:

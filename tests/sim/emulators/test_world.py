@@ -13,7 +13,7 @@ from sim.grasp.rig import build
 
 
 class Clock:
-    """Stands still but when it is told to go on."""
+    """A clock that a test advances."""
 
     def __init__(self):
         self.now_s = 100.0

@@ -110,17 +110,19 @@ def test_the_crc_is_the_sdk_s():
 @given(st.integers(0, 252), st.binary(max_size=40), st.binary(max_size=20))
 def test_what_is_packed_is_read_again_whatever_stands_before_it(servo, body, rubbish):
     reader = PacketReader()
-    found = reader.feed(rubbish.replace(b"\xff", b"\x00") + packet(servo, b"\x02" + body))
-    assert [(p.servo_id, p.code, p.parameters, p.intact) for p in found] == [(servo, 2, body, True)]
+    instructions = reader.feed(rubbish.replace(b"\xff", b"\x00") + packet(servo, b"\x02" + body))
+    assert [(p.servo_id, p.code, p.parameters, p.intact) for p in instructions] == [
+        (servo, 2, body, True)
+    ]
 
 
 @given(st.lists(st.integers(1, 30), max_size=10))
 def test_a_packet_may_come_in_any_pieces(sizes):
-    whole, reader, found = packet(3, b"\x02\xff\xff\xfd\x01") * 3, PacketReader(), []
-    for size in [*sizes, len(whole)]:
-        found += reader.feed(whole[:size])
-        whole = whole[size:]
-    assert [p.parameters for p in found] == [b"\xff\xff\xfd\x01"] * 3
+    stream, reader, instructions = packet(3, b"\x02\xff\xff\xfd\x01") * 3, PacketReader(), []
+    for size in [*sizes, len(stream)]:
+        instructions += reader.feed(stream[:size])
+        stream = stream[size:]
+    assert [p.parameters for p in instructions] == [b"\xff\xff\xfd\x01"] * 3
 
 
 @given(st.binary(max_size=60))

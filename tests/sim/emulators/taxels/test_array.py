@@ -21,12 +21,12 @@ class Host:
         self.parser = PacketParser()
 
     def frames(self, count, seconds=5.0):
-        found, end = [], time.monotonic() + seconds
-        while len(found) < count and time.monotonic() < end:
+        frames, end = [], time.monotonic() + seconds
+        while len(frames) < count and time.monotonic() < end:
             if select.select([self.fd], [], [], 0.1)[0]:
                 packets = self.parser.feed(os.read(self.fd, 65536))
-                found += [p for p in packets if isinstance(p, TaxelFrame)]
-        return found
+                frames += [p for p in packets if isinstance(p, TaxelFrame)]
+        return frames
 
     def close(self):
         os.close(self.fd)

@@ -44,8 +44,26 @@ class Clock:
         return self.now_s
 
 
-def controller(clock, report=None):
-    return Controller(START, np.array(TCP_OFFSET), report, clock)
+def controller(clock, listener=None):
+    return Controller(START, np.array(TCP_OFFSET), listener, clock)
+
+
+@pytest.fixture
+def clock():
+    return Clock()
+
+
+@pytest.fixture
+def machine(clock):
+    """A controller whose program runs."""
+    machine = controller(clock)
+    machine.start_program()
+    return machine
+
+
+def wait(machine, clock, seconds):
+    clock.now_s += seconds
+    machine.advance()
 
 
 def send(machine, command, doubles=(), ints=()):
@@ -66,8 +84,7 @@ def done(machine):
 def moved_line(machine, clock, *, asynchronous=True, up_m=0.1, speed=0.4, acceleration=10.0):
     target = START + np.array([0, 0, up_m, 0, 0, 0])
     send(machine, 3, [*target, speed, acceleration], [1 if asynchronous else 0])
-    clock.now_s += 0.1
-    machine.advance()
+    wait(machine, clock, 0.1)
     return target
 
 
@@ -155,43 +172,31 @@ def test_joint_speeds_move_the_tool_at_its_speed():
 # -- the control script's registers --------------------------------------------------------------
 
 
-def test_an_asynchronous_line_is_acknowledged_at_once_and_reports_its_progress():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_an_asynchronous_line_is_acknowledged_at_once_and_reports_its_progress(machine, clock):
     before = machine.outputs["output_int_register_2"] >> 24
     target = moved_line(machine, clock)
     done(machine)
     assert machine.outputs["output_int_register_2"] & 0x8000
     assert machine.outputs["output_int_register_2"] >> 24 == before + 1
-    clock.now_s += 1
-    machine.advance()
+    wait(machine, clock, 1)
     assert not machine.outputs["output_int_register_2"] & 0x8000
     assert machine.robot.tcp_pose() == pytest.approx(target)
 
 
-def test_a_synchronous_line_trips_the_watchdog_since_nobody_can_kick():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_synchronous_line_trips_the_watchdog_since_nobody_can_kick(machine, clock):
     send(machine, 35, [10.0])
     done(machine)
     moved_line(machine, clock, asynchronous=False)
     assert machine.outputs["output_int_register_0"] == 1
-    clock.now_s += 0.01
-    machine.advance()
+    wait(machine, clock, 0.01)
     assert machine.program is None
     assert "watchdog" in machine.end_reason
-    clock.now_s += 0.1
-    machine.advance()
+    wait(machine, clock, 0.1)
     assert machine.robot.speed_m_s == 0
     assert machine.robot.tool.position_m[2] < START[2] + 0.099
 
 
-def test_a_speed_goes_on_after_its_time_until_the_watchdog_stops_it():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_speed_goes_on_after_its_time_until_the_watchdog_stops_it(machine, clock):
     send(machine, 35, [10.0])
     done(machine)
     send(machine, 10, [0, 0, 0.05, 0, 0, 0, 0.5, 0.1])  # time = 0.1 s
@@ -200,29 +205,22 @@ def test_a_speed_goes_on_after_its_time_until_the_watchdog_stops_it():
         send(machine, 10, [0, 0, 0.05, 0, 0, 0, 0.5, 0.1])
     assert machine.robot.speed_m_s == pytest.approx(0.05)
     for _ in range(12):
-        clock.now_s += 0.01
-        machine.advance()
+        wait(machine, clock, 0.01)
     assert machine.program is None
     assert machine.robot.speed_m_s == 0
 
 
-def test_a_line_stop_does_not_end_a_speed_but_a_speed_stop_does():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_line_stop_does_not_end_a_speed_but_a_speed_stop_does(machine, clock):
     send(machine, 10, [0, 0, 0.05, 0, 0, 0, 0.5, 0.0])
-    clock.now_s += 0.5
-    machine.advance()
+    wait(machine, clock, 0.5)
     send(machine, 33, [10.0], [0])
     for _ in range(3):
-        clock.now_s += 0.5
-        machine.advance()
+        wait(machine, clock, 0.5)
     done(machine)
     assert machine.robot.speed_m_s == pytest.approx(0.05)
     send(machine, 15, [10.0])
     for _ in range(3):
-        clock.now_s += 0.5
-        machine.advance()
+        wait(machine, clock, 0.5)
     assert machine.robot.speed_m_s == 0
 
 
@@ -232,15 +230,11 @@ def stop_time_s(machine, clock, deceleration):
     send(machine, 33, [deceleration], [0])
     started_s = clock.now_s
     while machine.robot.speed_m_s > 1e-3:
-        clock.now_s += 0.001
-        machine.advance()
+        wait(machine, clock, 0.001)
     return clock.now_s - started_s
 
 
-def test_a_line_stop_brakes_in_joint_space_until_the_first_asynchronous_one():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_line_stop_brakes_in_joint_space_until_the_first_asynchronous_one(machine, clock):
     by_joints_s = stop_time_s(machine, clock, 2.0)
     clock = Clock()
     machine = controller(clock)
@@ -254,20 +248,19 @@ def test_a_line_stop_brakes_in_joint_space_until_the_first_asynchronous_one():
 
 
 def test_a_moved_stretch_is_reported_as_covered_and_the_move_ends_when_the_world_followed():
-    clock, told, followed = Clock(), [], [False]
+    clock, segments, followed = Clock(), [], [False]
 
-    def report(stretch):
-        told.append(stretch)
+    def report(segment):
+        segments.append(segment)
         return lambda: followed[0]
 
     machine = controller(clock, report)
     machine.start_program()
     moved_line(machine, clock, speed=0.3, acceleration=2.5)
     done(machine)
-    clock.now_s += 2
-    machine.advance()
-    assert [s.by_base_m.round(9).tolist() for s in told] == [[0, 0, 0.1]]
-    assert (told[0].speed_m_s, told[0].acceleration_m_s2) == (0.3, 2.5)
+    wait(machine, clock, 2)
+    assert [s.by_base_m.round(9).tolist() for s in segments] == [[0, 0, 0.1]]
+    assert (segments[0].speed_m_s, segments[0].acceleration_m_s2) == (0.3, 2.5)
     assert machine.outputs["output_int_register_2"] & 0x8000
     followed[0] = True
     machine.advance()
@@ -275,50 +268,38 @@ def test_a_moved_stretch_is_reported_as_covered_and_the_move_ends_when_the_world
 
 
 def test_a_line_cut_short_is_reported_with_what_was_really_covered():
-    clock, told = Clock(), []
-    machine = controller(clock, lambda stretch: told.append(stretch) or (lambda: True))
+    clock, segments = Clock(), []
+    machine = controller(clock, lambda segment: segments.append(segment) or (lambda: True))
     machine.start_program()
     moved_line(machine, clock)
     machine.protective_stop()
-    clock.now_s += 1
-    machine.advance()
-    assert told[0].by_base_m[2] == pytest.approx(machine.robot.tool.position_m[2] - START[2])
-    assert 0.03 < told[0].by_base_m[2] < 0.09
+    wait(machine, clock, 1)
+    assert segments[0].by_base_m[2] == pytest.approx(machine.robot.tool.position_m[2] - START[2])
+    assert 0.03 < segments[0].by_base_m[2] < 0.09
 
 
-def test_a_stop_is_measured_from_injection_until_below_a_millimetre_per_second():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_stop_is_measured_from_injection_until_below_a_millimetre_per_second(machine, clock):
     moved_line(machine, clock)
     assert machine.robot.speed_m_s == pytest.approx(0.4)
     machine.robot.watch_stop(clock.now_s)
     machine.protective_stop()
-    clock.now_s += 0.3  # however late it is looked at
-    machine.advance()
+    wait(machine, clock, 0.3)  # however late it is looked at
     assert machine.robot.stopped_after_s == pytest.approx((0.4 - 1e-3) / 10, abs=1e-5)
     machine.robot.watch_stop(clock.now_s)
     assert machine.robot.stopped_after_s is None
 
 
-def test_a_slider_at_half_makes_a_move_take_twice_as_long_and_at_zero_holds_it():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_a_slider_at_half_makes_a_move_take_twice_as_long_and_at_zero_holds_it(machine, clock):
     machine.robot.speed_fraction = 0.5
     moved_line(machine, clock, speed=0.1)
     assert machine.robot.speed_m_s == pytest.approx(0.05)
     machine.robot.speed_fraction = 0.0
     here = machine.robot.tool.position_m.copy()
-    clock.now_s += 1
-    machine.advance()
+    wait(machine, clock, 1)
     assert machine.robot.tool.position_m == pytest.approx(here)
 
 
-def test_another_tool_moves_the_tool_centre_point_and_not_the_joints():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_another_tool_moves_the_tool_centre_point_and_not_the_joints(machine, clock):
     q = machine.values("actual_q")
     send(machine, 29, [0, 0, 0.25, 0, 0, 0])
     done(machine)
@@ -337,29 +318,20 @@ def test_an_unknown_command_and_a_pose_that_is_not_finite_end_the_program():
         assert machine.robot.speed_m_s == 0
 
 
-def test_force_mode_gives_way_along_the_chosen_axis_until_it_is_stopped():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_force_mode_gives_way_along_the_chosen_axis_until_it_is_stopped(machine, clock):
     doubles = [0, 0, 0, 0, 0, 0, 0, 0, -5, 0, 0, 0, 0.02, 0.02, 0.02, 1, 1, 1]
     send(machine, 6, doubles, [2, 0, 0, 1, 0, 0, 0])
-    clock.now_s += 1
-    machine.advance()
+    wait(machine, clock, 1)
     assert machine.robot.tool.twist == pytest.approx([0, 0, -0.02, 0, 0, 0])
     send(machine, 7)
-    clock.now_s += 1
-    machine.advance()
+    wait(machine, clock, 1)
     assert machine.robot.speed_m_s == 0
 
 
-def test_servoing_follows_its_goal():
-    clock = Clock()
-    machine = controller(clock)
-    machine.start_program()
+def test_servoing_follows_its_goal(machine, clock):
     goal = START + np.array([0, 0, 0.01, 0, 0, 0])
     send(machine, 24, [*goal, 0, 0, 0.002, 0.1, 300])
-    clock.now_s += 1.5
-    machine.advance()
+    wait(machine, clock, 1.5)
     assert machine.robot.tcp_pose() == pytest.approx(goal, abs=1e-6)
 
 
@@ -437,8 +409,8 @@ def test_the_unmodified_library_connects_sets_up_and_moves(version):
     with EmulatorProcess("ur", "--host", loopback(42), "--version", version) as emulator:
         command = [sys.executable, "-c", CLIENT, loopback(42)]
         command += [json.dumps(list(numbers)) for numbers in (TCP_OFFSET, target)]
-        said = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
-        taken, offset, pose, joints = json.loads(said.stdout.splitlines()[-1])
+        output = subprocess.run(command, capture_output=True, text=True, timeout=60, check=True)
+        taken, offset, pose, joints = json.loads(output.stdout.splitlines()[-1])
         facts = emulator.control.facts("ur")
     assert taken == [True] * 4
     assert offset == pytest.approx(TCP_OFFSET)
