@@ -234,7 +234,7 @@ class Bus:
             raise BusError(BusFault.CORRUPT, f"the port of {name} was stuck and was rebuilt")
         if result != 0 and num_stray:
             raise BusError(
-                BusFault.CORRUPT, f"{name} replied to an earlier packet only", timed_out=True
+                BusFault.CORRUPT, f"{name} answered an earlier packet only", timed_out=True
             )
         if result != 0:
             raise self._failure(result, name, self._clock() - start_s)
@@ -251,7 +251,7 @@ class Bus:
         if result == _CORRUPT:
             return BusError(
                 BusFault.CORRUPT,
-                f"{name} replied with a wrong CRC or half a packet",
+                f"{name} answered with a wrong CRC or half a packet",
                 timed_out=1000 * duration_s >= timeout_ms,
             )
         return BusError(

@@ -108,8 +108,8 @@ def test_an_emulator_runs_until_ctrl_c_at_the_addresses_that_it_prints():
 def test_the_longest_name_of_what_can_be_calibrated_is_apart_from_what_it_is(capsys):
     assert main(["calibrate", "--help"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert "  gelsight-mini  Photometric: colours to heights, from presses of a ball." in lines
-    assert any(line.startswith("  gripper        Force over current") for line in lines)
+    assert "  gelsight-mini  Learn heights from colours, from presses of a ball of known diameter." in lines
+    assert any(line.startswith("  gripper        Measure force over current") for line in lines)
 
 
 # -- calibrate pad-axes ------------------------------------------------------------------------

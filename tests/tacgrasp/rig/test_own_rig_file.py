@@ -166,7 +166,7 @@ def test_a_device_that_does_not_fit_is_refused_in_one_line_and_nothing_moves(
 
 BAD_ANSWERS = {
     "an address that answers with garbage": ("ur", "garbage", "no UR dashboard"),
-    "an address that does not answer": ("ur", "mute", "message nothing"),
+    "an address that does not answer": ("ur", "mute", "said nothing"),
     "a port that another program has": ("dynamixel", "port_taken", "another program"),
     "servos that do not answer": ("dynamixel", "silence", "answer"),
     "an array that is unplugged": ("taxels", "unplugged", "no serial port"),
