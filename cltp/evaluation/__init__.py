@@ -1,1 +1,6 @@
-"""TODO: what this folder is for, what it may import."""
+"""Scores of frozen encoders and of the language model on contacts that they did not learn from.
+
+Evaluation splits, encoded contacts, zero-shot prompts, probes, retrieval and the geometric baseline
+that all of them are compared with. Not here: training (``cltp.train``), and the tables and commands
+that show these scores (``tacgrasp.pretraining``, ``tacgrasp.training.evaluate``).
+"""

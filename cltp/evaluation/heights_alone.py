@@ -1,7 +1,7 @@
 """An encoder that learns nothing: the heights of a cloud's points in falling order.
 
-What a probe reads of these is what the 1024 points say of depth and area without their places: a
-ceiling that is learned, beside the one that is computed (``cltp.tactile.measure``).
+Probes on it show what the 1024 points tell of depth and area without their positions: a baseline
+that is learned, beside the one that is computed (``cltp.evaluation.geometric_baseline``).
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import torch
 from torch import Tensor
 
 from cltp.data.sampler import Batch
-from cltp.encoder.tokenizers import bearing_curve, graded, graded_ranks
+from cltp.encoder.class_token import encoded_ranks, height_quantiles, piecewise_linear
 from cltp.tactile.point_layout import EVEN
 
 _SAMPLES, _GRADES = 64, 60
@@ -24,12 +24,12 @@ class HeightsAlone:
     sampling = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Heights, scaled and graded, shape (B, 1024) in all, and no feature (B, 1)."""
+        """Scaled heights and their piecewise linear encoding (B, 1024), and no feature (B, 1)."""
         del frames
         return self.read(torch.from_numpy(batch.points))
 
-    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+    def read(self, inputs: Tensor) -> tuple[Tensor, Tensor]:
         """The same of scaled points (B, 1024, 3)."""
-        curve = bearing_curve(taken, _SAMPLES)
-        told = graded(curve[:, graded_ranks(_SAMPLES)], _GRADES)
-        return torch.cat([curve, told], dim=1), torch.zeros(len(taken), 1)
+        heights = height_quantiles(inputs, _SAMPLES)
+        grades = piecewise_linear(heights[:, encoded_ranks(_SAMPLES)], _GRADES)
+        return torch.cat([heights, grades], dim=1), torch.zeros(len(inputs), 1)

@@ -1,12 +1,13 @@
-"""What small networks read from a frozen encoder: classes (the paper's table 2) and numbers.
+"""Small networks on a frozen encoder: classes (the paper's table 2) and numbers with intervals.
 
-One MLP a dimension, as in the paper. For numbers, beyond the paper, several that say how sure they
-are: a mean and a spread for each quantity. Each learns without a part of the objects, so that they
-disagree where a contact is like nothing that all of them know. Their intervals are then stretched
-on contacts that none learned from until they hold 90 % of them (split conformal prediction).
+Classes are read by one MLP a dimension, as in the paper. Numbers, beyond the paper, are read by
+several MLPs that predict a mean and a spread for each quantity. Each learns without a part of the
+objects, so that they disagree where a contact resembles nothing that all of them learned from.
+Their intervals are then scaled on contacts that none learned from until 90 % of the true values lie
+inside (split conformal prediction).
 
 Source: paper, section 5.2; conformal intervals scaled by a predicted spread after Lei et al.,
-'Distribution-Free Predictive Inference for Regression', 2018; several that disagree after
+'Distribution-Free Predictive Inference for Regression', 2018; members that disagree after
 Lakshminarayanan et al., 'Simple and Scalable Predictive Uncertainty Estimation using Deep
 Ensembles', 2017.
 """
@@ -14,58 +15,37 @@ Ensembles', 2017.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder.heads import restored, transformed
+from cltp.encoder.heads import StateHeads, restored, transformed
 from cltp.errors import TouchError
-from cltp.evaluation.features import Observed
+from cltp.evaluation.features import EncodedContacts
+from cltp.evaluation.scores import Predictions
 from cltp.tactile.states import CLASSES, NUMBERS
-from cltp.train.stage import ProgressReport, Schedule, silent
+from cltp.train.recipes import Schedule
+from cltp.train.stage import ProgressReport, silent
 
 SCHEDULE = Schedule(steps=1500, batch_size=256, learning_rate=1e-3)
 COVERAGE = 0.9
 HIDDEN = 256
 
-
-@dataclass(frozen=True, slots=True)
-class Judged:
-    """How right classes are.
-
-    Attributes:
-        right: By dimension, share right, 0 to 1; NaN where nothing could be judged.
-        confusion: By dimension, counts, shape (classes, classes): truth by row, said by column.
-        count: Contacts.
-    """
-
-    right: Mapping[str, float]
-    confusion: Mapping[str, Tensor]
-    count: int
+_DEPTH = list(CLASSES).index("depth")
 
 
-def judge(said: Tensor, classes: Tensor) -> Judged:
-    """Compare classes.
-
-    Args:
-        said: Shape (N, 5), class numbers in the order of ``CLASSES``; -1 for none.
-        classes: Shape (N, 5), the truth; -1 where nobody named one, which is not judged.
-    """
-    right, confusion = {}, {}
-    for column, (slot, names) in enumerate(CLASSES.items()):
-        known = classes[:, column] >= 0
-        truth, found = classes[known, column], said[known, column]
-        right[slot] = float((truth == found).float().mean()) if known.any() else math.nan
-        told = found >= 0
-        flat = truth[told] * len(names) + found[told]
-        confusion[slot] = torch.bincount(flat, minlength=len(names) ** 2).view(len(names), -1)
-    return Judged(right, confusion, len(classes))
+@torch.inference_mode()
+def predict_with_heads(heads: StateHeads, encoded: EncodedContacts) -> Predictions:
+    """What state heads that were trained with the encoder predict."""
+    logits, numbers, _, _ = heads(encoded.pooled)
+    classes = torch.stack([of_dimension.argmax(1) for of_dimension in logits], dim=1)
+    return Predictions(classes, restored(numbers).numpy())
 
 
-class _Scaled(nn.Module):
+class _ScaledMlp(nn.Module):
     """An MLP on features brought to mean 0 and variance 1."""
 
     def __init__(self, pooled: Tensor, outputs: int) -> None:
@@ -77,8 +57,8 @@ class _Scaled(nn.Module):
         )
 
     def forward(self, pooled: Tensor) -> Tensor:
-        found: Tensor = self.mlp((pooled - self.mean) / self.spread)
-        return found
+        outputs: Tensor = self.mlp((pooled - self.mean) / self.spread)
+        return outputs
 
 
 def _fit(
@@ -90,7 +70,7 @@ def _fit(
     seed: int,
     report: ProgressReport,
 ) -> None:
-    """AdamW with the schedule of the stages, over rows drawn from ``count``."""
+    """Train by AdamW on random rows out of ``count``; ``loss`` takes the numbers of rows."""
     rng = torch.Generator().manual_seed(seed)
     optimiser = torch.optim.AdamW(
         model.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
@@ -112,206 +92,210 @@ class ClassProbes:
     """One MLP for each dimension, on frozen features.
 
     Args:
-        seen: What they learn from.
-        schedule: How long and how fast each learns.
-        seed: Of their weights and order.
-        report: Told about progress.
+        encoded: Contacts to learn from.
+        schedule: Length and learning rate of the training of each.
+        seed: Random seed of the weights and of the order of contacts.
+        report: Receives the progress.
 
     Raises:
-        TouchError: Features or labels are not finite.
+        TouchError: A feature is not finite.
     """
 
     def __init__(
         self,
-        seen: Observed,
+        encoded: EncodedContacts,
         *,
         schedule: Schedule = SCHEDULE,
         seed: int = 0,
         report: ProgressReport = silent,
     ) -> None:
-        if not seen.pooled.isfinite().all():
-            rows = (~seen.pooled.isfinite().all(dim=1)).nonzero()[:8, 0]
-            raise TouchError(f"features of contacts {seen.index[rows].tolist()} are not finite")
+        if not encoded.pooled.isfinite().all():
+            rows = (~encoded.pooled.isfinite().all(dim=1)).nonzero()[:8, 0]
+            raise TouchError(f"features of contacts {encoded.index[rows].tolist()} are not finite")
         self._probes: list[nn.Module] = []
-        for column, (slot, names) in enumerate(CLASSES.items()):
+        for column, (dimension, names) in enumerate(CLASSES.items()):
             torch.manual_seed(1000 * seed + column)
-            known = (seen.classes[:, column] >= 0).nonzero()[:, 0]
-            pooled, goal = seen.pooled[known], seen.classes[known, column]
-            probe = _Scaled(seen.pooled, len(names))
+            labelled = (encoded.classes[:, column] >= 0).nonzero()[:, 0]
+            pooled, labels = encoded.pooled[labelled], encoded.classes[labelled, column]
+            probe = _ScaledMlp(encoded.pooled, len(names))
 
             def loss(
-                rows: Tensor, probe: nn.Module = probe, x: Tensor = pooled, y: Tensor = goal
+                rows: Tensor, probe: nn.Module = probe, x: Tensor = pooled, y: Tensor = labels
             ) -> Tensor:
                 return F.cross_entropy(probe(x[rows]), y[rows])
 
-            if len(known):
-                _fit(probe, len(known), loss, schedule, f"probe {slot}", seed, report)
+            if len(labelled):
+                _fit(probe, len(labelled), loss, schedule, f"probe {dimension}", seed, report)
             self._probes.append(probe.eval())
 
     @torch.no_grad()
-    def said(self, seen: Observed) -> Tensor:
+    def classes(self, encoded: EncodedContacts) -> Tensor:
         """Classes, shape (N, 5)."""
-        return torch.stack([probe(seen.pooled).argmax(1) for probe in self._probes], dim=1)
+        return torch.stack([probe(encoded.pooled).argmax(1) for probe in self._probes], dim=1)
 
     @torch.no_grad()
-    def sure(self, seen: Observed) -> list[Tensor]:
+    def probabilities(self, encoded: EncodedContacts) -> list[Tensor]:
         """Probabilities of the classes of each dimension, (N, classes) each."""
-        return [probe(seen.pooled).softmax(dim=1) for probe in self._probes]
+        return [probe(encoded.pooled).softmax(dim=1) for probe in self._probes]
 
 
 @dataclass(frozen=True, slots=True)
 class Interval:
-    """A number with what it is probably between, in the unit of ``NUMBERS``.
+    """Numbers with their intervals, in the units of ``NUMBERS``.
 
     Attributes:
         value: Shape (N, 5).
         low: Shape (N, 5).
         high: Shape (N, 5).
-        away_mm: Shape (N,): within this distance of the value lies the place of the contact [mm].
+        position_mm: Shape (N,), radius about the position of the value [mm].
     """
 
     value: Tensor
     low: Tensor
     high: Tensor
-    away_mm: Tensor
+    position_mm: Tensor
 
 
 @dataclass(frozen=True, slots=True)
 class IntervalScale:
-    """How intervals are stretched to hold their share.
+    """Half widths of intervals, in predicted spreads.
 
     Attributes:
-        each: Shape (5,), in predicted spreads.
-        place: For the distance of the place.
+        numbers: Shape (5,), of each number.
+        position: Of the distance from the position.
     """
 
-    each: Tensor
-    place: float
+    numbers: Tensor
+    position: float
 
 
 MEMBERS = 5
-"""Readers of numbers; each leaves out as small a part of the objects."""
+"""MLPs that read numbers; each leaves out a fifth of the objects."""
 
 DISAGREEMENT = 64.0
-"""What the variance between members counts for beside the one that they say. Our choice: members
-share an encoder and most objects, so that they disagree less than they are wrong."""
+"""Weight of the variance between members beside the variance that they predict. Our choice:
+members share an encoder and most objects, so that they disagree less than they are wrong."""
 
 
 class NumberProbe:
     """Mean and spread of ``NUMBERS`` for each contact that touches.
 
     Args:
-        seen: What it learns from.
-        things: Shape (N,), the number of the object that each contact is of.
-        schedule: How long and how fast each member learns.
-        seed: Of weights, order and which objects are left out.
-        report: Told about progress.
+        encoded: Contacts to learn from.
+        objects: Shape (N,), number of the object of each contact.
+        schedule: Length and learning rate of the training of each member.
+        seed: Random seed of the weights, of the order and of which objects are left out.
+        report: Receives the progress.
     """
 
     def __init__(
         self,
-        seen: Observed,
-        things: Tensor,
+        encoded: EncodedContacts,
+        objects: Tensor,
         *,
         schedule: Schedule = SCHEDULE,
         seed: int = 0,
         report: ProgressReport = silent,
     ) -> None:
-        touching = seen.classes[:, _DEPTH] >= 0
-        every = things.unique()
+        touching = encoded.classes[:, _DEPTH] >= 0
+        every = objects.unique()
         rng = torch.Generator().manual_seed(seed)
         part = torch.randperm(len(every), generator=rng) % MEMBERS
-        part_of = part[torch.searchsorted(every, things)]
+        part_of = part[torch.searchsorted(every, objects)]
         self._members = []
         for member in range(MEMBERS):
-            known = touching & (part_of != member)
-            # One object alone can't be left out.
-            rows = (known if known.any() else touching).nonzero()[:, 0]
+            learned = touching & (part_of != member)
+            # A single object can't be left out.
+            rows = (learned if learned.any() else touching).nonzero()[:, 0]
             name = f"probe numbers {member + 1} of {MEMBERS}"
-            of_member = MEMBERS * seed + member
-            self._members.append(_number_member(seen, rows, schedule, of_member, name, report))
+            member_seed = MEMBERS * seed + member
+            self._members.append(_train_member(encoded, rows, schedule, member_seed, name, report))
 
-    def _spoken(self, pooled: Tensor) -> tuple[Tensor, Tensor]:
-        """Mean and spread, transformed, (N, 5) each."""
-        told = [_told(member, pooled) for member in self._members]
-        means, spreads = torch.stack([m for m, _ in told]), torch.stack([s for _, s in told])
-        apart = means.var(dim=0)
-        return means.mean(dim=0), (spreads.square().mean(dim=0) + DISAGREEMENT * apart).sqrt()
+    def _mean_and_spread(self, pooled: Tensor) -> tuple[Tensor, Tensor]:
+        """Of all members together, transformed, (N, 5) each."""
+        predicted = [_mean_and_spread(member, pooled) for member in self._members]
+        means, spreads = (torch.stack(part) for part in zip(*predicted, strict=True))
+        between = means.var(dim=0)
+        return means.mean(dim=0), (spreads.square().mean(dim=0) + DISAGREEMENT * between).sqrt()
 
     @torch.no_grad()
-    def calibrate(self, seen: Observed, coverage: float = COVERAGE) -> IntervalScale:
-        """How far intervals must reach, from contacts that were not learned from.
+    def calibrate(self, encoded: EncodedContacts, coverage: float = COVERAGE) -> IntervalScale:
+        """Scale intervals on contacts that were not learned from.
 
         Args:
-            seen: Read with the noise that the intervals shall hold for.
-            coverage: Share of the truth that they shall hold.
+            encoded: Contacts with the noise that the intervals shall hold for.
+            coverage: Fraction of the true values that shall lie inside.
         """
-        touching = seen.classes[:, _DEPTH] >= 0
-        mean, spread = self._spoken(seen.pooled[touching])
-        numbers = seen.numbers[touching]
-        off = (transformed(numbers) - mean).abs() / spread
+        touching = encoded.classes[:, _DEPTH] >= 0
+        mean, spread = self._mean_and_spread(encoded.pooled[touching])
+        numbers = encoded.numbers[touching]
+        error = (transformed(numbers) - mean).abs() / spread
         value = restored(mean)
-        away = (value[:, 1:3] - numbers[:, 1:3]).norm(dim=1) / spread[:, 1:3].norm(dim=1)
-        # The finite-sample correction of conformal prediction: one more than the share asks for.
-        rank = min(len(off), math.ceil((len(off) + 1) * coverage))
-        return IntervalScale(off.sort(dim=0).values[rank - 1], float(away.sort().values[rank - 1]))
+        distance = (value[:, 1:3] - numbers[:, 1:3]).norm(dim=1) / spread[:, 1:3].norm(dim=1)
+        # The finite-sample correction of conformal prediction: one more than the fraction.
+        rank = min(len(error), math.ceil((len(error) + 1) * coverage)) - 1
+        return IntervalScale(error.sort(dim=0).values[rank], float(distance.sort().values[rank]))
 
     @torch.no_grad()
-    def said(self, seen: Observed, stretch: IntervalScale) -> Interval:
+    def intervals(self, encoded: EncodedContacts, scale: IntervalScale) -> Interval:
         """Numbers with their intervals."""
-        mean, spread = self._spoken(seen.pooled)
-        reach = spread * stretch.each
-        away = spread[:, 1:3].norm(dim=1) * stretch.place
-        return Interval(restored(mean), restored(mean - reach), restored(mean + reach), away)
+        mean, spread = self._mean_and_spread(encoded.pooled)
+        reach = spread * scale.numbers
+        radius = spread[:, 1:3].norm(dim=1) * scale.position
+        return Interval(restored(mean), restored(mean - reach), restored(mean + reach), radius)
 
 
-def _number_member(
-    seen: Observed, rows: Tensor, schedule: Schedule, seed: int, name: str, report: ProgressReport
-) -> _Scaled:
-    """One reader of numbers, which has learned from some rows."""
+def _train_member(
+    encoded: EncodedContacts,
+    rows: Tensor,
+    schedule: Schedule,
+    seed: int,
+    name: str,
+    report: ProgressReport,
+) -> _ScaledMlp:
     torch.manual_seed(seed)
-    pooled, goal = seen.pooled[rows], transformed(seen.numbers[rows])
-    model = _Scaled(seen.pooled, 2 * len(NUMBERS))
+    pooled, truth = encoded.pooled[rows], transformed(encoded.numbers[rows])
+    model = _ScaledMlp(encoded.pooled, 2 * len(NUMBERS))
 
     def loss(chosen: Tensor) -> Tensor:
-        mean, spread = _told(model, pooled[chosen])
-        off = goal[chosen] - mean
-        # The mean is pulled by absolute errors too: a spread that is too wide would excuse it.
-        told = (off / spread).square() / 2 + spread.log()
-        return (told + F.smooth_l1_loss(mean, goal[chosen], beta=0.02, reduction="none")).mean()
+        mean, spread = _mean_and_spread(model, pooled[chosen])
+        likelihood = ((truth[chosen] - mean) / spread).square() / 2 + spread.log()
+        # Absolute errors pull the mean too: a spread that is too wide would excuse it.
+        pull = F.smooth_l1_loss(mean, truth[chosen], beta=0.02, reduction="none")
+        return (likelihood + pull).mean()
 
     _fit(model, len(rows), loss, schedule, name, seed, report)
     return model.eval()
 
 
-def _told(member: _Scaled, pooled: Tensor) -> tuple[Tensor, Tensor]:
+def _mean_and_spread(member: _ScaledMlp, pooled: Tensor) -> tuple[Tensor, Tensor]:
     mean, spread = member(pooled).chunk(2, dim=-1)
     return mean, F.softplus(spread - 2) + 1e-3
 
 
-_DEPTH = list(CLASSES).index("depth")
-
-
-def number_scores(said: Interval, seen: Observed) -> dict[str, float]:
-    """Median errors and shares held by the intervals, of contacts that touch.
+def score_intervals(intervals: Interval, encoded: EncodedContacts) -> dict[str, float]:
+    """Median errors, and percent of the true values inside the intervals, of contacts that touch.
 
     Returns:
-        ``depth_mm``, ``position_mm``, ``area_percent`` and ``force_percent`` (of the truth), and
-        ``coverage_depth``, ``coverage_position``, ``coverage_area``, ``coverage_force`` in %.
+        ``depth_mm``, ``position_mm``, ``area_percent`` and ``force_percent`` (of the true value),
+        and ``coverage_depth``, ``coverage_position``, ``coverage_area``, ``coverage_force`` in %.
     """
-    touching = seen.classes[:, _DEPTH] >= 0
-    truth = seen.numbers[touching]
-    value, low, high = (part[touching] for part in (said.value, said.low, said.high))
-    off = (value - truth).abs()
-    away = off[:, 1:3].norm(dim=1)
-    held = ((low <= truth) & (truth <= high)).float().mean(0)
+    touching = encoded.classes[:, _DEPTH] >= 0
+    truth = encoded.numbers[touching]
+    value, low, high, radius = (
+        part[touching]
+        for part in (intervals.value, intervals.low, intervals.high, intervals.position_mm)
+    )
+    error = (value - truth).abs()
+    distance = error[:, 1:3].norm(dim=1)
+    inside = ((low <= truth) & (truth <= high)).float().mean(0)
     return {
-        "depth_mm": float(off[:, 0].median()),
-        "position_mm": float(away.median()),
-        "area_percent": 100 * float((off[:, 3] / truth[:, 3].clamp_min(1e-3)).median()),
-        "force_percent": 100 * float((off[:, 4] / truth[:, 4].clamp_min(0.05)).median()),
-        "coverage_depth": 100 * float(held[0]),
-        "coverage_position": 100 * float((away <= said.away_mm[touching]).float().mean()),
-        "coverage_area": 100 * float(held[3]),
-        "coverage_force": 100 * float(held[4]),
+        "depth_mm": float(error[:, 0].median()),
+        "position_mm": float(distance.median()),
+        "area_percent": 100 * float((error[:, 3] / truth[:, 3].clamp_min(1e-3)).median()),
+        "force_percent": 100 * float((error[:, 4] / truth[:, 4].clamp_min(0.05)).median()),
+        "coverage_depth": 100 * float(inside[0]),
+        "coverage_position": 100 * float((distance <= radius).float().mean()),
+        "coverage_area": 100 * float(inside[3]),
+        "coverage_force": 100 * float(inside[4]),
     }

@@ -1,8 +1,8 @@
-"""What encoders are tried on: a split of the data, and the noise with which it is read.
+"""Evaluation splits: which contacts of a data set are evaluated, and with which sensor noise.
 
-``contact`` and ``object`` are read as they were simulated, with no noise but that of sampling 1024
-points, as the paper's simulated set is; ``physics`` with the whole noise of a calibrated unit. The
-others show what noise costs by itself, and further sensors.
+``contact`` and ``object`` have no noise but the sampling of 1024 points, as the paper's simulated
+set; ``physics`` has the whole noise of a calibrated unit. The others show what noise costs by
+itself, and further sensors.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ class EvaluationSplit:
     """One test set.
 
     Attributes:
-        name: As tables call it.
-        split: Of the data.
-        noise: How it is read.
-        about: For people.
+        name: Name in tables.
+        split: Split of the data set that the contacts are taken from.
+        noise: Sensor noise that is added.
+        about: Description for tables.
     """
 
     name: str
@@ -33,60 +33,39 @@ class EvaluationSplit:
     about: str
 
 
-EVALUATION_SPLITS = (
-    EvaluationSplit(
-        name="contact",
-        split=Split.TEST,
-        noise=CLEAN,
-        about="unseen contacts of seen objects, no sensor noise",
-    ),
-    EvaluationSplit(
-        name="object", split=Split.OBJECT, noise=CLEAN, about="unseen objects, no sensor noise"
-    ),
-    EvaluationSplit(
-        name="physics",
-        split=Split.PHYSICS,
-        noise=NOISY,
-        about="unseen gels; drift, tilt, depth scale ±15 %, fine noise",
-    ),
-    EvaluationSplit(
-        name="contact_noisy",
-        split=Split.TEST,
-        noise=NOISY,
-        about="contact; drift, tilt, depth scale ±15 %, fine noise",
-    ),
-    EvaluationSplit(
-        name="object_noisy",
-        split=Split.OBJECT,
-        noise=NOISY,
-        about="object; drift, tilt, depth scale ±15 %, fine noise",
-    ),
-    EvaluationSplit(
-        name="gelstereo", split=Split.GELSTEREO, noise=NOISY, about="a sparse cloud of markers"
-    ),
-    EvaluationSplit(
-        name="gelsight", split=Split.GELSIGHT, noise=NOISY, about="GelSight-like hand presses"
-    ),
+_NOISE = "drift, tilt, depth scale ±15 %, fine noise"
+
+EVALUATION_SPLITS = tuple(
+    EvaluationSplit(name=name, split=split, noise=noise, about=about)
+    for name, split, noise, about in (
+        ("contact", Split.TEST, CLEAN, "unseen contacts of seen objects, no sensor noise"),
+        ("object", Split.OBJECT, CLEAN, "unseen objects, no sensor noise"),
+        ("physics", Split.PHYSICS, NOISY, f"unseen gels; {_NOISE}"),
+        ("contact_noisy", Split.TEST, NOISY, f"contact; {_NOISE}"),
+        ("object_noisy", Split.OBJECT, NOISY, f"object; {_NOISE}"),
+        ("gelstereo", Split.GELSTEREO, NOISY, "a sparse cloud of markers"),
+        ("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
+    )
 )
 
-LEARNING = Augmentation(clean=0.5)
-"""How contacts are read where methods learn to be tried: half of them without noise."""
+LEARNING_NOISE = Augmentation(clean=0.5)
+"""Noise of the contacts that methods and probes learn from: half of them have none."""
 
 
 def evaluation_splits(data_dir: Path, names: tuple[str, ...] = ()) -> list[EvaluationSplit]:
-    """The trials that a data set has contacts for, in the order of ``EVALUATION_SPLITS``.
+    """The splits that a data set has contacts for, in the order of ``EVALUATION_SPLITS``.
 
     Args:
         data_dir: A data set of contacts.
-        names: Only these; all when empty.
+        names: Names of splits; all when empty.
 
     Raises:
         TouchError: An unknown name, or one that the data has no contacts for.
     """
-    there = set(ContactDataset(data_dir).column("split"))
-    found = [trial for trial in EVALUATION_SPLITS if trial.split.value in there]
-    known = [trial.name for trial in found]
+    stored = set(ContactDataset(data_dir).column("split"))
+    available = [split for split in EVALUATION_SPLITS if split.split.value in stored]
+    known = [split.name for split in available]
     for name in names:
         if name not in known:
             raise TouchError(f"no contacts in {data_dir} for {name!r}; it has {', '.join(known)}")
-    return [trial for trial in found if not names or trial.name in names]
+    return [split for split in available if not names or split.name in names]

@@ -1,6 +1,6 @@
-"""``tacgrasp eval``: how right trained weights are on contacts that they have not seen.
+"""``tacgrasp eval``: accuracy of trained weights on contacts that they did not learn from.
 
-Pre-trained encoders by themselves are in ``tacgrasp.cli.eval_methods``.
+Not here: pre-trained encoders by themselves (``tacgrasp.cli.eval_methods``).
 """
 
 from __future__ import annotations
@@ -20,16 +20,16 @@ class EvalFlags:
     Pre-trained encoders: tacgrasp eval zero-shot, probe, retrieval, report.
 
     Attributes:
-        weights: Folder of weights; without it TACGRASP_WEIGHTS, else those that come along.
+        weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
         data: Folder of contacts, as tacgrasp train made it.
-        json: File for the figures.
+        json: JSON file for the figures.
         blind: Folder of an instruction-blind copy (tacgrasp train llm --blind-of).
-        captions: Contacts to describe.
-        answers: Contacts to ask about.
-        pairs: Instruction pairs.
-        per_wording: Contacts for each paraphrase.
-        seed: Of contacts, noise and wordings.
-        card: Also write the scores into the model card.
+        captions: Number of contacts to describe.
+        answers: Number of contacts to ask about.
+        pairs: Number of instruction pairs.
+        per_wording: Number of contacts for each paraphrase.
+        seed: Random seed of the choice of contacts, of the sensor noise and of the wordings.
+        card: Write the scores into the model card too.
     """
 
     weights: Path | None = None
@@ -45,12 +45,12 @@ class EvalFlags:
 
 
 def main(argv: Sequence[str]) -> int:
-    """Measure, print, write."""
+    """Measure and print; write the figures and the model card where asked for."""
     if argv and not argv[0].startswith("-"):
         from tacgrasp.cli.eval_methods import COMMANDS
 
-        known = {name: command.__doc__ or "" for name, command in COMMANDS.items()}
-        name, rest = subcommand("eval", argv, known)
+        summaries = {name: command.__doc__ or "" for name, command in COMMANDS.items()}
+        name, rest = subcommand("eval", argv, summaries)
         if name is not None:
             COMMANDS[name](rest)
         return 0
@@ -75,13 +75,13 @@ def main(argv: Sequence[str]) -> int:
         per_wording=flags.per_wording,
     )
     with Bar(line_s=10.0) as report:
-        found = evaluate(
+        scores = evaluate(
             weights, flags.data, blind=flags.blind, sizes=sizes, seed=flags.seed, report=report
         )
-    to = Console()
-    show(found, to if to.is_terminal else Console(width=160))
+    console = Console()
+    show(scores, console if console.is_terminal else Console(width=160))
     if json_path is not None:
-        json_path.write_text(json.dumps(found, indent=1) + "\n", encoding="utf-8")
+        json_path.write_text(json.dumps(scores, indent=1) + "\n", encoding="utf-8")
     if flags.card:
-        write_scores(weights, found)
+        write_scores(weights, scores)
     return 0

@@ -1,9 +1,9 @@
-"""``tacgrasp eval zero-shot | probe | retrieval | report``: encoders beside the paper's."""
+"""``tacgrasp eval zero-shot | probe | retrieval | report``: encoders compared with the paper's."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -19,28 +19,28 @@ METHODS_DIR = Path("runs/methods")
 
 
 @dataclass(frozen=True)
-class CommonFlags:
-    """Where things lie.
+class EvaluationFlags:
+    """Flags of every evaluation of encoders.
 
     Attributes:
-        weights: Folder of all methods (tacgrasp train), with clip in it; runs/methods when not
-            given, but for zero-shot of real touches the weights that come along.
-        data: Folder of contacts that they were trained on.
+        weights: Folder of all methods (tacgrasp train), with clip in it; by default runs/methods,
+            for zero-shot of real touches the shipped weights.
+        data: Folder of the contacts that the methods were trained on.
         results: Folder of results.
-        methods: Names, separated by commas; all that were trained when empty.
-        trials: Names, separated by commas: contact, object, physics, ...; all of the data when
-            empty.
-        limit: Contacts of each trial; all when not given.
-        seed: Of noise and probes.
-        json: File for the figures.
-        threads: Of torch; by default one for each core.
+        methods: Names of methods, separated by commas; all that were trained when empty.
+        splits: Names of evaluation splits, separated by commas: contact, object, physics, ...; all
+            that the data has contacts for when empty.
+        limit: Largest number of contacts of each evaluation split; all when not given.
+        seed: Random seed of the sensor noise and of the probes.
+        json: JSON file for the figures.
+        threads: Number of threads of torch; by default one for each core.
     """
 
     weights: Path | None = None
     data: Path = Path("runs/tcl3d")
     results: Path = Path("runs/results")
     methods: str = ""
-    trials: str = ""
+    splits: str = ""
     limit: int | None = None
     seed: int = 0
     json: Path | None = None
@@ -48,16 +48,16 @@ class CommonFlags:
 
 
 @dataclass(frozen=True)
-class RealFlags(CommonFlags):
-    """Where real touches lie.
+class RealTouchFlags(EvaluationFlags):
+    """Flags of an evaluation on real touches.
 
     Attributes:
         real: Folder of real frames, height maps or clouds.
-        labels: CSV with the columns file, shape, texture, depth, position, area; empty where
-            unknown.
-        sensor: That made them.
-        background: Frame of the unit untouched; background.png in the folder when not given.
-        out: CSV with one row a prediction.
+        labels: CSV file with the columns file, shape, texture, depth, position, area; cells are
+            empty where unknown.
+        sensor: Name of the sensor that recorded the touches.
+        background: Frame of the untouched unit; background.png in the folder when not given.
+        out: CSV file for the predictions, a row for each touch.
     """
 
     real: Path | None = None
@@ -68,26 +68,26 @@ class RealFlags(CommonFlags):
 
 
 @dataclass(frozen=True)
-class ZeroShotFlags(RealFlags):
-    """Name contacts by the nearest prompt (table 1), of a data set or of real touches.
+class ZeroShotFlags(RealTouchFlags):
+    """Classify contacts by the nearest prompt (table 1), of a data set or of real touches.
 
     Attributes:
-        ensemble: Several prompts a class for real touches, instead of the paper's one.
+        ensemble: Use several prompts a class for real touches, instead of the paper's one.
     """
 
     ensemble: bool = False
 
 
 @dataclass(frozen=True)
-class ProbeFlags(RealFlags):
+class ProbeFlags(RealTouchFlags):
     """Train MLPs on frozen encoders and measure them (table 2, appendix A), and CLTP's numbers.
 
-    With --real they are tried on real touches.
+    With --real they are measured on real touches.
 
     Attributes:
-        seeds: So many, counted from --seed.
-        views: How often each training contact is seen.
-        checkpoint: Directory of a CLIP or CLIP vision model in transformers' format, tried as
+        seeds: Number of random seeds, counted from --seed.
+        views: How often each training contact is encoded, with other noise each time.
+        checkpoint: Directory of a CLIP or CLIP vision model in transformers' format, evaluated as
             --methods tvl or unitouch.
     """
 
@@ -97,14 +97,14 @@ class ProbeFlags(RealFlags):
 
 
 @dataclass(frozen=True)
-class RetrievalFlags(CommonFlags):
+class RetrievalFlags(EvaluationFlags):
     """Find contacts by text and texts by contact; without either, measure all against all.
 
     Attributes:
-        text: Show the contacts most similar to it.
-        contact: Show the texts most similar to the contact of this number.
-        count: How many to show.
-        page: HTML file for what was found, with pictures.
+        text: Text whose nearest contacts are shown.
+        contact: Number of the contact whose nearest texts are shown.
+        count: Number of matches to show.
+        page: HTML file for the matches, with pictures.
     """
 
     text: str | None = None
@@ -119,9 +119,9 @@ class ReportFlags:
 
     Attributes:
         results: Folder of results.
-        weights: Folder of all methods, whose curves are shown too.
+        weights: Folder of all methods, whose training curves are shown too.
         out: Folder for the pages; that of the results when not given.
-        json: File for the figures.
+        json: JSON file for the figures.
     """
 
     results: Path = Path("runs/results")
@@ -131,23 +131,22 @@ class ReportFlags:
 
 
 def zero_shot(argv: Sequence[str]) -> None:
-    """Name contacts by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
+    """Classify by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
     flags = parse(ZeroShotFlags, argv, prog="tacgrasp eval zero-shot")
     json_path = _checked(flags)
-    from tacgrasp.pretraining import evaluate as trying
-    from tacgrasp.pretraining.report.print_results import show
-
-    place = _place(flags, "zero-shot", argv)
-    if flags.real is None and flags.labels is None:
-        show(trying.zero_shot(place, _names(flags.methods)), json_path)
-        return
+    from tacgrasp.pretraining import evaluate
     from tacgrasp.pretraining.evaluate_real import zero_shot_real
-    from tacgrasp.pretraining.report.print_results import show_real
+    from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
+    run = _evaluation_run(flags, "zero-shot", argv)
+    real = _real_set(flags)
+    if real is None:
+        print_results(evaluate.zero_shot(run, _names(flags.methods)), json_path)
+        return
     prompting = "ensemble" if flags.ensemble else "single"
-    found = zero_shot_real(place, _names(flags.methods), _real_set(flags), prompting=prompting)
-    show(found, json_path)
-    show_real(found, flags.out)
+    results = zero_shot_real(run, _names(flags.methods), real, prompting=prompting)
+    print_results(results, json_path)
+    print_real_results(results, flags.out)
 
 
 def probe(argv: Sequence[str]) -> None:
@@ -156,24 +155,22 @@ def probe(argv: Sequence[str]) -> None:
     json_path = _checked(flags)
     if min(flags.seeds, flags.views) < 1:
         raise UsageError("--seeds and --views must be at least 1")
-    import dataclasses
-
-    from tacgrasp.pretraining import evaluate as trying
+    from tacgrasp.pretraining import evaluate
     from tacgrasp.pretraining.evaluate_real import probe_real
-    from tacgrasp.pretraining.report.print_results import show, show_real
+    from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
-    real = _real_set(flags) if flags.real is not None or flags.labels is not None else None
-    found: list[Result] = []
+    real = _real_set(flags)
+    methods = _names(flags.methods)
+    results: list[Result] = []
     for number in range(flags.seeds):
-        seeded = dataclasses.replace(flags, seed=flags.seed + number)
-        place = _place(seeded, "probe", argv)
+        run = _evaluation_run(replace(flags, seed=flags.seed + number), "probe", argv)
         if real is None:
-            found += trying.probe(place, _names(flags.methods), views=flags.views)
+            results += evaluate.probe(run, methods, views=flags.views)
         else:
-            found += probe_real(place, _names(flags.methods), real, views=flags.views)
-    show(found, json_path)
+            results += probe_real(run, methods, real, views=flags.views)
+    print_results(results, json_path)
     if real is not None:
-        show_real(found, flags.out)
+        print_real_results(results, flags.out)
 
 
 def retrieval(argv: Sequence[str]) -> None:
@@ -182,45 +179,39 @@ def retrieval(argv: Sequence[str]) -> None:
     json_path = _checked(flags)
     from rich.console import Console
 
-    from tacgrasp.pretraining import evaluate as trying
-    from tacgrasp.pretraining.report.print_results import show
+    from tacgrasp.pretraining import evaluate
+    from tacgrasp.pretraining.report.print_results import print_results
+    from tacgrasp.pretraining.retrieval_demo import find_matches, print_matches, write_page
 
-    place = _place(flags, "retrieval", argv)
+    run = _evaluation_run(flags, "retrieval", argv)
+    methods = _names(flags.methods)
     if flags.text is None and flags.contact is None:
-        show(trying.retrieval(place, _names(flags.methods)), json_path)
+        print_results(evaluate.retrieval(run, methods), json_path)
         return
-    from tacgrasp.pretraining import retrieval_demo as retrieving
-
-    answer = retrieving.find(
-        place,
-        text=flags.text,
-        contact=flags.contact,
-        count=flags.count,
-        method=(_names(flags.methods) or ["cltp"])[0],
+    method = methods[0] if methods else "cltp"
+    matches = find_matches(
+        run, text=flags.text, contact=flags.contact, count=flags.count, method=method
     )
-    to = Console()
-    retrieving.show_answer(answer, to if to.is_terminal else Console(width=160))
+    console = Console()
+    print_matches(matches, console if console.is_terminal else Console(width=160))
     if flags.page is not None:
-        retrieving.write_page(flags.data, [answer], flags.page)
-        to.print(str(flags.page), markup=False, highlight=False, soft_wrap=True)
+        write_page(flags.data, matches, flags.page)
+        console.print(str(flags.page), markup=False, highlight=False, soft_wrap=True)
 
 
 def report(argv: Sequence[str]) -> None:
     """One HTML and one Markdown page of all tables beside the paper's, from stored results."""
     flags = parse(ReportFlags, argv, prog="tacgrasp eval report")
     json_path = writable(flags.json)
-    from tacgrasp.pretraining.report import report as pretraining_report
-    from tacgrasp.pretraining.report.print_results import write_figures
-    from tacgrasp.pretraining.report.store import load
-
-    pages = pretraining_report.report(
-        flags.results, flags.out or flags.results, weights=flags.weights
-    )
     from rich.console import Console
 
-    for page in pages:
+    from tacgrasp.pretraining.report.print_results import write_figures
+    from tacgrasp.pretraining.report.report import report
+    from tacgrasp.pretraining.report.store import load_results
+
+    for page in report(flags.results, flags.out or flags.results, weights=flags.weights):
         Console(soft_wrap=True).print(str(page), markup=False, highlight=False)
-    write_figures(load(flags.results), json_path)
+    write_figures(load_results(flags.results), json_path)
 
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
@@ -231,7 +222,7 @@ COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
 }
 
 
-def _checked(flags: CommonFlags) -> Path | None:
+def _checked(flags: EvaluationFlags) -> Path | None:
     if (flags.limit is not None and flags.limit < 1) or flags.seed < 0:
         raise UsageError("--limit must be at least 1, --seed at least 0")
     if flags.threads is not None and flags.threads < 1:
@@ -239,11 +230,11 @@ def _checked(flags: CommonFlags) -> Path | None:
     return writable(flags.json)
 
 
-def _names(given: str) -> list[str]:
-    return [name.strip().replace("-", "_") for name in given.split(",") if name.strip()]
+def _names(text: str) -> list[str]:
+    return [name.strip().replace("-", "_") for name in text.split(",") if name.strip()]
 
 
-def _place(flags: CommonFlags, command: str, argv: Sequence[str]) -> EvaluationRun:
+def _evaluation_run(flags: EvaluationFlags, command: str, argv: Sequence[str]) -> EvaluationRun:
     import os
 
     import torch
@@ -253,15 +244,14 @@ def _place(flags: CommonFlags, command: str, argv: Sequence[str]) -> EvaluationR
     from tacgrasp.policy_factory import default_weights
     from tacgrasp.pretraining.evaluation_run import EvaluationRun
 
-    come_along = isinstance(flags, ZeroShotFlags) and flags.real is not None
-    usual = default_weights() if come_along else METHODS_DIR
+    takes_shipped = isinstance(flags, ZeroShotFlags) and flags.real is not None
     disable_progress_bar()  # of reading weights, over in milliseconds
     torch.set_num_threads(flags.threads or os.cpu_count() or 1)
     return EvaluationRun(
-        weights=flags.weights or usual,
+        weights=flags.weights or (default_weights() if takes_shipped else METHODS_DIR),
         data=flags.data,
         results=flags.results,
-        trials=tuple(_names(flags.trials)),
+        splits=tuple(_names(flags.splits)),
         limit=flags.limit,
         checkpoint=flags.checkpoint if isinstance(flags, ProbeFlags) else None,
         seed=flags.seed,
@@ -270,7 +260,10 @@ def _place(flags: CommonFlags, command: str, argv: Sequence[str]) -> EvaluationR
     )
 
 
-def _real_set(flags: RealFlags) -> RealSet:
+def _real_set(flags: RealTouchFlags) -> RealSet | None:
+    """The real touches; None where the contacts of the data set are evaluated."""
+    if flags.real is None and flags.labels is None:
+        return None
     from cltp.tactile.sensors import sensor_named
     from tacgrasp.pretraining.evaluate_real import RealSet
     from tacgrasp.pretraining.real_touches import BACKGROUND, read_labels

@@ -1,8 +1,7 @@
-"""Try encoders on real touches: table 1 by prompts, table 2 by probes, the ceiling beside them.
+"""Evaluate encoders on real touches: prompts (table 1), probes (table 2), geometric baseline.
 
-Only the labels that somebody gave are judged. Weights that don't say what they were trained on, as
-those that come along, are tried too, but their results are not stored: a report is of one data
-set.
+Only dimensions with a label are scored. Weights that don't say what they were trained on, as the
+shipped ones, are evaluated too, but their results are not stored: a report is of one data set.
 """
 
 from __future__ import annotations
@@ -11,32 +10,29 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import torch
-
-from cltp.data.contact import Split
-from cltp.evaluation.probes import ClassProbes, Judged, judge
-from cltp.evaluation.splits import LEARNING
-from cltp.evaluation.zero_shot import Prompts
+from cltp.evaluation.probes import ClassProbes
+from cltp.evaluation.scores import ClassScores, score_classes
+from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import MEASURABLE
 from cltp.train.text_targets import class_numbers
-from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.checkpoints import TrainedMethod, stored
-from tacgrasp.pretraining.evaluate import ALIGNED, trainable
-from tacgrasp.pretraining.evaluation_run import EvaluationRun, as_result
-from tacgrasp.pretraining.geometric_baseline import of_slots
+from tacgrasp.pretraining.checkpoints import TrainedMethod, find_method
+from tacgrasp.pretraining.evaluate import check_aligned, trained_methods
+from tacgrasp.pretraining.evaluation_run import EvaluationRun
+from tacgrasp.pretraining.geometric_baseline import baseline_method
 from tacgrasp.pretraining.real_touches import (
-    Labelled,
-    observed,
+    LabelledTouch,
+    encode_touches,
+    labels_of,
+    predict_touches,
     read_inputs,
-    told,
     write_predictions,
 )
-from tacgrasp.pretraining.report.store import Result, save
+from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, Result
 
-TRIAL = "real"
+SPLIT = "real"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,92 +41,85 @@ class RealSet:
 
     Attributes:
         rows: The touches.
-        sensor: That made them.
-        background: Frame of the unit untouched, for frames.
-        predictions: CSV file for one row a prediction; with several methods, ``NAME-METHOD.csv``.
+        sensor: The sensor that recorded them.
+        background: Frame of the untouched unit, for frames.
+        predictions: CSV file with a row for each touch; with several methods,
+            ``NAME-METHOD.csv``.
     """
 
-    rows: list[Labelled]
+    rows: list[LabelledTouch]
     sensor: SensorSpec
     background: Path | None
     predictions: Path
 
+    def predictions_of(self, method: str, methods: Sequence[str]) -> Path:
+        """The CSV file of one of the methods."""
+        path = self.predictions
+        one = len(methods) == 1
+        return path if one else path.with_name(f"{path.stem}-{method}{path.suffix}")
+
 
 def zero_shot_real(
-    place: EvaluationRun, methods: Sequence[str], real: RealSet, *, prompting: str = "single"
+    run: EvaluationRun, methods: Sequence[str], real: RealSet, *, prompting: str = "single"
 ) -> list[Result]:
-    """Name real touches by the nearest prompt; ``cltp`` when no method is named.
+    """Classify real touches by the nearest prompt, with ``cltp`` when no method is named.
 
     Raises:
         UsageError: A method has no prompts or was not trained, or the rows can't be written.
         TouchError: A file is no touch of this sensor, or weights can't be used.
     """
-    methods = methods or ("cltp",)
-    for method in methods:
-        if method not in ALIGNED:
-            raise UsageError(f"{method} has no prompts for contact states; {', '.join(ALIGNED)} do")
+    names = methods or ("cltp",)
+    check_aligned(names)
     table = "zero_shot" if prompting == "single" else "zero_shot_ensemble"
     touches = read_inputs(real.rows, real.sensor, real.background)
-    found = []
-    for method in methods:
-        how = stored(method, place.weights)
-        seen = observed(how.encoder(), real.rows, touches)
-        prompts = Prompts(how.towers(place.weights), prompting)
-        said = told(real.rows, prompts.cosines(seen.feature), "cosine")
-        write_predictions(_file(real, methods, method), said)
-        found.append(_stored(place, table, method, how, said.judged))
-    how = stored(methods[0], place.weights)
-    return [*found, _ceiling(place, table, how.data, real, touches.clouds)]
+    results = []
+    for name in names:
+        method = find_method(name, run.weights)
+        encoded = encode_touches(method.encoder(), real.rows, touches)
+        prompts = ClassPrompts(method.towers(run.weights), prompting)
+        predictions = predict_touches(real.rows, prompts.cosines(encoded.feature), "cosine")
+        write_predictions(real.predictions_of(name, names), predictions)
+        results.append(_result(run, table, name, method, predictions.scores))
+    data = find_method(names[0], run.weights).data
+    return [*results, _geometric_baseline(run, table, data, real, touches.clouds)]
 
 
 def probe_real(
-    place: EvaluationRun, methods: Sequence[str], real: RealSet, *, views: int = 2
+    run: EvaluationRun, methods: Sequence[str], real: RealSet, *, views: int = 2
 ) -> list[Result]:
-    """Name real touches by probes that learned from the training contacts of the data set.
+    """Classify real touches by probes that learned from the training contacts of the data set.
 
     Raises:
         UsageError: A method was not trained, or the rows can't be written.
         TouchError: A file is no touch of this sensor, or weights or data can't be used.
     """
     touches = read_inputs(real.rows, real.sensor, real.background)
-    found = []
-    hows = trainable(place, methods)
-    for method, how in hows.items():
-        encoder = how.encoder()
-        learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
-        probes = ClassProbes(learned, seed=place.seed, report=place.report)
-        sure = probes.sure(observed(encoder, real.rows, touches))
-        said = told(real.rows, sure, "probability")
-        write_predictions(_file(real, list(hows), method), said)
-        found.append(
-            _stored(place, "probe", method, replace(how, data=place.checksum), said.judged)
-        )
-    return [*found, _ceiling(place, "probe", place.checksum, real, touches.clouds)]
+    results = []
+    by_name = trained_methods(run, methods)
+    for name, method in by_name.items():
+        encoder = method.encoder()
+        learned = run.encode_training(encoder, views)
+        probes = ClassProbes(learned, seed=run.seed, report=run.report)
+        probabilities = probes.probabilities(encode_touches(encoder, real.rows, touches))
+        predictions = predict_touches(real.rows, probabilities, "probability")
+        write_predictions(real.predictions_of(name, list(by_name)), predictions)
+        method = replace(method, data=run.checksum)
+        results.append(_result(run, "probe", name, method, predictions.scores))
+    return [*results, _geometric_baseline(run, "probe", run.checksum, real, touches.clouds)]
 
 
-def _file(real: RealSet, methods: Sequence[str], method: str) -> Path:
-    path = real.predictions
-    return path if len(methods) == 1 else path.with_name(f"{path.stem}-{method}{path.suffix}")
-
-
-def _ceiling(
-    place: EvaluationRun,
-    table: str,
-    data: str | None,
-    real: RealSet,
-    clouds: Sequence[TactileCloud],
+def _geometric_baseline(
+    run: EvaluationRun, table: str, data: str | None, real: RealSet, clouds: Sequence[TactileCloud]
 ) -> Result:
-    """What direct computation from the same points gives; shape and texture are not computed."""
-    said = class_numbers([contact_state(cloud) for cloud in clouds])
-    judged = of_slots(judge(said, torch.tensor([row.classes for row in real.rows])), MEASURABLE)
-    how = TrainedMethod(folder=place.weights, variant="measured", budget=None, data=data)
-    return _stored(place, table, "ceiling", how, judged)
+    classes = class_numbers([contact_state(cloud) for cloud in clouds])
+    scores = score_classes(classes, labels_of(real.rows)).restricted(MEASURABLE)
+    return _result(run, table, GEOMETRIC_BASELINE, replace(baseline_method(run), data=data), scores)
 
 
-def _stored(
-    place: EvaluationRun, table: str, method: str, how: TrainedMethod, judged: Judged
+def _result(
+    run: EvaluationRun, table: str, name: str, method: TrainedMethod, scores: ClassScores
 ) -> Result:
-    result = as_result(place, table, method, how, TRIAL, judged, how.data or "")
-    if how.data is not None:
-        save(place.results, result)
-    return result
+    """A result, stored where the method says what it was trained on."""
+    known = replace(method, data=method.data or "")
+    result = run.class_result(table, name, known, SPLIT, scores)
+    return run.store(result) if method.data is not None else result

@@ -1,44 +1,43 @@
-"""Where encoders are tried, and how what was found becomes a stored result."""
+"""What one evaluation of encoders reads and writes, and how its scores become stored results."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation
-from cltp.evaluation.features import Observed, observe
-from cltp.evaluation.probes import Judged
-from cltp.evaluation.splits import EvaluationSplit, evaluation_splits
-from cltp.tactile.states import CLASSES
+from cltp.evaluation.features import EncodedContacts, encode_contacts
+from cltp.evaluation.scores import ClassScores
+from cltp.evaluation.splits import LEARNING_NOISE, EvaluationSplit, evaluation_splits
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.report.store import Result, percent, read, save
+from tacgrasp.pretraining.report.store import Result, percent, read_result, save_result
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EvaluationRun:
-    """Where things lie, and what is tried.
+    """Folders and settings of one evaluation.
 
     Attributes:
         weights: Folder of all methods.
         data: A data set of contacts.
         results: Folder of results.
-        trials: Names of trials; all of the data's when empty.
-        limit: Contacts of each trial; None for all.
-        checkpoint: An image encoder in transformers' format, tried as the one method named.
-        seed: Of noise and probes.
-        command: For the results.
-        report: Told about progress.
+        splits: Names of evaluation splits; all of the data's when empty.
+        limit: Number of contacts of each split; None for all.
+        checkpoint: An image encoder in transformers' format, evaluated as the one method named.
+        seed: Random seed of the noise and of the probes.
+        command: Command line, stored with the results.
+        report: Receives the progress.
     """
 
     weights: Path
     data: Path
     results: Path
-    trials: tuple[str, ...] = ()
+    splits: tuple[str, ...] = ()
     limit: int | None = None
     checkpoint: Path | None = None
     seed: int = 0
@@ -47,90 +46,94 @@ class EvaluationRun:
 
     @property
     def checksum(self) -> str:
-        """Of the data."""
         return ContactDataset(self.data).checksum()
 
-    def trying(self) -> list[EvaluationSplit]:
-        """The trials."""
-        return evaluation_splits(self.data, self.trials)
+    def evaluation_splits(self) -> list[EvaluationSplit]:
+        return evaluation_splits(self.data, self.splits)
 
-    def seen(
+    def encode(self, encoder: FrozenEncoder, split: EvaluationSplit) -> EncodedContacts:
+        """Features of an evaluation split, at most ``limit`` contacts."""
+        return self._encode(encoder, split.split, split.noise, limit=self.limit)
+
+    def encode_training(self, encoder: FrozenEncoder, views: int) -> EncodedContacts:
+        """Features of the training split, half of the views without noise."""
+        return self._encode(encoder, Split.TRAIN, LEARNING_NOISE, views=views)
+
+    def encode_validation(self, encoder: FrozenEncoder, noise: Augmentation) -> EncodedContacts:
+        """Features of two views of the validation split."""
+        return self._encode(encoder, Split.VALIDATION, noise, views=2)
+
+    def _encode(
         self,
         encoder: FrozenEncoder,
         split: Split,
         noise: Augmentation,
         *,
         views: int = 1,
-        whole: bool = False,
-    ) -> Observed:
-        """Features of a split, from the cache where they are there already."""
-        return observe(
+        limit: int | None = None,
+    ) -> EncodedContacts:
+        return encode_contacts(
             encoder,
             ContactDataset(self.data, split=split),
             noise,
             views=views,
-            limit=None if whole else self.limit,
+            limit=limit,
             seed=self.seed,
             cache=self.results / ".features",
             report=self.report,
         )
 
+    def class_result(
+        self, table: str, name: str, method: TrainedMethod, split: str, scores: ClassScores
+    ) -> Result:
+        """Accuracies and confusion matrices as a row of a table, not yet stored."""
+        confusion = {slot: counts.tolist() for slot, counts in scores.confusion.items()}
+        result = self.result(table, name, method, split, scores.count, percent(scores))
+        return replace(result, confusion=confusion)
 
-def kept(
-    place: EvaluationRun, table: str, method: str, how: TrainedMethod, trial: EvaluationSplit
-) -> Result | None:
-    """The same measurement where it was stored before: of what never learns and never changes.
+    def result(
+        self,
+        table: str,
+        name: str,
+        method: TrainedMethod,
+        split: str,
+        contacts: int,
+        values: Mapping[str, float | None],
+    ) -> Result:
+        """A row of a table, not yet stored; of this run's data where the method names none."""
+        return Result(
+            table=table,
+            method=name,
+            variant=method.variant,
+            split=split,
+            seed=self.seed,
+            data=self.checksum if method.data is None else method.data,
+            budget=method.budget,
+            command=self.command,
+            contacts=contacts,
+            values=values,
+            device=method.device,
+            learned_seed=method.seed,
+        )
 
-    Raises:
-        TouchError: What is stored is damaged.
-    """
-    data = ContactDataset(place.data, split=trial.split)
-    count = len(data) if place.limit is None else min(place.limit, len(data))
-    judged = Judged({}, {}, count)
-    wanted = as_result(place, table, method, how, trial.name, judged, data.checksum())
-    path = place.results / wanted.file
-    found = read(path) if path.exists() else None
-    same = found is not None and (found.data, found.contacts) == (wanted.data, wanted.contacts)
-    return found if same else None
+    def store(self, result: Result) -> Result:
+        """Write a result at once, so that an interruption loses nothing that was measured."""
+        save_result(self.results, result)
+        return result
 
+    def stored(
+        self, table: str, name: str, method: TrainedMethod, split: EvaluationSplit
+    ) -> Result | None:
+        """The same measurement where it is stored already, of what does not depend on training.
 
-def keep(
-    place: EvaluationRun,
-    table: str,
-    method: str,
-    how: TrainedMethod,
-    trial: EvaluationSplit,
-    judged: Judged,
-) -> Result:
-    """A result, written at once: what is interrupted loses nothing that was measured."""
-    result = as_result(place, table, method, how, trial.name, judged, place.checksum)
-    if table not in ("numbers", "retrieval"):
-        save(place.results, result)
-    return result
-
-
-def as_result(
-    place: EvaluationRun,
-    table: str,
-    method: str,
-    how: TrainedMethod,
-    trial: str,
-    judged: Judged,
-    data: str,
-) -> Result:
-    """What was judged, as a row of a table, with all that it depends on; not yet written."""
-    return Result(
-        table=table,
-        method=method,
-        variant=how.variant,
-        trial=trial,
-        seed=place.seed,
-        data=data,
-        budget=how.budget,
-        command=place.command,
-        contacts=judged.count,
-        values=percent({slot: judged.right.get(slot, math.nan) for slot in CLASSES}),
-        confusion={slot: counts.tolist() for slot, counts in judged.confusion.items()},
-        device=how.device,
-        learned_seed=how.seed,
-    )
+        Raises:
+            TouchError: The stored result is damaged.
+        """
+        data = ContactDataset(self.data, split=split.split)
+        contacts = len(data) if self.limit is None else min(self.limit, len(data))
+        expected = self.result(table, name, method, split.name, contacts, {})
+        path = self.results / expected.file
+        result = read_result(path) if path.exists() else None
+        if result is None or (result.data, result.contacts) != (expected.data, contacts):
+            return None
+        return result

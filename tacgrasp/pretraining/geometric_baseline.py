@@ -1,76 +1,95 @@
-"""What can be had from the same 1024 points without an encoder: computed, or read off heights.
+"""Rows of tables without an encoder, from the same 1024 points: the geometric baseline.
 
-``measured``: direct computation (``cltp.tactile.measure``), which stands up to noise and knows the
-    sensor's geometry; depth, position and area.
-``heights alone``: probes on the points' heights in falling order, without their places
-    (``cltp.evaluation.heights_alone``); depth and area. It learns from the same contacts as other
+``measured``: direct computation (``cltp.evaluation.geometric_baseline``); depth, position and area.
+``heights alone``: probes on the points' heights in falling order, without their positions
+    (``cltp.evaluation.heights_alone``); depth and area. They learn from the same contacts as other
     probes.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
-from cltp.data.contact import Split
+import torch
+
 from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Sampler
+from cltp.evaluation.features import numbered_batches, selected_rows
+from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.heights_alone import HeightsAlone
-from cltp.evaluation.probes import ClassProbes, Judged, judge
-from cltp.evaluation.splits import LEARNING
-from cltp.evaluation.zero_shot import measured
+from cltp.evaluation.probes import ClassProbes
+from cltp.evaluation.scores import ClassScores, score_classes
+from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import MEASURABLE
+from cltp.train.text_targets import class_numbers
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.evaluation_run import EvaluationRun, keep, kept
-from tacgrasp.pretraining.report.store import Result
+from tacgrasp.pretraining.evaluation_run import EvaluationRun
+from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, USUAL_VARIANTS, Result
 
-READ_OFF = ("depth", "area")
-
-
-def ceiling(place: EvaluationRun, tables: Sequence[str]) -> list[Result]:
-    """What direct computation gives, as a row of tables. Shape and texture are not computed.
-
-    What is stored of the same contacts is not computed again.
-    """
-    found = []
-    how = TrainedMethod(folder=place.weights, variant="measured", budget=None)
-    for trial in place.trying():
-        there = [kept(place, table, "ceiling", how, trial) for table in tables]
-        if None not in there:
-            found += [result for result in there if result is not None]
-            continue
-        data = ContactDataset(place.data, split=trial.split)
-        said, truth = measured(data, trial.noise, limit=place.limit, seed=place.seed)
-        judged = of_slots(judge(said, truth), MEASURABLE)
-        found += [keep(place, table, "ceiling", how, trial, judged) for table in tables]
-    return found
+READ_FROM_HEIGHTS = ("depth", "area")
 
 
-def heights_alone(place: EvaluationRun, views: int) -> list[Result]:
-    """What probes read off heights in falling order, as a row of table 2; once, as ``ceiling``.
+def baseline_method(run: EvaluationRun, variant: str | None = None) -> TrainedMethod:
+    """The baseline in place of a trained method; computed directly unless a variant is named."""
+    variant = variant or USUAL_VARIANTS[GEOMETRIC_BASELINE]
+    return TrainedMethod(folder=run.weights, variant=variant, budget=None)
 
-    Args:
-        place: What is tried.
-        views: How often each training contact is seen.
+
+def geometric_baseline(run: EvaluationRun, tables: Sequence[str]) -> list[Result]:
+    """Direct computation as a row of tables; not repeated where it is stored already.
 
     Raises:
-        TouchError: The data can't be used.
+        TouchError: The data or a stored result can't be used.
+    """
+    results = []
+    method = baseline_method(run)
+    for split in run.evaluation_splits():
+        stored = [run.stored(table, GEOMETRIC_BASELINE, method, split) for table in tables]
+        complete = [result for result in stored if result is not None]
+        if len(complete) < len(tables):
+            scores = score_geometry(run, split)
+            complete = [
+                run.store(run.class_result(table, GEOMETRIC_BASELINE, method, split.name, scores))
+                for table in tables
+            ]
+        results += complete
+    return results
+
+
+def score_geometry(run: EvaluationRun, split: EvaluationSplit) -> ClassScores:
+    """Scores of direct computation on the contacts, and with the noise, that encoders are given."""
+    data = ContactDataset(run.data, split=split.split)
+    rows = selected_rows(len(data), limit=run.limit, seed=run.seed)
+    sampler = Sampler(data, split.noise, seed=run.seed)
+    batches = [batch for batch, _ in numbered_batches(sampler, rows)]
+    labels = torch.cat([class_numbers(batch.states) for batch in batches])
+    classes = predict_geometrically(data, batches).classes
+    return score_classes(classes, labels).restricted(MEASURABLE)
+
+
+def heights_alone(run: EvaluationRun, views: int) -> list[Result]:
+    """Probes on sorted heights as a row of table 2; not repeated where they are stored already.
+
+    Args:
+        run: Folders and settings.
+        views: How often each training contact is encoded.
+
+    Raises:
+        TouchError: The data or a stored result can't be used.
     """
     encoder = HeightsAlone()
-    how = TrainedMethod(folder=place.weights, variant="heights alone", budget=None)
-    there = [kept(place, "probe", "ceiling", how, trial) for trial in place.trying()]
-    if None not in there:
-        return [result for result in there if result is not None]
-    learned = place.seen(encoder, Split.TRAIN, LEARNING, views=views, whole=True)
-    probes = ClassProbes(learned, seed=place.seed, report=place.report)
-    found = []
-    for trial in place.trying():
-        seen = place.seen(encoder, trial.split, trial.noise)
-        judged = of_slots(judge(probes.said(seen), seen.classes), READ_OFF)
-        found.append(keep(place, "probe", "ceiling", how, trial, judged))
-    return found
-
-
-def of_slots(judged: Judged, slots: Sequence[str]) -> Judged:
-    """What was judged, of some dimensions alone."""
-    right = {slot: v if slot in slots else math.nan for slot, v in judged.right.items()}
-    return Judged(right, {slot: judged.confusion[slot] for slot in slots}, judged.count)
+    method = baseline_method(run, "heights alone")
+    splits = run.evaluation_splits()
+    stored = [run.stored("probe", GEOMETRIC_BASELINE, method, split) for split in splits]
+    complete = [result for result in stored if result is not None]
+    if len(complete) == len(splits):
+        return complete
+    probes = ClassProbes(run.encode_training(encoder, views), seed=run.seed, report=run.report)
+    results = []
+    for split in splits:
+        encoded = run.encode(encoder, split)
+        scores = score_classes(probes.classes(encoded), encoded.classes)
+        scores = scores.restricted(READ_FROM_HEIGHTS)
+        result = run.class_result("probe", GEOMETRIC_BASELINE, method, split.name, scores)
+        results.append(run.store(result))
+    return results

@@ -24,7 +24,7 @@ from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
 from cltp.evaluation.scores import ClassScores, score_classes
 from cltp.sensing.frames import FRAME_SUFFIXES
-from cltp.sensing.touch_files import read_heights, read_touch
+from cltp.sensing.touch_files import read_cloud, read_heights
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input, scaled
 from cltp.tactile.point_layout import EVEN, Sampling
@@ -142,7 +142,7 @@ def read_inputs(
     for row in rows:
         is_frame = row.file.suffix.lower() in FRAME_SUFFIXES
         untouched = background if is_frame else None
-        clouds.append(read_touch(row.file, sensor, background=untouched))
+        clouds.append(read_cloud(row.file, sensor, background=untouched))
         heights = read_heights(row.file, sensor, background=untouched)
         maps.append(heights - np.float32(np.median(heights)))
         frames.append(render(maps[-1], sensor))

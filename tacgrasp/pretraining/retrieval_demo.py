@@ -1,13 +1,11 @@
-"""Retrieval as a demonstration: contacts most similar to a text, texts most similar to a contact.
+"""Retrieval as a demonstration: contacts nearest to a text, or texts nearest to a contact.
 
-On a terminal, and as one HTML page with pictures. How often the right one is found is measured in
-``tacgrasp.pretraining.evaluate``.
+Printed on a terminal and written as one HTML page with pictures. How often the right one is found
+is measured in ``tacgrasp.pretraining.evaluate``.
 """
 
 from __future__ import annotations
 
-import html
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,9 +16,10 @@ from rich.table import Table
 from cltp.atomic_write import write_atomically
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.evaluation.zero_shot import nearest_contacts, nearest_texts
+from cltp.evaluation.retrieval import nearest_contacts, nearest_texts
 from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.checkpoints import stored
+from tacgrasp.base.html_page import render_page
+from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.evaluate import captions_of
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.failures import small_picture
@@ -30,56 +29,56 @@ _PICTURE_PX = 224
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Likeness:
-    """Something found, and how near it is.
+class RetrievalMatch:
+    """A retrieved contact or text.
 
     Attributes:
-        what: A caption: of the contact found, or the text found.
-        cosine: Nearness.
-        contact: Number in its split; None for a text.
-        object: What was pressed; None for a text.
-        own: Whether it is the caption of the contact that was asked for.
+        text: The text, or the caption of the contact.
+        cosine: Cosine with the query.
+        contact: Number of the contact in its split; None for a text.
+        object: Name of the pressed object; None for a text.
+        is_own: Whether it is the caption of the contact that is the query.
     """
 
-    what: str
+    text: str
     cosine: float
     contact: int | None = None
     object: str | None = None
-    own: bool = False
+    is_own: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RetrievalMatches:
-    """What was found for one question.
+    """What one query retrieved.
 
     Attributes:
-        asked: The text, or the caption of the contact.
-        contact: Its number, where a contact was asked for.
-        rank: EvaluationRun of the contact's own caption among all; None where a text was asked for.
-        among: How many contacts or texts there are.
-        split: Whose contacts.
-        about: For people: what the trial is.
-        found: Nearest first.
+        query: The text, or the caption of the contact.
+        contact: Number of the contact; None for a text.
+        rank: Rank of the contact's own caption among all; None for a text.
+        among: Number of contacts or texts to choose from.
+        split: Split of the contacts.
+        about: Description of the evaluation split.
+        matches: The nearest, best first.
     """
 
-    asked: str
+    query: str
     contact: int | None
     rank: int | None
     among: int
     split: Split
     about: str
-    found: list[Likeness]
+    matches: list[RetrievalMatch]
 
 
-def find(
-    place: EvaluationRun,
+def find_matches(
+    run: EvaluationRun,
     *,
     text: str | None,
     contact: int | None,
     count: int = 5,
     method: str = "cltp",
 ) -> RetrievalMatches:
-    """The contacts most similar to a text, or the texts most similar to a contact.
+    """Retrieve the contacts nearest to a text, or the texts nearest to a contact.
 
     Raises:
         UsageError: Neither or both were given, there is no such contact, or it was not trained.
@@ -89,137 +88,104 @@ def find(
         raise UsageError("name a text or a contact (--contact N), one of them")
     if count < 1:
         raise UsageError(f"--count must be at least 1, got {count}")
-    how = stored(method, place.weights)
-    encoder, towers = how.encoder(), how.towers(place.weights)
-    trial = place.trying()[0]
-    seen = place.seen(encoder, trial.split, trial.noise)
-    data = ContactDataset(place.data, split=trial.split)
-    captions = captions_of(data, seen)
+    trained = find_method(method, run.weights)
+    encoder, towers = trained.encoder(), trained.towers(run.weights)
+    split = run.evaluation_splits()[0]
+    encoded = run.encode(encoder, split)
+    data = ContactDataset(run.data, split=split.split)
+    captions = captions_of(data, encoded)
     if text is not None:
-        near = [
-            Likeness(
-                what=captions[row],
+        matches = [
+            RetrievalMatch(
+                text=captions[row],
                 cosine=cosine,
-                contact=int(seen.index[row]),
-                object=str(data.column("object")[int(seen.index[row])]),
+                contact=int(encoded.index[row]),
+                object=str(data.column("object")[int(encoded.index[row])]),
             )
-            for row, cosine in nearest_contacts(towers, seen, text, count)
+            for row, cosine in nearest_contacts(towers, encoded, text, count)
         ]
-        return RetrievalMatches(
-            asked=text,
-            contact=None,
-            rank=None,
-            among=len(seen),
-            split=trial.split,
-            about=trial.about,
-            found=near,
-        )
-    rows = torch.eq(seen.index, contact if contact is not None else -1).nonzero()
-    if not len(rows):
-        raise UsageError(
-            f"no contact {contact} in {trial.name}; it has 0 to {int(seen.index.max())}"
-        )
-    row, texts = int(rows[0, 0]), sorted(set(captions))
-    every = nearest_texts(towers, seen.feature[row], texts, len(texts))
-    rank = next(n for n, (said, _) in enumerate(every, start=1) if said == captions[row])
+        query, rank, among = text, None, len(encoded)
+    else:
+        rows = torch.eq(encoded.index, contact if contact is not None else -1).nonzero()
+        if not len(rows):
+            raise UsageError(
+                f"no contact {contact} in {split.name}; it has 0 to {int(encoded.index.max())}"
+            )
+        query, texts = captions[int(rows[0, 0])], sorted(set(captions))
+        nearest = nearest_texts(towers, encoded.feature[int(rows[0, 0])], texts, len(texts))
+        rank = next(n for n, (one, _) in enumerate(nearest, start=1) if one == query)
+        among = len(texts)
+        matches = [
+            RetrievalMatch(text=one, cosine=cosine, is_own=one == query)
+            for one, cosine in nearest[:count]
+        ]
     return RetrievalMatches(
-        asked=captions[row],
+        query=query,
         contact=contact,
         rank=rank,
-        among=len(texts),
-        split=trial.split,
-        about=trial.about,
-        found=[
-            Likeness(what=said, cosine=cosine, own=said == captions[row])
-            for said, cosine in every[:count]
-        ],
+        among=among,
+        split=split.split,
+        about=split.about,
+        matches=matches,
     )
 
 
-def show_answer(answer: RetrievalMatches, to: Console) -> None:
-    """Print what was found, nearest first; a bar as long as the cosine."""
-    to.print(_heading(answer), markup=False, highlight=False)
+def print_matches(matches: RetrievalMatches, console: Console) -> None:
+    """Print matches, nearest first, each with a bar as long as its cosine."""
+    console.print(_heading(matches), markup=False, highlight=False)
+    of_text = matches.contact is None
     table = Table(box=None, pad_edge=False)
     table.add_column("", justify="right", style="dim")
     table.add_column("cosine", justify="right")
     table.add_column("", style="cyan", no_wrap=True)
-    if answer.contact is None:
+    if of_text:
         table.add_column("contact", justify="right")
         table.add_column("object")
-    table.add_column("caption" if answer.contact is None else "text")
-    for place, one in enumerate(answer.found, start=1):
-        cells = [str(place), f"{one.cosine:.3f}", "━" * round(_BAR * max(0.0, one.cosine))]
-        if answer.contact is None:
-            cells += [str(one.contact), one.object or ""]
-        table.add_row(*cells, one.what, style="bold green" if one.own else None)
-    to.print(table, markup=False)
+    table.add_column("caption" if of_text else "text")
+    for rank, match in enumerate(matches.matches, start=1):
+        cells = [str(rank), f"{match.cosine:.3f}", "━" * round(_BAR * max(0.0, match.cosine))]
+        if of_text:
+            cells += [str(match.contact), match.object or ""]
+        table.add_row(*cells, match.text, style="bold green" if match.is_own else None)
+    console.print(table, markup=False)
 
 
-def _heading(answer: RetrievalMatches) -> str:
-    if answer.contact is None:
-        return f"“{answer.asked}”: the nearest of {answer.among} contacts ({answer.about})"
+def _heading(matches: RetrievalMatches) -> str:
+    if matches.contact is None:
+        return f"“{matches.query}”: the nearest of {matches.among} contacts ({matches.about})"
     return (
-        f"contact {answer.contact} ({answer.about}) is: {answer.asked}\n"
-        f"its own words are number {answer.rank} of {answer.among} texts"
+        f"contact {matches.contact} ({matches.about}) is: {matches.query}\n"
+        f"its own words are number {matches.rank} of {matches.among} texts"
     )
 
 
-_STYLE = (
-    "body{font:15px/1.4 sans-serif;max-width:70em;margin:2em auto;padding:0 1em;color:#222}"
-    "h1{font-size:1.3em}.cards{display:flex;flex-wrap:wrap;gap:1em}figure{margin:0;width:224px}"
-    "img{width:224px;border-radius:4px}.bar{height:5px;background:#2a78b8;border-radius:2px}"
-    "li{margin:.4em 0}.own{font-weight:bold;color:#1a7a35}small{color:#666}"
-)
-
-
-def write_page(folder: Path, answers: Sequence[RetrievalMatches], path: Path) -> None:
-    """Write what was found as one HTML page that needs nothing else.
+def write_page(folder: Path, matches: RetrievalMatches, path: Path) -> None:
+    """Write the matches as one HTML page with pictures.
 
     Args:
-        folder: The data set, for pictures.
-        answers: What was found.
-        path: The page, overwritten.
+        folder: Data set that the pictures are drawn from.
+        matches: Result of ``find_matches``.
+        path: HTML file, overwritten.
 
     Raises:
-        UsageError: It can't be written.
+        UsageError: The page can't be written.
         TouchError: The data are damaged.
     """
-    parts = [
-        "<!doctype html><html lang=en><meta charset=utf-8>"
-        "<meta name=viewport content='width=device-width, initial-scale=1'>"
-        f"<title>Touch and language</title><style>{_STYLE}</style>"
-    ]
-    for answer in answers:
-        data = ContactDataset(folder, split=answer.split)
-        heading = "<br>".join(html.escape(line) for line in _heading(answer).splitlines())
-        parts.append(f"<h1>{heading}</h1>")
-        if answer.contact is not None:
-            parts.append(_image(data, answer.contact, answer.asked))
-            parts += ["<ol>", *(f"<li{_own(one)}>{_words(one)}" for one in answer.found), "</ol>"]
-            continue
-        parts.append("<div class=cards>")
-        for one in answer.found:
-            image = _image(data, one.contact or 0, one.what)
-            bar = f"<div class=bar style='width:{100 * max(0.0, one.cosine):.0f}%'></div>"
-            named = f"<small>contact {one.contact}, {html.escape(one.object or '')}</small>"
-            parts.append(
-                f"<figure>{image}{bar}<figcaption>{_words(one)}<br>{named}</figcaption></figure>"
-            )
-        parts.append("</div>")
+    data = ContactDataset(folder, split=matches.split)
+
+    def picture(index: int | None) -> str | None:
+        return None if index is None else small_picture(data, index, _PICTURE_PX)
+
+    page = render_page(
+        "pretraining/templates/retrieval.html",
+        title="Touch and language",
+        heading=_heading(matches),
+        query=matches.query,
+        picture=picture(matches.contact),
+        matches=matches.matches,
+        pictures=[picture(match.contact) for match in matches.matches],
+    )
     try:
-        write_atomically(path, "\n".join(parts) + "\n")
+        write_atomically(path, page)
     except OSError as error:
         raise UsageError(f"the page can't be written to {path}: {error.strerror}") from None
-
-
-def _own(one: Likeness) -> str:
-    return " class=own" if one.own else ""
-
-
-def _words(one: Likeness) -> str:
-    return f"{one.cosine:.3f} {html.escape(one.what)}"
-
-
-def _image(data: ContactDataset, index: int, alt: str) -> str:
-    drawn = small_picture(data, index, _PICTURE_PX)
-    return f'<img alt="{html.escape(alt)}" src="data:image/webp;base64,{drawn}">'

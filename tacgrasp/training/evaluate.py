@@ -1,9 +1,7 @@
-"""``tacgrasp eval``: what trained weights are worth on contacts that they have not seen.
+"""``tacgrasp eval``: accuracy of trained weights on contacts that they have not seen.
 
-All clouds are of the test split, with the noise of a calibrated unit, drawn from the seed. Whatever
-can be computed directly from the same 1024 points (``cltp.tactile.measure``) stands beside it as
-the
-ceiling: it knows the sensor's geometry and learned nothing.
+All clouds are of the test split, with the noise of a calibrated unit, drawn from the seed. The
+geometric baseline (``cltp.evaluation.geometric_baseline``) is computed from the same points.
 
 Not here: how pairs are chosen (``tacgrasp.lessons.instruction_pairs``), printing
 (``tacgrasp.training.model_card``).
@@ -18,23 +16,21 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from torch import Tensor
 from transformers.utils.logging import disable_progress_bar
 
+from cltp.checkpoints.frozen import frozen
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Batch, Sampler
-from cltp.evaluation.evaluate import (
-    Scores,
-    answer_scores,
-    batches,
-    caption_scores,
-    ceiling_scores,
-    heads_scores,
-    retrieval_scores,
-    unscaled,
-    zero_shot_scores,
-)
+from cltp.evaluation.features import encode_batches, random_batches
+from cltp.evaluation.geometric_baseline import predict_geometrically, unscaled
+from cltp.evaluation.llm_scores import predict_by_captions, score_answers
+from cltp.evaluation.probes import predict_with_heads
+from cltp.evaluation.retrieval import score_image_retrieval
+from cltp.evaluation.scores import Predictions, median_errors, score_classes
+from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
@@ -58,16 +54,19 @@ from tacgrasp.lessons.instruction_pairs import (
 from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS
 from tacgrasp.policy_factory import load_llm
 
+KINDS = ("clear", "any")
+"""Contacts whose answer noise does not decide, and any."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sizes:
-    """How much is asked.
+    """Sizes of the evaluation.
 
     Attributes:
-        captions: Contacts to describe.
-        answers: Contacts to ask about; each slot once in every set of wordings.
-        pairs: Instruction pairs.
-        per_wording: Contacts for each paraphrase.
+        captions: Number of contacts to describe.
+        answers: Number of contacts to ask about; each slot once in every set of wordings.
+        pairs: Number of instruction pairs.
+        per_wording: Number of contacts for each paraphrase.
     """
 
     captions: int = 500
@@ -91,13 +90,14 @@ def evaluate(
         weights: Folder of weights.
         data_dir: Contacts; the test split is used.
         blind: Folder of an instruction-blind copy.
-        sizes: How much is asked.
-        seed: Of contacts, noise and wordings.
-        report: Told about progress.
+        sizes: Number of contacts, questions and instructions.
+        seed: Seed of contacts, noise and wordings.
+        report: Receives the progress.
 
     Returns:
         ``captions``, ``numbers``, ``answers``, ``instruction_pairs``, ``paraphrases``,
-        ``zero_shot``, ``clip_retrieval``, and what was measured; None where nothing could be.
+        ``zero_shot``, ``clip_retrieval``, and the weights and data; None for a figure that can't be
+        measured.
 
     Raises:
         TouchError: Weights or data can't be used.
@@ -106,47 +106,49 @@ def evaluate(
     sizes = sizes or Sizes()
     data = ContactDataset(data_dir, split=Split.TEST)
     policy = load_llm(weights)
-    blind_policy = load_llm(blind) if blind is not None else None
     encoder, heads = load_encoder(weights / "encoder")
-    encoder.eval(), heads.eval()
     towers = load_clip(weights / "clip")
-    samples = batches(data, sizes.captions, NOISY, seed=seed)
-    deciders = _Deciders(data, policy, blind_policy, seed)
-    described = {
-        "llm": _captions(policy.talker, samples, report),
-        "heads": heads_scores(encoder, heads, samples),
-        "ceiling": ceiling_scores(data, samples),
+    cases = _CaseEvaluation(
+        data, policy, load_llm(blind) if blind is not None else None, seed, report
+    )
+    described = random_batches(data, sizes.captions, NOISY, seed=seed)
+    encoded = encode_batches(frozen(encoder), described)
+    predictions = {
+        "llm": predict_by_captions(
+            _ReportedTalker(policy.talker, "captions", len(encoded), report),
+            described,
+            numbers_said,
+        ),
+        "heads": predict_with_heads(heads.eval(), encoded),
+        "geometric_baseline": predict_geometrically(data, described),
     }
-    zero_shot = zero_shot_scores(encoder, towers, samples)
-    asked = batches(data, sizes.answers, NOISY, seed=seed + 1)
+    states = [state for batch in described for state in batch.states]
+    zero_shot = score_classes(ClassPrompts(towers).classes(encoded.feature), encoded.classes)
+    asked = random_batches(data, sizes.answers, NOISY, seed=seed + 1)
     return {
         "weights": str(weights),
         "blind": str(blind) if blind is not None else None,
         "data": str(data_dir),
         "data_checksum": ContactDataset(data_dir).checksum(),
         "seed": seed,
-        "captions": {"contacts": described["llm"].count}
-        | {who: _slots(scores, who) for who, scores in described.items()},
-        "numbers": {who: _errors(scores) for who, scores in described.items()},
+        "captions": {"contacts": len(encoded)}
+        | {name: _accuracy(one, encoded.classes, name) for name, one in predictions.items()},
+        "numbers": {
+            name: _plain(median_errors(one.numbers, states)) for name, one in predictions.items()
+        },
         "answers": {
             "contacts": sum(len(batch.states) for batch in asked),
             "held_out": _answers(policy.talker, asked, HELD_OUT, "held-out questions", report),
             "trained": _answers(policy.talker, asked, QUESTIONS, "trained questions", report),
         },
-        "instruction_pairs": {
-            kind: _pairs(deciders, data, sizes.pairs, kind, seed, report)
-            for kind in ("clear", "any")
-        },
-        "paraphrases": {
-            kind: _paraphrases(deciders, data, sizes.per_wording, kind, seed, report)
-            for kind in ("clear", "any")
-        },
-        "zero_shot": _plain(zero_shot.right),
-        "clip_retrieval": _plain(_fields(retrieval_scores(towers, data, samples))),
+        "instruction_pairs": {kind: cases.pairs(sizes.pairs, kind) for kind in KINDS},
+        "paraphrases": {kind: cases.paraphrases(sizes.per_wording, kind) for kind in KINDS},
+        "zero_shot": _plain(zero_shot.accuracy),
+        "clip_retrieval": _plain(score_image_retrieval(towers, data, described)),
     }
 
 
-class _Counted:
+class _ReportedTalker:
     """Reports every reply of a talker."""
 
     def __init__(self, talker: Talker, stage: str, total: int, report: ProgressReport) -> None:
@@ -160,12 +162,6 @@ class _Counted:
         return reply
 
 
-def _captions(talker: Talker, samples: Sequence[Batch], report: ProgressReport) -> Scores:
-    total = sum(len(batch.states) for batch in samples)
-    counted = _Counted(talker, "captions", total, report)
-    return caption_scores(counted, samples, read_numbers=numbers_said)
-
-
 def _answers(
     talker: Talker,
     samples: Sequence[Batch],
@@ -174,47 +170,91 @@ def _answers(
     report: ProgressReport,
 ) -> dict[str, float | None]:
     total = sum(len(batch.states) for batch in samples) * len(wordings)
-    counted = _Counted(talker, stage, total, report)
-    found = dict(answer_scores(counted, samples, wordings, answers_right))
-    return _plain(found | {"mean": float(np.mean(list(found.values())))})
+    reported = _ReportedTalker(talker, stage, total, report)
+    accuracy = dict(score_answers(reported, samples, wordings, answers_right))
+    return _plain(accuracy | {"mean": float(np.mean(list(accuracy.values())))})
 
 
-class _Deciders:
-    """Who answers a case: the model, its blind copy, and the teacher on the measured state."""
+class _CaseEvaluation:
+    """Cases answered by the model, by its blind copy, and by the teacher on the measured state."""
 
-    def __init__(self, data: ContactDataset, llm: Policy, blind: Policy | None, seed: int) -> None:
-        self._data = data
+    def __init__(
+        self,
+        data: ContactDataset,
+        llm: Policy,
+        blind: Policy | None,
+        seed: int,
+        report: ProgressReport,
+    ) -> None:
+        self._data, self._seed, self._report = data, seed, report
         self._sampler = Sampler(data, NOISY, seed=seed)
-        self.answers: dict[str, Callable[[TactileCloud, Case], str | None]] = {
+        self._deciders: dict[str, Callable[[TactileCloud, Case], str | None]] = {
             "llm": lambda cloud, case: _decided(llm, cloud, case.instruction.text),
             "rules": lambda cloud, case: answer_of(
                 teacher(contact_state(cloud), case.instruction.goal)
             ),
         }
         if blind is not None:
-            self.answers["blind"] = lambda cloud, case: _decided(blind, cloud, BLIND)
+            self._deciders["blind"] = lambda cloud, case: _decided(blind, cloud, BLIND)
 
-    def cloud(self, index: int) -> TactileCloud:
-        """The contact with the noise of its own draw, the same under every instruction."""
+    def pairs(self, num: int, kind: str) -> dict[str, Any]:
+        """Figures of ``num`` instruction pairs on contacts of a kind out of ``KINDS``."""
+        pairs = choose_pairs(self._data, num, clear=kind == "clear", seed=self._seed)
+        cases = [case for pair in pairs for case in pair]
+        right = self._right(cases, f"{kind} instruction pairs")
+        answers = np.array([case.answer for case in cases])
+        return {
+            "pairs": len(pairs),
+            "answers": counts(cases),
+            "right": _fractions(right),
+            "both_right": _fractions(
+                {name: mask[::2] & mask[1::2] for name, mask in right.items()}
+            ),
+            "right_by_answer": {
+                name: _fractions({answer: mask[answers == answer] for answer in counts(cases)})
+                for name, mask in right.items()
+            },
+        }
+
+    def paraphrases(self, per_wording: int, kind: str) -> dict[str, Any]:
+        """Figures of paraphrased instructions on contacts of a kind out of ``KINDS``."""
+        chosen = choose_paraphrases(self._data, per_wording, clear=kind == "clear", seed=self._seed)
+        cases = [case for case, _ in chosen]
+        naming = np.array([names_object for _, names_object in chosen], dtype=bool)
+        right = self._right(cases, f"{kind} paraphrases")
+        texts = np.array([case.instruction.text for case in cases])
+        wordings = [text for group in PARAPHRASES.values() for text in group]
+        return {
+            "wordings": len(set(texts.tolist())),
+            "cases": len(cases),
+            "answers": counts(cases),
+            "right": _fractions(right),
+            "naming_an_object": _fractions({name: mask[naming] for name, mask in right.items()}),
+            "naming_no_object": _fractions({name: mask[~naming] for name, mask in right.items()}),
+            "right_by_wording": _fractions(
+                {text: right["llm"][texts == text] for text in wordings}
+            ),
+        }
+
+    def _right(self, cases: Sequence[Case], stage: str) -> dict[str, NDArray[np.bool_]]:
+        """By decider, whether each case is answered correctly."""
+        right: dict[str, list[bool]] = {name: [] for name in self._deciders}
+        for number, case in enumerate(cases, start=1):
+            cloud = self._cloud(case.index)
+            for name, answer in self._deciders.items():
+                right[name].append(answer(cloud, case) == case.answer)
+            self._report(stage, number, len(cases), {})
+        return {name: np.array(values, dtype=bool) for name, values in right.items()}
+
+    def _cloud(self, index: int) -> TactileCloud:
+        """The contact with noise of its own, the same under every instruction."""
         batch = self._sampler.batch(np.array([index]), index)
         return unscaled(batch.points[0], sensor_named(self._data.column("sensor")[index]))
-
-    def right(
-        self, cases: Sequence[Case], stage: str, report: ProgressReport
-    ) -> dict[str, NDArray[np.bool_]]:
-        """By decider, whether each case is answered rightly."""
-        right: dict[str, list[bool]] = {name: [] for name in self.answers}
-        for number, case in enumerate(cases, start=1):
-            cloud = self.cloud(case.index)
-            for name, answer in self.answers.items():
-                right[name].append(answer(cloud, case) == case.answer)
-            report(stage, number, len(cases), {})
-        return {name: np.array(judged, dtype=bool) for name, judged in right.items()}
 
 
 def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | None:
     """A primitive's name, ``NONE`` for success, None where the policy holds or refuses."""
-    policy.start()  # each case is an episode of its own: nothing is barred for the one before
+    policy.start()  # each case is an episode of its own: no action is barred for the one before
     try:
         decision = policy.decide(cloud, instruction)
     except PolicyError:
@@ -224,81 +264,15 @@ def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | Non
     return NONE if decision.success else None
 
 
-def _pairs(
-    deciders: _Deciders,
-    data: ContactDataset,
-    num: int,
-    kind: str,
-    seed: int,
-    report: ProgressReport,
-) -> dict[str, Any]:
-    pairs = choose_pairs(data, num, clear=kind == "clear", seed=seed)
-    cases = [case for pair in pairs for case in pair]
-    right = deciders.right(cases, f"{kind} instruction pairs", report)
-    both = {name: judged[::2] & judged[1::2] for name, judged in right.items()}
-    return {
-        "pairs": len(pairs),
-        "answers": counts(cases),
-        "right": _plain({name: share(judged) for name, judged in right.items()}),
-        "both_right": _plain({name: share(judged) for name, judged in both.items()}),
-        "right_by_answer": {name: _by(judged, cases) for name, judged in right.items()},
-    }
-
-
-def _paraphrases(
-    deciders: _Deciders,
-    data: ContactDataset,
-    per_wording: int,
-    kind: str,
-    seed: int,
-    report: ProgressReport,
-) -> dict[str, Any]:
-    chosen = choose_paraphrases(data, per_wording, clear=kind == "clear", seed=seed)
-    cases = [case for case, _ in chosen]
-    naming = np.array([names for _, names in chosen], dtype=bool)
-    right = deciders.right(cases, f"{kind} paraphrases", report)
-    texts = [text for wordings in PARAPHRASES.values() for text in wordings]
-    said = np.array([case.instruction.text for case in cases])
-    return {
-        "wordings": len(set(said.tolist())),
-        "cases": len(cases),
-        "answers": counts(cases),
-        "right": _plain({name: share(judged) for name, judged in right.items()}),
-        "naming_an_object": _plain({n: share(judged[naming]) for n, judged in right.items()}),
-        "naming_no_object": _plain({n: share(judged[~naming]) for n, judged in right.items()}),
-        "right_by_wording": _plain({text: share(right["llm"][said == text]) for text in texts}),
-    }
-
-
-def _by(right: NDArray[np.bool_], cases: Sequence[Case]) -> dict[str, float | None]:
+def _accuracy(predictions: Predictions, labels: Tensor, name: str) -> dict[str, float | None]:
+    scores = score_classes(predictions.classes, labels)
     return _plain(
-        {
-            answer: share(right[np.array([case.answer == answer for case in cases])])
-            for answer in counts(cases)
-        }
+        (scores.restricted(MEASURABLE) if name == "geometric_baseline" else scores).accuracy
     )
 
 
-def _slots(scores: Scores, who: str) -> dict[str, float | None]:
-    measured = MEASURABLE if who == "ceiling" else tuple(scores.right)
-    return _plain({s: value if s in measured else np.nan for s, value in scores.right.items()})
-
-
-def _errors(scores: Scores) -> dict[str, float | None]:
-    """Median errors: mm, mm, % of the field, % of the true force."""
-    errors = scores.errors
-    return _plain(
-        {
-            "depth_mm": errors["depth_mm"],
-            "position_mm": errors["position_mm"],
-            "area_percent": 100 * errors["area_fraction"],
-            "force_percent": 100 * errors["force_share"],
-        }
-    )
-
-
-def _fields(found: Any) -> dict[str, float]:
-    return {name: float(getattr(found, name)) for name in found.__slots__}
+def _fractions(right: Mapping[str, NDArray[np.bool_]]) -> dict[str, float | None]:
+    return _plain({name: share(mask) for name, mask in right.items()})
 
 
 def _plain(values: Mapping[str, float]) -> dict[str, float | None]:

@@ -1,4 +1,4 @@
-"""Print what ``tacgrasp eval`` found, and write its figures into the model card.
+"""Print the figures of ``tacgrasp eval``, and write them into the model card.
 
 Not here: measuring (``tacgrasp.training.evaluate``).
 """
@@ -12,6 +12,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
+from cltp.atomic_write import write_atomically
 from cltp.tactile.states import CLASSES, MEASURABLE
 from tacgrasp.base.errors import UsageError
 
@@ -19,92 +20,88 @@ CARD = "README.md"
 HEADING = "## Scores"
 
 
-def show(found: Mapping[str, Any], to: Console) -> None:
+def show(figures: Mapping[str, Any], console: Console) -> None:
     """Print every table."""
-    captions = found["captions"]
-    slots = Table(title=f"captions: share right, {captions['contacts']} unseen contacts, noisy")
-    _columns(slots, "", *CLASSES)
-    for who in ("llm", "heads", "ceiling"):
-        slots.add_row(who, *(_percent(captions[who][slot]) for slot in CLASSES))
-    slots.add_row("zero-shot", *(_percent(found["zero_shot"][slot]) for slot in CLASSES))
-    to.print(slots)
-    to.print(
-        f"ceiling: computed directly from the same 1024 points ({', '.join(MEASURABLE)}); "
-        "zero-shot: CLTP, nearest prompt"
+    captions, answers = figures["captions"], figures["answers"]
+    slots = _table(
+        f"captions: % right, {captions['contacts']} unseen contacts, noisy", "", *CLASSES
     )
-    errors = Table(title="numbers: median error")
-    _columns(errors, "", "depth mm", "position mm", "area % of field", "force %")
-    for who, numbers in found["numbers"].items():
-        places = (3, 2, 1, 0)
-        values = zip(numbers.values(), places, strict=True)
-        errors.add_row(who, *("-" if v is None else f"{v:.{p}f}" for v, p in values))
-    to.print(errors)
-    answers = Table(title=f"answers: share right, {found['answers']['contacts']} unseen contacts")
-    _columns(answers, "wordings", *found["answers"]["held_out"])
+    for name, accuracy in _methods(captions):
+        slots.add_row(name, *(_percent(accuracy[slot]) for slot in CLASSES))
+    slots.add_row("zero-shot", *(_percent(figures["zero_shot"][slot]) for slot in CLASSES))
+    console.print(slots)
+    console.print(
+        "geometric baseline: computed directly from the same 1024 points "
+        f"({', '.join(MEASURABLE)}); zero-shot: CLTP, nearest prompt"
+    )
+    errors = _table(
+        "numbers: median error", "", "depth mm", "position mm", "area % of sensing area", "force %"
+    )
+    for name, numbers in _methods(figures["numbers"]):
+        values = zip(numbers.values(), (3, 2, 1, 0), strict=True)
+        errors.add_row(name, *("-" if v is None else f"{v:.{digits}f}" for v, digits in values))
+    console.print(errors)
+    asked = _table(
+        f"answers: % right, {answers['contacts']} unseen contacts", "wordings", *answers["held_out"]
+    )
     for name in ("held_out", "trained"):
-        row = found["answers"][name].values()
-        answers.add_row(name.replace("_", " "), *map(_percent, row))
-    to.print(answers)
-    _show_pairs(found["instruction_pairs"], to)
-    _show_paraphrases(found["paraphrases"], to)
-    clip = found["clip_retrieval"]
-    to.print(
+        asked.add_row(name.replace("_", " "), *map(_percent, answers[name].values()))
+    console.print(asked)
+    for kind, pairs in figures["instruction_pairs"].items():
+        _show_pairs(kind, pairs, console)
+    console.print(
+        "rules: the teacher on the measured state; clear: noise does not decide the answer"
+    )
+    for kind, paraphrases in figures["paraphrases"].items():
+        _show_paraphrases(kind, paraphrases, console)
+    clip = figures["clip_retrieval"]
+    console.print(
         f"CLIP retrieval among {clip['among']:.0f}: image to text "
         f"{_percent(clip['image_to_text'])}, text to image {_percent(clip['text_to_image'])}, "
         f"chance {_percent(clip['chance'])}"
     )
 
 
-def _show_pairs(kinds: Mapping[str, Any], to: Console) -> None:
-    for kind, pairs in kinds.items():
-        table = Table(title=f"{pairs['pairs']} instruction pairs, {kind} contacts: share right")
-        _columns(table, "", "right", "both right", *(f"{a} ({n})" for a, n in
-                 pairs["answers"].items()))  # fmt: skip
-        for who, right in pairs["right"].items():
-            by_answer = (pairs["right_by_answer"][who].get(a) for a in pairs["answers"])
-            table.add_row(
-                who, _percent(right), _percent(pairs["both_right"][who]), *map(_percent, by_answer)
-            )
-        to.print(table)
-    to.print("rules: the teacher on the measured state; clear: noise does not decide the answer")
+def _show_pairs(kind: str, pairs: Mapping[str, Any], console: Console) -> None:
+    title = f"{pairs['pairs']} instruction pairs, {kind} contacts: % right"
+    answers = (f"{answer} ({count})" for answer, count in pairs["answers"].items())
+    table = _table(title, "", "right", "both right", *answers)
+    for name, right in pairs["right"].items():
+        by_answer = (pairs["right_by_answer"][name].get(answer) for answer in pairs["answers"])
+        table.add_row(name, *map(_percent, (right, pairs["both_right"][name], *by_answer)))
+    console.print(table)
 
 
-def _show_paraphrases(kinds: Mapping[str, Any], to: Console) -> None:
-    for kind, found in kinds.items():
-        table = Table(
-            title=f"{found['wordings']} paraphrases, {found['cases']} {kind} contacts: share right"
-        )
-        _columns(table, "", "right", "naming an object", "naming none")
-        for who in found["right"]:
-            kept = (found[k][who] for k in ("right", "naming_an_object", "naming_no_object"))
-            table.add_row(who, *map(_percent, kept))
-        to.print(table)
+def _show_paraphrases(kind: str, figures: Mapping[str, Any], console: Console) -> None:
+    title = f"{figures['wordings']} paraphrases, {figures['cases']} {kind} contacts: % right"
+    table = _table(title, "", "right", "naming an object", "naming none")
+    for name in figures["right"]:
+        parts = (figures[part][name] for part in ("right", "naming_an_object", "naming_no_object"))
+        table.add_row(name, *map(_percent, parts))
+    console.print(table)
 
 
-def card_scores(found: Mapping[str, Any]) -> Iterator[tuple[str, float]]:
+def card_scores(figures: Mapping[str, Any]) -> Iterator[tuple[str, float | None]]:
     """The figures of a model card, by name."""
-    for who in ("llm", "heads", "ceiling"):
-        for slot, value in found["captions"][who].items():
-            yield f"captions, {who}, {slot}", value
-    for slot, value in found["zero_shot"].items():
-        yield f"zero-shot, {slot}", value
-    for who, errors in found["numbers"].items():
-        for name, value in errors.items():
-            yield f"median error, {who}, {name}", value
-    for slot, value in found["answers"]["held_out"].items():
+    for name, accuracy in _methods(figures["captions"]):
+        yield from ((f"captions, {name}, {slot}", value) for slot, value in accuracy.items())
+    yield from ((f"zero-shot, {slot}", value) for slot, value in figures["zero_shot"].items())
+    for name, errors in _methods(figures["numbers"]):
+        yield from ((f"median error, {name}, {error}", value) for error, value in errors.items())
+    for slot, value in figures["answers"]["held_out"].items():
         yield f"answers to held-out wordings, {slot}", value
     for kind in ("clear", "any"):
-        for who, value in found["instruction_pairs"][kind]["right"].items():
-            yield f"instruction pairs, {kind} contacts, {who}", value
+        for name, value in figures["instruction_pairs"][kind]["right"].items():
+            yield f"instruction pairs, {kind} contacts, {name}", value
         for part in ("right", "naming_an_object", "naming_no_object"):
-            value = found["paraphrases"][kind][part]["llm"]
+            value = figures["paraphrases"][kind][part]["llm"]
             yield f"paraphrases, {kind} contacts, {part.replace('_', ' ')}", value
     for name in ("image_to_text", "text_to_image"):
-        yield f"CLIP retrieval, {name.replace('_', ' ')}", found["clip_retrieval"][name]
+        yield f"CLIP retrieval, {name.replace('_', ' ')}", figures["clip_retrieval"][name]
 
 
-def write_scores(weights: Path, found: Mapping[str, Any]) -> None:
-    """Put the scores into the model card of a folder, in place of those that it has.
+def write_scores(weights: Path, figures: Mapping[str, Any]) -> None:
+    """Write the scores into the model card of a folder, in the place of earlier ones.
 
     Raises:
         UsageError: There is no card, or it can't be written.
@@ -112,19 +109,34 @@ def write_scores(weights: Path, found: Mapping[str, Any]) -> None:
     card = weights / CARD
     try:
         above = card.read_text(encoding="utf-8").split(HEADING)[0].rstrip()
-        checksum = found["data_checksum"]
-        lines = [above, "", HEADING, "", f"By `tacgrasp eval`, data {checksum}.", ""]
+        lines = [
+            above,
+            "",
+            HEADING,
+            "",
+            f"By `tacgrasp eval`, data {figures['data_checksum']}.",
+            "",
+        ]
         lines += ["| | |", "|---|---|"]
-        lines += [f"| {name} | {value:.4g} |" for name, value in card_scores(found)
-                  if value is not None]  # fmt: skip
-        card.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        scores = card_scores(figures)
+        lines += [f"| {name} | {value:.4g} |" for name, value in scores if value is not None]
+        write_atomically(card, "\n".join(lines) + "\n")
     except OSError as error:
         raise UsageError(f"the model card {card} can't be written: {error.strerror}") from None
 
 
-def _columns(table: Table, *names: str) -> None:
-    for number, name in enumerate(names):
-        table.add_column(name, justify="right" if number else "left")
+def _methods(figures: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | None]]]:
+    """Title and figures of the model, of the heads and of the geometric baseline."""
+    for name in ("llm", "heads", "geometric_baseline"):
+        yield name.replace("_", " "), figures[name]
+
+
+def _table(title: str, first: str, *columns: str) -> Table:
+    table = Table(title=title)
+    table.add_column(first)
+    for name in columns:
+        table.add_column(name, justify="right")
+    return table
 
 
 def _percent(value: float | None) -> str:

@@ -1,7 +1,7 @@
 """Rows of tables with nothing measured behind them."""
 
 from cltp.tactile.states import CLASSES
-from tacgrasp.pretraining.report.store import USUAL, Budget, Result
+from tacgrasp.pretraining.report.store import USUAL_VARIANTS, Budget, Result
 
 
 def fake_result(**changed: object) -> Result:
@@ -9,8 +9,8 @@ def fake_result(**changed: object) -> Result:
     usual: dict[str, object] = {
         "table": "probe",
         "method": "cltp",
-        "variant": USUAL[str(changed.get("method", "cltp"))],
-        "trial": "contact",
+        "variant": USUAL_VARIANTS[str(changed.get("method", "cltp"))],
+        "split": "contact",
         "seed": 0,
         "data": "abc",
         "budget": Budget(steps=10, batch_size=4),

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Results of pre-training: stored on disk, printed, and compared with the paper in a report.
+
+Not here: measuring (``tacgrasp.pretraining.evaluate``).
+"""

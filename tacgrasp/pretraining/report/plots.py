@@ -11,84 +11,81 @@ from matplotlib.figure import Figure
 from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.pages import PagePlot
 from tacgrasp.pretraining.report.paper_numbers import PAPER
-from tacgrasp.pretraining.report.store import METHODS, Result, grouped, mean
+from tacgrasp.pretraining.report.store import TITLES, Groups, Result, means
+from tacgrasp.pretraining.report.tables import COLUMNS
 
-TRIALS = ("contact", "object", "physics", "real")
+_TABLES = {"zero_shot": "zero-shot", "probe": "frozen encoder and MLP"}
 
 
-def bars(found: Sequence[Result]) -> Iterator[PagePlot]:
-    """Every method, dimension by dimension, with the paper's as lines."""
-    for table, title in (("zero_shot", "zero-shot"), ("probe", "frozen encoder and MLP")):
-        for trial in TRIALS:
+def bars(groups: Groups) -> Iterator[PagePlot]:
+    """Every method, dimension by dimension, with the paper's figures as lines."""
+    for table in _TABLES:
+        for split in COLUMNS:
             rows = {
                 (method, variant): same
-                for (of, method, variant, where), same in grouped(found).items()
-                if of == table and where == trial
+                for (of_table, method, variant, of_split), same in groups.items()
+                if (of_table, of_split) == (table, split)
             }
             if rows:
-                yield _bars(rows, table, trial, title)
+                yield _bars(rows, table, split)
 
 
-def _bars(
-    rows: dict[tuple[str, str], list[Result]], table: str, trial: str, title: str
-) -> PagePlot:
+def _bars(rows: dict[tuple[str, str], Sequence[Result]], table: str, split: str) -> PagePlot:
     figure = Figure(figsize=(11, 3.6), layout="constrained")
     axes = figure.subplots()
     width = 0.8 / len(rows)
-    for place, ((method, variant), same) in enumerate(rows.items()):
-        at = [n + (place - len(rows) / 2 + 0.5) * width for n in range(len(CLASSES))]
-        heights = [mean([row.values.get(slot) for row in same]) or 0.0 for slot in CLASSES]
-        axes.bar(at, heights, width, label=f"{METHODS[method]} ({variant})")
-        for x, value in zip(at, PAPER.get((table, method, trial), ()), strict=False):
+    for number, ((method, variant), same) in enumerate(rows.items()):
+        offset = (number - len(rows) / 2 + 0.5) * width
+        centres = [column + offset for column in range(len(CLASSES))]
+        heights = [means(same).get(dimension) or 0.0 for dimension in CLASSES]
+        axes.bar(centres, heights, width, label=f"{TITLES[method]} ({variant})")
+        for x, value in zip(centres, PAPER.get((table, method, split), ()), strict=False):
             axes.plot([x - width / 2, x + width / 2], [value, value], color="black", lw=1.5)
     axes.set_xticks(range(len(CLASSES)), list(CLASSES))
     axes.set_ylabel("right, %")
-    axes.set_title(f"{title}, {trial}; black: the paper's")
-    axes.legend(fontsize=7, ncols=4)
-    return _plot(figure, f"{table}-{trial}", f"{title}, {trial}, every method")
+    title = f"{_TABLES[table]}, {split}"
+    axes.set_title(f"{title}; black: the paper's")
+    figure.legend(fontsize=7, ncols=4, loc="outside lower center")
+    return _plot(figure, f"{table}-{split}", f"{title}, every method")
 
 
-def confusions(found: Sequence[Result]) -> Iterator[PagePlot]:
-    """Truth against what was said, for CLTP by prompts and by probes, of the first seed."""
-    for (table, method, variant, trial), rows in grouped(found).items():
-        if method != "cltp" or table not in ("zero_shot", "probe") or trial not in TRIALS:
-            continue
+def confusions(groups: Groups) -> Iterator[PagePlot]:
+    """Confusion matrices of CLTP by prompts and by probes, of the first seed."""
+    for (table, method, variant, split), rows in groups.items():
         result = rows[0]
-        if not result.confusion:
+        if method != "cltp" or table not in _TABLES or split not in COLUMNS or not result.confusion:
             continue
         figure = Figure(figsize=(15, 3.8), layout="constrained")
-        for axes, (slot, names) in zip(
-            figure.subplots(1, len(CLASSES)), CLASSES.items(), strict=True
-        ):
-            counts = result.confusion.get(slot)
+        all_axes = figure.subplots(1, len(CLASSES))
+        for axes, (dimension, names) in zip(all_axes, CLASSES.items(), strict=True):
+            counts = result.confusion.get(dimension)
             if counts is None:
                 continue
-            shares = [[c / max(1, sum(row)) for c in row] for row in counts]
-            axes.imshow(shares, vmin=0, vmax=1, cmap="Blues")
+            fractions = [[count / max(1, sum(row)) for count in row] for row in counts]
+            axes.imshow(fractions, vmin=0, vmax=1, cmap="Blues")
             axes.set_xticks(range(len(names)), names, rotation=90, fontsize=6)
             axes.set_yticks(range(len(names)), names, fontsize=6)
-            axes.set_title(slot, fontsize=8)
-        named = f"CLTP ({variant}), {table.replace('_', '-')}, {trial}"
-        figure.suptitle(f"{named}: truth by row, said by column, seed {result.seed}", fontsize=9)
-        yield _plot(figure, f"confusion-{table}-{variant}-{trial}", f"{named}, confusion matrices")
+            axes.set_title(dimension, fontsize=8)
+        name = f"CLTP ({variant}), {table.replace('_', '-')}, {split}"
+        axes_meaning = f"truth by row, prediction by column, seed {result.seed}"
+        figure.suptitle(f"{name}: {axes_meaning}", fontsize=9)
+        yield _plot(figure, f"confusion-{table}-{variant}-{split}", f"{name}, confusion matrices")
 
 
 def curves(weights: Path) -> list[PagePlot]:
     """Losses and temperatures, as trainings drew them into ``METHOD/.training``."""
-    found = [*weights.glob(".training/*.png"), *weights.glob("*/.training/*.png")]
+    images = [*weights.glob(".training/*.png"), *weights.glob("*/.training/*.png")]
     return [
         PagePlot(
             name=f"curve-{path.parents[1].name}-{path.stem}",
             about=f"{path.parents[1].name}, {path.stem}: losses and temperature",
             png=path.read_bytes(),
         )
-        for path in sorted(found)
+        for path in sorted(images)
     ]
 
 
 def _plot(figure: Figure, name: str, about: str) -> PagePlot:
-    drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=90)
-    return PagePlot(
-        name=name.replace("/", "_").replace("+", "-"), about=about, png=drawn.getvalue()
-    )
+    png = io.BytesIO()
+    figure.savefig(png, format="png", dpi=90)
+    return PagePlot(name=name.replace("/", "_").replace("+", "-"), about=about, png=png.getvalue())

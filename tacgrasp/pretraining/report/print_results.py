@@ -9,46 +9,56 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from tacgrasp.pretraining.report.store import METHODS, USUAL, Result, as_one, grouped, mean, nested
+from tacgrasp.pretraining.report.store import (
+    GEOMETRIC_BASELINE,
+    TITLES,
+    USUAL_VARIANTS,
+    Result,
+    grouped,
+    means,
+    merged_accuracy,
+    nested,
+)
 
 
-def show_real(found: Sequence[Result], predictions: Path) -> None:
-    """Print what a table does not hold of real touches."""
-    to = Console(soft_wrap=True)
-    for result in found:
-        merged = as_one(result, "sphere", "ellipsoid")
+def print_real_results(results: Sequence[Result], predictions: Path) -> None:
+    """Print what the tables of real touches do not hold."""
+    console = Console(soft_wrap=True)
+    for result in results:
+        merged = merged_accuracy(result, "sphere", "ellipsoid")
         if merged is not None:
-            to.print(f"{result.method}: shape {merged:.1f} % with sphere and ellipsoid as one")
-    to.print(f"one row a prediction: {predictions}", markup=False, highlight=False)
-    if not all(result.data for result in found):
-        to.print("not stored for the report: these weights don't say what they were trained on")
+            console.print(f"{result.method}: shape {merged:.1f} % with sphere and ellipsoid as one")
+    console.print(f"one row a prediction: {predictions}", markup=False, highlight=False)
+    if not all(result.data for result in results):
+        console.print(
+            "not stored for the report: these weights don't say what they were trained on"
+        )
 
 
-def show(found: Sequence[Result], json_path: Path | None) -> None:
-    """Print a table for each table and trial; write the figures where they are wanted."""
-    to = Console()
-    to = to if to.is_terminal else Console(width=160)
-    by_table: dict[tuple[str, str], list[tuple[str, list[Result]]]] = {}
-    for (table, method, variant, trial), rows in grouped(found).items():
-        plain = (method, variant) == ("ceiling", USUAL["ceiling"])
-        name = METHODS[method] + ("" if plain else f" ({variant})")
-        by_table.setdefault((table, trial), []).append((name, rows))
-    for (table, trial), lines in by_table.items():
-        count = lines[0][1][0].contacts
-        shown = Table(title=f"{table.replace('_', ' ')}, {trial}: {count} contacts")
-        shown.add_column("", justify="left")
-        columns = list(lines[0][1][0].values)
-        for column in columns:
-            shown.add_column(column.replace("_", " "), justify="right")
-        for name, rows in lines:
-            values = (mean([row.values.get(column) for row in rows]) for column in columns)
-            shown.add_row(name, *("-" if v is None else f"{v:.3g}" for v in values))
-        to.print(shown)
-    write_figures(found, json_path)
+def print_results(results: Sequence[Result], json_path: Path | None) -> None:
+    """Print a table for each table and split; write the figures where a path is given."""
+    console = Console()
+    console = console if console.is_terminal else Console(width=160)
+    tables: dict[tuple[str, str], Table] = {}
+    for (table, method, variant, split), rows in grouped(results).items():
+        values = means(rows)
+        if (table, split) not in tables:
+            title = f"{table.replace('_', ' ')}, {split}: {rows[0].contacts} contacts"
+            tables[table, split] = Table(title=title)
+            tables[table, split].add_column("", justify="left")
+            for column in values:
+                tables[table, split].add_column(column.replace("_", " "), justify="right")
+        is_plain = (method, variant) == (GEOMETRIC_BASELINE, USUAL_VARIANTS[GEOMETRIC_BASELINE])
+        name = TITLES[method] + ("" if is_plain else f" ({variant})")
+        cells = ("-" if value is None else f"{value:.3g}" for value in values.values())
+        tables[table, split].add_row(name, *cells)
+    for shown in tables.values():
+        console.print(shown)
+    write_figures(results, json_path)
 
 
-def write_figures(found: Sequence[Result], json_path: Path | None) -> None:
+def write_figures(results: Sequence[Result], json_path: Path | None) -> None:
     """Write figures as JSON, nested as by ``report.store.nested``; nothing without a path."""
-    if json_path is None:
-        return
-    json_path.write_text(json.dumps(nested(found), indent=1) + "\n", encoding="utf-8")
+    if json_path is not None:
+        text = json.dumps(nested(grouped(results)), indent=1)
+        json_path.write_text(text + "\n", encoding="utf-8")

@@ -1,7 +1,7 @@
-"""Results of pre-training on disk: one JSON file for each table, method, trial and seed.
+"""Stored results: one JSON file for each table, method, evaluation split and seed.
 
-Each names the data by checksum, the budget, the seed and the command, so that a report can be put
-together later from results alone, and refuses to put together what was measured on other data.
+Each result names the data by checksum, the budget, the seed and the command, so that a report can
+be made later from results alone, and is refused where they were measured on different data.
 """
 
 from __future__ import annotations
@@ -14,62 +14,56 @@ from pathlib import Path
 from typing import Any
 
 from cltp.atomic_write import write_atomically
-from cltp.encoder.encoder import DEFAULT_PRESETS
 from cltp.errors import TouchError
+from cltp.evaluation.scores import ClassScores
 from cltp.tactile.states import CLASSES
+from cltp.train.methods import METHODS
 from tacgrasp.base.errors import UsageError
 
-FORMAT, VERSION = "tacgrasp-result", 1
+FORMAT, VERSION = "tacgrasp-result", 2
 
 TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval")
 
-METHODS = {
-    "point_bert": "Point-BERT",
-    "point_mae": "Point-MAE",
-    "cltp_no_image": "CLTP w/o image",
-    "cltp": "CLTP",
-    "unitouch": "UniTouch (image)",
-    "tvl": "TVL (image)",
-    "random": "random encoder",
-    "ceiling": "ceiling",
-}
-"""Names of the methods, in the paper's order, and as tables write them."""
+GEOMETRIC_BASELINE = "geometric_baseline"
 
-USUAL = {**DEFAULT_PRESETS, "ceiling": "measured"}
-"""Variants that come first and that ``nested`` takes."""
+TITLES = {name: method.title for name, method in METHODS.items()} | {
+    GEOMETRIC_BASELINE: "geometric baseline"
+}
+"""Names in tables, in the order of rows: the methods, then the baseline that has no encoder."""
+
+USUAL_VARIANTS = {name: method.preset for name, method in METHODS.items()} | {
+    GEOMETRIC_BASELINE: "measured"
+}
+"""The variant of each method that stands first, and whose figures ``nested`` takes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Budget:
-    """How much a method could learn.
+    """Size of a pre-training.
 
     Attributes:
-        steps: Optimiser steps of pre-training.
+        steps: Number of optimiser steps.
         batch_size: Contacts in each.
     """
 
     steps: int
     batch_size: int
 
+    def __str__(self) -> str:
+        return f"{self.steps} × {self.batch_size}"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Result:
-    """One row of a table.
+class Measurement:
+    """What was measured; the same measurement again takes the place of an earlier one.
 
     Attributes:
-        table: Out of ``TABLES``.
-        method: Out of ``METHODS``.
+        table: Name out of ``TABLES``.
+        method: Name out of ``TITLES``.
         variant: Encoder preset, and what differs from the method's usual recipe.
-        trial: What it was tried on, out of ``cltp.evaluation.splits.TRIALS``, or ``real``.
-        seed: Of what was learned here (probes) or drawn (noise).
+        split: Name out of ``cltp.evaluation.splits.EVALUATION_SPLITS``, or ``real``.
+        seed: Random seed of the probes and of the noise.
         data: Checksum of the data set.
-        budget: Of the pre-training; None where there was none.
-        command: That measured this.
-        contacts: How many were judged.
-        values: Percent right, or median errors and coverages; None where nothing could be judged.
-        confusion: By dimension, counts, truth by row; empty where there are no classes.
-        device: On which the encoder was trained; None where nobody knows or nothing was.
-        learned_seed: Of the pre-training; None likewise.
 
     Raises:
         UsageError: An unknown table or method.
@@ -78,9 +72,38 @@ class Result:
     table: str
     method: str
     variant: str
-    trial: str
+    split: str
     seed: int
     data: str
+
+    def __post_init__(self) -> None:
+        if self.table not in TABLES or self.method not in TITLES:
+            raise UsageError(
+                f"no table {self.table!r} or method {self.method!r}; tables are "
+                f"{', '.join(TABLES)}, methods {', '.join(TITLES)}"
+            )
+
+    @property
+    def file(self) -> str:
+        """Name of its file in a folder."""
+        parts = (self.table, self.method, self.variant, self.split, f"s{self.seed}")
+        return "-".join(parts).replace("/", "_") + ".json"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Result(Measurement):
+    """One row of a table.
+
+    Attributes:
+        budget: Budget of the pre-training; None where there was none.
+        command: Command that measured it.
+        contacts: Number of contacts.
+        values: Percent right, or median errors and coverages; None without a labelled contact.
+        confusion: Counts by dimension, labels by row; empty where there are no classes.
+        device: Device that the encoder was trained on; None where unknown or not trained.
+        learned_seed: Random seed of the pre-training; None likewise.
+    """
+
     budget: Budget | None
     command: str
     contacts: int
@@ -89,136 +112,140 @@ class Result:
     device: str | None = None
     learned_seed: int | None = None
 
-    def __post_init__(self) -> None:
-        if self.table not in TABLES or self.method not in METHODS:
-            raise UsageError(
-                f"no table {self.table!r} or method {self.method!r}; tables are "
-                f"{', '.join(TABLES)}, methods {', '.join(METHODS)}"
-            )
 
-    @property
-    def file(self) -> str:
-        """Its name in a folder: the same measurement again takes its place."""
-        parts = (self.table, self.method, self.variant, self.trial, f"s{self.seed}")
-        return "-".join(parts).replace("/", "_") + ".json"
-
-
-def save(folder: Path, result: Result) -> Path:
-    """Write a result, beside and then in its place.
+def save_result(folder: Path, result: Result) -> Path:
+    """Write a result atomically.
 
     Raises:
         UsageError: It can't be written.
     """
     path = folder / result.file
-    content = {"format": FORMAT, "version": VERSION, **asdict(result)}
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        write_atomically(path, json.dumps(content, indent=1) + "\n")
+        write_json(path, FORMAT, VERSION, asdict(result))
     except OSError as error:
         raise UsageError(f"the result {path} can't be written: {error.strerror}") from None
     return path
 
 
-def load(folder: Path) -> list[Result]:
+def load_results(folder: Path) -> list[Result]:
     """All results of a folder.
 
     Raises:
         TouchError: One is damaged, of another version, or of other data than the others.
         UsageError: There are none.
     """
-    found = [read(path) for path in sorted(folder.glob("*.json"))]
-    if not found:
+    results = [read_result(path) for path in sorted(folder.glob("*.json"))]
+    if not results:
         raise UsageError(f"no results in {folder}; measure with `tacgrasp eval zero-shot|probe`")
-    checksums = {result.data: result.file for result in found}
+    checksums = {result.data: result.file for result in results}
     if len(checksums) > 1:
         named = ", ".join(f"{file} ({data[:12]})" for data, file in checksums.items())
         raise TouchError(
             f"results in {folder} are of different data sets and make no table: {named}; "
             "measure again or keep them in folders of their own"
         )
-    return found
+    return results
 
 
-def read(path: Path) -> Result:
+def read_result(path: Path) -> Result:
     """One result.
 
     Raises:
         TouchError: It is damaged, or of another version.
     """
     try:
-        content = json.loads(path.read_text(encoding="utf-8"))
-        if (content.pop("format"), content.pop("version")) != (FORMAT, VERSION):
-            raise TouchError(f"{path} is no result of this version; measure again")
+        content = read_json(path, FORMAT, VERSION)
         budget = content.pop("budget")
         return Result(**content, budget=Budget(**budget) if budget is not None else None)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise TouchError(f"the result {path} is damaged; measure again: {error}") from error
 
 
-def percent(right: Mapping[str, float]) -> dict[str, float | None]:
-    """Shares in %, None where there is no number."""
-    return {name: None if math.isnan(v) else 100 * v for name, v in right.items()}
+def write_json(path: Path, form: str, version: int, content: Mapping[str, Any]) -> None:
+    """Write a file of this folder, with its format and version, atomically."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    document = {"format": form, "version": version, **content}
+    write_atomically(path, json.dumps(document, indent=1) + "\n")
 
 
-def nested(results: Iterable[Result]) -> dict[str, Any]:
-    """Figures by table, method (of its usual variant) and trial; the seeds' mean.
+def read_json(path: Path, form: str, version: int) -> dict[str, Any]:
+    """Read what ``write_json`` wrote, without format and version.
 
-    ``numbers`` has no methods: ``numbers.<trial>.<quantity>`` is of CLTP.
+    Raises:
+        TouchError: It is of another format or version.
     """
-    found: dict[str, Any] = {}
-    for (table, method, _, trial), rows in grouped(results).items():
-        figures = {name: mean([row.values.get(name) for row in rows]) for name in rows[0].values}
-        place = found.setdefault(table, {})
-        if table == "numbers":
-            if method == "cltp":
-                place.setdefault(trial, figures)
-        else:
-            place.setdefault(method, {}).setdefault(trial, figures)
-    return found
+    content = json.loads(path.read_text(encoding="utf-8"))
+    stored = (content.pop("format"), content.pop("version"))
+    if stored != (form, version):
+        raise TouchError(
+            f"{path} is {stored[0]} of version {stored[1]}, not {form} of version {version}; "
+            "delete it and measure again"
+        )
+    return content
+
+
+def percent(scores: ClassScores) -> dict[str, float | None]:
+    """Accuracies in %; None where there is no number."""
+    return {name: None if math.isnan(v) else 100 * v for name, v in scores.accuracy.items()}
 
 
 Key = tuple[str, str, str, str]
-"""Table, method, variant, trial."""
+"""Table, method, variant, split."""
+
+Groups = Mapping[Key, Sequence[Result]]
+"""Results that differ in the seed alone."""
 
 
-def grouped(results: Iterable[Result]) -> dict[Key, list[Result]]:
-    """Results that differ in the seed alone, by table, method and variant, the usual first."""
-    rows: dict[Key, list[Result]] = {}
-    order = list(METHODS)
+def grouped(results: Iterable[Result]) -> Groups:
+    """Group results by table, method, variant and split; the usual variant stands first."""
+    order = list(TITLES)
 
     def rank(result: Result) -> tuple[object, ...]:
-        other = result.variant != USUAL[result.method]
-        place = TABLES.index(result.table), order.index(result.method)
-        return *place, other, result.variant, result.trial, result.seed
+        is_other = result.variant != USUAL_VARIANTS[result.method]
+        row = TABLES.index(result.table), order.index(result.method)
+        return *row, is_other, result.variant, result.split, result.seed
 
-    ranked = sorted(results, key=rank)
-    for result in ranked:
-        key = (result.table, result.method, result.variant, result.trial)
-        rows.setdefault(key, []).append(result)
-    return rows
+    groups: dict[Key, list[Result]] = {}
+    for result in sorted(results, key=rank):
+        key = (result.table, result.method, result.variant, result.split)
+        groups.setdefault(key, []).append(result)
+    return groups
 
 
-def usual_variant(method: str, results: Iterable[Result]) -> str | None:
-    """The variant of a method that comes first among results; None without any."""
-    there = sorted({result.variant for result in results if result.method == method})
-    usual = USUAL[method]
-    return usual if usual in there else next(iter(there), None)
+def means(rows: Sequence[Result]) -> dict[str, float | None]:
+    """Means over seeds of every value of a group."""
+    return {name: mean([row.values.get(name) for row in rows]) for name in rows[0].values}
+
+
+def nested(groups: Groups) -> dict[str, Any]:
+    """Means by table, method (of its usual variant) and split.
+
+    ``numbers`` has no methods: ``numbers.<split>.<quantity>`` is of CLTP.
+    """
+    tables: dict[str, Any] = {}
+    for (table, method, _, split), rows in groups.items():
+        of_table = tables.setdefault(table, {})
+        if table != "numbers":
+            of_table.setdefault(method, {}).setdefault(split, means(rows))
+        elif method == "cltp":
+            of_table.setdefault(split, means(rows))
+    return tables
 
 
 def mean(values: Sequence[float | None]) -> float | None:
-    """Of those that there are."""
-    there = [value for value in values if value is not None]
-    return sum(there) / len(there) if there else None
+    """Mean of the numbers among values; None without any."""
+    numbers = [value for value in values if value is not None]
+    return sum(numbers) / len(numbers) if numbers else None
 
 
 def spread(values: Sequence[float | None]) -> float | None:
-    """Largest minus smallest; None for fewer than two."""
-    there = [value for value in values if value is not None]
-    return max(there) - min(there) if len(there) > 1 else None
+    """Largest minus smallest of the numbers among values; None for fewer than two."""
+    numbers = [value for value in values if value is not None]
+    return max(numbers) - min(numbers) if len(numbers) > 1 else None
 
 
-def as_one(result: Result, one: str, other: str) -> float | None:
-    """Percent of shapes right when two of them count as one; None where none is judged.
+def merged_accuracy(result: Result, one: str, other: str) -> float | None:
+    """Percent of shapes right when two shapes count as one; None without a labelled shape.
 
     Sphere and ellipsoid are hard to tell apart on frames of an uncalibrated unit.
     """

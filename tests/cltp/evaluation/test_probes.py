@@ -1,5 +1,6 @@
-"""Trials, frozen features, probes, intervals, prompts and retrieval, each against what is known."""
+"""Evaluation splits, features, probes, intervals, prompts and retrieval on known answers."""
 
+import dataclasses
 import math
 from pathlib import Path
 
@@ -9,22 +10,32 @@ import torch
 
 from cltp.checkpoints.frozen import frozen
 from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset, DatasetWriter
-from cltp.data.sampler import CLEAN, NOISY
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
+from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.evaluation import probes
-from cltp.evaluation.features import Observed, observe
+from cltp.evaluation.features import (
+    EncodedContacts,
+    encode_contacts,
+    numbered_batches,
+    selected_rows,
+)
+from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.heights_alone import HeightsAlone
-from cltp.evaluation.probes import ClassProbes, NumberProbe, judge, number_scores
+from cltp.evaluation.probes import ClassProbes, NumberProbe, score_intervals
+from cltp.evaluation.retrieval import nearest_contacts, nearest_texts, score_retrieval
+from cltp.evaluation.scores import score_classes
 from cltp.evaluation.splits import EVALUATION_SPLITS, evaluation_splits
-from cltp.evaluation.zero_shot import Prompts, measured, nearest_contacts, nearest_texts, retrieve
+from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.captions import caption
 from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
-from cltp.train.stage import Schedule
+from cltp.train.recipes import Schedule
+from cltp.train.text_targets import class_numbers
 from tests.fakes.fake_contacts import fake_contact
 
 QUICK = Schedule(steps=150, batch_size=64, learning_rate=3e-3)
@@ -45,23 +56,23 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def told(size: int, seed: int, *, numbers_alone: bool = False) -> Observed:
-    """Features that hold classes and numbers, the numbers with noise that other features tell."""
+def synthetic(size: int, seed: int, *, numbers_alone: bool = False) -> EncodedContacts:
+    """Features that hold classes and numbers, the numbers with noise of a stated size."""
     rng = torch.Generator().manual_seed(seed)
     sizes = [len(names) for names in CLASSES.values()]
     classes = torch.stack([torch.randint(n, (size,), generator=rng) for n in sizes], dim=1)
     numbers = torch.rand(size, len(NUMBERS), generator=rng) * torch.tensor([1.0, 8, 6, 0.3, 2])
     noise = torch.where(torch.rand(size, 1, generator=rng) < 0.5, 0.02, 0.4)
-    seen = numbers * (1 + noise * torch.randn(size, len(NUMBERS), generator=rng))
+    encoded = numbers * (1 + noise * torch.randn(size, len(NUMBERS), generator=rng))
     one_hot = [torch.nn.functional.one_hot(classes[:, n], c) for n, c in enumerate(sizes)]
-    held = [seen, noise] if numbers_alone else [*one_hot, seen, noise]
+    held = [encoded, noise] if numbers_alone else [*one_hot, encoded, noise]
     pooled = torch.cat(held, dim=1).float()
-    return Observed(pooled, pooled, classes, numbers, torch.arange(size))
+    return EncodedContacts(pooled, pooled, classes, numbers, torch.arange(size))
 
 
-def test_a_data_set_has_the_trials_of_its_splits(data_dir: Path) -> None:
-    assert [trial.name for trial in evaluation_splits(data_dir)] == ["contact", "contact_noisy"]
-    assert {trial.name for trial in EVALUATION_SPLITS} >= {"contact", "object", "physics"}
+def test_a_data_set_has_the_evaluation_splits_of_its_contacts(data_dir: Path) -> None:
+    assert [split.name for split in evaluation_splits(data_dir)] == ["contact", "contact_noisy"]
+    assert {split.name for split in EVALUATION_SPLITS} >= {"contact", "object", "physics"}
     with pytest.raises(TouchError, match="it has contact, contact_noisy"):
         evaluation_splits(data_dir, ("object",))
 
@@ -70,88 +81,94 @@ def test_an_encoder_sees_a_contact_once(data_dir: Path, tmp_path: Path) -> None:
     torch.manual_seed(0)
     encoder = frozen(TactileEncoder(SMALL))
     data = ContactDataset(data_dir, split=Split.TEST)
-    first = observe(encoder, data, NOISY, views=2, cache=tmp_path)
+    first = encode_contacts(encoder, data, NOISY, views=2, cache=tmp_path)
     assert len(first) == 14
     assert not torch.equal(first.pooled[:7], first.pooled[7:])
     stored = list(tmp_path.rglob("*.safetensors"))
     times = [path.stat().st_mtime_ns for path in stored]
-    again = observe(encoder, data, NOISY, views=2, cache=tmp_path)
+    again = encode_contacts(encoder, data, NOISY, views=2, cache=tmp_path)
     torch.testing.assert_close(again.pooled, first.pooled, rtol=0, atol=0)
     assert [path.stat().st_mtime_ns for path in stored] == times
-    observe(encoder, data, CLEAN, cache=tmp_path)
+    encode_contacts(encoder, data, CLEAN, cache=tmp_path)
     assert len(list(tmp_path.rglob("*.safetensors"))) == len(stored) + 1
     stored[0].write_bytes(b"half")
     with pytest.raises(TouchError, match="delete the file"):
-        observe(encoder, data, NOISY, views=2, cache=tmp_path)
+        encode_contacts(encoder, data, NOISY, views=2, cache=tmp_path)
 
 
-def test_the_ceiling_is_computed_from_the_same_contacts(data_dir: Path) -> None:
+def test_the_geometric_baseline_is_computed_from_the_same_contacts(data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TEST)
-    said, truth = measured(data, CLEAN)
-    seen = observe(frozen(TactileEncoder(SMALL)), data, CLEAN)
-    torch.testing.assert_close(truth, seen.classes)
-    assert (said[:, :2] == -1).all()
-    assert judge(said, truth).right["depth"] >= 0.5
+    rows = selected_rows(len(data))
+    batches = [batch for batch, _ in numbered_batches(Sampler(data, CLEAN), rows)]
+    predicted = predict_geometrically(data, batches).classes
+    encoded = encode_contacts(frozen(TactileEncoder(SMALL)), data, CLEAN)
+    labels = class_numbers([state for batch in batches for state in batch.states])
+    torch.testing.assert_close(labels, encoded.classes)
+    assert (predicted[:, :2] == -1).all()
+    assert score_classes(predicted, encoded.classes).accuracy["depth"] >= 0.5
 
 
-def test_classes_are_judged_where_somebody_named_them() -> None:
+def test_classes_are_scored_where_they_have_labels() -> None:
     truth = torch.tensor([[0, 1, 2, 3, 4], [0, -1, 2, 3, 4], [1, -1, 2, 3, 4]])
-    said = torch.tensor([[0, 1, 2, 3, 0], [2, 1, 2, 0, 0], [1, -1, 2, 3, 0]])
-    found = judge(said, truth)
-    assert found.right["shape"] == pytest.approx(2 / 3)
-    assert found.right["texture"] == 1.0
-    assert found.right["area"] == 0.0
+    predicted = torch.tensor([[0, 1, 2, 3, 0], [2, 1, 2, 0, 0], [1, -1, 2, 3, 0]])
+    found = score_classes(predicted, truth)
+    assert found.accuracy["shape"] == pytest.approx(2 / 3)
+    assert found.accuracy["texture"] == 1.0
+    assert found.accuracy["area"] == 0.0
     assert found.confusion["shape"][0].tolist()[:3] == [1, 0, 1]
     assert int(found.confusion["position"].sum()) == 3
-    assert math.isnan(judge(said, torch.full((3, 5), -1)).right["depth"])
+    assert math.isnan(score_classes(predicted, torch.full((3, 5), -1)).accuracy["depth"])
 
 
 def test_probes_read_what_is_there_and_nothing_from_noise() -> None:
-    probes = ClassProbes(told(800, 1), schedule=QUICK)
-    other = told(300, 2)
-    assert min(judge(probes.said(other), other.classes).right.values()) > 0.95
-    blind = told(800, 1)
-    blind = Observed(torch.randn(800, 20), blind.feature, blind.classes, blind.numbers, blind.index)
-    hidden = Observed(
-        torch.randn(300, 20), other.feature, other.classes, other.numbers, other.index
+    probes = ClassProbes(synthetic(800, 1), schedule=QUICK)
+    other = synthetic(300, 2)
+    assert min(score_classes(probes.classes(other), other.classes).accuracy.values()) > 0.95
+    blind = synthetic(800, 1)
+    blind = EncodedContacts(
+        torch.randn(800, 20), blind.feature, blind.classes, blind.numbers, blind.index
     )
-    found = judge(ClassProbes(blind, schedule=QUICK).said(hidden), hidden.classes).right
+    hidden = dataclasses.replace(other, pooled=torch.randn(300, 20))
+    found = score_classes(
+        ClassProbes(blind, schedule=QUICK).classes(hidden), hidden.classes
+    ).accuracy
     assert found["depth"] < 0.4  # four classes: 25 % by chance
 
 
 def test_features_that_are_not_finite_are_named() -> None:
-    seen = told(20, 1)
-    seen.pooled[7, 3] = torch.nan
+    encoded = synthetic(20, 1)
+    encoded.pooled[7, 3] = torch.nan
     with pytest.raises(TouchError, match=r"contacts \[7\] are not finite"):
-        ClassProbes(seen, schedule=QUICK)
+        ClassProbes(encoded, schedule=QUICK)
 
 
 def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
     long = Schedule(steps=600, batch_size=128, learning_rate=3e-3)
-    things = torch.arange(5000) % 10
-    probe = NumberProbe(told(5000, 1, numbers_alone=True), things, schedule=long)
-    stretch = probe.calibrate(told(1000, 2, numbers_alone=True))
-    other = told(2000, 3, numbers_alone=True)
-    said = probe.said(other, stretch)
-    scores = number_scores(said, other)
+    objects = torch.arange(5000) % 10
+    probe = NumberProbe(synthetic(5000, 1, numbers_alone=True), objects, schedule=long)
+    scale = probe.calibrate(synthetic(1000, 2, numbers_alone=True))
+    other = synthetic(2000, 3, numbers_alone=True)
+    intervals = probe.intervals(other, scale)
+    scores = score_intervals(intervals, other)
     for name in ("depth", "position", "area", "force"):
         assert 86 < scores[f"coverage_{name}"] < 94
     assert scores["force_percent"] < 40  # always saying 1 N is about 50 % off
-    width, noise = said.high[:, 0] - said.low[:, 0], other.pooled[:, -1]
+    width, noise = intervals.high[:, 0] - intervals.low[:, 0], other.pooled[:, -1]
     assert width[noise > 0.2].median() > 1.5 * width[noise < 0.2].median()
     other.pooled[:, :-1] *= 6  # far from all that was learned, noise as before
-    strange = probe.said(other, stretch)
-    assert (strange.high - strange.low)[:, 3].median() > 2 * (said.high - said.low)[:, 3].median()
+    strange = probe.intervals(other, scale)
+    widths = [(i.high - i.low)[:, 3].median() for i in (strange, intervals)]
+    assert widths[0] > 2 * widths[1]
 
 
 def test_members_leave_out_objects_and_one_object_alone_is_learned() -> None:
-    seen = told(200, 1, numbers_alone=True)
-    alone = NumberProbe(seen, torch.zeros(200), schedule=QUICK)
-    several = NumberProbe(seen, torch.arange(200) // 20, schedule=QUICK)
+    encoded = synthetic(200, 1, numbers_alone=True)
+    alone = NumberProbe(encoded, torch.zeros(200), schedule=QUICK)
+    several = NumberProbe(encoded, torch.arange(200) // 20, schedule=QUICK)
     for probe in (alone, several):
-        said = probe.said(seen, probe.calibrate(seen))
-        assert torch.isfinite(said.value).all()
-        assert (said.low < said.high).all()
+        intervals = probe.intervals(encoded, probe.calibrate(encoded))
+        assert torch.isfinite(intervals.value).all()
+        assert (intervals.low < intervals.high).all()
 
 
 @pytest.mark.parametrize("count", [5, 7])
@@ -159,19 +176,19 @@ def test_every_object_is_left_out_by_one_member(
     count: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     learned: list[set[int]] = []
-    things = torch.arange(40 * count) // 40
-    seen = told(40 * count, 1, numbers_alone=True)
-    whole = probes._number_member
+    objects = torch.arange(40 * count) // 40
+    encoded = synthetic(40 * count, 1, numbers_alone=True)
+    whole = probes._train_member
 
-    def noted(seen: Observed, rows: torch.Tensor, *rest: object) -> object:
-        learned.append(set(things[rows].tolist()))
-        return whole(seen, rows, *rest)  # type: ignore[arg-type]
+    def noted(encoded: EncodedContacts, rows: torch.Tensor, *rest: object) -> object:
+        learned.append(set(objects[rows].tolist()))
+        return whole(encoded, rows, *rest)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(probes, "_number_member", noted)
-    NumberProbe(seen, 100 + 3 * things, schedule=QUICK)
+    monkeypatch.setattr(probes, "_train_member", noted)
+    NumberProbe(encoded, 100 + 3 * objects, schedule=QUICK)
     assert len(learned) == probes.MEMBERS
-    for thing in range(count):
-        assert sum(thing in known for known in learned) == probes.MEMBERS - 1
+    for one in range(count):
+        assert sum(one in known for known in learned) == probes.MEMBERS - 1
 
 
 @pytest.fixture(scope="module")
@@ -193,10 +210,10 @@ def test_a_feature_that_is_a_prompt_is_its_class(towers: Towers, prompting: str)
         )
         for word in CLASSES["position"]
     ]
-    found = Prompts(towers, prompting)
+    found = ClassPrompts(towers, prompting)
     column = list(CLASSES).index("position")
-    assert found.said(3 * torch.stack(features))[:, column].tolist() == list(range(9))
-    assert found.surety(torch.stack(features))[:, column].min() > 0.999
+    assert found.classes(3 * torch.stack(features))[:, column].tolist() == list(range(9))
+    assert found.cosines(torch.stack(features))[column].amax(1).min() > 0.999
 
 
 def test_contacts_and_captions_find_each_other(towers: Towers) -> None:
@@ -204,13 +221,13 @@ def test_contacts_and_captions_find_each_other(towers: Towers) -> None:
     captions.append(captions[0])
     feature = towers.texts(captions)
     nothing = torch.zeros(9, 5)
-    seen = Observed(feature, feature, nothing.long(), nothing, torch.arange(9))
-    found = retrieve(towers, seen, captions)
+    encoded = EncodedContacts(feature, feature, nothing.long(), nothing, torch.arange(9))
+    found = score_retrieval(towers, encoded, captions)
     assert found.captions == len(set(captions))
     assert found.contact_to_text[1] == found.text_to_contact[1] == 1.0
-    turned = Observed(feature, feature.roll(1, 0), nothing.long(), nothing, torch.arange(9))
-    assert retrieve(towers, turned, captions).contact_to_text[1] < 0.5
-    assert nearest_contacts(towers, seen, captions[3], 1)[0][0] == captions.index(captions[3])
+    turned = EncodedContacts(feature, feature.roll(1, 0), nothing.long(), nothing, torch.arange(9))
+    assert score_retrieval(towers, turned, captions).contact_to_text[1] < 0.5
+    assert nearest_contacts(towers, encoded, captions[3], 1)[0][0] == captions.index(captions[3])
     assert nearest_texts(towers, feature[5], sorted(set(captions)), 2)[0][0] == captions[5]
     assert np.isclose(nearest_texts(towers, feature[5], captions, 1)[0][1], 1.0, atol=1e-4)
 

@@ -6,6 +6,7 @@ import json
 import re
 import shutil
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -19,13 +20,13 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
-from cltp.evaluation.probes import SCHEDULE
+from cltp.evaluation.probes import SCHEDULE, ClassProbes, NumberProbe
 from cltp.evaluation.scores import ClassScores
 from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining import evaluate, geometric_baseline
+from tacgrasp.pretraining import evaluate, evaluate_real, geometric_baseline
 from tacgrasp.pretraining import run_all as all_methods
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
@@ -73,7 +74,7 @@ def out(data: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with CLIP, CLTP and the floor, hardly trained."""
     folder = tmp_path_factory.mktemp("methods")
     where = ["--out", str(folder), "--data", str(data), "--threads", "1"]
-    assert main(["train", "clip", *where, "--clip-steps", "2"]) == 0
+    assert main(["train", "clip", *where, "--steps", "2"]) == 0
     assert main(["train", "cltp", *where, "--preset", "tiny", *QUICK]) == 0
     assert main(["train", "random", *where, "--preset", "tiny"]) == 0
     return folder
@@ -87,10 +88,10 @@ def places(out: Path, data: Path, tmp_path: Path) -> list[str]:
 
 @pytest.fixture
 def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
-    for probe in (evaluate.ClassProbes, evaluate.NumberProbe):
-        keywords = {**probe.__init__.__kwdefaults__}
-        keywords["schedule"] = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
-        monkeypatch.setattr(probe.__init__, "__kwdefaults__", keywords)
+    quick = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
+    for module in (evaluate, evaluate_real, geometric_baseline):
+        monkeypatch.setattr(module, "ClassProbes", partial(ClassProbes, schedule=quick))
+    monkeypatch.setattr(evaluate, "NumberProbe", partial(NumberProbe, schedule=quick))
 
 
 def complaint(argv: list[str], capsys: pytest.CaptureFixture[str]) -> str:
@@ -236,7 +237,7 @@ def test_encoders_of_other_points_name_real_touches(
     wide = load_clip(out / "clip").feature_dim
     encoder = TactileEncoder(dataclasses.replace(config, feature_dim=wide))
     save_encoder(tmp_path / "weights" / "encoder", encoder, StateHeads(48))
-    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     said = tmp_path / "said.csv"
@@ -261,7 +262,7 @@ def test_cltp_learns_from_a_further_set_and_says_so(
     assert main(["eval", "zero-shot", *places, "--threads", "1"]) == 0
     assert list(results.glob("zero_shot-cltp-tiny+also-contact-s0.json"))
     assert "other data, seed or sizes" in complaint(argv, capsys)
-    assert "share one data set" in complaint(
+    assert "unknown arguments: --also" in complaint(
         ["train", "tvl", *argv[2:], "--also", str(other)], capsys
     )
 
@@ -270,13 +271,13 @@ def test_contacts_are_moved_by_a_share(
     data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     argv = ["train", "cltp", "--data", str(data), "--out", str(tmp_path), "--moved"]
-    assert "share from 0 to 1, got 2" in complaint([*argv, "2"], capsys)
+    assert "moved must be a fraction from 0 to 1, got 2" in complaint([*argv, "2"], capsys)
 
 
 def test_probes_name_real_touches_by_points_and_by_frames(
     places: list[str], tmp_path: Path, quick_probes: None
 ) -> None:
-    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     figures, said = tmp_path / "figures.json", tmp_path / "said.csv"
@@ -307,7 +308,7 @@ def test_weights_that_come_along_name_real_touches_and_store_nothing(
 ) -> None:
     for part in ("clip", "cltp/encoder"):
         shutil.copytree(out / part, tmp_path / "weights" / Path(part).name)
-    np.save_result(tmp_path / "0.npy", fake_contact(0).height_mm)
+    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
     table = tmp_path / "labels.csv"
     table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
     argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(tmp_path / "said.csv")]
@@ -397,10 +398,10 @@ def test_wrong_use_of_eval_is_told_in_one_line(
     ("argv", "expected"),
     [
         (["cltp", "--preset", "giant"], "unknown preset 'giant'"),
-        (["tvl", "--no-image"], "--no-image is for"),
+        (["tvl", "--no-image"], "unknown arguments: --no-image"),
         (["point-mae", "--steps", "0"], "positive steps"),
-        (["all", "--steps", "5"], "takes no flags of methods"),
-        (["point-mae", "--seeds", "0"], "--seeds must be at least 1"),
+        (["all", "--steps", "5"], "unknown arguments: --steps 5"),
+        (["probe", "--seeds", "0"], "--seeds must be at least 1"),
         (["tvl", "--preset", "tiny"], "tvl needs an encoder of image"),
     ],
 )

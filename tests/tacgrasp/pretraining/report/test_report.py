@@ -79,24 +79,24 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> ContactDataset:
     return ContactDataset(folder)
 
 
-def four(shapes: list[str], said: list[str]) -> tuple[EncodedContacts, list[torch.Tensor]]:
-    """Contacts of these shapes at one place, and what is said of them: the last most surely."""
+def four(shapes: list[str], predicted: list[str]) -> tuple[EncodedContacts, list[torch.Tensor]]:
+    """Contacts of these shapes at one position, and scores: the last shape has the highest."""
     names = CLASSES["shape"]
     classes = torch.tensor([[names.index(shape), 0, 0, 0, -1] for shape in shapes])
-    sure = [torch.zeros(4, len(of_slot)) for of_slot in CLASSES.values()]
-    for row, name in enumerate(said):
-        sure[0][row, names.index(name)] = 0.5 + row / 10
-    sure[3][:, 0], sure[3][0, 1] = 0.5, 0.9  # the first is put elsewhere
-    seen = EncodedContacts(torch.zeros(4, 2), torch.zeros(4, 2), classes, torch.zeros(4, 5),
-                    torch.arange(4))  # fmt: skip
-    return seen, sure
+    scores = [torch.zeros(4, len(of_slot)) for of_slot in CLASSES.values()]
+    for row, name in enumerate(predicted):
+        scores[0][row, names.index(name)] = 0.5 + row / 10
+    scores[3][:, 0], scores[3][0, 1] = 0.5, 0.9  # the first is predicted elsewhere
+    nothing = torch.zeros(4, 5)
+    return EncodedContacts(nothing, nothing, classes, nothing, torch.arange(4)), scores
 
 
 def test_failures_are_counted_by_class_and_by_the_papers_cases(
     data: ContactDataset, tmp_path: Path
 ) -> None:
-    seen, sure = four(["plane", "triangle", "triangle", "peak"], ["plane", "peak", "peak", "peak"])
-    found = collect_failures(fake_result(), data, seen, sure, "probability")
+    shapes = ["plane", "triangle", "triangle", "peak"]
+    encoded, scores = four(shapes, ["plane", "peak", "peak", "peak"])
+    found = collect_failures(fake_result(), data, encoded, scores, "probability")
     counts = {(f.dimension, f.name): (f.wrong, f.contacts) for f in (*found.classes, *found.cases)}
     assert counts["shape", "triangle"] == (2, 2)
     assert counts["shape", "peak"] == (0, 1)
@@ -105,9 +105,9 @@ def test_failures_are_counted_by_class_and_by_the_papers_cases(
     assert counts["shape", "sphere as ellipsoid"] == (0, 0)
     assert counts["position", "position of planes"] == (1, 1)
     assert counts["position", "position of all others"] == (0, 3)
-    assert counts["area", "tiny"] == (0, 0)  # nobody named one
+    assert counts["area", "tiny"] == (0, 0)  # without labels
     triangle = next(f for f in found.classes if f.name == "triangle")
-    assert [one.index for one in triangle.examples] == [2, 1]  # the surest first
+    assert [one.index for one in triangle.examples] == [2, 1]  # highest score first
     assert (triangle.examples[0].predicted, triangle.examples[0].predicted_score) == ("peak", 0.7)
     save_failures(tmp_path, found)
     assert load_failures(tmp_path, "abc") == [found]
@@ -119,10 +119,9 @@ def test_failures_are_counted_by_class_and_by_the_papers_cases(
 def test_failures_of_other_data_or_damaged_are_refused(
     data: ContactDataset, tmp_path: Path
 ) -> None:
-    seen, sure = four(["plane"] * 4, ["peak"] * 4)
-    path = save_failures(
-        tmp_path, fake_result(), collect_failures(fake_result(), data, seen, sure, "cosine")
-    )
+    encoded, scores = four(["plane"] * 4, ["peak"] * 4)
+    failures = collect_failures(fake_result(), data, encoded, scores, "cosine")
+    path = save_failures(tmp_path, failures)
     with pytest.raises(TouchError, match="other data"):
         load_failures(tmp_path, "def")
     path.write_text(path.read_text()[:100])

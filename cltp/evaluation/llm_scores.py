@@ -1,0 +1,77 @@
+"""What the language model says of contacts: its captions as predictions, its answers' accuracy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import Protocol
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from cltp.data.sampler import Batch
+from cltp.errors import TouchError
+from cltp.evaluation.scores import Predictions
+from cltp.llm.generation import Reply
+from cltp.tactile.states import CLASSES, NUMBERS, ContactState
+from cltp.texts.captions import Slots, parse_caption
+
+
+class Speaker(Protocol):
+    """What evaluation needs of ``cltp.llm.generation.Talker``."""
+
+    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
+        """Answer about one contact, points of shape (1024, 3) scaled."""
+        ...
+
+
+def predict_by_captions(
+    speaker: Speaker,
+    batches: Sequence[Batch],
+    read_numbers: Callable[[str], Sequence[float] | None],
+    request: str = "Describe the contact.",
+) -> Predictions:
+    """Ask for a caption of each contact and read classes and numbers out of it.
+
+    Args:
+        speaker: The model.
+        batches: Contacts.
+        read_numbers: Reads ``NUMBERS`` out of a reply; None where it has none, which counts as
+            infinitely wrong.
+        request: The request for a caption. A reply that is no caption is wrong in all dimensions.
+    """
+    classes, numbers = [], []
+    for batch in batches:
+        for points in batch.points:
+            text = speaker.reply(points, request).text
+            try:
+                slots = parse_caption(text.split(".")[0])
+            except TouchError:
+                slots = Slots()
+            words = [(names, getattr(slots, dimension)) for dimension, names in CLASSES.items()]
+            classes.append([-1 if word is None else names.index(word) for names, word in words])
+            numbers.append(read_numbers(text) or [np.inf] * len(NUMBERS))
+    return Predictions(torch.tensor(classes), np.array(numbers))
+
+
+def score_answers(
+    speaker: Speaker,
+    batches: Sequence[Batch],
+    wordings: Mapping[str, Sequence[str]],
+    is_right: Callable[[str, str, ContactState], bool],
+) -> Mapping[str, float]:
+    """Fraction of right answers to questions about each slot; the wordings take turns.
+
+    Args:
+        speaker: The model.
+        batches: Contacts.
+        wordings: Questions by slot.
+        is_right: Whether the answer to a slot's question is true of a state.
+    """
+    right: dict[str, list[bool]] = {slot: [] for slot in wordings}
+    contacts = [pair for b in batches for pair in zip(b.points, b.states, strict=True)]
+    for number, (points, state) in enumerate(contacts):
+        for slot, questions in wordings.items():
+            text = speaker.reply(points, questions[number % len(questions)]).text
+            right[slot].append(is_right(slot, text, state))
+    return {slot: float(np.mean(of_slot)) for slot, of_slot in right.items()}

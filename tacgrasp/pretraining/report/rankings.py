@@ -1,0 +1,62 @@
+"""Rankings of methods: whether they stand in the paper's order, dimension by dimension."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from cltp.tactile.states import CLASSES
+from tacgrasp.pretraining.report.pages import PageSection, PageTable
+from tacgrasp.pretraining.report.paper_numbers import PAPER, PAPER_TABLES
+from tacgrasp.pretraining.report.store import TITLES, Groups, nested
+
+
+class MethodRanking(NamedTuple):
+    """The methods of one column of the paper's tables, best first."""
+
+    title: str
+    split: str
+    dimension: str
+    paper: list[str]
+    ours: list[str]
+
+
+def rankings(groups: Groups) -> Iterator[MethodRanking]:
+    """The paper's ranking and ours in every column where all methods were measured."""
+    figures = nested(groups)
+    for title, (table, methods, _) in PAPER_TABLES.items():
+        measured = figures.get(table, {})
+        for split in ("contact", "physics"):
+            for column, dimension in enumerate(CLASSES):
+                paper = {
+                    method: PAPER[table, method, split][column]
+                    for method in methods
+                    if (table, method, split) in PAPER
+                }
+                values = {m: measured.get(m, {}).get(split, {}).get(dimension) for m in methods}
+                ours = {method: value for method, value in values.items() if value is not None}
+                if len(paper) == len(ours) == len(methods):
+                    yield MethodRanking(
+                        title=title,
+                        split=split,
+                        dimension=dimension,
+                        paper=sorted(paper, key=lambda m: -paper[m]),
+                        ours=sorted(ours, key=lambda m: -ours[m]),
+                    )
+
+
+def ranking_section(groups: Groups) -> PageSection:
+    """A row for each column of the paper's tables."""
+    rows = []
+    for ranking in rankings(groups):
+        paper, ours = (" > ".join(TITLES[m] for m in row) for row in (ranking.paper, ranking.ours))
+        same = "as in the paper" if ranking.paper == ranking.ours else "differs"
+        title = ranking.title.split(":")[0]
+        rows.append([f"{title}, {ranking.split}", ranking.dimension, same, ours, paper])
+    differing = sum(row[2] == "differs" for row in rows)
+    text = f"{len(rows) - differing} of {len(rows)} columns have the paper's order."
+    if not rows:
+        text = "No column has all of the paper's methods yet."
+    head = ["", "dimension", "order", "ours", "the paper's"]
+    table = PageTable(head=head, rows=rows) if rows else None
+    return PageSection(title="Order of methods", text=[text], table=table)
