@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,7 +63,6 @@ class JogSettings:
 
     @property
     def step_mm(self) -> float:
-        """Length of a step [mm]."""
         return STEPS_MM[self.step]
 
 
@@ -82,24 +82,13 @@ class Grip:
     force_n: float
 
 
-@dataclass(frozen=True, slots=True)
-class Open:
-    """Open the gripper a little."""
+class JogAction(Enum):
+    """A command without parameters: open a little, stop the arm, list the keys, end."""
 
-
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """Bring the arm to rest."""
-
-
-@dataclass(frozen=True, slots=True)
-class Help:
-    """List the keys."""
-
-
-@dataclass(frozen=True, slots=True)
-class Quit:
-    """End jogging."""
+    OPEN = "open"
+    STOP = "stop"
+    HELP = "help"
+    QUIT = "quit"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -109,7 +98,7 @@ class Unknown:
     key: str
 
 
-Command = JogStep | Grip | Open | Stop | Help | Quit | Unknown | None
+Command = JogStep | Grip | JogAction | Unknown | None
 """None changes the settings only."""
 
 
@@ -126,13 +115,13 @@ def key_command(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
         return None, replace(settings, force_n=settings.force_n * factor)
     commands: Mapping[str, Command] = {
         "g": Grip(force_n=settings.force_n),
-        "o": Open(),
-        " ": Stop(),
-        "?": Help(),
-        "h": Help(),
-        "q": Quit(),
-        "\x1b": Quit(),
-        "\x03": Quit(),
+        "o": JogAction.OPEN,
+        " ": JogAction.STOP,
+        "?": JogAction.HELP,
+        "h": JogAction.HELP,
+        "q": JogAction.QUIT,
+        "\x1b": JogAction.QUIT,
+        "\x03": JogAction.QUIT,
     }
     return commands.get(key, Unknown(key=key)), settings
 
@@ -159,15 +148,15 @@ class Jogger:
             state = self._rig.gripper.grip(force.value)
             note = f" ({force.note})" if force.note else ""
             return f"closed with {force.value:.2f} N at {1000 * state.width_m:.1f} mm{note}"
-        if isinstance(command, Open):
+        if command is JogAction.OPEN:
             state = self._rig.gripper.open_by(self._clear_m)
             return f"open at {1000 * state.width_m:.1f} mm"
-        if isinstance(command, Stop):
+        if command is JogAction.STOP:
             self._rig.arm.stop()
             return "stopped"
         if isinstance(command, Unknown):
             return f"{command.key!r} is no command; ? lists them"
-        return "\n".join(HELP) if isinstance(command, Help) else ""
+        return "\n".join(HELP) if command is JogAction.HELP else ""
 
     def contact(self) -> str:
         """Description of the present contact.

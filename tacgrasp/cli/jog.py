@@ -84,13 +84,13 @@ def main(argv: Sequence[str]) -> int:
 def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Console) -> None:
     from cltp import TouchError
     from primitives import LimitError
-    from tacgrasp.bringup.jog import Quit, key_command
+    from tacgrasp.bringup.jog import JogAction, key_command
 
     for key in keys:
         result = ""
         if key:
             command, settings = key_command(key, settings)
-            if isinstance(command, Quit):
+            if command is JogAction.QUIT:
                 return
             try:
                 result = jogger.carry_out(command) if command is not None else "ready"

@@ -23,7 +23,6 @@ class Latest(Generic[T]):
         self._failure: str | None = None
 
     def put(self, item: T) -> None:
-        """Replace the item."""
         with self._changed:
             self._item = item
             self._changed.notify_all()

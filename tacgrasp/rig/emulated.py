@@ -7,7 +7,6 @@ through the control channel, for records and people, never for a policy.
 
 from __future__ import annotations
 
-import datetime
 import tempfile
 from contextlib import ExitStack
 from dataclasses import dataclass, fields
@@ -21,12 +20,8 @@ from sim.grasp.rig import Truth
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.dynamixel.calibration import (
-    MIN_READINGS,
-    GripperCalibration,
-    save_calibration,
-)
-from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+from tacgrasp.drivers.dynamixel.calibration import save_calibration
+from tacgrasp.drivers.dynamixel.emulated import emulated_calibration
 from tacgrasp.rig.hardware import HardwareRig, connect
 
 
@@ -85,7 +80,7 @@ def settings_for(
         )
     ready = emulators.ready
     calibration = folder / "gripper_calibration.yaml"
-    save_calibration(calibration, emulated_calibration(hardware.gripper))
+    save_calibration(calibration, emulated_calibration(hardware.gripper, FINGERS))
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
@@ -93,22 +88,6 @@ def settings_for(
             "gripper": hardware.gripper.model_copy(update=gripper),
             "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
         }
-    )
-
-
-def emulated_calibration(settings: DynamixelSettings) -> GripperCalibration:
-    """Calibration of the emulated gripper: its own line of force over current, dated today."""
-    return GripperCalibration(
-        unit=settings.unit,
-        model=settings.model,
-        ids=tuple(servo.id for servo in settings.servos),
-        date=datetime.date.today(),
-        newtons_per_ma=FINGERS.newtons_per_ma,
-        friction_ma=FINGERS.friction_ma,
-        residual_n=0.0,
-        max_force_n=FINGERS.force_n(settings.max_current_ma),
-        num_readings=MIN_READINGS,
-        source="the emulator's own line",
     )
 
 

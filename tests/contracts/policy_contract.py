@@ -65,12 +65,12 @@ class PolicyContract:
             assert decision.success in (found.success, False)
 
     def test_a_fresh_policy_decides_the_same(self, policy):
-        def told(decisions):
+        def as_tuples(decisions):
             return [(d.text, d.action, d.success, d.confidence) for d in decisions]
 
         again = self.make()
         again.start()
-        assert told(self.decide_all(policy)) == told(self.decide_all(again))
+        assert as_tuples(self.decide_all(policy)) == as_tuples(self.decide_all(again))
 
     def test_a_cloud_is_left_as_it_was(self, policy):
         before = CLOUDS[0].points_mm.copy()

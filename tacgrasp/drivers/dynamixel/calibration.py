@@ -68,11 +68,9 @@ class GripperCalibration(SettingsBase):
         return self
 
     def current_ma(self, force_n: float) -> float:
-        """Current for a force [mA]."""
         return self.friction_ma + force_n / self.newtons_per_ma
 
     def force_n(self, current_ma: float) -> float:
-        """Force at a current, 0 below friction [N]."""
         return max(0.0, (current_ma - self.friction_ma) * self.newtons_per_ma)
 
 

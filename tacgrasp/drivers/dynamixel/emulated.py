@@ -10,7 +10,11 @@ import datetime
 from pathlib import Path
 
 from sim.emulators.dynamixel.fingers import Linkage
-from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, save_calibration
+from tacgrasp.drivers.dynamixel.calibration import (
+    MIN_READINGS,
+    GripperCalibration,
+    save_calibration,
+)
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
 
 UNIT = "emulated"
@@ -57,19 +61,21 @@ def emulated_gripper(
         speed_mm_s=200.0,
         max_current_ma=MAX_MA,
     )
-    save_calibration(
-        folder / settings.calibration,
-        GripperCalibration(
-            unit=UNIT,
-            model=model,
-            ids=tuple(servo.id for servo in settings.servos),
-            date=datetime.date.today(),
-            newtons_per_ma=fingers.newtons_per_ma,
-            friction_ma=fingers.friction_ma,
-            residual_n=0.0,
-            max_force_n=fingers.force_n(MAX_MA),
-            num_readings=3,
-            source="the emulator's own line",
-        ),
-    )
+    save_calibration(folder / settings.calibration, emulated_calibration(settings, fingers))
     return settings
+
+
+def emulated_calibration(settings: DynamixelSettings, fingers: Linkage) -> GripperCalibration:
+    """Calibration of an emulated gripper: its own line of force over current, dated today."""
+    return GripperCalibration(
+        unit=settings.unit,
+        model=settings.model,
+        ids=tuple(servo.id for servo in settings.servos),
+        date=datetime.date.today(),
+        newtons_per_ma=fingers.newtons_per_ma,
+        friction_ma=fingers.friction_ma,
+        residual_n=0.0,
+        max_force_n=fingers.force_n(settings.max_current_ma),
+        num_readings=MIN_READINGS,
+        source="the emulator's own line",
+    )

@@ -56,7 +56,6 @@ class ServoFingers:
 
     @property
     def transients(self) -> BusFaultCounts:
-        """Faults of the bus from which the driver has recovered."""
         return replace(self._bus.counts)
 
     def fail_fast_while(self, arm_is_moving: Callable[[], bool]) -> None:

@@ -34,7 +34,11 @@ _log = logging.getLogger(__name__)
 
 
 class DynamixelGripper:
-    """One or two servos under force control; made by ``connect_gripper``."""
+    """One or two servos under force control; made by ``connect_gripper``.
+
+    See ``primitives.devices.Gripper`` for the contract of each method. Every command raises
+    ``RobotError`` after a fault, ``LimitError`` beyond ``max_force_n`` (nothing is sent then).
+    """
 
     def __init__(self, fingers: ServoFingers, calibration: GripperCalibration) -> None:
         self._fingers, self._calibration = fingers, calibration
@@ -48,7 +52,6 @@ class DynamixelGripper:
 
     @property
     def fault(self) -> str:
-        """The latched fault; empty while there is none."""
         return self._fingers.poller.fault
 
     @property
@@ -73,20 +76,9 @@ class DynamixelGripper:
         self._fingers.fail_fast_while(arm_is_moving)
 
     def state(self) -> GripperState:
-        """Present opening and the last commanded force.
-
-        Raises:
-            RobotError: The opening can't be read, or the gripper has a fault.
-        """
         return self._state(self._fingers.width_m())
 
     def grip(self, force_n: float) -> GripperState:
-        """Close, or adjust a grip, to a force [N]; returns when the fingers rest.
-
-        Raises:
-            LimitError: The force is not positive or beyond the device; nothing is sent.
-            RobotError: The fingers do not come to rest, or the gripper has a fault.
-        """
         self._fingers.sent = ""
         if not (math.isfinite(force_n) and 0 < force_n <= self.max_force_n * (1 + 1e-9)):
             raise LimitError(
@@ -101,12 +93,6 @@ class DynamixelGripper:
         return self._state(self._fingers.squeeze(max(self._fingers.unit_ma, current_ma)))
 
     def open_by(self, clear_m: float) -> GripperState:
-        """Open by ``clear_m`` [m] from the present width, up to the end of the travel.
-
-        Raises:
-            LimitError: ``clear_m`` is not positive; nothing is sent.
-            RobotError: The fingers do not get there, or the gripper has a fault.
-        """
         self._fingers.sent = ""
         if not (math.isfinite(clear_m) and clear_m > 0):
             raise LimitError(f"the gripper opens by a positive number of metres, got {clear_m}")
@@ -115,7 +101,6 @@ class DynamixelGripper:
         return self._state(width_m)
 
     def stop(self) -> None:
-        """Stop moving fingers; a grip is kept. Idempotent, never raises."""
         self._fingers.sent = ""
         try:
             self._fingers.freeze()
@@ -123,7 +108,6 @@ class DynamixelGripper:
             _log.debug("nothing to stop: %s", error)
 
     def disconnect(self) -> None:
-        """Free the port, keeping the present grip. Idempotent, never raises."""
         self._fingers.disconnect()
 
     def _state(self, width_m: float) -> GripperState:

@@ -139,7 +139,6 @@ class ServoPoller:
         return self._num_polls
 
     def close(self) -> None:
-        """End the thread. Idempotent."""
         with self._changed:
             self._closed = True
             self._changed.notify_all()

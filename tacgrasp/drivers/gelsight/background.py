@@ -55,7 +55,6 @@ class Background:
     num_frames: int
 
     def age_h(self, now: datetime.datetime) -> float | None:
-        """Hours since it was taken; None if unknown."""
         return None if self.taken is None else (now - self.taken).total_seconds() / 3600
 
 

@@ -87,7 +87,6 @@ class CaptureThread:
         self._thread.start()
 
     def counts(self) -> FrameCounts:
-        """Numbers of frames so far."""
         gaps = list(self._gaps)
         return FrameCounts(
             frames=self._frames,

@@ -25,7 +25,11 @@ from tacgrasp.drivers.stamps import real_stamp
 
 
 class GelSightMini:
-    """A connected GelSight Mini, or a recording of one; a ``TactileSensor``.
+    """A connected GelSight Mini, or a recording of one; a ``rig.protocols.WatchedSensor``.
+
+    A read raises ``TouchError`` when the camera is unplugged or disconnected, the recording has
+    ended, no frame was exposed after the call within the time-out, or the frame shows no gel
+    (black, over-exposed) or belongs to another background.
 
     Args:
         settings: The sensor's section of the rig's file.
@@ -91,13 +95,6 @@ class GelSightMini:
             self._check(newest)
 
     def read(self) -> TactileCloud:
-        """Capture the gel now.
-
-        Raises:
-            TouchError: Unplugged, disconnected, the recording has ended, no frame exposed after
-                the call within the time-out, a frame without a gel (black, over-exposed), or one
-                that the background doesn't belong to.
-        """
         captured = self._fresh_frame()
         try:
             heights = self._photometer.heights(captured.frame)
@@ -120,12 +117,6 @@ class GelSightMini:
             raise TouchError(f"{self._settings.source}: {reason}")
 
     def check_alive(self) -> None:
-        """Return at once if frames are arriving; called while the arm moves.
-
-        Raises:
-            TouchError: Unplugged, disconnected, no frame for ``stale_s``, or the last frame
-                shows no gel.
-        """
         if self._thread is None:
             self._check_connected()
             return
@@ -135,7 +126,6 @@ class GelSightMini:
         self._check(newest)
 
     def disconnect(self) -> None:
-        """Free the camera. Idempotent, never raises."""
         self._disconnected = True
         if self._thread is not None:
             self._thread.end(f"{self._settings.source}: disconnected; connect it again to read")

@@ -34,7 +34,7 @@ LoadCloud = Callable[[], TactileCloud]
 
 
 class RecordedSensor:
-    """A ``TactileSensor`` that plays recorded clouds.
+    """A ``rig.protocols.WatchedSensor`` that plays recorded clouds.
 
     Args:
         name: Name of the recording, for messages.
@@ -63,7 +63,6 @@ class RecordedSensor:
 
     @property
     def length(self) -> int:
-        """Number of recorded clouds."""
         return len(self._loaders)
 
     def read(self) -> TactileCloud:
@@ -81,11 +80,6 @@ class RecordedSensor:
         return TactileCloud(points_mm=points, sensor=self._spec, stamp=self._stamp())
 
     def check_alive(self) -> None:
-        """Return while it is connected.
-
-        Raises:
-            TouchError: Disconnected.
-        """
         if self._disconnected:
             raise TouchError(f"the recording {self._name} is disconnected; connect it again")
 
@@ -96,7 +90,6 @@ class RecordedSensor:
         """No counts: a recording loses no frames."""
 
     def disconnect(self) -> None:
-        """End the playing. Idempotent, never raises."""
         self._disconnected = True
 
 

@@ -73,7 +73,10 @@ class _StampedFrame:
 
 
 class TaxelArray:
-    """An open array; a ``TactileSensor``. One thread reads the port.
+    """An open array; a ``rig.protocols.WatchedSensor``. One thread reads the port.
+
+    A read raises ``TouchError`` when the array is unplugged or disconnected, no frame was captured
+    after the call within the time-out, or the frame shows no gel.
 
     Args:
         port: Open and claimed port; closed by the array.
@@ -106,7 +109,6 @@ class TaxelArray:
         return self._spec
 
     def counts(self) -> LineCounts:
-        """Numbers of frames so far."""
         wire, numbers = self._parser.counts, self._numbers
         return LineCounts(
             frames=wire.packets - numbers.repeated,
@@ -138,12 +140,6 @@ class TaxelArray:
             self._mark = (first.frame.mark + _MARK_GAP) % 2**32
 
     def read(self) -> TactileCloud:
-        """Capture the gel now.
-
-        Raises:
-            TouchError: Unplugged, disconnected, no frame captured after the call within the
-                time-out, or a frame that shows no gel.
-        """
         with self._sending:
             fresh = self._read_fresh()
         if fresh is None:
@@ -155,12 +151,6 @@ class TaxelArray:
         )
 
     def check_alive(self) -> None:
-        """Return at once if frames are arriving; called while the arm moves.
-
-        Raises:
-            TouchError: Unplugged, disconnected, no frame for ``stale_s``, or the last frame shows
-                no gel.
-        """
         newest = self._latest.newest()
         since_s = self._opened_s if newest is None else newest.stamp.monotonic_s
         if self._stamp().monotonic_s - since_s > self._settings.stale_s:
@@ -172,7 +162,6 @@ class TaxelArray:
         """Nothing to compare: taxels have no background."""
 
     def disconnect(self) -> None:
-        """Free the port. Idempotent, never raises."""
         self._latest.fail(f"{self._name} is disconnected; connect it again to read")
         self._ending.set()
         if self._thread is not threading.current_thread():

@@ -100,19 +100,16 @@ class UrArm:
 
     @property
     def fault(self) -> str:
-        """The latched fault; empty while there is none."""
         return self._fault
 
     # -- Arm -------------------------------------------------------------------------------------
 
     def pose(self) -> Pose:
-        """Measured pose of the TCP, not older than a round of supervision."""
         return self._as_pose(self._state())
 
     def move_to(
         self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
     ) -> Pose:
-        """Move on a straight line; returns the pose reached, at rest and within tolerance."""
         self.sent, state = "", self._state()
         command = self._new_command(
             ArmCommand.MOVE,
@@ -134,7 +131,6 @@ class UrArm:
         return self._as_pose(state)
 
     def stop(self) -> None:
-        """Bring the arm to rest, without the worker if needed. Never raises."""
         self.sent = ""
         try:
             if self._fault:
@@ -149,7 +145,6 @@ class UrArm:
             self._make_safe()
 
     def disconnect(self) -> None:
-        """Stop, end the program and the worker. Idempotent, never raises."""
         with self._lock:
             worker = self._worker
             if worker is None:

@@ -77,14 +77,13 @@ class _Connection:
 
 
 class Dashboard:
-    """A client of the dashboard server, which answers each line with a line."""
+    """A client of the dashboard server, which answers each line with a line.
+
+    Raises ``RobotError`` for a missing or wrong answer, and for a lost connection.
+    """
 
     def __init__(self, host: str, timeout_s: float = 0.4) -> None:
-        """Connect and read the greeting.
-
-        Raises:
-            RobotError: No answer, or the answer of another server.
-        """
+        """Connect and read the greeting."""
         self._connection = _Connection(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
         self._text = b""
         try:
@@ -99,16 +98,11 @@ class Dashboard:
             raise
 
     def ask(self, line: str) -> str:
-        """Send a line and return the answer.
-
-        Raises:
-            RobotError: No answer in time, or the connection is lost.
-        """
+        """Send a line and return the answer."""
         self._connection.send(line.encode() + b"\n")
         return self._read()
 
     def close(self) -> None:
-        """Close the connection. Idempotent."""
         self._connection.close()
 
     def _read(self) -> str:
@@ -121,14 +115,13 @@ class Dashboard:
 
 
 class Rtde:
-    """A client of the RTDE port."""
+    """A client of the RTDE port.
+
+    Every method raises ``RobotError`` for a missing or malformed answer.
+    """
 
     def __init__(self, host: str, timeout_s: float = 0.4) -> None:
-        """Connect and agree on the protocol.
-
-        Raises:
-            RobotError: No answer, or none in RTDE.
-        """
+        """Connect and agree on the protocol."""
         self._connection = _Connection(host, RTDE_PORT, "UR RTDE port", timeout_s)
         self._buffer = bytearray()
         self._names: list[str] = []
@@ -142,11 +135,7 @@ class Rtde:
             raise
 
     def version(self) -> tuple[int, int]:
-        """Major and minor version of the controller.
-
-        Raises:
-            RobotError: No answer, or a malformed one.
-        """
+        """Major and minor version of the controller."""
         answer = self._ask("v", b"")
         if len(answer) != 16:
             raise RobotError(f"the controller stated its version in {len(answer)} bytes, not 16")
@@ -154,21 +143,13 @@ class Rtde:
         return major, minor
 
     def inputs_in_use(self, names: Sequence[str] = INPUTS) -> list[str]:
-        """Input registers in use by another client; the free ones are ours until ``close``.
-
-        Raises:
-            RobotError: No answer.
-        """
+        """Input registers in use by another client; the free ones are ours until ``close``."""
         answer = self._ask("I", ",".join(names).encode())
         types = answer[1:].decode("ascii", "replace").split(",")
         return [name for name, kind in zip(names, types, strict=False) if kind == "IN_USE"]
 
     def subscribe(self, names: Sequence[str], rate_hz: float) -> list[str]:
-        """Request a stream of variables; returns those that the controller does not have.
-
-        Raises:
-            RobotError: No answer, or variables of an unknown type.
-        """
+        """Request a stream of variables; returns those that the controller does not have."""
         request = struct.pack(">d", rate_hz) + ",".join(names).encode()
         types = self._ask("O", request)[1:].decode("ascii", "replace").split(",")
         available = [(n, t) for n, t in zip(names, types, strict=False) if t != "NOT_FOUND"]
@@ -180,20 +161,12 @@ class Rtde:
         return [name for name in names if name not in self._names]
 
     def start(self) -> None:
-        """Start the stream.
-
-        Raises:
-            RobotError: The controller refuses or is silent.
-        """
+        """Start the stream."""
         if self._ask("S", b"") != b"\x01":
             raise RobotError("the controller does not start its RTDE stream")
 
     def sample(self) -> dict[str, tuple[float, ...]]:
-        """Wait for the next sample: the numbers of each variable.
-
-        Raises:
-            RobotError: No sample in time, or a malformed one.
-        """
+        """Wait for the next sample: the numbers of each variable."""
         body = self._next("U")[1:]
         if len(body) != self._layout.size:
             raise RobotError(f"an RTDE sample of {len(body)} bytes, expected {self._layout.size}")
@@ -205,7 +178,6 @@ class Rtde:
         return values
 
     def close(self) -> None:
-        """Close the connection. Idempotent."""
         self._connection.close()
 
     def _ask(self, kind: str, body: bytes) -> bytes:

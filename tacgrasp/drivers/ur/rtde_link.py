@@ -53,7 +53,6 @@ class RtdeSample:
 
     @property
     def speed_m_s(self) -> float:
-        """Speed of the TCP [m/s]."""
         return math.hypot(*self.speed[:3])
 
     @property

@@ -215,7 +215,6 @@ class SharedStateBlock:
         return Distribution(count=total, p50_ms=p50_ms, p99_ms=p99_ms, max_ms=max_ms)
 
     def close(self) -> None:
-        """Free the memory. Idempotent."""
         if self.fd >= 0:
             self._memory.close()
             os.close(self.fd)

@@ -144,7 +144,6 @@ class Supervisor:
             raise
 
     def publish(self, now_s: float) -> None:
-        """Publish the present state to the owner."""
         state, sample = self.state, self._sample
         state.beat_s, state.data_s = now_s, self._data_s
         state.pose, state.speed, state.force = sample.pose, sample.speed, sample.force

@@ -105,12 +105,10 @@ class WorkerProcess:
             raise RobotError("the UR arm is disconnected") from None
 
     def distribution(self, counter: int) -> Distribution:
-        """Distribution of one of the worker's counters."""
         return self._block.distribution(counter)
 
     @property
     def has_ended(self) -> bool:
-        """Whether the process has ended."""
         return self._process.poll() is not None
 
     @property
@@ -119,7 +117,6 @@ class WorkerProcess:
         return self._process.poll() == 0
 
     def wait(self, seconds: float) -> None:
-        """Wait for the end of the process, at most so long [s]."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(seconds)
 
@@ -137,7 +134,6 @@ class WorkerProcess:
         return f"its worker ended (exit {code}) while {state.text or 'working'}: {words}"
 
     def close(self) -> None:
-        """End the process and free its pipe, output and memory. Idempotent."""
         if self._process.stdin is not None:
             with suppress(OSError):
                 self._process.stdin.close()

@@ -20,13 +20,10 @@ from tacgrasp.__main__ import main
 from tacgrasp.bringup.jog import (
     STEPS_MM,
     Grip,
-    Help,
+    JogAction,
     Jogger,
     JogSettings,
     JogStep,
-    Open,
-    Quit,
-    Stop,
     Unknown,
     key_command,
 )
@@ -85,10 +82,17 @@ def test_plus_and_minus_change_the_force_of_the_next_grip_and_send_nothing():
 
 
 @pytest.mark.parametrize(
-    ("key", "kind"), [("o", Open), (" ", Stop), ("?", Help), ("q", Quit), ("\x03", Quit)]
+    ("key", "action"),
+    [
+        ("o", JogAction.OPEN),
+        (" ", JogAction.STOP),
+        ("?", JogAction.HELP),
+        ("q", JogAction.QUIT),
+        ("\x03", JogAction.QUIT),
+    ],
 )
-def test_the_other_keys(key, kind):
-    assert isinstance(key_command(key, SETTINGS)[0], kind)
+def test_the_other_keys(key, action):
+    assert key_command(key, SETTINGS)[0] is action
 
 
 @pytest.mark.parametrize("key", ["", "x", "\x00", "7", "\n"])

@@ -36,19 +36,19 @@ def seen_from(x_axis, y_axis):
 def test_shifts_of_a_contact_give_the_axes_back(x_axis, y_axis):
     rng = np.random.default_rng(0)
     noisy = seen_from(x_axis, y_axis) + rng.normal(0, 0.05, (6, 2))
-    found = axes_from_shifts(STEPS, noisy)
-    assert found.axes.x_tcp == pytest.approx(x_axis, abs=0.05)
-    assert found.axes.y_tcp == pytest.approx(y_axis, abs=0.05)
-    assert 0 < found.misfit_mm < 0.4
+    measured = axes_from_shifts(STEPS, noisy)
+    assert measured.axes.x_tcp == pytest.approx(x_axis, abs=0.05)
+    assert measured.axes.y_tcp == pytest.approx(y_axis, abs=0.05)
+    assert 0 < measured.misfit_mm < 0.4
 
 
 def test_axes_that_are_nearly_square_to_the_tcp_are_made_so():
     tilt = np.radians(4)
-    found = axes_from_shifts(
+    measured = axes_from_shifts(
         STEPS, seen_from((np.cos(tilt), np.sin(tilt), 0), (-np.sin(tilt), np.cos(tilt), 0))
     )
-    assert found.axes.x_tcp == (1.0, 0.0, 0.0)
-    assert found.axes.y_tcp == (0.0, 1.0, 0.0)
+    assert measured.axes.x_tcp == (1.0, 0.0, 0.0)
+    assert measured.axes.y_tcp == (0.0, 1.0, 0.0)
 
 
 def test_an_object_that_came_along_is_refused():
@@ -67,11 +67,11 @@ def test_steps_in_a_plane_are_not_enough():
 
 def test_on_a_rig_the_axes_are_found_and_the_arm_is_back_with_the_gripper_open():
     rig = build("cherry_tomato", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
-    said = []
-    found = find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=said.append)
-    assert found.axes.x_tcp == rig.pad_x_in_tcp
-    assert found.axes.y_tcp == rig.pad_y_in_tcp
-    assert len(said) == 7
+    reports = []
+    measured = find_pad_axes(rig, limits(), force_n=1.0, clear_mm=4.0, report=reports.append)
+    assert measured.axes.x_tcp == rig.pad_x_in_tcp
+    assert measured.axes.y_tcp == rig.pad_y_in_tcp
+    assert len(reports) == 7
     assert rig.arm.pose().position_m == pytest.approx(rig.start_pose.position_m)
     assert not rig.gripper.state().closed
 

@@ -81,9 +81,9 @@ def test_every_kind_of_emulator_is_explained(capsys):
 )
 def test_an_emulator_that_can_not_start_says_why_in_one_line(argv, expected, capsys):
     assert main(["emulate", *argv]) == 2
-    said = capsys.readouterr().err
-    assert expected in said
-    assert said.count("\n") == 1
+    message = capsys.readouterr().err
+    assert expected in message
+    assert message.count("\n") == 1
 
 
 def test_an_emulator_runs_until_ctrl_c_at_the_addresses_that_it_prints():
@@ -108,7 +108,10 @@ def test_an_emulator_runs_until_ctrl_c_at_the_addresses_that_it_prints():
 def test_the_longest_name_of_what_can_be_calibrated_is_apart_from_what_it_is(capsys):
     assert main(["calibrate", "--help"]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert "  gelsight-mini  Learn heights from colours, from presses of a ball of known diameter." in lines
+    assert (
+        "  gelsight-mini  Learn heights from colours, from presses of a ball of known diameter."
+        in lines
+    )
     assert any(line.startswith("  gripper        Measure force over current") for line in lines)
 
 

@@ -31,9 +31,9 @@ def terminal():
     os.close(slave)
 
 
-@pytest.mark.parametrize("wanted", ["FT3FSMBC", U2D2.stable_id, "Converter_FT3F"])
-def test_a_port_is_found_by_serial_number_stable_name_or_a_part_of_it(wanted):
-    assert find_port(wanted, "the gripper", [OTHER, U2D2]) == "/dev/ttyUSB0"
+@pytest.mark.parametrize("name", ["FT3FSMBC", U2D2.stable_id, "Converter_FT3F"])
+def test_a_port_is_found_by_serial_number_stable_name_or_a_part_of_it(name):
+    assert find_port(name, "the gripper", [OTHER, U2D2]) == "/dev/ttyUSB0"
 
 
 def test_a_path_that_exists_is_taken_as_it_is(terminal):

@@ -18,6 +18,7 @@ from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
 SENSOR = SENSORS["gelsight_mini"]
@@ -112,21 +113,6 @@ def sensor(files, camera):
     gelsight.disconnect()
 
 
-def poll(condition, seconds=5.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not come about"
-        time.sleep(0.01)
-
-
-def alive(sensor):
-    try:
-        sensor.check_alive()
-    except TouchError:
-        return False
-    return True
-
-
 def test_a_pressed_ball_is_felt_where_and_as_deep_as_it_is(sensor, camera):
     camera.picture = pressed(0.8, x_mm=4.0, y_mm=-3.0)
     state = contact_state(sensor.read())
@@ -185,7 +171,7 @@ def test_a_dark_a_blinding_and_a_changed_light_are_named(sensor, camera, level, 
     with pytest.raises(TouchError, match=message):
         sensor.read()
     if level != 170:
-        poll(lambda: not alive(sensor))
+        poll(lambda: not is_alive(sensor))
     camera.picture = GREY
     sensor.read()
 
@@ -274,11 +260,11 @@ def test_a_background_is_not_taken_of_a_dark_or_missing_picture(files, camera):
 
 
 def test_a_check_names_ages_rate_and_what_is_wrong(files, camera):
-    found = {one.name: one for one in check(settings_of(files), now=lambda: NOW, opener=camera)}
-    assert all(one.ok for one in found.values() if one.name != "fresh cloud")  # a busy machine
-    assert "1 days old, unit mine" in found["calibration"].detail
-    assert "2.0 h old, 20 frames" in found["background"].detail
-    assert "0 repeated" in found["fresh cloud"].detail
+    findings = {one.name: one for one in check(settings_of(files), now=lambda: NOW, opener=camera)}
+    assert all(one.ok for one in findings.values() if one.name != "fresh cloud")  # a busy machine
+    assert "1 days old, unit mine" in findings["calibration"].detail
+    assert "2.0 h old, 20 frames" in findings["background"].detail
+    assert "0 repeated" in findings["fresh cloud"].detail
     camera.picture = pressed(0.6)
     *_, reads = check(settings_of(files), now=lambda: NOW, opener=camera)
     assert not reads.ok and "free the gel" in reads.detail

@@ -132,8 +132,12 @@ def test_what_is_no_recording_is_refused(tmp_path, episode, folder):
 
 
 def test_a_check_reads_every_touch_once(folder):
-    (found,) = check(RecordedSettings(path=folder, repeat=True))
-    assert found.ok and "3 recorded touches" in found.detail and "nothing is felt" in found.detail
+    (finding,) = check(RecordedSettings(path=folder, repeat=True))
+    assert (
+        finding.ok
+        and "3 recorded touches" in finding.detail
+        and "nothing is felt" in finding.detail
+    )
     (folder / "touch_3.npy").write_bytes(b"damaged")
-    (found,) = check(RecordedSettings(path=folder))
-    assert not found.ok and "touch_3.npy" in found.detail
+    (finding,) = check(RecordedSettings(path=folder))
+    assert not finding.ok and "touch_3.npy" in finding.detail

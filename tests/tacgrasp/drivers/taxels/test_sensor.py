@@ -13,6 +13,7 @@ from cltp.sensing.taxel_packets import TaxelFrame, encode_frame
 from sim.emulators.taxels.array import TaxelEmulator
 from tacgrasp.drivers.taxels.connect import check, connect_taxels
 from tacgrasp.drivers.taxels.settings import TaxelSettings
+from tests.fakes.waiting import is_alive, poll
 
 
 class Gel:
@@ -49,13 +50,6 @@ def sensor(settings):
     array = connect_taxels(settings)
     yield array
     array.disconnect()
-
-
-def poll(condition, seconds=5.0):
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end, "did not come about"
-        time.sleep(0.01)
 
 
 def level(cloud):
@@ -119,19 +113,11 @@ def test_a_stall_is_an_error_in_bounded_time_and_not_an_old_touch(sensor, emulat
 
 
 def test_a_stall_is_seen_without_reading(sensor, emulator):
-    poll(lambda: alive(sensor))
+    poll(lambda: is_alive(sensor))
     emulator.inject("stall")
-    poll(lambda: not alive(sensor))
+    poll(lambda: not is_alive(sensor))
     with pytest.raises(TouchError, match=r"no fresh frame within 0\.15 s"):
         sensor.check_alive()
-
-
-def alive(sensor):
-    try:
-        sensor.check_alive()
-    except TouchError:
-        return False
-    return True
 
 
 @pytest.mark.parametrize(
@@ -252,11 +238,11 @@ def test_points_are_jittered_by_the_generator_that_is_given(settings):
 
 
 def test_a_check_tells_latency_and_line(emulator, settings):
-    found = check(settings)
-    assert [(one.name, one.ok) for one in found] == [
+    findings = check(settings)
+    assert [(one.name, one.ok) for one in findings] == [
         ("connection", True), ("fresh frame", True), ("line", True),
     ]  # fmt: skip
-    assert "ms" in found[1].detail and "0 damaged" in found[2].detail
+    assert "ms" in findings[1].detail and "0 damaged" in findings[2].detail
     emulator.inject("black")
     (_, reads) = check(settings)
     assert not reads.ok and "dead or dark" in reads.detail

@@ -569,13 +569,13 @@ def test_a_false_of_the_library_is_an_error():
 
 
 def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_believed():
-    asked = []
+    calls = []
 
     class Library:
         """Everything is well, as it says for ever after its link has gone."""
 
         def __getattr__(self, name):
-            return lambda *given: asked.append((name, *given[1:])) or name != "isConnected"
+            return lambda *args: calls.append((name, *args[1:])) or name != "isConnected"
 
     link = ur_link.UrLink.__new__(ur_link.UrLink)
     link._control = link._receive = Library()
@@ -584,11 +584,11 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
     )
     link.move((*START_M, *DOWN_RAD), 0.1, 1.0)
     link.stop()
-    assert ("moveL", 0.1, 1.0, True) in asked
-    assert ("stopL", True) in asked
+    assert ("moveL", 0.1, 1.0, True) in calls
+    assert ("stopL", True) in calls
     link.kick()  # says that all is well
     assert not link.connected
-    assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in asked}
+    assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in calls}
 
 
 def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set():
