@@ -109,17 +109,15 @@ def relief_of(
     if skin.texture is Texture.SMOOTH:
         return np.zeros(np.shape(x_mm))
     if skin.texture is Texture.ROUGH:
-        field = smooth_field((x_mm.shape[0], x_mm.shape[1]), sensor, skin.pitch_mm, rng)
-        # Clipped: the highest of thousands of tops would keep all others off the gel.
-        return skin.height_mm * field.astype(np.float64).clip(-2, 2)
+        return skin.height_mm * grain(x_mm.shape, sensor, skin.pitch_mm, rng)
     cos, sin = math.cos(axis_rad), math.sin(axis_rad)
     u = x_mm * cos + y_mm * sin + start[0]
     v = y_mm * cos - x_mm * sin + start[1]
     if skin.texture is Texture.RIDGED:
-        return skin.height_mm * _valley(u, skin.pitch_mm)
+        return skin.height_mm * valley(u, skin.pitch_mm)
     if skin.texture is Texture.WOVEN:
-        return skin.height_mm * np.minimum(_valley(u, skin.pitch_mm), _valley(v, skin.pitch_mm))
-    return _caps(u, v, skin)
+        return skin.height_mm * np.minimum(valley(u, skin.pitch_mm), valley(v, skin.pitch_mm))
+    return skin.height_mm * caps(u, v, skin.pitch_mm, 0.44 * skin.pitch_mm)  # nearly touching
 
 
 def fade(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
@@ -128,23 +126,32 @@ def fade(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
     return relief_mm * ((last - slope) / (last - first)).clip(0, 1)
 
 
-def _valley(along: FloatArray, pitch: float) -> FloatArray:
-    """0 on the ridges, 1 between them."""
+def valley(along: FloatArray, pitch: float) -> FloatArray:
+    """Profile of ridges: 0 on them, 1 between them."""
     return np.asarray(np.sin(math.pi * along / pitch) ** 2)
 
 
-def _caps(u: FloatArray, v: FloatArray, skin: Skin) -> FloatArray:
-    """Spherical caps, nearly touching."""
-    row = skin.pitch_mm * math.sqrt(3)
+def caps(u: FloatArray, v: FloatArray, pitch: float, radius: float) -> FloatArray:
+    """Spherical caps on a hexagonal lattice: 0 at their tops, 1 from ``radius`` on."""
+    row = pitch * math.sqrt(3)
     squared = np.minimum(
         *(
-            _off_lattice(u + shift * skin.pitch_mm, skin.pitch_mm) ** 2
-            + _off_lattice(v + shift * row, row) ** 2
+            _off_lattice(u + shift * pitch, pitch) ** 2 + _off_lattice(v + shift * row, row) ** 2
             for shift in (0.0, 0.5)
         )
     )
-    radius = 0.44 * skin.pitch_mm
-    return np.asarray(skin.height_mm * (squared / radius**2).clip(max=1))
+    return np.asarray((squared / radius**2).clip(max=1))
+
+
+def grain(
+    shape: tuple[int, ...], sensor: SensorSpec, length_mm: float, rng: np.random.Generator
+) -> FloatArray:
+    """Rough relief of standard deviation 1, mean 0, with a correlation length.
+
+    It is clipped: the highest of thousands of tops would keep all others off the gel.
+    """
+    field = smooth_field((shape[0], shape[1]), sensor, length_mm, rng)
+    return field.astype(np.float64).clip(-2, 2)
 
 
 def _off_lattice(along: FloatArray, pitch: float) -> FloatArray:

@@ -1,8 +1,8 @@
-"""Contacts for data sets: draw series, press them into gels, label them from the truth.
+"""Contacts of the starter set: draws series, presses them into gels, labels them from the truth.
 
-A group of series shares a gel and is solved together; which group a series is in, and all that is
-drawn, follows from the seed and its number alone, so that any number of workers makes the same
-contacts. What is made is stored by ``cltp.data.dataset``; heights are clean.
+A group of series shares a gel and is solved together. The group of a series and every draw follow
+from the seed and its number alone, so that any number of workers makes the same contacts. Contacts
+are stored by ``cltp.data.dataset``; heights are clean.
 
 Not here: files and processes (``tacgrasp.datasets.generate``), noise
 (``cltp.tactile.sensor_noise``).
@@ -10,7 +10,7 @@ Not here: files and processes (``tacgrasp.datasets.generate``), noise
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import asdict, replace
 
 import numpy as np
 import torch
@@ -18,40 +18,40 @@ from torch import Tensor
 
 from cltp.data.contact import Contact, Gel, Split
 from cltp.tactile.sensors import SensorSpec
-from sim.gel.layer import ElasticLayer, GelMaterial, Press
+from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.starter.series import COLUMNS, ROWS, Series, draw_series, num_loads
 from sim.tcl3d.labels import in_contact, label
 
 GELS = (
-    GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.495),
+    gel_of("gelsight_mini"),
     GelMaterial(thickness_mm=3.4, young_mpa=0.145, poisson=0.480),
     GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.490),
     GelMaterial(thickness_mm=3.9, young_mpa=0.145, poisson=0.470),
     GelMaterial(thickness_mm=4.2, young_mpa=0.145, poisson=0.490),
     GelMaterial(thickness_mm=4.6, young_mpa=0.145, poisson=0.480),
 )
-"""Gels that contacts are made under; the first is the GelSight Mini's.
+"""Gels of the contacts.
 
-Source: h 3.4-4.6 mm and nu 0.47-0.49 transferred to real touch in the notes' trial; a handful
-instead of a continuum because each has a kernel that is expensive to make.
+Source: h 3.4-4.6 mm and nu 0.47-0.49 transferred to real touch in the notes' experiment; a few
+instead of a continuum because the kernel of each takes long to compute.
 """
 
 GROUP_SERIES = 16
-"""Series in a group. Two to three contacts each, half of them soft and half rigid: batches of about
-eight, which fit the cache (twice as many take a quarter longer)."""
+"""Series in a group. Each has two or three contacts; half of them are soft and half rigid. Batches
+of about eight fit the cache (twice as many take a quarter longer)."""
 
 GROUP_CONTACTS = 40
 
-VALIDATION_SHARE, TEST_SHARE = 0.04, 0.06
-"""Shares of series, our choice; the rest is for training."""
+VALIDATION_FRACTION, TEST_FRACTION = 0.04, 0.06
+"""Fractions of series, our choice; the rest is for training."""
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
 
 DEEPEST_MM = 2.4
-"""Presses that would go deeper are made lighter: the sliver of a peg at the pad's edge, bearing all
-of the force, would sink deeper than the gel is thick. Our choice: two thirds of the thickness, from
-where linear elasticity says little."""
+"""Largest depth of a press by force; deeper ones are repeated with less force. A narrow part of a
+peg at the pad's edge, bearing all of the force, would sink deeper than the gel is thick. Our
+choice: two thirds of the thickness, beyond which linear elasticity does not hold."""
 
 _LIGHTER_TRIES = 4
 
@@ -60,15 +60,15 @@ def make_group(seed: int, group: int, sensor: SensorSpec) -> list[Contact]:
     """Make the contacts of one group, in the order of their series.
 
     Args:
-        seed: Of the data set, below ``BENCHMARK_SEED``.
-        group: Its number; it holds series ``GROUP_SERIES * group`` and on.
-        sensor: Whose field is pressed.
+        seed: Random seed of the data set, below ``BENCHMARK_SEED``.
+        group: Number of the group; its first series is ``GROUP_SERIES * group``.
+        sensor: The sensor.
 
     Returns:
         ``GROUP_CONTACTS`` contacts.
 
     Raises:
-        ValueError: A seed that belongs to the benchmark, or a negative number.
+        ValueError: The seed belongs to the benchmark, or a number is negative.
     """
     if not 0 <= seed < BENCHMARK_SEED or group < 0:
         raise ValueError(
@@ -78,51 +78,30 @@ def make_group(seed: int, group: int, sensor: SensorSpec) -> list[Contact]:
     gel = GELS[int(np.random.default_rng([seed, group, 2]).integers(len(GELS)))]
     first = GROUP_SERIES * group
     series = [draw_series(seed, first + i, sensor) for i in range(GROUP_SERIES)]
-    made: dict[int, list[Contact]] = {}
+    contacts: dict[int, list[Contact]] = {}
     for soft in (True, False):
-        members = [each for each in series if (each.modulus_mpa is not None) == soft]
+        members = [member for member in series if (member.modulus_mpa is not None) == soft]
         if members:
-            made |= _pressed(seed, members, gel, sensor)
-    return [contact for each in series for contact in made[each.number]]
+            contacts |= _press_members(seed, members, gel, sensor)
+    return [contact for member in series for contact in contacts[member.number]]
 
 
-class _Pressed(NamedTuple):
-    """A solved batch: pressure (B, H, W) [kPa], surface (B, H, W) [mm], force (B,) [N]."""
-
-    pressure_kpa: Tensor
-    height_mm: Tensor
-    force_n: Tensor
-
-    @classmethod
-    def of(cls, press: Press) -> _Pressed:
-        return cls(press.pressure_kpa, press.height_mm, press.force_n)
-
-    def replaced_where(self, chosen: Tensor, other: _Pressed) -> _Pressed:
-        """These contacts, but those of ``other`` where ``chosen`` (B,)."""
-        grid = chosen[:, None, None]
-        return _Pressed(
-            torch.where(grid, other.pressure_kpa, self.pressure_kpa),
-            torch.where(grid, other.height_mm, self.height_mm),
-            torch.where(chosen, other.force_n, self.force_n),
-        )
-
-
-def _pressed(
+def _press_members(
     seed: int, members: list[Series], gel: GelMaterial, sensor: SensorSpec
 ) -> dict[int, list[Contact]]:
     """Press series of one kind, soft or rigid, load by load."""
-    made: dict[int, list[Contact]] = {each.number: [] for each in members}
+    contacts: dict[int, list[Contact]] = {member.number: [] for member in members}
     pressure: Tensor | None = None
-    for step in range(max(len(each.loads) for each in members)):
-        going = [i for i, each in enumerate(members) if len(each.loads) > step]
+    for step in range(max(len(member.loads) for member in members)):
+        active = [i for i, member in enumerate(members) if len(member.loads) > step]
         if pressure is not None:
-            pressure = pressure[going]
-        members = [members[i] for i in going]
+            pressure = pressure[active]
+        members = [members[i] for i in active]
         with torch.inference_mode():
             press = _press(members, step, gel, sensor, pressure)
         pressure = press.pressure_kpa
         touching = in_contact(pressure, sensor.width_mm / COLUMNS)
-        for i, each in enumerate(members):
+        for i, member in enumerate(members):
             height_mm = press.height_mm[i].numpy()
             state = label(
                 height_mm=height_mm,
@@ -130,26 +109,22 @@ def _pressed(
                 touching=touching[i],
                 force_n=float(press.force_n[i]),
                 sensor=sensor,
-                shape=each.shape,
-                texture=each.texture,
+                shape=member.shape,
+                texture=member.texture,
             )
-            made[each.number].append(
+            contacts[member.number].append(
                 Contact(
                     height_mm=height_mm,
                     sensor=sensor,
                     state=state,
-                    object=each.object,
-                    series=each.number,
-                    split=split_of(seed, each.number),
-                    gel=Gel(
-                        thickness_mm=gel.thickness_mm,
-                        young_mpa=gel.young_mpa,
-                        poisson=gel.poisson,
-                    ),
+                    object=member.object,
+                    series=member.number,
+                    split=split_of(seed, member.number),
+                    gel=Gel(**asdict(gel)),
                     seed=seed,
                 )
             )
-    return made
+    return contacts
 
 
 def _press(
@@ -158,10 +133,10 @@ def _press(
     gel: GelMaterial,
     sensor: SensorSpec,
     start: Tensor | None,
-) -> _Pressed:
-    gaps = torch.from_numpy(np.stack([each.gap_mm for each in members]).astype(np.float32))
-    loads = torch.tensor([each.loads[step] for each in members], dtype=torch.float32)
-    moduli = [each.modulus_mpa for each in members if each.modulus_mpa is not None]
+) -> Press:
+    gaps = torch.from_numpy(np.stack([member.gap_mm for member in members]).astype(np.float32))
+    loads = torch.tensor([member.loads[step] for member in members], dtype=torch.float32)
+    moduli = [member.modulus_mpa for member in members if member.modulus_mpa is not None]
     layer = ElasticLayer(
         gel,
         rows=ROWS,
@@ -169,24 +144,36 @@ def _press(
         pitch_mm=sensor.width_mm / COLUMNS,
         body_modulus_mpa=torch.tensor(moduli) if moduli else None,
     )
-    press = layer.press_to_force if moduli else layer.press_to_depth
-    pressed = _Pressed.of(press(gaps, loads, start=start, tol=_TOLERANCE))
-    for _ in range(_LIGHTER_TRIES if moduli else 0):
-        excess = pressed.height_mm.amax((1, 2)) / DEEPEST_MM
+    if not moduli:
+        return layer.press_to_depth(gaps, loads, start=start, tol=_TOLERANCE)
+    press = layer.press_to_force(gaps, loads, start=start, tol=_TOLERANCE)
+    for _ in range(_LIGHTER_TRIES):
+        excess = press.height_mm.amax((1, 2)) / DEEPEST_MM
         if not bool((excess > 1).any()):
             break
         loads = torch.where(excess > 1, loads * excess**-1.5, loads)  # Hertz
-        lighter = press(gaps, loads, start=pressed.pressure_kpa, tol=_TOLERANCE)
-        pressed = pressed.replaced_where(excess > 1, _Pressed.of(lighter))
-    return pressed
+        lighter = layer.press_to_force(gaps, loads, start=press, tol=_TOLERANCE)
+        press = _merge(excess > 1, lighter, press)
+    return press
+
+
+def _merge(mask: Tensor, press: Press, other: Press) -> Press:
+    """Contacts of ``press`` where ``mask`` (B,), else those of ``other``."""
+    grid = mask[:, None, None]
+    return replace(
+        other,
+        pressure_kpa=torch.where(grid, press.pressure_kpa, other.pressure_kpa),
+        height_mm=torch.where(grid, press.height_mm, other.height_mm),
+        force_n=torch.where(mask, press.force_n, other.force_n),
+    )
 
 
 def split_of(seed: int, number: int) -> Split:
-    """What a series may be used for."""
+    """Split of a series."""
     u = float(np.random.default_rng([seed, number, 3]).random())
-    if u < TEST_SHARE:
+    if u < TEST_FRACTION:
         return Split.TEST
-    return Split.VALIDATION if u < TEST_SHARE + VALIDATION_SHARE else Split.TRAIN
+    return Split.VALIDATION if u < TEST_FRACTION + VALIDATION_FRACTION else Split.TRAIN
 
 
 if sum(num_loads(number) for number in range(GROUP_SERIES)) != GROUP_CONTACTS:

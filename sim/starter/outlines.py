@@ -1,9 +1,9 @@
 """Signed distances of outlines in a plane, from which indenters are cut.
 
-A signed distance is negative inside [mm]; where outlines meet it may be a bound instead of the
-exact distance, which rounds or sharpens a rim a little and nothing else.
+A signed distance is negative inside [mm]. Where outlines meet it may be a bound instead of the
+exact distance, which only rounds or sharpens a rim a little.
 
-Not here: third dimensions (``sim.starter.shapes``).
+Not here: surfaces (``sim.starter.surfaces``).
 """
 
 from __future__ import annotations
@@ -43,21 +43,23 @@ def convex(u: FloatArray, v: FloatArray, corners: Sequence[Point]) -> FloatArray
 def segment(u: FloatArray, v: FloatArray, start: Point, end: Point) -> FloatArray:
     """Distance from the segment between two points [mm]; never negative."""
     along_u, along_v = end[0] - start[0], end[1] - start[1]
-    share = ((u - start[0]) * along_u + (v - start[1]) * along_v) / (along_u**2 + along_v**2)
-    share = share.clip(0, 1)
-    return np.asarray(np.hypot(u - start[0] - share * along_u, v - start[1] - share * along_v))
+    fraction = ((u - start[0]) * along_u + (v - start[1]) * along_v) / (along_u**2 + along_v**2)
+    fraction = fraction.clip(0, 1)
+    return np.asarray(
+        np.hypot(u - start[0] - fraction * along_u, v - start[1] - fraction * along_v)
+    )
 
 
 def arc(u: FloatArray, v: FloatArray, radius: float, half_angle: float) -> FloatArray:
     """Distance from an arc about the origin, symmetric about +u [mm]; never negative.
 
     Args:
-        u: Where [mm].
-        v: Where [mm].
-        radius: Of the arc [mm].
-        half_angle: How far it reaches to either side of +u [rad]; π closes it to a circle.
+        u: Positions [mm].
+        v: Positions [mm].
+        radius: Radius of the arc [mm].
+        half_angle: Angle of the arc to either side of +u [rad]; π closes it to a circle.
     """
-    within = np.abs(np.arctan2(v, u)) <= half_angle
+    inside_arc = np.abs(np.arctan2(v, u)) <= half_angle
     end_u, end_v = radius * math.cos(half_angle), radius * math.sin(half_angle)
     to_end = np.hypot(u - end_u, np.abs(v) - end_v)
-    return np.where(within, np.abs(np.hypot(u, v) - radius), to_end)
+    return np.where(inside_arc, np.abs(np.hypot(u, v) - radius), to_end)

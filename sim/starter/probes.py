@@ -1,4 +1,4 @@
-"""Rigid probes named in a word: ``ball:9.5``, ``flat:4``, ``cylinder:6``; sizes in mm.
+"""Rigid probes by kind and size [mm]: ``ball:9.5``, ``flat:4``, ``cylinder:6``.
 
 Not here: drawn indenters (``sim.starter.shapes``), the catalogue of objects, pressing
 (``sim.gel.layer``).
@@ -16,7 +16,7 @@ from cltp.tactile.states import Shape
 
 FloatArray = NDArray[np.float64]
 
-LEAST_MM, MOST_MM = 0.2, 500.0
+MIN_MM, MAX_MM = 0.2, 500.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +28,7 @@ class ProbeShape:
         size_mm: Diameter, or edge of a square face [mm].
 
     Raises:
-        ValueError: An unknown kind, or a size out of ``LEAST_MM`` to ``MOST_MM``.
+        ValueError: The kind is unknown, or the size out of ``MIN_MM`` to ``MAX_MM``.
     """
 
     kind: str
@@ -37,42 +37,40 @@ class ProbeShape:
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise ValueError(f"unknown probe {self.kind!r}; known: {', '.join(KINDS)}")
-        if not LEAST_MM <= self.size_mm <= MOST_MM:
+        if not MIN_MM <= self.size_mm <= MAX_MM:
             raise ValueError(
-                f"the size of a {self.kind} must be {LEAST_MM} to {MOST_MM:g} mm, "
-                f"got {self.size_mm}"
+                f"the size of a {self.kind} must be {MIN_MM} to {MAX_MM:g} mm, got {self.size_mm}"
             )
 
     @classmethod
     def named(cls, name: str) -> ProbeShape:
-        """Read ``ball:9.5`` and the like.
+        """Read the name of a probe, such as ``ball:9.5``.
 
         Raises:
-            ValueError: Not a kind and a size, or not one that exists.
+            ValueError: The name is not a kind and a size, or the kind or size is out of range.
         """
         kind, _, size = name.partition(":")
         try:
             size_mm = float(size)
         except ValueError:
-            forms = ", ".join(f"{kind}:{what}" for kind, (what, _, _) in KINDS.items())
-            raise ValueError(f"expected a probe such as {forms} in mm, got {name!r}") from None
+            examples = ", ".join(f"{kind}:{size_name}" for kind, (size_name, _, _) in KINDS.items())
+            raise ValueError(f"expected a probe such as {examples} in mm, got {name!r}") from None
         return cls(kind=kind, size_mm=size_mm)
 
     @property
     def shape(self) -> Shape:
-        """What its contact is called."""
         return KINDS[self.kind][1]
 
     def behind_mm(self, x_mm: FloatArray, y_mm: FloatArray) -> FloatArray:
-        """How far its surface lies behind its tip, same shape as ``x_mm``; inf beside it [mm]."""
+        """Depth of its surface behind its tip, same shape as ``x_mm``; inf outside of it [mm]."""
         return KINDS[self.kind][2](x_mm, y_mm, self.size_mm)
 
 
-def _cap(r_mm: FloatArray, radius_mm: float) -> FloatArray:
-    inside = np.abs(r_mm) < radius_mm
+def _cap(r: FloatArray, radius_mm: float) -> FloatArray:
+    inside = np.abs(r) < radius_mm
     # (R² - r²) as (R - r)(R + r), and the height as r² / (R + ...): no cancellation near the tip.
-    root = np.sqrt(np.clip((radius_mm - r_mm) * (radius_mm + r_mm), 0, None))
-    return np.where(inside, r_mm**2 / (radius_mm + root), np.inf)
+    root = np.sqrt(np.clip((radius_mm - r) * (radius_mm + r), 0, None))
+    return np.where(inside, r**2 / (radius_mm + root), np.inf)
 
 
 def _ball(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
@@ -80,13 +78,13 @@ def _ball(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
 
 
 def _cylinder(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
-    """Side of a rod along x, longer than any field."""
+    """Side of a rod along x, longer than any sensing area."""
     return _cap(np.abs(y), 0.5 * diameter) + 0.0 * x
 
 
 def _flat(x: FloatArray, y: FloatArray, edge: float) -> FloatArray:
-    there = np.maximum(np.abs(x), np.abs(y)) <= 0.5 * edge
-    return np.where(there, 0.0, np.inf)
+    covered = np.maximum(np.abs(x), np.abs(y)) <= 0.5 * edge
+    return np.where(covered, 0.0, np.inf)
 
 
 KINDS: dict[str, tuple[str, Shape, Callable[[FloatArray, FloatArray, float], FloatArray]]] = {
@@ -94,4 +92,4 @@ KINDS: dict[str, tuple[str, Shape, Callable[[FloatArray, FloatArray, float], Flo
     "cylinder": ("DIAMETER", Shape.CYLINDER, _cylinder),
     "flat": ("EDGE", Shape.CUBOID, _flat),
 }
-"""What its size is, what its contact is called, and its surface."""
+"""Of each kind: the meaning of its size, the shape label of its contact, and its surface."""

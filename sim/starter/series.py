@@ -1,8 +1,8 @@
-"""What a series of contacts presses, drawn from a seed: a body or an indenter, where, how hard.
+"""Series of the starter set, drawn from a seed: a body or an indenter, its position and its loads.
 
-A series is one thing in one place, pressed two or three times, each time harder. About half of all
-are bodies that grippers hold, at the forces that a grasp passes through; the others are indenters,
-their depths spread over the four classes.
+A series is one object in one pose, pressed two or three times with rising load. About half of all
+series are bodies that grippers hold, at the forces of a grasp; the others are indenters, with
+depths of all four classes.
 
 Not here: solving and labels (``sim.starter.contacts``).
 """
@@ -25,24 +25,24 @@ from sim.starter.textures import relief_mm
 FloatArray = NDArray[np.float64]
 
 ROWS, COLUMNS = 75, 100
-"""Grid over the field: 0.2 mm on a GelSight Mini."""
+"""Grid over the sensing area: 0.2 mm on a GelSight Mini."""
 
 TAILS = 0.1
-"""Share left out of either end of every range of a body: the ends are for benchmarks alone."""
+"""Fraction left out at either end of every range of a body: the ends are for benchmarks."""
 
-BODY_SHARE = 0.55
+BODY_FRACTION = 0.55
 BODY_FORCE_N: dict[str, Range] = {
     "strawberry": Range(low=0.12, high=7.0, log=True),
     "cherry_tomato": Range(low=0.08, high=4.0, log=True),
     "egg": Range(low=0.3, high=12.0, log=True),
     "peg": Range(low=0.5, high=18.0, log=True),
 }
-"""True forces: the first ones of ``sim.grasp.bodies``, times a gripper's factor and a few steps."""
+"""True forces: the first ones of ``sim.grasp.bodies``, times the force gain and a few steps."""
 
 _BODY_CHANCE = {"strawberry": 0.5, "cherry_tomato": 0.17, "egg": 0.16, "peg": 0.17}
 _BODY_TEXTURE = {"strawberry": Texture.BUMPY}  # achenes; the others are smooth
 _BODY_X_MM, _BODY_Y_MM = 12.0, 9.5
-_CENTRED, _CENTRED_MM = 0.3, 2.5  # share of series near the centre, and their spread
+_CENTRED, _CENTRED_MM = 0.3, 2.5  # fraction of series near the centre, and their spread
 
 _TEXTURE_CHANCE = {
     Texture.SMOOTH: 0.16,
@@ -51,10 +51,10 @@ _TEXTURE_CHANCE = {
     Texture.BUMPY: 0.15,
     Texture.WOVEN: 0.23,
 }
-_SHAPE_WEIGHT = {Shape.SPHERE: 0.8, Shape.ELLIPSOID: 0.5, Shape.CYLINDER: 0.5}  # bodies add some
+_SHAPE_WEIGHT = {Shape.SPHERE: 0.8, Shape.ELLIPSOID: 0.5, Shape.CYLINDER: 0.5}  # bodies add more
 _SHALLOWEST_MM, _DEEPEST_MM = 0.1, 1.3
-_SHALLOWEST_FINE_MM = 0.18  # a tip, or a few tops of a texture, can't be felt with less
-_PLANE_SHARE = (0.83, 0.97)
+_SHALLOWEST_FINE_MM = 0.18  # a tip, or a few tops of a texture, needs as much
+_PLANE_FRACTION = (0.83, 0.97)
 
 ELLIPSOID_RATIO = 1.4
 """Ratio of curvatures from which a cap is an ellipsoid (``cltp.tactile.states.Shape``)."""
@@ -62,13 +62,13 @@ ELLIPSOID_RATIO = 1.4
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Series:
-    """One thing in one place.
+    """One object in one pose, and its loads.
 
     Attributes:
-        number: Which of the data set.
-        object: What it is.
-        gap_mm: Shape (ROWS, COLUMNS), how far it lies behind its nearest part [mm].
-        modulus_mpa: Plane-strain modulus of a soft body [MPa]; None if it is rigid.
+        number: Number of the series in the data set.
+        object: Name of the object.
+        gap_mm: Shape (ROWS, COLUMNS), distance of the surface behind its nearest point [mm].
+        modulus_mpa: Plane-strain modulus of a soft body [MPa]; None for a rigid one.
         loads: Rising forces [N] of a soft body, depths [mm] of a rigid one.
         shape, texture: Labels.
     """
@@ -85,13 +85,13 @@ class Series:
 def draw_series(seed: int, number: int, sensor: SensorSpec) -> Series:
     """Draw series ``number`` of the data set of ``seed``; it depends on nothing else."""
     rng = np.random.default_rng([seed, number, 1])
-    if rng.random() < BODY_SHARE:
+    if rng.random() < BODY_FRACTION:
         return _body_series(number, rng, sensor)
     return _indenter_series(number, rng, sensor)
 
 
 def num_loads(number: int) -> int:
-    """Contacts in series ``number``: two and three by turns."""
+    """Contacts in series ``number``: two and three in turn."""
     return 2 + number % 2
 
 
@@ -100,24 +100,24 @@ def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> S
     body = draw_body(name, rng, TAILS)
     x, y = grid_axes_mm(sensor, ROWS, COLUMNS)
     while True:
-        at_x, at_y = _place(rng, _BODY_X_MM, _BODY_Y_MM)
-        gap = body.gap_on(x - at_x, y - at_y)
-        if gap.min() < body.thickness_mm / 2:  # else the fingers close beside it
+        x_mm, y_mm = _draw_position(rng, _BODY_X_MM, _BODY_Y_MM)
+        gap = body.gap_on(x - x_mm, y - y_mm)
+        if gap.min() < body.thickness_mm / 2:  # else the fingers miss it
             break
-    shares = np.sort(rng.random(num_loads(number)))
+    fractions = np.sort(rng.random(num_loads(number)))
     return Series(
         number=number,
         object=name,
         gap_mm=gap - gap.min(),
         modulus_mpa=body.modulus_mpa,
-        loads=tuple(BODY_FORCE_N[name].quantile(u) for u in shares),
+        loads=tuple(BODY_FORCE_N[name].quantile(u) for u in fractions),
         shape=_body_shape(body),
         texture=_BODY_TEXTURE.get(name, Texture.SMOOTH),
     )
 
 
-def _place(rng: np.random.Generator, reach_x: float, reach_y: float) -> tuple[float, float]:
-    """Uniform over ± reach, or with some emphasis near the centre [mm]."""
+def _draw_position(rng: np.random.Generator, reach_x: float, reach_y: float) -> tuple[float, float]:
+    """Draw a position [mm]: uniform within ± reach, or sometimes near the centre."""
     if rng.random() < _CENTRED:
         spread = rng.normal(0, _CENTRED_MM, 2)
         return (
@@ -137,13 +137,13 @@ def _body_shape(body: Body) -> Shape:
 def curvature_ratio(body: Body, radius_mm: float = 4.0) -> float:
     """Larger over smaller principal curvature of a body, from a quadric fitted about its origin.
 
-    A radius of 4 mm averages over achenes and stays within what is felt.
+    A radius of 4 mm averages over achenes and stays within the contact.
     """
     axis = np.linspace(-radius_mm, radius_mm, 17)
     gap = body.gap_on(axis, -axis)
     x, y = np.meshgrid(axis, -axis)
-    near = (np.hypot(x, y) <= radius_mm) & (gap < body.thickness_mm / 2)
-    x, y, z = x[near], y[near], gap[near]
+    mask = (np.hypot(x, y) <= radius_mm) & (gap < body.thickness_mm / 2)
+    x, y, z = x[mask], y[mask], gap[mask]
     terms = np.stack([x * x, x * y, y * y, x, y, np.ones_like(x)], axis=1)
     a, b, c, *_ = np.linalg.lstsq(terms, z, rcond=None)[0]
     low, high = np.linalg.eigvalsh([[2 * a, b], [b, 2 * c]])
@@ -159,26 +159,28 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
         chances = np.array(list(_TEXTURE_CHANCE.values()))
         texture = list(_TEXTURE_CHANCE)[int(rng.choice(len(chances), p=chances))]
     sharp = shape in (Shape.PEAK, Shape.CORNER)
-    lowest = _SHALLOWEST_FINE_MM if sharp or texture is not Texture.SMOOTH else _SHALLOWEST_MM
-    depths = _depths(rng, num_loads(number), lowest, gentle=shape is Shape.PLANE)
+    shallowest_mm = (
+        _SHALLOWEST_FINE_MM if sharp or texture is not Texture.SMOOTH else _SHALLOWEST_MM
+    )
+    depths = _depths(rng, num_loads(number), shallowest_mm, gentle=shape is Shape.PLANE)
     x, y = np.meshgrid(*grid_axes_mm(sensor, ROWS, COLUMNS))
     relief = relief_mm(texture, rng, x, y, sensor)
     turn = rng.uniform(0, 2 * math.pi)
     if shape is Shape.PLANE:
-        at_x, at_y = _edge_of_plane(rng, turn, x, y)
+        x_mm, y_mm = _edge_of_plane(rng, turn, x, y)
     else:
-        at_x, at_y = _place(rng, sensor.width_mm / 2, sensor.height_mm / 2)
-    # A tilt must leave the whole face in reach of the lightest press, or it is felt as an edge.
-    slope = math.tan(indenter.most_tilt_rad * rng.random())
-    if indenter.most_tilt_rad < math.radians(10):
+        x_mm, y_mm = _draw_position(rng, sensor.width_mm / 2, sensor.height_mm / 2)
+    # A tilt must leave the whole face in reach of the lightest press, or the contact is an edge.
+    slope = math.tan(indenter.max_tilt_rad * rng.random())
+    if indenter.max_tilt_rad < math.radians(10):
         slope = min(slope, depths[0] / 12)
-    towards = rng.uniform(0, 2 * math.pi)
+    direction_rad = rng.uniform(0, 2 * math.pi)
     pose = IndenterPose(
-        x_mm=at_x,
-        y_mm=at_y,
+        x_mm=x_mm,
+        y_mm=y_mm,
         turn_rad=turn,
-        slope_x=slope * math.cos(towards),
-        slope_y=slope * math.sin(towards),
+        slope_x=slope * math.cos(direction_rad),
+        slope_y=slope * math.sin(direction_rad),
     )
     return Series(
         number=number,
@@ -194,22 +196,22 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
 def _edge_of_plane(
     rng: np.random.Generator, turn_rad: float, x_mm: FloatArray, y_mm: FloatArray
 ) -> tuple[float, float]:
-    """Where a plane ends, so that it covers more than 80 % of the field but not all of it [mm].
+    """Position [mm] of the edge of a plane that covers over 80 % of the sensing area, not all.
 
-    A smooth plane over the whole field could not be told from no contact: the sensor loses the
-    constant.
+    A smooth plane over the whole area could not be told from no contact, since the sensor does not
+    measure a constant.
     """
     cos, sin = math.cos(turn_rad), math.sin(turn_rad)
-    end = float(np.quantile(x_mm * cos + y_mm * sin, rng.uniform(*_PLANE_SHARE)))
+    end = float(np.quantile(x_mm * cos + y_mm * sin, rng.uniform(*_PLANE_FRACTION)))
     return end * cos, end * sin
 
 
 def _depths(
-    rng: np.random.Generator, count: int, lowest_mm: float, *, gentle: bool
+    rng: np.random.Generator, count: int, shallowest_mm: float, *, gentle: bool
 ) -> tuple[float, ...]:
-    """Rising depths [mm] in different classes; ``gentle`` leaves out the deeper two."""
-    limits = [lowest_mm, *DEPTH_LIMITS_MM, _DEEPEST_MM]
+    """Rising depths [mm] of different classes; ``gentle`` leaves out the deeper two."""
+    limits = [shallowest_mm, *DEPTH_LIMITS_MM, _DEEPEST_MM]
     if gentle:
-        limits = np.linspace(lowest_mm, DEPTH_LIMITS_MM[1], 5).tolist()
+        limits = np.linspace(shallowest_mm, DEPTH_LIMITS_MM[1], 5).tolist()
     chosen = np.sort(rng.choice(4, size=count, replace=False))
     return tuple(float(rng.uniform(limits[i], limits[i + 1])) for i in chosen)

@@ -23,27 +23,28 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Indenter:
-    """A rigid thing to press into a gel.
+    """A rigid shape to press into a gel.
 
     Attributes:
-        shape: What it is called.
-        behind_mm: (u, v) [mm] to how far its surface lies behind its foremost point [mm].
-        most_tilt_rad: How far it may be tilted and still be called so [rad].
-        textured: Whether its surface is broad enough to carry a texture that can be felt.
+        shape: Its shape label.
+        behind_mm: Depth of its surface behind its foremost point [mm], as a function of (u, v)
+        [mm].
+        max_tilt_rad: Largest tilt at which the label holds [rad].
+        textured: Whether its surface is broad enough for a texture that can be felt.
     """
 
     shape: Shape
     behind_mm: Surface
-    most_tilt_rad: float
+    max_tilt_rad: float
     textured: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class IndenterPose:
-    """How an indenter meets the pad.
+    """Pose of an indenter on the pad.
 
     Attributes:
-        x_mm, y_mm: Where its origin is [mm, gel frame].
+        x_mm, y_mm: Position of its origin [mm, gel frame].
         turn_rad: Rotation in the plane [rad].
         slope_x, slope_y: Tilt, as slope of its base over the pad.
     """
@@ -56,12 +57,12 @@ class IndenterPose:
 
 
 def draw_indenter(shape: Shape, rng: np.random.Generator) -> Indenter:
-    """Draw an indenter of a known shape."""
+    """Draw an indenter of a shape."""
     degrees, textured = _TRAITS[shape]
     return Indenter(
         shape=shape,
         behind_mm=SURFACES[shape](rng),
-        most_tilt_rad=math.radians(degrees),
+        max_tilt_rad=math.radians(degrees),
         textured=textured,
     )
 
@@ -73,36 +74,36 @@ def gap_mm(
     y_mm: FloatArray,
     relief_mm: FloatArray | float = 0.0,
 ) -> FloatArray:
-    """How far an indenter lies behind the part of it that is nearest to the pad.
+    """Depth of an indenter's surface behind its point that is nearest to the pad.
 
     Args:
-        indenter: What.
-        pose: Where and how.
-        x_mm: Shape (H, W), over the pad [mm].
+        indenter: The indenter.
+        pose: Its pose.
+        x_mm: Shape (H, W), positions on the pad [mm].
         y_mm: Same shape [mm].
-        relief_mm: Texture added to its surface, (H, W) [mm].
+        relief_mm: Relief of its texture, (H, W) [mm].
 
     Returns:
-        Shape (H, W), least value 0 [mm]; at least ``NO_BODY_MM`` where nothing is.
+        Shape (H, W), least value 0 [mm]; ``NO_BODY_MM`` where there is no surface.
 
     Raises:
         ValueError: No part of it is over the pad.
     """
-    beside_x, beside_y = x_mm - pose.x_mm, y_mm - pose.y_mm
+    offset_x, offset_y = x_mm - pose.x_mm, y_mm - pose.y_mm
     cos, sin = math.cos(pose.turn_rad), math.sin(pose.turn_rad)
-    behind = indenter.behind_mm(beside_x * cos + beside_y * sin, beside_y * cos - beside_x * sin)
-    gap = behind + pose.slope_x * beside_x + pose.slope_y * beside_y + relief_mm
-    there = behind < NO_BODY_MM
-    if not there.any():
+    behind = indenter.behind_mm(offset_x * cos + offset_y * sin, offset_y * cos - offset_x * sin)
+    gap = behind + pose.slope_x * offset_x + pose.slope_y * offset_y + relief_mm
+    covered = behind < NO_BODY_MM
+    if not covered.any():
         raise ValueError(
             f"no part of the {indenter.shape} at ({pose.x_mm:.1f}, {pose.y_mm:.1f}) mm is over "
             "the pad; place it nearer to the centre"
         )
-    return np.where(there, gap - gap[there].min(), NO_BODY_MM)
+    return np.where(covered, gap - gap[covered].min(), NO_BODY_MM)
 
 
 # Largest tilt [°], and whether the surface can carry a texture. A flat face tilted by more than a
-# few degrees is felt as an edge; a plane must still touch with 80 % of the field.
+# few degrees touches as an edge; a plane must still touch with 80 % of the sensing area.
 _TRAITS: dict[Shape, tuple[float, bool]] = {
     Shape.SPHERE: (0, True),  # a tilted ball is a ball elsewhere
     Shape.ELLIPSOID: (0, True),

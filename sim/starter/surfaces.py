@@ -1,10 +1,10 @@
 """Surfaces of the 19 shapes of the vocabulary, with parameters drawn from ranges.
 
-A surface is how far a shape lies behind its foremost point, in its own frame (u, v) [mm];
+A surface is the depth of a shape behind its foremost point, in its own frame (u, v) [mm];
 ``NO_BODY_MM`` where there is none. Limits between shapes are those of
 ``cltp.tactile.states.Shape``; sizes are our choice, so that contacts of every area occur.
 
-Not here: where and how a shape meets the pad (``sim.starter.shapes``).
+Not here: pose on the pad (``sim.starter.shapes``).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Surface = Callable[[FloatArray, FloatArray], FloatArray]
 
 
 def _cap(squared: FloatArray, height: float) -> FloatArray:
-    """Round surface: ``height`` of it behind the tip where ``squared`` reaches 1."""
+    """Round surface, ``height`` behind its tip where ``squared`` reaches 1."""
     return np.where(squared < 1, height * (1 - np.sqrt((1 - squared).clip(min=0))), NO_BODY_MM)
 
 
@@ -112,7 +112,7 @@ def _corner(rng: np.random.Generator) -> Surface:
 
 
 def _edge(rng: np.random.Generator) -> Surface:
-    """Dihedral of 60-120°, a little blunt, long or ending in the field."""
+    """Dihedral of 60-120°, a little blunt, long or ending within the sensing area."""
     steep = 1 / np.tan(np.radians(rng.uniform(30, 60) + rng.uniform(-8, 8) * np.array([1, -1])))
     blunt, half = rng.uniform(0.05, 0.25), _log(rng, 4, 25)
 
@@ -153,20 +153,20 @@ def _cross(rng: np.random.Generator) -> Surface:
 
 def _stripes(rng: np.random.Generator) -> Surface:
     """Two to five parallel bars, whole or in segments."""
-    profile, half_wide = _bar(rng)
-    pitch = 2 * half_wide + rng.uniform(1.0, 2.2)
+    profile, half_width = _bar(rng)
+    pitch = 2 * half_width + rng.uniform(1.0, 2.2)
     half, count = _log(rng, 2.5, 12), int(rng.integers(2, 6))
     lines = (np.arange(count) - (count - 1) / 2) * pitch
     cuts = rng.uniform(-0.3, 0.3, count) * half if rng.random() < 0.25 else None
 
     def behind(u: FloatArray, v: FloatArray) -> FloatArray:
         distance = np.full(np.shape(u), np.inf)
-        for i, at in enumerate(lines):
+        for i, y_mm in enumerate(lines):
             middle = half if cuts is None else cuts[i]
             parts = [(-half, middle)] if cuts is None else [(-half, middle), (middle + 2.2, half)]
             for start, end in parts:
                 if end > start:
-                    distance = np.minimum(distance, segment(u, v, (start, at), (end, at)))
+                    distance = np.minimum(distance, segment(u, v, (start, y_mm), (end, y_mm)))
         return profile(distance)
 
     return behind
@@ -185,7 +185,7 @@ def _crescent(rng: np.random.Generator) -> Surface:
 
 
 _DOT_BASE_MM = 1.6
-"""Behind the tops of dots, out of reach of the deepest press [mm]."""
+"""Depth of the base behind the tops of dots, out of reach of the deepest press."""
 
 
 def _dots(rng: np.random.Generator) -> Surface:
@@ -194,15 +194,18 @@ def _dots(rng: np.random.Generator) -> Surface:
     radius = rng.uniform(0.5, 0.9)
     count, skew = int(rng.integers(3, 13)), rng.choice([0.0, 0.5])
     i, j = (a.ravel().astype(np.float64) for a in np.mgrid[-3:4, -3:4])
-    at_u, at_v = (i + skew * j) * pitch, j * pitch * math.sqrt(1 - skew**2)
-    near = np.argsort(np.hypot(at_u - 0.3 * pitch, at_v - 0.2 * pitch))[:count]
-    at_u, at_v = at_u[near] - at_u[near].mean(), at_v[near] - at_v[near].mean()
+    centres_u, centres_v = (i + skew * j) * pitch, j * pitch * math.sqrt(1 - skew**2)
+    nearest = np.argsort(np.hypot(centres_u - 0.3 * pitch, centres_v - 0.2 * pitch))[:count]
+    centres_u, centres_v = (
+        centres_u[nearest] - centres_u[nearest].mean(),
+        centres_v[nearest] - centres_v[nearest].mean(),
+    )
     curved = 1 / rng.uniform(25, 60) if rng.random() < 0.3 else 0.0
 
     def behind(u: FloatArray, v: FloatArray) -> FloatArray:
         base = np.full(np.shape(u), _DOT_BASE_MM)
-        for one_u, one_v in zip(at_u, at_v, strict=True):
-            squared = ((u - one_u) ** 2 + (v - one_v) ** 2) / radius**2
+        for centre_u, centre_v in zip(centres_u, centres_v, strict=True):
+            squared = ((u - centre_u) ** 2 + (v - centre_v) ** 2) / radius**2
             base = np.minimum(base, _cap(squared, radius))
         return base + 0.5 * curved * (u**2 + v**2)
 
@@ -210,7 +213,7 @@ def _dots(rng: np.random.Generator) -> Surface:
 
 
 def _wave(rng: np.random.Generator) -> Surface:
-    """Sinusoid of wavelength 3-6 mm, over a rectangle that may be larger than the field."""
+    """Sinusoid of wavelength 3-6 mm, over a rectangle that may exceed the sensing area."""
     length, amplitude = rng.uniform(3, 6), rng.uniform(0.15, 0.45)
     half_u, half_v, phase = _log(rng, 4, 14), _log(rng, 3, 12), rng.uniform(0, 2 * math.pi)
 
@@ -227,10 +230,10 @@ def _hole(rng: np.random.Generator) -> Surface:
     """Disc or rectangle with a round cavity."""
     half, fillet = rng.uniform(3, 6), _fillet(rng)
     other, cavity = half * rng.uniform(0.75, 1), half * rng.uniform(0.3, 0.6)
-    round_one = rng.random() < 0.5
+    is_round = rng.random() < 0.5
 
     def behind(u: FloatArray, v: FloatArray) -> FloatArray:
-        outer = circle(u, v, half) if round_one else rectangle(u, v, half, other)
+        outer = circle(u, v, half) if is_round else rectangle(u, v, half, other)
         return _punch(np.maximum(outer, -circle(u, v, cavity)), fillet)
 
     return behind
@@ -257,4 +260,4 @@ SURFACES: dict[Shape, Callable[[np.random.Generator], Surface]] = {
     Shape.WAVE: _wave,
     Shape.HOLE: _hole,
 }
-"""How each shape's surface is drawn."""
+"""Draws a surface of each shape."""

@@ -10,6 +10,7 @@ import torch
 from cltp.data.contact import Split
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Area, Depth, Position, Shape, Side, Texture, area_word, depth_word
+from cltp.torch_threads import torch_threads
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.starter.contacts import DEEPEST_MM, GROUP_CONTACTS, GROUP_SERIES, make_group, split_of
 from sim.starter.series import BODY_FORCE_N, COLUMNS, ROWS, draw_series, num_loads
@@ -21,10 +22,8 @@ PITCH = MINI.width_mm / COLUMNS
 
 @pytest.fixture(scope="module", autouse=True)
 def one_thread():
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
+    with torch_threads():
+        yield
 
 
 @pytest.fixture(scope="module")
@@ -153,7 +152,7 @@ def test_series_cover_all_shapes_textures_and_objects(monkeypatch):
 
 
 def test_a_plane_covers_most_of_the_field_and_shows_where_it_ends(monkeypatch):
-    monkeypatch.setattr("sim.starter.series.BODY_SHARE", 0.0)
+    monkeypatch.setattr("sim.starter.series.BODY_FRACTION", 0.0)
     planes = [
         series
         for series in (draw_series(0, number, MINI) for number in range(200))

@@ -90,7 +90,7 @@ def test_a_pose_turns_shifts_and_tilts():
     bar = Indenter(
         shape=Shape.LINE,
         behind_mm=lambda u, v: np.where((np.abs(u) < 3) & (np.abs(v) < 0.5), 0.0, NO_BODY_MM),
-        most_tilt_rad=0.0,
+        max_tilt_rad=0.0,
         textured=False,
     )
     upright = gap_mm(bar, IndenterPose(x_mm=5, y_mm=1, turn_rad=math.pi / 2), X, Y)
