@@ -22,10 +22,9 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import FloatArray, grid_axes_mm
+from cltp.tactile.cloud import FloatArray, grid_axes_mm, heights_at
 from cltp.tactile.measure import cut_sides
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CUT_MM, ContactState, area_word, depth_word, position_word
@@ -119,18 +118,12 @@ class _Footprint:
 def move(
     height_mm: NDArray[np.floating], state: ContactState, sensor: SensorSpec, placement: Placement
 ) -> Moved:
-    """Move a contact.
+    """Move a contact with clean heights (H, W) [mm] of the whole sensing area, row 0 = top.
 
     Where all of it stays on the sensing area its depth, area and force are the stored ones, and its
     position is the stored one moved. Otherwise they follow from the heights: the footprint is what
     is higher than the level that gives the stored area, the load is proportional to the height
     above that level, and the position moves as much as the centre of that load does.
-
-    Args:
-        height_mm: Shape (H, W), clean indentation over the sensing area [mm], row 0 = top.
-        state: Its labels.
-        sensor: The sensor of the contact.
-        placement: The motion.
 
     Raises:
         TouchError: Gel beyond the sensing area would come in and is not at rest, or the whole
@@ -142,7 +135,8 @@ def move(
             "the move would bring gel onto the sensing area that was never measured and is not at "
             "rest; move the contact the other way, or by half a turn"
         )
-    moved = _moved_heights(heights, sensor, placement)
+    x, y = _origin(heights.shape, sensor, placement)
+    moved = heights_at(heights, x, y, sensor)
     if state.in_contact:
         footprint = _Footprint.of(heights, state, sensor)
         state = _relabelled(footprint, moved, state, sensor, placement)
@@ -184,15 +178,6 @@ def _origin(
     cos, sin = math.cos(placement.turn_rad), math.sin(placement.turn_rad)
     x, y = x - placement.x_mm, y - placement.y_mm
     return cos * x + sin * y, cos * y - sin * x
-
-
-def _moved_heights(heights: FloatArray, sensor: SensorSpec, placement: Placement) -> FloatArray:
-    rows, columns = heights.shape
-    x, y = _origin(heights.shape, sensor, placement)
-    row = (0.5 - y / sensor.height_mm) * rows - 0.5
-    column = (x / sensor.width_mm + 0.5) * columns - 0.5
-    # Linear: cubic splines overshoot at the edges of punches, which would deepen the contact.
-    return np.asarray(map_coordinates(heights, [row, column], order=1, mode="nearest"))
 
 
 def _at_rest_at_entry(heights: FloatArray, sensor: SensorSpec, placement: Placement) -> bool:

@@ -100,12 +100,7 @@ def save_calibration(path: Path, calibration: Calibration) -> None:
 
 
 def load_calibration(path: Path, sensor: SensorSpec, unit: str | None = None) -> Calibration:
-    """Read a calibration for ``sensor``.
-
-    Args:
-        path: File that ``save_calibration`` wrote.
-        sensor: Model that it must be for.
-        unit: Unit that it must be for; None takes any.
+    """Read a calibration for a model of sensor and, unless it is None, a ``unit``.
 
     Raises:
         TouchError: Missing, damaged, not a calibration, of another version, sensor or unit.

@@ -23,15 +23,7 @@ _PLY_TYPES = {
     "uint": "u4",
     "float": "f4",
     "double": "f8",
-    "int8": "i1",
-    "uint8": "u1",
-    "int16": "i2",
-    "uint16": "u2",
-    "int32": "i4",
-    "uint32": "u4",
-    "float32": "f4",
-    "float64": "f8",
-}
+} | {np.dtype(code).name: code for code in ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")}
 _PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 

@@ -173,15 +173,8 @@ def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> 
     The difference between neighbouring pixels is the mean of their two slopes. Minimising the
     squared misfit of all differences gives a Poisson equation whose natural boundary conditions
     carry the slopes across (Neumann, not zero), so a contact cut by the border isn't bent flat
-    there; the type-II cosine transform diagonalises it exactly.
-
-    Args:
-        slope_x: (H, W), mm per mm, along the columns.
-        slope_down: (H, W), mm per mm, along the rows, downwards.
-        mm_per_px: Pixel pitch [mm].
-
-    Returns:
-        (H, W) [mm], with the dtype of the slopes.
+    there; the type-II cosine transform diagonalises it exactly. Slopes are (H, W), mm per mm; the
+    result is (H, W) [mm], with their dtype.
     """
     across = 0.5 * mm_per_px * (slope_x[:, 1:] + slope_x[:, :-1])
     down = 0.5 * mm_per_px * (slope_down[1:] + slope_down[:-1])
@@ -189,14 +182,10 @@ def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> 
 
 
 def integrate_differences(across: FloatArray, down: FloatArray) -> FloatArray:
-    """The surface with these differences between neighbours, by least squares; its mean is zero.
+    """The surface (H, W) [mm] with these differences, by least squares; its mean is zero.
 
-    Args:
-        across: (H, W - 1), each pixel's right neighbour minus itself [mm].
-        down: (H - 1, W), each pixel's lower neighbour minus itself [mm].
-
-    Returns:
-        (H, W) [mm].
+    ``across`` (H, W - 1) is each pixel's right neighbour minus itself, ``down`` (H - 1, W) its
+    lower neighbour minus itself [mm].
     """
     rows, columns = across.shape[0], down.shape[1]
     divergence = np.zeros((rows, columns), dtype=across.dtype)

@@ -71,13 +71,7 @@ def read_heights(
     """Read heights: a height map as it is, a frame's, or the surface of a cloud.
 
     A cloud becomes a map of 75 rows by linear interpolation between its points; outside their hull
-    the height is that of the nearest point.
-
-    Args:
-        path: As for ``read_cloud``.
-        sensor: As for ``read_cloud``.
-        background: As for ``read_cloud``.
-        calibration: As for ``read_cloud``.
+    the height is that of the nearest point. The arguments are those of ``read_cloud``.
 
     Returns:
         Shape (H, W), row 0 = top [mm].

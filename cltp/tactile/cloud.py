@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import map_coordinates
 
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec
@@ -119,6 +120,19 @@ def grid_axes_mm(sensor: SensorSpec, rows: int, columns: int) -> tuple[FloatArra
     x = ((np.arange(columns) + 0.5) / columns - 0.5) * sensor.width_mm
     y = (0.5 - (np.arange(rows) + 0.5) / rows) * sensor.height_mm
     return x, y
+
+
+def heights_at(
+    height_mm: FloatArray, x_mm: FloatArray, y_mm: FloatArray, sensor: SensorSpec
+) -> FloatArray:
+    """Bilinear heights [mm] of a map of the whole sensing area at some positions [mm, gel frame].
+
+    Linear, since cubic splines overshoot at the edges of punches, which would deepen a contact.
+    """
+    rows, columns = height_mm.shape
+    row = (0.5 - y_mm / sensor.height_mm) * rows - 0.5
+    column = (x_mm / sensor.width_mm + 0.5) * columns - 0.5
+    return np.asarray(map_coordinates(height_mm, [row, column], order=1, mode="nearest"))
 
 
 def cloud_from_heights(

@@ -20,7 +20,6 @@ from scipy.interpolate import (
     LinearNDInterpolator,
     NearestNDInterpolator,
 )
-from scipy.ndimage import map_coordinates
 from scipy.spatial import QhullError
 
 from cltp.errors import TouchError
@@ -31,6 +30,7 @@ from cltp.tactile.cloud import (
     TactileCloud,
     checked_heights,
     grid_axes_mm,
+    heights_at,
     stratified,
 )
 from cltp.tactile.sensor_noise import NoiseUnit
@@ -78,7 +78,7 @@ def marker_cloud(
     heights = checked_heights(height_mm)
     positions = marker_positions_mm(sensor)
     if unit is None:
-        depths = _heights_at(heights, positions, sensor)
+        depths = heights_at(heights, positions[:, 0], positions[:, 1], sensor)
         depths -= np.median(depths)
     elif rng is None:
         raise TouchError("a noisy unit needs a generator to draw its frame from")
@@ -87,7 +87,7 @@ def marker_cloud(
         surface = dataclasses.replace(unit, gain_x=1.0, gain_y=1.0, fine_mm=0.0, border_mm=0.0)
         heights = surface.apply(heights, sensor, rng).astype(np.float64)
         positions = positions[rng.random(len(positions)) >= unit.marker_loss]
-        depths = _heights_at(heights, positions, sensor)
+        depths = heights_at(heights, positions[:, 0], positions[:, 1], sensor)
         depths += rng.normal(0.0, unit.fine_mm, len(positions))
         depths -= np.median(depths) if len(depths) else 0.0
         positions = positions + rng.normal(0.0, unit.marker_mm, positions.shape)
@@ -103,11 +103,7 @@ def densified(
 ) -> TactileCloud:
     """Points on the smooth surface through a sparse cloud, one in each cell of a lattice.
 
-    Args:
-        cloud: At least ``MIN_POINTS`` points, not all on a line.
-        rng: Jitters each point inside its cell, as ``cloud_from_heights`` does; None puts it at the
-            cell's centre.
-        num_points: Number of points, as in ``cloud_from_heights``.
+    ``rng`` and ``num_points`` are those of ``cloud_from_heights``.
 
     Raises:
         TouchError: The points are all on a line.
@@ -125,16 +121,9 @@ def interpolated(
     y_mm: FloatArray,
     interpolator: type[CloughTocher2DInterpolator | LinearNDInterpolator],
 ) -> FloatArray:
-    """Heights of the surface through a cloud; outside its hull, those of the nearest points.
+    """Heights [mm] of the surface through a cloud; outside its hull, those of the nearest points.
 
-    Args:
-        cloud: Points that are not all on a line.
-        x_mm: Any shape [mm].
-        y_mm: The same shape [mm].
-        interpolator: Class of the surface between the points.
-
-    Returns:
-        Shape of ``x_mm`` [mm].
+    Positions and heights have one shape, whatever it is.
 
     Raises:
         TouchError: The points are all on a line.
@@ -148,10 +137,3 @@ def interpolated(
     nearest = NearestNDInterpolator(points[:, :2], points[:, 2])
     z[outside] = nearest(x_mm[outside], y_mm[outside])
     return np.asarray(z)
-
-
-def _heights_at(heights: FloatArray, positions_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
-    rows, columns = heights.shape
-    row = (0.5 - positions_mm[:, 1] / sensor.height_mm) * rows - 0.5
-    column = (positions_mm[:, 0] / sensor.width_mm + 0.5) * columns - 0.5
-    return np.asarray(map_coordinates(heights, [row, column], order=1, mode="nearest"))

@@ -38,15 +38,10 @@ _HOLLOW_GAIN = 2.5  # per mm below its surroundings
 def picture(
     height_mm: NDArray[np.floating], sensor: SensorSpec, width_px: int = WIDTH_PX
 ) -> NDArray[np.uint8]:
-    """The surface as the sensor's camera sees it, shaded.
+    """A height map (H, W) [mm], clean or noisy, row 0 = top, as the sensor's camera sees it.
 
     The camera looks straight at the pad, so no part of the surface hides another and the normals
     give the shading. Heights are interpolated by cubic splines to the picture's pixels.
-
-    Args:
-        height_mm: Shape (H, W), clean or noisy [mm], row 0 = top.
-        sensor: The sensor that measured it.
-        width_px: Width of the picture.
 
     Returns:
         Shape (rows, width_px, 3), sRGB.

@@ -55,9 +55,7 @@ class Sampling:
     ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
         """Positions as fractions of the sensing area from its top left, jittered in their cells.
 
-        Args:
-            height_mm: Shape (H, W), as the sensor reports it, noise included [mm].
-            rng: Draws the jitter.
+        An adaptive layout follows the heights (H, W) [mm] as the sensor reports them, with noise.
 
         Returns:
             u (side²,) to the right and v (side²,) downwards, row by row.

@@ -22,15 +22,7 @@ SLOPE_GAIN = 1.5
 
 
 def render(height_mm: NDArray[np.floating], sensor: SensorSpec) -> Tensor:
-    """Shade one height map.
-
-    Args:
-        height_mm: Shape (H, W), clean or noisy [mm], row 0 = top.
-        sensor: Gives the size of a pixel and the depth of the brightest value.
-
-    Returns:
-        Shape (3, 64, 64), 0 to 1.
-    """
+    """Shade a height map (H, W) [mm], clean or noisy, row 0 = top: shape (3, 64, 64), 0 to 1."""
     heights = torch.from_numpy(np.ascontiguousarray(height_mm, dtype=np.float32))
     small = F.interpolate(heights[None, None], (IMAGE_PX, IMAGE_PX), mode="area")[0, 0]
     down, right = torch.gradient(small)

@@ -14,6 +14,7 @@ that differ by up to e^0.6 on an uncalibrated unit.
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from functools import lru_cache
@@ -24,13 +25,6 @@ from scipy.fft import dctn, idctn
 
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec
-
-DRIFT_MM = 0.04
-DRIFT_LENGTH_MM = (3.0, 8.0)
-TILT = 0.003
-DEPTH_SCALE = 0.15
-FINE_MM = 0.010
-GAIN_LOG_RATIO = 0.6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,26 +55,21 @@ class NoiseSpread:
     marker_loss: float = 0.0
 
 
+# Measured on one unit; see the module's source.
+MINI_SPREAD = NoiseSpread(
+    depth_scale=0.15,
+    tilt=0.003,
+    drift_mm=0.04,
+    drift_length_mm=(3.0, 8.0),
+    fine_mm=0.010,
+    gain_log_ratio=0.6,
+)
 SPREADS: dict[str, NoiseSpread] = {
-    # Measured on one unit; see the module's source.
-    "gelsight_mini": NoiseSpread(
-        depth_scale=DEPTH_SCALE,
-        tilt=TILT,
-        drift_mm=DRIFT_MM,
-        drift_length_mm=DRIFT_LENGTH_MM,
-        fine_mm=FINE_MM,
-        gain_log_ratio=GAIN_LOG_RATIO,
-    ),
+    "gelsight_mini": MINI_SPREAD,
     # Not measured. Our assumption: like the GelSight Mini, which is photometric too, but less well
     # calibrated, and its curved gel is out of sight within up to 1 mm of the border.
-    "digit": NoiseSpread(
-        depth_scale=0.20,
-        tilt=0.005,
-        drift_mm=0.05,
-        drift_length_mm=DRIFT_LENGTH_MM,
-        fine_mm=FINE_MM,
-        gain_log_ratio=GAIN_LOG_RATIO,
-        border_mm=1.0,
+    "digit": dataclasses.replace(
+        MINI_SPREAD, depth_scale=0.20, tilt=0.005, drift_mm=0.05, border_mm=1.0
     ),
     # Stereo: 0.1 px of error in either view at f = 651 px, base 6.5 mm and 28.7 mm distance (as in
     # TacFlex) is 0.027 mm in depth and 0.004 mm along the surface. Loss: 93.9 % of the markers in
@@ -136,7 +125,7 @@ class NoiseUnit:
     gain_y: float = 1.0
     drift_mm: float = 0.0
     fine_mm: float = 0.0
-    drift_length_mm: tuple[float, float] = DRIFT_LENGTH_MM
+    drift_length_mm: tuple[float, float] = MINI_SPREAD.drift_length_mm
     border_mm: float = 0.0
     marker_mm: float = 0.0
     marker_loss: float = 0.0
@@ -148,7 +137,7 @@ class NoiseUnit:
         level: float = 1.0,
         *,
         gain_log_ratio: float = 0.0,
-        spread: NoiseSpread = SPREADS["gelsight_mini"],
+        spread: NoiseSpread = MINI_SPREAD,
     ) -> NoiseUnit:
         """Draw a unit.
 
@@ -186,15 +175,9 @@ class NoiseUnit:
     def apply(
         self, height_mm: NDArray[np.floating], sensor: SensorSpec, rng: np.random.Generator
     ) -> NDArray[np.float32]:
-        """Heights as this unit would report them in one frame.
+        """True heights (H, W) [mm] of the sensing area as this unit would report them in one frame.
 
-        Args:
-            height_mm: Shape (H, W), true indentation over the whole sensing area [mm].
-            sensor: The model of the unit.
-            rng: Draws this frame's drift and fine noise.
-
-        Returns:
-            Shape (H, W) [mm]; its median is 0, since photometric sensors lose the constant.
+        The median of the result is 0, since photometric sensors lose the constant.
         """
         heights = np.asarray(height_mm, dtype=np.float32)
         if self.gain_x != 1.0 or self.gain_y != 1.0:
@@ -232,13 +215,8 @@ def smooth_field(
     """A random field of mean 0 and variance 1 with a Gaussian correlation.
 
     White noise on nodes half a correlation length apart, spread by a Gaussian of the same width
-    along either axis: two small matrix products, whatever the size of the map.
-
-    Args:
-        shape: (H, W) of the map over the whole sensing area.
-        sensor: Gives the size of the sensing area.
-        length_mm: Distance at which the correlation has fallen to 1/e [mm].
-        rng: Draws the nodes.
+    along either axis: two small matrix products, whatever the ``shape`` (H, W) of the map over the
+    whole sensing area. At ``length_mm`` the correlation has fallen to 1/e.
     """
     along_y = _spread(shape[0], sensor.height_mm, length_mm)
     along_x = _spread(shape[1], sensor.width_mm, length_mm)

@@ -114,12 +114,10 @@ class Words:
         return self._tokenizer.get_vocab_size()
 
     def encode(self, text: str, *, trusted: bool = True) -> list[int]:
-        """Tokens of a text.
+        """Tokens of any text.
 
-        Args:
-            text: Any text.
-            trusted: False for a person's text: control tokens and actions spelled out in it are
-                encoded as letters, never as the tokens themselves.
+        With ``trusted=False``, for a person's text, control tokens and actions spelled out in it
+        are encoded as letters, never as the tokens themselves.
         """
         if not trusted:
             for token in (*CONTROL, *ACTIONS):

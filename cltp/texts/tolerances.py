@@ -25,7 +25,7 @@ import math
 from dataclasses import dataclass
 
 from cltp.tactile.encoder_input import LATTICE
-from cltp.tactile.sensor_noise import DEPTH_SCALE, DRIFT_LENGTH_MM, DRIFT_MM, TILT
+from cltp.tactile.sensor_noise import MINI_SPREAD
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import ContactState
 from cltp.texts.captions import NO_CONTACT
@@ -49,20 +49,16 @@ class Tolerances:
 
 
 def tolerances(state: ContactState, sensor: SensorSpec, level: float = 1.0) -> Tolerances:
-    """Tolerances of a contact; all 0 without contact.
-
-    Args:
-        state: Its numbers; true or estimated.
-        sensor: The sensor that measures it.
-        level: Level of the noise, as in ``NoiseUnit.draw``; at 0 only the sampling counts.
-    """
+    """Tolerances of a contact, all 0 without contact; ``level`` is that of ``NoiseUnit.draw``."""
     if not state.in_contact:
         return Tolerances(depth_mm=0.0, position_mm=0.0, area_mm2=0.0, force_n=0.0)
     depth = max(state.depth_mm, 1e-3)
-    drift, scale = level * DRIFT_MM, level * DEPTH_SCALE / math.sqrt(3)  # uniform within ±
+    drift = level * MINI_SPREAD.drift_mm
+    scale = level * MINI_SPREAD.depth_scale / math.sqrt(3)  # uniform within ±
     area_mm2 = state.area_fraction * sensor.area_mm2
-    lengths = DRIFT_LENGTH_MM[0] * DRIFT_LENGTH_MM[1]
-    slope = math.hypot(drift * math.sqrt(2 / lengths), level * TILT)
+    slope = math.hypot(
+        drift * math.sqrt(2 / math.prod(MINI_SPREAD.drift_length_mm)), level * MINI_SPREAD.tilt
+    )
     sampling = sensor.width_mm / LATTICE / math.sqrt(12)
     return Tolerances(
         depth_mm=math.hypot(drift, scale * depth),

@@ -1,5 +1,7 @@
 """Colours to heights: exact integrals, a known law of colour, and frames that must be refused."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -33,6 +35,13 @@ LINEAR = GradientNet(
 BACKGROUND = np.full((SENSOR.rows, SENSOR.columns, 3), 120, dtype=np.uint8)
 
 
+def random_net(seed):
+    rng = np.random.default_rng(seed)
+    shapes = ((5, 3), (3,), (3, 3), (3,), (3, 6), (6,))
+    names = (field.name for field in dataclasses.fields(GradientNet))
+    return GradientNet(**{name: rng.normal(size=s) for name, s in zip(names, shapes, strict=True)})
+
+
 def photographed(height_mm):
     """The frame that a surface gives under the known law."""
     down, right = np.gradient(height_mm, PX)
@@ -47,8 +56,8 @@ def bump(column, row, depth_mm=0.6, width_mm=1.5):
 
 def test_a_surface_is_recovered_exactly_from_its_differences():
     surface = np.random.default_rng(0).normal(size=(24, 31))
-    found = integrate_differences(np.diff(surface, axis=1), np.diff(surface, axis=0))
-    np.testing.assert_allclose(found, surface - surface.mean(), atol=1e-12)
+    integral = integrate_differences(np.diff(surface, axis=1), np.diff(surface, axis=0))
+    np.testing.assert_allclose(integral, surface - surface.mean(), atol=1e-12)
 
 
 def test_a_tilted_plane_is_not_bent_flat_at_the_edges():
@@ -72,18 +81,18 @@ def test_slopes_that_no_surface_has_give_the_nearest_surface():
     loop_x, loop_down = np.zeros((8, 7)), np.zeros((7, 8))
     loop_x[3, 3], loop_x[4, 3], loop_down[3, 4], loop_down[3, 3] = 1, -1, 1, -1
     plane = 0.3 * column + 0.1 * row
-    found = integrate_differences(
+    integral = integrate_differences(
         np.diff(plane, axis=1) + loop_x, np.diff(plane, axis=0) + loop_down
     )
-    np.testing.assert_allclose(found, plane - plane.mean(), atol=1e-12)
+    np.testing.assert_allclose(integral, plane - plane.mean(), atol=1e-12)
 
 
 @pytest.mark.parametrize(("column", "row"), [(160, 120), (40, 30), (310, 235)])
 def test_a_known_law_of_colour_gives_the_surface_back(column, row):
     surface = bump(column, row)
-    found = Photometer(LINEAR, BACKGROUND, SENSOR).heights(photographed(surface))
-    np.testing.assert_allclose(found, surface - np.median(surface), atol=0.02)
-    assert found.dtype == np.float32
+    integral = Photometer(LINEAR, BACKGROUND, SENSOR).heights(photographed(surface))
+    np.testing.assert_allclose(integral, surface - np.median(surface), atol=0.02)
+    assert integral.dtype == np.float32
 
 
 def test_indentation_is_positive_and_row_zero_is_the_top():
@@ -95,30 +104,18 @@ def test_indentation_is_positive_and_row_zero_is_the_top():
 
 
 def test_an_untouched_gel_is_exactly_flat_whatever_the_network_is():
-    rng = np.random.default_rng(1)
-    net = GradientNet(
-        **{
-            name: rng.normal(size=shape)
-            for name, shape in {
-                "w1": (5, 4), "b1": 4, "w2": (4, 4), "b2": 4, "w3": (4, 6), "b3": 6,
-            }.items()
-        }
-    )  # fmt: skip
-    assert not Photometer(net, BACKGROUND, SENSOR).heights(BACKGROUND).any()
+    assert not Photometer(random_net(1), BACKGROUND, SENSOR).heights(BACKGROUND).any()
 
 
 def test_the_network_computes_what_its_formula_says():
-    rng = np.random.default_rng(2)
-    shapes = ((5, 3), (3,), (3, 3), (3,), (3, 6), (6,))
-    w1, b1, w2, b2, w3, b3 = (rng.normal(size=shape) for shape in shapes)
-    net = GradientNet(w1=w1, b1=b1, w2=w2, b2=b2, w3=w3, b3=b3)
+    net, rng = random_net(2), np.random.default_rng(2)
     frame = (BACKGROUND + rng.integers(-15, 16, BACKGROUND.shape)).astype(np.uint8)
     right, down = Photometer(net, BACKGROUND, SENSOR).gradients(frame)
     row, column = 201, 17
     colour = (frame[row, column].astype(float) - 120) / COLOUR_SCALE
-    place = [(column + 0.5) / 160 - 1, (row + 0.5) / 120 - 1]
-    hidden = np.maximum(np.array([*colour, *place]) @ w1 + b1, 0)
-    matrix = (np.maximum(hidden @ w2 + b2, 0) @ w3 + b3).reshape(2, 3)
+    position = [(column + 0.5) / 160 - 1, (row + 0.5) / 120 - 1]
+    hidden = np.maximum(np.array([*colour, *position]) @ net.w1 + net.b1, 0)
+    matrix = (np.maximum(hidden @ net.w2 + net.b2, 0) @ net.w3 + net.b3).reshape(2, 3)
     np.testing.assert_allclose([right[row, column], down[row, column]], matrix @ colour, rtol=1e-4)
 
 
@@ -161,10 +158,7 @@ def test_a_background_that_is_not_this_units_is_refused():
 
 def test_a_network_with_holes_is_refused():
     with pytest.raises(TouchError, match="w2 must be finite"):
-        GradientNet(
-            w1=LINEAR.w1, b1=LINEAR.b1, w2=np.full((1, 1), np.nan),
-            b2=LINEAR.b2, w3=LINEAR.w3, b3=LINEAR.b3,
-        )  # fmt: skip
+        dataclasses.replace(LINEAR, w2=np.full((1, 1), np.nan))
 
 
 @pytest.fixture
@@ -184,14 +178,14 @@ def test_a_frame_is_read_as_it_was_written(saved):
 
 
 def test_a_frame_file_needs_its_background(saved):
-    file = saved("touch.png", photographed(bump(160, 120)))
+    file = saved("frame.png", photographed(bump(160, 120)))
     with pytest.raises(TouchError, match="--background"):
         read_cloud(file, SENSOR)
 
 
-def test_a_frame_file_with_its_background_is_a_touch(saved):
+def test_a_frame_file_with_its_background_becomes_a_cloud(saved):
     cloud = read_cloud(
-        saved("touch.png", photographed(bump(160, 120, depth_mm=0.2))),
+        saved("frame.png", photographed(bump(160, 120, depth_mm=0.2))),
         SENSOR,
         background=saved("background.png", BACKGROUND),
     )

@@ -4,7 +4,7 @@ import pytest
 from cltp.errors import TouchError
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensor_noise import (
-    GAIN_LOG_RATIO,
+    MINI_SPREAD,
     NoiseUnit,
     integrated_with_gains,
     smooth_field,
@@ -73,7 +73,7 @@ def test_gains_keep_the_mean_and_their_product_is_one() -> None:
     heights = bump_mm()
     noisy = integrated_with_gains(heights, MINI, 1.4, 0.6)
     assert noisy.mean() == pytest.approx(heights.mean(), abs=1e-6)
-    unit = NoiseUnit.draw(np.random.default_rng(5), gain_log_ratio=GAIN_LOG_RATIO)
+    unit = NoiseUnit.draw(np.random.default_rng(5), gain_log_ratio=MINI_SPREAD.gain_log_ratio)
     assert unit.gain_x * unit.gain_y == pytest.approx(1.0)
     assert unit.gain_x != unit.gain_y
 
