@@ -66,19 +66,15 @@ def run_recorded(
     return outcome, path
 
 
-def config_yaml(config: RunConfig) -> str:
-    """The whole configuration, after all overrides, as YAML."""
-    return yaml.safe_dump(config.model_dump(mode="json"), sort_keys=False, allow_unicode=True)
-
-
 def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
+    values = config.model_dump(mode="json")
     return EpisodeHeader(
         task=Path(config.task).stem,
         instruction=config.instruction,
         policy=policy.name,
         seed=None if config.devices == "hardware" else config.seed,
         sensor=rig.sensor.spec,
-        config_yaml=config_yaml(config),
+        config_yaml=yaml.safe_dump(values, sort_keys=False, allow_unicode=True),
         versions=_versions(),
         rig=Path(config.rig).stem,
         dry_run=config.dry_run,

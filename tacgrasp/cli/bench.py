@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from tacgrasp.cli import bench_learning, bench_loop, bench_sensing
-from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.cli.flags import run_subcommand
 
 BENCHMARKS: dict[str, tuple[type[Any], Callable[[Any], bool | None]]] = {
     "strawberry": (bench_loop.StrawberryBenchFlags, bench_loop.strawberry),
@@ -26,9 +26,4 @@ BENCHMARKS: dict[str, tuple[type[Any], Callable[[Any], bool | None]]] = {
 
 def main(argv: Sequence[str]) -> int:
     """Run one benchmark; 0 when what it measured keeps its limits."""
-    summaries = {name: flags.__doc__ or "" for name, (flags, _) in BENCHMARKS.items()}
-    name, rest = subcommand("bench", argv, summaries)
-    if name is None:
-        return 0
-    flags, run = BENCHMARKS[name]
-    return 1 if run(parse(flags, rest, prog=f"tacgrasp bench {name}")) is False else 0
+    return 1 if run_subcommand("bench", argv, BENCHMARKS) is False else 0

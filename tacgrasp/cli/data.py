@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tacgrasp.cli import data_import, data_tools
-from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.cli.flags import run_subcommand
 
 
 @dataclass(frozen=True)
@@ -71,9 +71,4 @@ COMMANDS: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
 
 def main(argv: Sequence[str]) -> int:
     """Run one subcommand and return its exit code."""
-    summaries = {name: flags.__doc__ or "" for name, (flags, _) in COMMANDS.items()}
-    name, rest = subcommand("data", argv, summaries)
-    if name is None:
-        return 0
-    flags, run = COMMANDS[name]
-    return run(parse(flags, rest, prog=f"tacgrasp data {name}")) or 0
+    return run_subcommand("data", argv, COMMANDS) or 0

@@ -65,13 +65,14 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
         case tyro_errors.MissingArgs(missing_arguments=missing):
             return f"missing: {', '.join(_name(one.arg) for one in missing)}"
         case tyro_errors.BadValue(argument=argument):
-            return f"{_name(argument)} needs a value: {argument.lowered.metavar}"
+            count = argument.lowered.nargs
+            return f"{_name(argument)} needs {'a value' if count == 1 else f'{count} values'}"
         case tyro_errors.InvalidChoice(argument=argument, value=value, choices=choices):
             return f"{_name(argument)} must be one of {', '.join(choices)}, got {value!r}"
         case tyro_errors.InstantiationFailure(argument=argument, message=message):
             if argument is not None:
-                first_line = message.splitlines()[0]
-                return f"{_name(argument)} must be {argument.lowered.metavar}: {first_line}"
+                reason = message.splitlines()[0].partition(" into tuple type")[0]
+                return f"{_name(argument)} must be {argument.lowered.metavar}: {reason}"
             error = sys.exception()
             while error is not None and not isinstance(error, ValidationError):
                 error = error.__context__  # tyro passes on the text of pydantic's error alone
@@ -80,9 +81,10 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
 
 
 def _name(argument: Any) -> str:
-    """A flag, or the placeholder of a positional argument."""
-    lowered = argument.lowered
-    return str(lowered.metavar) if argument.is_positional() else "/".join(lowered.name_or_flags)
+    """A flag, or the name of a positional argument in capitals."""
+    if argument.is_positional():
+        return str(argument.field.extern_name).upper()
+    return "/".join(argument.lowered.name_or_flags)
 
 
 def _names(flags: object) -> list[str]:

@@ -51,17 +51,8 @@ class GoalConfig(SettingsBase):
 
     def goal(self) -> Goal:
         """The same bands as the policies' ``Goal``."""
-
-        def band(interval: tuple[float, float]) -> Band:
-            return Band(low=interval[0], high=interval[1])
-
-        return Goal(
-            force_n=band(self.force_n),
-            depth_mm=band(self.depth_mm),
-            area_fraction=band(self.area_share),
-            x_mm=band(self.x_mm),
-            y_mm=band(self.y_mm),
-        )
+        bands = {name: Band(low=low, high=high) for name, (low, high) in self}
+        return Goal(area_fraction=bands.pop("area_share"), **bands)
 
 
 class PrimitivesConfig(SettingsBase):

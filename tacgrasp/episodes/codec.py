@@ -164,7 +164,7 @@ def _dataclass(kind: type, data: object, path: str) -> object:
 
 
 def _dtype(hint: Any) -> np.dtype[Any]:
-    """Element type of an annotation ``NDArray[np.float64]``; float64 path it is left open."""
+    """Element type of an annotation ``NDArray[np.float64]``; float64 where it is left open."""
     inner = get_args(get_args(hint)[1])
     return np.dtype(inner[0]) if inner and inspect.isclass(inner[0]) else np.dtype(np.float64)
 

@@ -154,32 +154,37 @@ class StepState(StepFields):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class DecisionMessage:
-    """A decision as it lies in the file.
+class _StepMessage:
+    """A message of a step.
 
     Attributes:
         index: Number of the step.
         stamp: Start of the step, on both clocks [s].
-        decision: The policy's decision.
     """
 
     index: int
     stamp: Stamp
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DecisionMessage(_StepMessage):
+    """A decision as it lies in the file.
+
+    Attributes:
+        decision: The policy's decision.
+    """
+
     decision: Decision
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ActionMessage:
+class ActionMessage(_StepMessage):
     """An executed action as it lies in the file.
 
     Attributes:
-        index: Number of the step.
-        stamp: Start of the step, on both clocks [s].
         executed: The action as requested, sent and reached.
     """
 
-    index: int
-    stamp: Stamp
     executed: Executed
 
 

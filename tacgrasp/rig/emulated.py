@@ -36,7 +36,12 @@ class EmulatedRig(HardwareRig):
     emulators: EmulatorProcess
 
     def truth(self) -> Truth:
-        return truth_from(self.emulators)
+        facts = self.emulators.control.facts("world")
+        x_mm, y_mm = facts["offset_x_mm"], facts["offset_y_mm"]
+        if not (isinstance(x_mm, float) and isinstance(y_mm, float)):
+            raise RobotError(f"the emulators' truth has no position on the pad: {facts}")
+        values: dict[str, Any] = {f.name: facts[f.name] for f in fields(Truth) if f.name in facts}
+        return Truth(offset_mm=(x_mm, y_mm), **values)
 
     def disconnect(self) -> None:
         """Free every device, then end the emulators. Idempotent, never raises."""
@@ -89,20 +94,6 @@ def settings_for(
             "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
         }
     )
-
-
-def truth_from(emulators: EmulatorProcess) -> Truth:
-    """Truth of the emulated world.
-
-    Raises:
-        RobotError: The emulators do not answer.
-    """
-    facts = emulators.control.facts("world")
-    x_mm, y_mm = facts["offset_x_mm"], facts["offset_y_mm"]
-    if not (isinstance(x_mm, float) and isinstance(y_mm, float)):
-        raise RobotError(f"the emulators' truth has no position on the pad: {facts}")
-    values: dict[str, Any] = {f.name: facts[f.name] for f in fields(Truth) if f.name in facts}
-    return Truth(offset_mm=(x_mm, y_mm), **values)
 
 
 def _options(config: RunConfig) -> list[str]:

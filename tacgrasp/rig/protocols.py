@@ -22,7 +22,6 @@ class TactileSensor(Protocol):
     @property
     def spec(self) -> SensorSpec:
         """Type and constants of the sensor."""
-        ...
 
     def read(self) -> TactileCloud:
         """Capture the gel now.
@@ -32,11 +31,9 @@ class TactileSensor(Protocol):
         Raises:
             TouchError: No fresh frame could be captured; an old one is never returned.
         """
-        ...
 
     def disconnect(self) -> None:
         """Free the device. Idempotent, never raises."""
-        ...
 
 
 class WatchedSensor(TactileSensor, Protocol):
@@ -48,7 +45,6 @@ class WatchedSensor(TactileSensor, Protocol):
         Raises:
             TouchError: No frames are coming.
         """
-        ...
 
     def expect_untouched(self) -> None:
         """Compare the gel with its background; a sensor without a background returns at once.
@@ -56,11 +52,9 @@ class WatchedSensor(TactileSensor, Protocol):
         Raises:
             TouchError: The gel is touched or dirty, or its background is stale.
         """
-        ...
 
     def counts(self) -> object | None:
         """Counts of frames and of the faults among them, for people; None without any."""
-        ...
 
 
 class Clock(Protocol):
@@ -68,19 +62,15 @@ class Clock(Protocol):
 
     def monotonic(self) -> float:
         """Time for durations and ordering [s]."""
-        ...
 
     def wall(self) -> float:
         """Seconds since the Unix epoch; metadata only."""
-        ...
 
     def sleep(self, seconds: float) -> None:
         """Wait [s]."""
-        ...
 
     def stamp(self) -> Stamp:
         """Current time on both clocks."""
-        ...
 
 
 class Rig(Protocol):
@@ -101,12 +91,10 @@ class Rig(Protocol):
     @property
     def start_pose(self) -> Pose:
         """Pose of the first grasp, to which ``reset`` returns."""
-        ...
 
     @property
     def first_force_n(self) -> float:
         """Commanded force of the first grasp [N]."""
-        ...
 
     def expect_untouched(self) -> None:
         """Check before the first grasp that nothing touches the gel; the gripper is open.
@@ -114,11 +102,9 @@ class Rig(Protocol):
         Raises:
             RobotError: The gel is touched or dirty, or its background is stale; nothing has moved.
         """
-        ...
 
     def commands(self) -> tuple[Command, ...]:
         """Commands to the devices since the last call, oldest first; empty in simulation."""
-        ...
 
     def truth(self) -> Truth | None:
         """Truth of the simulated world, never for a policy; None on a real rig.
@@ -126,8 +112,6 @@ class Rig(Protocol):
         Raises:
             RobotError: The emulators do not answer.
         """
-        ...
 
     def disconnect(self) -> None:
         """Free every device. Idempotent, never raises."""
-        ...

@@ -28,21 +28,17 @@ class Recorder(Protocol):
 
     def write_step(self, record: StepRecord) -> None:
         """Write one step durably."""
-        ...
 
     def finish(self, end: EpisodeEnd) -> None:
         """Write the end of the episode."""
-        ...
 
 
 class NoRecorder:
     """Records nothing, for benchmarks that keep only their figures."""
 
-    def write_step(self, record: StepRecord) -> None:
-        pass
+    def write_step(self, record: StepRecord) -> None: ...
 
-    def finish(self, end: EpisodeEnd) -> None:
-        pass
+    def finish(self, end: EpisodeEnd) -> None: ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

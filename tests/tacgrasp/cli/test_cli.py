@@ -17,6 +17,9 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.console import COMPLETED
 from tests.paths import ROOT
 
+Capture = pytest.CaptureFixture[str]
+Patch = pytest.MonkeyPatch
+
 SUCCEEDS = "1"
 """A seed whose grasp succeeds; checked by the tests themselves."""
 
@@ -29,7 +32,7 @@ def episode(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return next(folder.glob("*.mcap"))
 
 
-def complaint(argv: list[str], capsys: pytest.CaptureFixture[str], code: int = 2) -> str:
+def complaint(argv: list[str], capsys: Capture, code: int = 2) -> str:
     assert main(argv) == code
     printed = capsys.readouterr()
     assert COMPLETED not in printed.out
@@ -38,7 +41,7 @@ def complaint(argv: list[str], capsys: pytest.CaptureFixture[str], code: int = 2
     return printed.err
 
 
-def test_help_names_every_command_and_exit_code(capsys: pytest.CaptureFixture[str]) -> None:
+def test_help_names_every_command_and_exit_code(capsys: Capture) -> None:
     assert main(["--help"]) == 0
     assert capsys.readouterr().out == usage() + "\n"
     for word in (*COMMANDS, "0 ", "1 ", "2 ", "3 ", "130 "):
@@ -99,14 +102,14 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
     ],
 )
 def test_wrong_use_gets_one_line_and_exit_code_2(
-    argv: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+    argv: list[str], expected: str, capsys: Capture
 ) -> None:
     message = complaint(argv, capsys)
     assert any(part in message for part in expected.split("|")), message
 
 
 def test_a_record_folder_that_is_a_file_is_refused_before_anything_moves(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     (tmp_path / "taken").write_text("")
     message = complaint(["run", "--record", str(tmp_path / "taken")], capsys)
@@ -114,7 +117,7 @@ def test_a_record_folder_that_is_a_file_is_refused_before_anything_moves(
 
 
 def test_a_read_only_record_folder_is_refused(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, capsys: Capture, monkeypatch: Patch
 ) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)  # root may write anywhere
     assert "read-only" in complaint(["run", "--record", str(tmp_path)], capsys)
@@ -133,7 +136,7 @@ def test_a_full_disk_in_mid_episode_is_a_fault_in_one_line_and_nothing_is_called
 
 @pytest.mark.parametrize(("content", "expected"), [(b"", "empty"), (b"hello", "not an MCAP")])
 def test_an_episode_that_is_none_is_refused(
-    content: bytes, expected: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    content: bytes, expected: str, tmp_path: Path, capsys: Capture
 ) -> None:
     path = tmp_path / "x.mcap"
     path.write_bytes(content)
@@ -142,7 +145,7 @@ def test_an_episode_that_is_none_is_refused(
 
 
 def test_a_truncated_episode_is_shown_as_incomplete(
-    episode: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    episode: Path, tmp_path: Path, capsys: Capture
 ) -> None:
     cut = tmp_path / "cut.mcap"
     whole = episode.read_bytes()
@@ -152,7 +155,7 @@ def test_a_truncated_episode_is_shown_as_incomplete(
 
 
 def test_the_paper_demo_prints_a_line_a_step_the_end_and_the_truth(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["demo", "paper", "--record", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
@@ -166,52 +169,42 @@ def test_the_paper_demo_prints_a_line_a_step_the_end_and_the_truth(
 
 
 @pytest.mark.parametrize("name", ["gentle", "missed", "slips"])
-def test_a_demo_comes_out_as_scripted(
-    name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_demo_comes_out_as_scripted(name: str, tmp_path: Path, capsys: Capture) -> None:
     assert main(["demo", name, "--record", str(tmp_path)]) == 0
     assert (COMPLETED in capsys.readouterr().out) is (name == "gentle")
 
 
-def test_demos_are_listed_without_a_name(capsys: pytest.CaptureFixture[str]) -> None:
+def test_demos_are_listed_without_a_name(capsys: Capture) -> None:
     assert main(["demo"]) == 0
     assert capsys.readouterr().out.startswith("paper ")
 
 
-def test_a_replay_shows_the_same_steps_as_the_run(
-    episode: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_replay_shows_the_same_steps_as_the_run(episode: Path, capsys: Capture) -> None:
     assert main(["replay", str(episode)]) == 0
     printed = capsys.readouterr().out
     assert "move_down" in printed
     assert "end: success" in printed
 
 
-def test_deciding_again_reproduces_the_episode_exactly(
-    episode: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_deciding_again_reproduces_the_episode_exactly(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", str(episode)]) == 0
     assert "3 decisions, 0 differ" in capsys.readouterr().out
 
 
-def test_another_policy_differs_and_says_where(
-    episode: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_another_policy_differs_and_says_where(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", "--policy", "fixed_force", str(episode)]) == 1
     printed = capsys.readouterr().out
     assert "action: 'move_down' then, None now" in printed
     assert "3 decisions, 3 differ" in printed
 
 
-def test_executing_again_reaches_the_recorded_poses(
-    episode: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_executing_again_reaches_the_recorded_poses(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--execute", str(episode)]) == 0
     assert "2 actions repeated; at most 0.00 mm" in capsys.readouterr().out
 
 
 def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     code = main(["run", "--seed", SUCCEEDS, "--record", str(tmp_path)])
     printed = capsys.readouterr().out
@@ -221,7 +214,7 @@ def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(
 
 
 def test_a_dry_run_decides_and_does_not_call_anything_successful(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["run", "--dry-run", "--record", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
@@ -230,7 +223,7 @@ def test_a_dry_run_decides_and_does_not_call_anything_successful(
 
 
 def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, capsys: Capture, monkeypatch: Patch
 ) -> None:
     from sim.grasp.rig import SimSensor
 
@@ -244,7 +237,7 @@ def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
     assert "operator" in capsys.readouterr().out
 
 
-def test_print_config_says_where_each_value_came_from(capsys: pytest.CaptureFixture[str]) -> None:
+def test_print_config_says_where_each_value_came_from(capsys: Capture) -> None:
     assert main(["run", "--task", "egg", "--arm.max-step-mm", "4", "--print-config"]) == 0
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     assert lines["arm.max_step_mm"].split(maxsplit=1)[1] == "4.0  [flag --arm.max-step-mm]"
@@ -252,9 +245,7 @@ def test_print_config_says_where_each_value_came_from(capsys: pytest.CaptureFixt
     assert lines["loop.max_asks"].endswith("[default]")
 
 
-def test_a_height_map_is_described_in_words_and_numbers(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_height_map_is_described_in_words_and_numbers(tmp_path: Path, capsys: Capture) -> None:
     y, x = np.mgrid[7.6:-7.6:240j, -10.1:10.1:320j]
     np.save(tmp_path / "h.npy", 0.5 * np.exp(-((x - 2) ** 2 + (y + 4) ** 2) / 8))
     assert main(["describe", str(tmp_path / "h.npy")]) == 0
@@ -263,9 +254,7 @@ def test_a_height_map_is_described_in_words_and_numbers(
     assert "moderate" in printed
 
 
-def test_an_untouched_gel_is_described_as_such(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_untouched_gel_is_described_as_such(tmp_path: Path, capsys: Capture) -> None:
     np.save(tmp_path / "h.npy", np.zeros((240, 320)))
     assert main(["describe", str(tmp_path / "h.npy")]) == 0
     assert "nothing touches" in capsys.readouterr().out
@@ -280,7 +269,7 @@ def test_latency_writes_quantiles_of_the_tick_and_of_every_stage(tmp_path: Path)
     assert all({"p50", "p99"} == stage.keys() for stage in report["stages_ms"].values())
 
 
-def test_a_package_from_elsewhere_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_package_from_elsewhere_is_named(tmp_path: Path, monkeypatch: Patch) -> None:
     intruder = tmp_path / "sim" / "__init__.py"
     intruder.parent.mkdir()
     intruder.write_text("")
@@ -290,15 +279,13 @@ def test_a_package_from_elsewhere_is_named(tmp_path: Path, monkeypatch: pytest.M
         package_check.check_packages()
 
 
-def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_missing_package_is_named(monkeypatch: Patch) -> None:
     monkeypatch.setattr(package_check, "PACKAGES", ("cltp", "no_such_package"))
     with pytest.raises(UsageError, match="'no_such_package' is missing"):
         package_check.check_packages()
 
 
-def test_a_bug_is_exit_code_3_with_its_traceback(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_bug_is_exit_code_3_with_its_traceback(capsys: Capture, monkeypatch: Patch) -> None:
     monkeypatch.setattr("tacgrasp.cli.describe.parse", lambda *_, **__: 1 / 0)
     assert main(["describe", "x.ply"]) == 3
     assert "ZeroDivisionError" in capsys.readouterr().err

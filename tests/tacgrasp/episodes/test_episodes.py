@@ -45,6 +45,8 @@ from tests.fakes.episode_samples import (
     step_record,
 )
 
+Patch = pytest.MonkeyPatch
+
 finite = st.floats(allow_nan=False, allow_infinity=False)
 
 
@@ -229,7 +231,7 @@ def test_an_episode_ends_once(tmp_path: Path) -> None:
 
 
 def test_ctrl_c_in_mid_write_waits_until_the_step_is_whole(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: Patch
 ) -> None:
     path = tmp_path / "e.mcap"
     with EpisodeWriter(path, header()) as writer:
@@ -283,7 +285,7 @@ def test_a_record_directory_that_is_a_file_is_refused(tmp_path: Path) -> None:
         make_record_directory(tmp_path / "file" / "below")
 
 
-def test_a_read_only_directory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_read_only_directory_is_refused(tmp_path: Path, monkeypatch: Patch) -> None:
     def refuse(_path: Path) -> BufferedWriter:
         raise OSError(errno.EROFS, "Read-only file system")
 
@@ -304,9 +306,7 @@ def test_a_directory_without_permission_is_refused(tmp_path: Path) -> None:
         EpisodeWriter(tmp_path / "e.mcap", header()).__enter__()
 
 
-def test_a_disk_full_from_the_start_leaves_no_file(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_disk_full_from_the_start_leaves_no_file(tmp_path: Path, monkeypatch: Patch) -> None:
     path = tmp_path / "e.mcap"
 
     def full(made: Path) -> BufferedWriter:
@@ -349,9 +349,7 @@ def test_a_disk_full_in_mid_episode_surfaces_at_that_step_and_keeps_the_others(
     assert [t.index for t in episode.steps] == [0, 1, 2]
 
 
-def test_a_disk_that_fails_to_sync_is_an_error(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_disk_that_fails_to_sync_is_an_error(tmp_path: Path, monkeypatch: Patch) -> None:
     def fail(_fd: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
@@ -362,29 +360,21 @@ def test_a_disk_that_fails_to_sync_is_an_error(
         monkeypatch.undo()
 
 
+@pytest.mark.parametrize(
+    ("bug", "expected"), [(None, EpisodeError), (RuntimeError("not its summary"), RuntimeError)]
+)
 def test_a_summary_that_does_not_fit_is_an_error_unless_another_is_on_its_way(
-    tmp_path: Path,
+    tmp_path: Path, bug: Exception | None, expected: type[Exception]
 ) -> None:
-    first, second = tmp_path / "a.mcap", tmp_path / "b.mcap"
+    path = tmp_path / "e.mcap"
     with (
-        pytest.raises(EpisodeError, match="its summary"),
+        pytest.raises(expected, match="its summary"),
         largest_file(1 << 30),
-        EpisodeWriter(first, header()) as writer,
+        EpisodeWriter(path, header()) as writer,
     ):
         writer.write_step(step_record(0))
-        resource.setrlimit(
-            resource.RLIMIT_FSIZE,
-            (first.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),
-        )
-    with (
-        pytest.raises(RuntimeError, match="bug"),
-        largest_file(1 << 30),
-        EpisodeWriter(second, header()) as writer,
-    ):
-        writer.write_step(step_record(0))
-        resource.setrlimit(
-            resource.RLIMIT_FSIZE,
-            (second.stat().st_size, resource.getrlimit(resource.RLIMIT_FSIZE)[1]),
-        )
-        raise RuntimeError("bug")
-    assert len(read_episode(first).steps) == len(read_episode(second).steps) == 1
+        _, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (path.stat().st_size, hard))
+        if bug is not None:
+            raise bug
+    assert len(read_episode(path).steps) == 1

@@ -14,11 +14,13 @@ from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepRecord, read_epis
 from tacgrasp.episodes.recover import recover
 from tests.fakes.episode_samples import header, record, same, step_record
 
+Recorded = tuple[bytes, list[int]]
+
 STEPS = [step_record(index) for index in range(4)]
 
 
 @pytest.fixture(scope="module")
-def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[bytes, list[int]]:
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Recorded:
     """A finished episode of four steps, and its size after the header and after each step."""
     path = tmp_path_factory.mktemp("recorded") / "e.mcap"
     sizes = record(path, STEPS)
@@ -45,7 +47,7 @@ def sampled_cuts(size: int, boundaries: Sequence[int]) -> list[int]:
 
 
 def test_a_file_cut_anywhere_still_gives_every_whole_step(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
+    recorded: Recorded, tmp_path: Path
 ) -> None:
     data, sizes = recorded
     cuts = sampled_cuts(len(data), sizes)
@@ -61,7 +63,7 @@ def test_a_file_cut_anywhere_still_gives_every_whole_step(
 
 
 def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
+    recorded: Recorded, tmp_path: Path
 ) -> None:
     data, sizes = recorded
     path = tmp_path / "cut.mcap"
@@ -76,7 +78,7 @@ def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
 @settings(max_examples=150)
 @given(where=st.floats(0, 1, exclude_max=True), flipped=st.integers(1, 255))
 def test_a_flipped_byte_never_changes_what_is_read(
-    recorded: tuple[bytes, list[int]],
+    recorded: Recorded,
     tmp_path_factory: pytest.TempPathFactory,
     where: float,
     flipped: int,
@@ -96,9 +98,7 @@ def test_a_flipped_byte_never_changes_what_is_read(
         assert read.cloud.points_mm.tobytes() == STEPS[read.index].cloud.points_mm.tobytes()
 
 
-def test_a_damaged_chunk_costs_its_own_step_alone(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
-) -> None:
+def test_a_damaged_chunk_costs_its_own_step_alone(recorded: Recorded, tmp_path: Path) -> None:
     data, sizes = bytearray(recorded[0]), recorded[1]
     data[(sizes[1] + sizes[2]) // 2] ^= 0xFF  # in the middle of step 1
     path = tmp_path / "e.mcap"
@@ -110,9 +110,7 @@ def test_a_damaged_chunk_costs_its_own_step_alone(
     assert read_episode(path).complete and stock_count(path) == 3
 
 
-def test_zeros_after_a_power_cut_are_no_record(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
-) -> None:
+def test_zeros_after_a_power_cut_are_no_record(recorded: Recorded, tmp_path: Path) -> None:
     data, sizes = recorded
     path = tmp_path / "e.mcap"
     path.write_bytes(data[: sizes[2]] + bytes(5000))
@@ -121,7 +119,7 @@ def test_zeros_after_a_power_cut_are_no_record(
 
 
 def test_recovery_makes_a_file_that_the_stock_reader_opens(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
+    recorded: Recorded, tmp_path: Path
 ) -> None:
     data, sizes = recorded
     path = tmp_path / "e.mcap"
@@ -144,9 +142,7 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
     assert names["tacgrasp_recovered"]["from"] == "e.mcap"
 
 
-def test_an_end_that_was_recorded_survives_recovery(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
-) -> None:
+def test_an_end_that_was_recorded_survives_recovery(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0][:-100])  # in the summary
     assert recover(path).num_steps == 4
@@ -154,7 +150,7 @@ def test_an_end_that_was_recorded_survives_recovery(
     assert episode.complete and episode.end is not None and episode.end.reason == "success"
 
 
-def test_a_finished_file_is_left_alone(recorded: tuple[bytes, list[int]], tmp_path: Path) -> None:
+def test_a_finished_file_is_left_alone(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0])
     recovery = recover(path)
@@ -162,9 +158,7 @@ def test_a_finished_file_is_left_alone(recorded: tuple[bytes, list[int]], tmp_pa
     assert path.read_bytes() == recorded[0] and len(list(tmp_path.iterdir())) == 1
 
 
-def test_recovery_to_another_place_leaves_the_original(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
-) -> None:
+def test_recovery_to_another_place_leaves_the_original(recorded: Recorded, tmp_path: Path) -> None:
     path, out = tmp_path / "e.mcap", tmp_path / "out.mcap"
     path.write_bytes(recorded[0][: recorded[1][1]])
     assert recover(path, out).num_steps == 1
@@ -175,9 +169,7 @@ def test_recovery_to_another_place_leaves_the_original(
         recover(path, tmp_path / "missing" / "out.mcap")
 
 
-def test_a_second_recovery_keeps_both_originals(
-    recorded: tuple[bytes, list[int]], tmp_path: Path
-) -> None:
+def test_a_second_recovery_keeps_both_originals(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     for _ in range(2):
         path.write_bytes(recorded[0][:-100])
