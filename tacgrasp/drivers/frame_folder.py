@@ -49,6 +49,6 @@ def _counting_key(name: str) -> list[tuple[int, str]]:
 def ended_message(name: str, num_played: int) -> str:
     """Error message for a read after the end of a recording."""
     return (
-        f"the recording {name} has ended after {num_played} touches; nothing newer can be felt: "
+        f"the recording {name} has ended after {num_played} reads; nothing newer can be read: "
         "give a longer one, or repeat it"
     )

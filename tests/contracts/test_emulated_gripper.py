@@ -3,8 +3,8 @@
 import pytest
 
 from sim.emulators.dynamixel.bus_process import DynamixelEmulator
-from sim.emulators.dynamixel.options import ServoOptions
 from sim.emulators.dynamixel.fingers import SpringLoad
+from sim.emulators.dynamixel.options import ServoOptions
 from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
 from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 from tests.contracts.gripper_contract import GripperContract

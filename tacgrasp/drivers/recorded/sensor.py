@@ -108,8 +108,8 @@ def connect_recorded(
     elif path.is_file() and path.suffix.lower() == ".mcap":
         loaders = _episode_loaders(path, sensor)
     else:
-        raise TouchError(f"no recording {path}; expected an episode (.mcap) or a folder of touches")
-    log.info("%d recorded touches are played from %s: nothing is felt", len(loaders), path)
+        raise TouchError(f"no recording {path}; expected an episode (.mcap) or a folder of clouds")
+    log.info("%d recorded clouds are played from %s: nothing is felt", len(loaders), path)
     return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat, stamp=stamp)
 
 
@@ -126,7 +126,7 @@ def _episode_loaders(path: Path, sensor: SensorSpec) -> list[LoadCloud]:
             "that sensor, or another episode"
         )
     if not episode.steps:
-        raise TouchError(f"{path} holds no touch: its run ended before the first one")
+        raise TouchError(f"{path} holds no cloud: its run ended before the first one")
     return [partial(_unchanged, step.cloud) for step in episode.steps]
 
 
@@ -137,7 +137,7 @@ def _unchanged(cloud: TactileCloud) -> TactileCloud:
 def _folder_loaders(settings: RecordedSettings, sensor: SensorSpec) -> list[LoadCloud]:
     folder = settings.path
     background = settings.background or folder / BACKGROUND
-    paths = list_recorded(folder, _SUFFIXES, content="touches", excluded=[background])
+    paths = list_recorded(folder, _SUFFIXES, content="clouds", excluded=[background])
     calibration = None if settings.calibration == "shipped" else settings.calibration
     return [
         partial(
@@ -159,5 +159,5 @@ def check(settings: RecordedSettings) -> Sequence[Finding]:
     except TouchError as error:
         advice = "name another recording, or correct the error"
         return [finding("sensor", "connection", False, str(error), advice)]
-    detail = f"{count} recorded touches in {settings.path}: nothing is felt"
+    detail = f"{count} recorded clouds in {settings.path}: nothing is felt"
     return [finding("sensor", "connection", True, detail)]

@@ -297,7 +297,7 @@ def test_a_folder_of_images_is_played_one_a_read_and_ends(files, folder):
     gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
     states = [contact_state(gelsight.read()) for _ in range(3)]
     assert [state.depth_mm for state in states] == pytest.approx([0.0, 0.3, 0.7], abs=0.1)
-    with pytest.raises(TouchError, match="ended after 3 touches"):
+    with pytest.raises(TouchError, match="ended after 3 reads"):
         gelsight.read()
     gelsight.disconnect()
 

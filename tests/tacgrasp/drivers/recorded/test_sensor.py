@@ -63,7 +63,7 @@ def test_a_folder_is_played_as_a_person_counts_and_ends(folder):
     assert [depth(sensor.read()) for _ in range(3)] == [0.1, 0.2, 1.0]
     assert sensor._num_played == sensor.length == 3
     for _ in range(2):
-        with pytest.raises(TouchError, match="has ended after 3 touches"):
+        with pytest.raises(TouchError, match="has ended after 3 reads"):
             sensor.read()
 
 
@@ -121,7 +121,7 @@ def test_what_is_no_recording_is_refused(tmp_path, episode, folder):
         (tmp_path / "none", "no recording"),
         (folder / "notes.txt", "no recording"),
         (other, r"other\.mcap"),
-        (empty, "holds no touches"),
+        (empty, "holds no clouds"),
     ]:
         with pytest.raises(TouchError, match=message):
             connect_recorded(RecordedSettings(path=path))
@@ -135,7 +135,7 @@ def test_a_check_reads_every_touch_once(folder):
     (finding,) = check(RecordedSettings(path=folder, repeat=True))
     assert (
         finding.ok
-        and "3 recorded touches" in finding.detail
+        and "3 recorded clouds" in finding.detail
         and "nothing is felt" in finding.detail
     )
     (folder / "touch_3.npy").write_bytes(b"damaged")
