@@ -30,7 +30,6 @@ CALL_S = 20.0
 FOLLOW_S = 120.0
 """Longest time that a world may take to follow one move [s]."""
 
-
 Follow = Callable[[MotionSegment], None]
 """Function of a world that follows a segment; returns when it is solved."""
 

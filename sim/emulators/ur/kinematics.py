@@ -24,6 +24,8 @@ ALPHA_RAD = (math.pi / 2, 0.0, 0.0, math.pi / 2, -math.pi / 2, 0.0)
 CLOSE_ENOUGH = 1e-9
 """Error below which the Newton steps end [m and rad, the largest component]."""
 
+MAX_STEPS = 60
+
 READY_Q = np.array([2.6, -1.6, 2.0, -1.95, -math.pi / 2, 4.2])
 """Posture from which the first pose is solved [rad]: elbow up, tool pointing down."""
 
@@ -77,7 +79,7 @@ def jacobian(q: Floats) -> Floats:
     return np.array(columns).T
 
 
-def joints_of(flange: Floats, near_q: Floats, num_steps: int = 60) -> Floats:
+def joints_of(flange: Floats, near_q: Floats) -> Floats:
     """Joint angles (6,) [rad] that bring the flange to a frame (4, 4), from a nearby posture.
 
     Raises:
@@ -85,7 +87,7 @@ def joints_of(flange: Floats, near_q: Floats, num_steps: int = 60) -> Floats:
     """
     q = np.array(near_q, dtype=np.float64)
     damping = 1e-10 * np.eye(6)
-    for _ in range(num_steps):
+    for _ in range(MAX_STEPS):
         frames = _joint_frames(q)
         reached = frames[-1]
         error = np.concatenate([

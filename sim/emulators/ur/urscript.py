@@ -55,11 +55,10 @@ class Program:
         self.protective_stop = protective_stop
         self._robot, self._in, self._out = robot, inputs, outputs
         self._executing = False
-        self._is_finished: Callable[[], bool] | None = None
-        self._line: Line | None = None
+        self._awaits_rest = False
         self.stops_straight = False
         self._realtime_mode: str | None = None
-        self._restart_motion: Callable[[], None] | None = None
+        self._repeated_motion: Callable[[], None] | None = None
         self._asynchronous = False
         self._writes, self._operation = 0, 0
         self._progress(running=False)
@@ -82,7 +81,7 @@ class Program:
 
     def read_inputs(self) -> None:
         """React to input registers that the client has written."""
-        if not self.running or self._is_finished is not None:
+        if not self.running or self._awaits_rest:
             return
         command = int(self._in["input_int_register_0"])
         if command in REALTIME:
@@ -97,7 +96,7 @@ class Program:
                 self._execute(command)
             except ValueError:
                 self.running = False  # a runtime error ends a script
-            if self.running and self._is_finished is None:
+            if self.running and not self._awaits_rest:
                 self._out["output_int_register_0"] = DONE
 
     def advance(self) -> None:
@@ -107,12 +106,12 @@ class Program:
         if self._asynchronous:
             self._asynchronous = False
             self._progress(running=False)
-        if self._is_finished is not None and self._is_finished():
-            self._is_finished = None
+        if self._awaits_rest:
+            self._awaits_rest = False
             self._out["output_int_register_0"] = DONE
             self.read_inputs()
-        if self._restart_motion is not None and not self._robot.moving:
-            self._restart_motion()
+        if self._repeated_motion is not None and not self._robot.moving:
+            self._repeated_motion()
 
     # -- commands --------------------------------------------------------------------------------
 
@@ -146,7 +145,7 @@ class Program:
             self._repeat("force", lambda: self._force(np.array(selected), wrench, limits, frame))
 
     def _repeat(self, name: str, motion: Callable[[], None]) -> None:
-        self._realtime_mode, self._restart_motion = name, motion
+        self._realtime_mode, self._repeated_motion = name, motion
         motion()
 
     def _speed(self, target: Floats, acceleration: float, *, joints: bool) -> None:
@@ -202,7 +201,7 @@ class Program:
                 raise ValueError(f"a stop needs a deceleration above 0, got {deceleration}")
             mode = {SPEED_STOP: "speed", SERVO_STOP: "servo", FORCE_STOP: "force"}.get(command)
             if mode is not None and mode == self._realtime_mode:
-                self._realtime_mode = self._restart_motion = None
+                self._realtime_mode = self._repeated_motion = None
             asynchronous = asynchronous and mode is None
             if command in (STOP_L, STOP_J) and asynchronous:
                 self.stops_straight = command == STOP_L
@@ -216,4 +215,4 @@ class Program:
             self._asynchronous = True
             self._progress(running=True)
         else:
-            self._is_finished = lambda: not self._robot.in_motion
+            self._awaits_rest = True
