@@ -158,7 +158,8 @@ def cloud_from_heights(
     """
     heights = checked_heights(height_mm)
     u, v = stratified(num_points, rng)
-    z = _bilinear(heights, v * heights.shape[0] - 0.5, u * heights.shape[1] - 0.5)
+    pixels = [v * heights.shape[0] - 0.5, u * heights.shape[1] - 0.5]
+    z = map_coordinates(heights, pixels, order=1, mode="nearest")
     points = np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
 
@@ -176,14 +177,3 @@ def stratified(num_points: int, rng: np.random.Generator | None) -> tuple[FloatA
     row, column = (a.ravel() for a in np.mgrid[0:rows, 0:columns])
     jitter = np.full((2, num_points), 0.5) if rng is None else rng.random((2, num_points))
     return (column + jitter[0]) / columns, (row + jitter[1]) / rows
-
-
-def _bilinear(heights: FloatArray, row: FloatArray, column: FloatArray) -> FloatArray:
-    row = np.clip(row, 0, heights.shape[0] - 1)
-    column = np.clip(column, 0, heights.shape[1] - 1)
-    r0 = np.minimum(row.astype(int), heights.shape[0] - 2)
-    c0 = np.minimum(column.astype(int), heights.shape[1] - 2)
-    fr, fc = row - r0, column - c0
-    top = heights[r0, c0] * (1 - fc) + heights[r0, c0 + 1] * fc
-    bottom = heights[r0 + 1, c0] * (1 - fc) + heights[r0 + 1, c0 + 1] * fc
-    return top * (1 - fr) + bottom * fr

@@ -98,8 +98,8 @@ def spread_of(sensor: SensorSpec) -> NoiseSpread:
     try:
         return SPREADS[sensor.name]
     except KeyError:
-        known = ", ".join(sorted(SPREADS))
-        raise TouchError(f"no noise known for sensor {sensor.name!r}; known: {known}") from None
+        names = ", ".join(sorted(SPREADS))
+        raise TouchError(f"no noise known for sensor {sensor.name!r}; known: {names}") from None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
