@@ -1,4 +1,5 @@
-"""Worlds: elastic gel, bodies, simulated arm, gripper and sensor, emulators, contact generation.
+"""Simulated worlds: elastic gel, objects, grasps, and emulators of real devices.
 
-Nothing here is for use on a robot, and nothing of its truth may reach a policy.
+They generate contacts to learn from and stand in for a robot in the closed loop. Not here: drivers
+of real devices (``tacgrasp.drivers``). No policy may see the truth of a simulated world.
 """

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""The elastic gel of a tactile sensor under a rigid or soft body: surface, pressure, force.
+
+Not here: the pressing bodies and objects (``sim.objects``, ``sim.grasp``, ``sim.starter``), sensor
+noise (``cltp.tactile.sensor_noise``).
+"""

@@ -1,17 +1,16 @@
-"""How far a surface yields to pressure: half-space, bonded elastic layer, and their convolution.
+"""Compliance of a surface under pressure: half-space, bonded elastic layer, and their convolution.
 
 Every compliance is a real-space kernel, the displacement [mm] at the centre of a grid element
-for 1 MPa on one square element, so that the grid ends where it ends: nothing is periodic. The
-kernels are made once in float64 and applied by zero-padded FFT.
+for 1 MPa on one square element, so that nothing is periodic at the end of the grid. The kernels are
+computed once in float64 and applied by zero-padded FFT.
 
-Not here: which pressure a contact makes (``sim.gel.contact_solver``), friction (frictionless normal
-contact throughout).
+Not here: the pressure of a contact (``sim.gel.contact_solver``); friction, which is neglected.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -29,8 +28,8 @@ class GelMaterial:
     Attributes:
         thickness_mm: Thickness [mm]; ``math.inf`` makes it a half-space.
         young_mpa: Young's modulus [MPa].
-        poisson: Poisson's ratio, 0 <= nu < 0.5. At 0.5 itself the bonded layer conserves volume
-            exactly and a uniform load has no answer; 0.4999 is as close as one needs.
+        poisson: Poisson's ratio, 0 <= nu < 0.5. At 0.5 the bonded layer conserves volume exactly
+            and a uniform load has no solution; 0.4999 is close enough.
     """
 
     thickness_mm: float
@@ -60,8 +59,7 @@ class GelMaterial:
 def layer_compliance(q_per_mm: Tensor, material: GelMaterial) -> Tensor:
     """Surface displacement over pressure of a bonded layer for a sinusoidal pressure.
 
-    Numerator and denominator are divided by e^(2qh), so that thick layers and fine waves do not
-    overflow.
+    Numerator and denominator are divided by e^(2qh): no overflow for thick layers and short waves.
 
     Args:
         q_per_mm: Wavenumbers, any shape, >= 0 [rad/mm].
@@ -108,7 +106,7 @@ def love_kernel(rows: int, columns: int, pitch_mm: float) -> Tensor:
     return total / math.pi
 
 
-# The remainder of the split below is nothing to float64 beyond these, in units of 1/h and h.
+# The remainder of the split below is zero in float64 beyond these, in units of 1/h and h.
 _REMAINDER_WAVES, _REMAINDER_REACH = 20.0, 15.0
 
 
@@ -116,7 +114,7 @@ def _far_part(r_mm: Tensor, scale_mm: float, pitch_mm: float) -> Tensor:
     """Mean of erf(r/s)/r over one element around each radius [1/mm].
 
     To second order: the value and pitch²/24 times its Laplacian. Without the second term the sum
-    over a wide field misses what crosses its edge.
+    over a wide area misses the flux through its edge.
     """
     x = (r_mm / scale_mm).clamp(min=1e-3)  # flat to 1e-6 below
     bell = 2.0 / math.sqrt(math.pi) * torch.exp(-x * x)
@@ -127,13 +125,13 @@ def _far_part(r_mm: Tensor, scale_mm: float, pitch_mm: float) -> Tensor:
 
 @lru_cache(maxsize=1)
 def _quadrature() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Gauss-Legendre nodes and weights over -1 to 1; they take longer than all else here."""
+    """Gauss-Legendre nodes and weights over -1 to 1; they take longer than the rest of a kernel."""
     nodes, weights = np.polynomial.legendre.leggauss(400)
     return nodes, weights
 
 
 def _remainder(r_mm: Tensor, pitch_mm: float, material: GelMaterial) -> Tensor:
-    """What the layer has beyond the near part of a half-space, per force on one element [mm/N].
+    """Compliance of the layer less the near part of a half-space, per force on one element [mm/N].
 
     Hankel transform of G(q) - (2/E*q) erf(qh/2), averaged over the element to the same order as
     the far part: by Gauss-Legendre on radii h/64 apart, then a cubic spline, so that the cost
@@ -155,11 +153,11 @@ def _remainder(r_mm: Tensor, pitch_mm: float, material: GelMaterial) -> Tensor:
 def layer_kernel(rows: int, columns: int, pitch_mm: float, material: GelMaterial) -> Tensor:
     """Bonded layer under uniform pressure on one square element.
 
-    The layer's kernel is singular like a half-space's at the origin and short at a distance, so
-    neither space alone gives it well. It is split: Love's closed form less the smooth far part
-    erf(r/s)/r of a half-space, in real space; and the layer less the near part of a half-space,
-    whose transform is (2/E*q) erf(qs/2), in Fourier space. That remainder is smooth in both
-    spaces.
+    The layer's kernel is singular at the origin, like a half-space's, and decays fast, so that
+    neither real nor Fourier space alone gives it accurately. It is split: Love's closed form less
+    the smooth far part erf(r/s)/r of a half-space, in real space; and the layer less the near part
+    of a half-space, whose transform is (2/E*q) erf(qs/2), in Fourier space. That remainder is
+    smooth in both spaces.
 
     Returns:
         As ``love_kernel``, for this material [mm/MPa].
@@ -200,8 +198,8 @@ class Spectrum:
         """Displacement (B, rows, columns) [mm] under ``pressure_mpa`` of the same shape."""
         if pressure_mpa.shape[0] < 2 or pressure_mpa.device.type != "cpu":
             return self._apply(pressure_mpa, self.values)
-        # One by one: what a processor's FFT rounds depends on how many it is given, and one fits
-        # its cache.
+        # One by one: rounding of a CPU's FFT depends on the size of the batch, and one fits its
+        # cache.
         displacement = torch.empty_like(pressure_mpa)
         for i in range(len(pressure_mpa)):
             values = self.values if self.values.ndim == 2 else self.values[i : i + 1]
@@ -209,7 +207,7 @@ class Spectrum:
         return displacement
 
     def _apply(self, pressure_mpa: Tensor, values: Tensor) -> Tensor:
-        # Axis by axis: the padded rows are zero before and unwanted after, so the transforms
+        # Axis by axis: padded rows are zero before and not needed after, so that the transforms
         # along x run over the real rows only.
         wave = torch.fft.rfft(pressure_mpa, n=self.padded_columns, dim=-1)
         wave = torch.fft.fft(wave, n=self.padded_rows, dim=-2)
@@ -218,16 +216,10 @@ class Spectrum:
         return torch.fft.irfft(wave, n=self.padded_columns, dim=-1)[..., : self.columns]
 
     def select(self, index: Tensor) -> Spectrum:
-        """The same convolution for some elements of the batch only."""
+        """The same convolution for some elements of the batch."""
         if self.values.ndim == 2:
             return self
-        return Spectrum(
-            rows=self.rows,
-            columns=self.columns,
-            padded_rows=self.padded_rows,
-            padded_columns=self.padded_columns,
-            values=self.values[index],
-        )
+        return replace(self, values=self.values[index])
 
 
 @lru_cache(maxsize=32)
@@ -248,9 +240,9 @@ def spectrum_of(
 
 
 def spectrum_from(kernel: Tensor, dtype: torch.dtype, device: torch.device) -> Spectrum:
-    """Spectrum of a kernel given for lags >= 0, (rows, columns), for a grid of that size."""
+    """Spectrum of a kernel for lags >= 0, (rows, columns), on a grid of that size."""
     rows, columns = kernel.shape
-    # Factors 2, 3 and 5 only: twice as fast here as with 7 and 11, although a little longer.
+    # Factors 2, 3 and 5 only: a little longer, but twice as fast as with 7 and 11.
     padded_rows = next_fast_len(2 * rows - 1, real=True)
     padded_columns = next_fast_len(2 * columns - 1, real=True)
     padded = torch.zeros(padded_rows, padded_columns, dtype=torch.float64)

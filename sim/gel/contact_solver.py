@@ -1,13 +1,13 @@
 """Normal contact of an elastic surface with a shape: constrained conjugate gradients.
 
-Finds the pressure p >= 0 with gap >= 0 and p·gap = 0, for a given force or a given approach, for
-a batch of contacts at once. Each contact stops on its own residual and leaves the batch then, so
-that its answer does not depend on its company.
+Solves for the pressure p >= 0 with gap >= 0 and p·gap = 0, by force or by approach, for a batch of
+contacts at once. Each contact stops on its own residual and then leaves the batch, so that its
+solution does not depend on the rest of the batch.
 
 Not here: the compliance (``sim.gel.compliance``), units and materials of a sensor
 (``sim.gel.layer``).
 
-Source: Polonsky & Keer (1999), Wear 231, 206-219; with the stop on the residual gap instead of
+Source: Polonsky & Keer (1999), Wear 231, 206-219, but with a stop on the residual gap instead of
 the change of pressure (our choice: it bounds the error of the surface).
 """
 
@@ -30,7 +30,7 @@ class Solution:
         pressure_mpa: (B, H, W) [MPa].
         approach_mm: (B,) [mm]; +inf where the force cannot be reached by any approach.
         iterations: (B,) int64.
-        converged: (B,) bool; False where ``max_iterations`` ended it.
+        converged: (B,) bool; False where ``max_iterations`` stopped the contact.
     """
 
     pressure_mpa: Tensor
@@ -41,7 +41,7 @@ class Solution:
 
 @dataclass(slots=True, kw_only=True)
 class _Active:
-    """The contacts that are still being solved; fields are flat, (B, H·W)."""
+    """Contacts that have not converged yet; grids are flat, (B, H·W)."""
 
     index: Tensor
     pressure: Tensor
@@ -53,7 +53,7 @@ class _Active:
     compliance: Spectrum
 
     def retain(self, mask: Tensor) -> None:
-        """Drop every contact whose ``rest`` is False."""
+        """Drop every contact whose ``mask`` is False."""
         self.index, self.pressure, self.gap = self.index[mask], self.pressure[mask], self.gap[mask]
         self.target, self.direction = self.target[mask], self.direction[mask]
         self.norm, self.conjugate = self.norm[mask], self.conjugate[mask]
@@ -67,7 +67,7 @@ class _Active:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Residual:
-    """How far a contact's pressures are from solving it.
+    """Residual of each contact.
 
     Attributes:
         gap: Deformed gap where there is pressure, overlap where there is none, else 0.
@@ -86,7 +86,7 @@ class _Residual:
     mean: Tensor
 
     def retain(self, mask: Tensor) -> _Residual:
-        """The residual of those contacts whose ``rest`` is True."""
+        """Residual of the contacts whose ``mask`` is True."""
         return _Residual(
             gap=self.gap[mask],
             contact=self.contact[mask],
@@ -116,17 +116,17 @@ def solve(
     """Solve a batch of contacts.
 
     Args:
-        compliance: Of the two surfaces together.
+        compliance: Compliance of the two surfaces together.
         gap_mm: Undeformed gap, (B, H, W) [mm]; ``NO_BODY_MM`` where no pressure can act.
         target: (B,) sum of the pressures [MPa] if ``by_force``, else the approach [mm].
-        by_force: Which of the two is given.
+        by_force: Whether the target is a force.
         start_mpa: First guess, >= 0, zero where no pressure can act, (B, H, W) [MPa].
         stiffness: Pressure per gap of the first step where no contact exists [MPa/mm].
         tol: Root mean square of the residual gap over the mean displacement in contact.
-        max_iterations: Bound.
+        max_iterations: Bound of the iterations.
 
     Returns:
-        The solution; contacts with nothing to carry have zero pressure.
+        The solution; contacts without load have zero pressure.
     """
     batch = gap_mm.shape[0]
     flat = gap_mm.flatten(1)

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""The starter data set: analytic indenters and grasped bodies, pressed into gels and labelled.
+
+The shipped weights were trained on it. Not here: objects of the catalogue (``sim.tcl3d``), files
+and worker processes (``tacgrasp.datasets``).
+"""

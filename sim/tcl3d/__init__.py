@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""The TCL3D data set: objects of the catalogue pressed into gels, with true labels.
+
+Not here: files and worker processes (``tacgrasp.datasets``), captions (``cltp.texts``).
+"""

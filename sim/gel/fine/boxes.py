@@ -1,4 +1,4 @@
-"""Boxes that hold contacts within a field, so that only they need to be solved finely.
+"""Boxes around contacts: parts of a grid to which a fine solve is limited.
 
 Not here: solving (``sim.gel.fine.fine``).
 """
@@ -10,14 +10,17 @@ from dataclasses import dataclass
 from scipy.fft import next_fast_len
 from torch import Tensor
 
-_MARGIN_CELLS = 2  # of the coarser grid, around its contact
-_STEP_CPU, _STEP_DEVICE = 16, 80  # an accelerator wants few sizes, and many contacts of each
-_OVERLAP_MM = 2e-4  # outside of a box; a fifth of what is stored
+_MARGIN_CELLS = 2  # elements of the coarser grid around its contact
+_STEP_CPU, _STEP_DEVICE = (
+    16,
+    80,
+)  # on an accelerator few sizes, with many contacts of each, are faster
+_OVERLAP_MM = 2e-4  # allowed outside of a box; a fifth of the stored resolution
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """Part of a grid: first row and column, and how many."""
+    """Part of a grid: first row and column, numbers of rows and columns."""
 
     top: int
     left: int
@@ -25,15 +28,15 @@ class Box:
     columns: int
 
     def crop(self, field: Tensor) -> Tensor:
-        """That part of a field (..., H, W)."""
+        """That part of a grid (..., H, W)."""
         return field[..., self.top : self.top + self.rows, self.left : self.left + self.columns]
 
 
 def boxes_around(contact: Tensor) -> list[Box]:
-    """Boxes on the next finer grid around contacts (B, h, w); the whole of it where there is none.
+    """Boxes on the next finer grid around contacts (B, h, w); the whole grid where there is none.
 
-    Sizes go by steps, so that few spectra are needed, and that many share one; steps are as many as
-    a Fourier transform likes.
+    Sizes are multiples of a step, so that many contacts share a spectrum; the multiples are lengths
+    that suit a Fourier transform.
     """
     step = _STEP_CPU if contact.device.type == "cpu" else _STEP_DEVICE
     row_spans = _spans(contact.any(2).cpu(), step)
@@ -45,7 +48,7 @@ def boxes_around(contact: Tensor) -> list[Box]:
 
 
 def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
-    """First element and length on the finer grid that hold each row of ``on`` (B, n)."""
+    """First element and length, on the finer grid, of a span around each row of ``mask`` (B, n)."""
     size = mask.shape[1]
     spans = []
     for row in mask.numpy():
@@ -60,7 +63,7 @@ def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
 
 
 def by_size(boxes: list[Box], *, one_by_one: bool) -> list[tuple[tuple[int, int], list[int]]]:
-    """Contacts whose boxes are equally large; on a processor one by one, which fits its cache."""
+    """Group contacts by the size of their boxes; on a CPU one by one, which fits its cache."""
     if one_by_one:
         return [((box.rows, box.columns), [i]) for i, box in enumerate(boxes)]
     groups: dict[tuple[int, int], list[int]] = {}
@@ -70,10 +73,10 @@ def by_size(boxes: list[Box], *, one_by_one: bool) -> list[tuple[tuple[int, int]
 
 
 def escaped_from(boxes: list[Box], opening: Tensor) -> Tensor:
-    """Which contacts overlap their bodies outside of their boxes, (B,).
+    """Mask of contacts that overlap their bodies outside of their boxes, (B,).
 
     Args:
-        boxes: Of the contacts.
+        boxes: Boxes of the contacts.
         opening: Deformed gap, (B, H, W) [mm].
     """
     overlap = opening < -_OVERLAP_MM

@@ -1,9 +1,9 @@
-"""One grid of a cascade: contacts solved each in its box, and the surface of the whole field.
+"""One grid of a cascade: each contact solved in its box, and the surface of the whole grid.
 
-On a processor contacts that are pressed to a depth are solved one by one (``sim.gel.fine.single``);
-forces and accelerators take the plain solver (``sim.gel.contact_solver``).
+On a CPU, contacts pressed to a depth are solved one by one (``sim.gel.fine.single``); presses by
+force and accelerators use the plain solver (``sim.gel.contact_solver``).
 
-Not here: from which grid to which (``sim.gel.fine.fine``), the boxes (``sim.gel.fine.boxes``).
+Not here: the order of the grids (``sim.gel.fine.fine``), the boxes (``sim.gel.fine.boxes``).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import MAX_ITERATIONS, ElasticLayer
 
 TOLERANCE = 1e-3
-"""Of every level: residual gap over the mean displacement in contact, root mean square."""
+"""Tolerance of every level: residual gap over mean displacement in contact, root mean square."""
 
 
 @lru_cache(maxsize=32)
@@ -40,7 +40,7 @@ def _spectrum(
     dtype: torch.dtype,
     device: torch.device,
 ) -> Spectrum:
-    """Of a box within a grid (rows, columns, pitch): a corner of the grid's kernel."""
+    """Spectrum of a box within a grid (rows, columns, pitch): a corner of the grid's kernel."""
     return spectrum_from(_kernel(material, *grid)[: size[0], : size[1]], dtype, device)
 
 
@@ -51,13 +51,13 @@ def _compliance(
     size: tuple[int, int],
     dtype: torch.dtype,
 ) -> BoxCompliance:
-    """The same for one contact on a processor."""
+    """The same for one contact on a CPU."""
     return box_compliance(_kernel(material, *grid)[: size[0], : size[1]], dtype)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GridLevel:
-    """One grid of the cascade, and E* of each body that presses (None: rigid)."""
+    """One grid of the cascade, and E* of each pressing body (None: rigid)."""
 
     layer: ElasticLayer
     moduli_mpa: Tensor | None
@@ -93,7 +93,7 @@ class GridLevel:
         return height, total + gap - solved.approach_mm[:, None, None]
 
     def short_wave_fraction(self) -> Tensor | float:
-        """Share of the gel in the residual, which is short against the gel: as of half-spaces."""
+        """Fraction of the gel in the residual, whose waves are short: as for two half-spaces."""
         if self.moduli_mpa is None:
             return 1.0
         gel = 1.0 / self.layer.material.plane_strain_mpa
@@ -108,7 +108,7 @@ class GridLevel:
                     for index, one in enumerate(pressure_mpa)
                 ]
             )
-        # Not all at once, for their padded spectra.
+        # In parts: the padded spectra of all would not fit.
         parts = torch.arange(len(pressure_mpa), device=self.layer.device).split(256)
         return torch.cat(
             [
@@ -123,11 +123,11 @@ class GridLevel:
         """Solve every contact in its box.
 
         Args:
-            boxes: One for each contact.
+            boxes: A box for each contact.
             gap: (B, H, W), ``NO_BODY_MM`` where no pressure can act [mm].
             load: (B,) [N] if ``by_force``, else [mm].
             start: (B, H, W) [MPa].
-            by_force: Which of the two is given.
+            by_force: Whether the load is a force.
         """
         if gap.device.type == "cpu" and not by_force:
             return self._solve_single(boxes, gap, load, start)
@@ -160,7 +160,7 @@ class GridLevel:
     def _solve_batches(
         self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
     ) -> Solution:
-        """Those whose boxes are equally large together."""
+        """Solve contacts with equally large boxes together."""
         pressure = torch.zeros_like(start)
         approach = torch.zeros_like(load)
         iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)

@@ -1,15 +1,15 @@
-"""One contact at a time on a processor, pressed to a depth: conjugate gradients, preconditioned.
+"""One contact at a time on a CPU, pressed to a depth: preconditioned conjugate gradients.
 
-The compliance yields far more to long waves than to short ones, so that plain conjugate gradients
-(``sim.gel.contact_solver``) need the more steps the finer the grid. Here the residual is first
-divided by the compliance as if the box were periodic; three or four steps then do, on any grid.
-Elements that overlap the body join the contact at once, without beginning anew.
+The compliance is far larger for long waves than for short ones, so that plain conjugate gradients
+(``sim.gel.contact_solver``) need more steps on finer grids. Here the residual is first divided by
+the compliance of a periodic box; three or four steps then suffice on any grid. Elements that
+overlap the body join the contact at once, without a restart.
 
 Not here: batches, forces, accelerators (``sim.gel.contact_solver``), levels and boxes
 (``sim.gel.fine.fine``).
 
 Source: Vollebregt (2014), J. Comput. Phys. 257, 333-351, for the preconditioner and for keeping
-the direction while the contact changes; the stop is that of ``sim.gel.contact_solver``.
+the direction while the contact changes. The stop is that of ``sim.gel.contact_solver``.
 """
 
 from __future__ import annotations
@@ -20,22 +20,22 @@ import torch
 from scipy.fft import dctn, next_fast_len
 from torch import Tensor
 
-_LEAST_SHARE = 1e-4  # of the largest compliance: bounds the preconditioner
-_FIRST_STEP = 0.8  # of what the preconditioner asks; in full it mostly goes too far
+_LEAST_SHARE = 1e-4  # smallest fraction of the largest compliance: bounds the preconditioner
+_FIRST_STEP = 0.8  # fraction of the first correction; the whole of it mostly overshoots
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BoxCompliance:
-    """A kernel ready for one contact in a box of (rows, columns) elements.
+    """The transformed kernel of one contact in a box of (rows, columns) elements.
 
-    The spectra lie with rows inmost, which is how they are used, and repeat every value: for the
+    In the spectra rows are the inner axis, as they are used, and every value stands twice, for the
     real and for the imaginary part.
 
     Attributes:
-        rows: Of the box.
-        columns: Of the box.
-        padded_rows: Of the transform, >= 2 rows - 1, even.
-        padded_columns: Of the transform, >= 2 columns - 1, even.
+        rows: Rows of the box.
+        columns: Columns of the box.
+        padded_rows: Rows of the transform, >= 2 rows - 1, even.
+        padded_columns: Columns of the transform, >= 2 columns - 1, even.
         values: Transform of the kernel, (padded_columns // 2 + 1, 2 padded_rows) [mm/MPa].
         periodic: Transform of the kernel of the box as if it were periodic, shape
             (columns // 2 + 1, 2 rows) [mm/MPa].
@@ -49,7 +49,7 @@ class BoxCompliance:
     periodic: Tensor
 
     def in_series(self, other: BoxCompliance, factor: float) -> BoxCompliance:
-        """Both in series: this one and ``share`` of another for the same box."""
+        """Both in series: this one and ``factor`` times another one for the same box."""
         return replace(
             self,
             values=self.values + factor * other.values,
@@ -58,10 +58,10 @@ class BoxCompliance:
 
 
 def box_compliance(kernel: Tensor, dtype: torch.dtype) -> BoxCompliance:
-    """Of a kernel given for lags >= 0, (rows, columns), for a box of that size."""
+    """Transform a kernel for lags >= 0, (rows, columns), for a box of that size."""
     rows, columns = kernel.shape
     padded_rows, padded_columns = (2 * next_fast_len(n, real=True) for n in (rows, columns))
-    # The kernel is even, so a cosine transform over lags >= 0 is all of it.
+    # The kernel is even, so that a cosine transform over lags >= 0 is complete.
     half = torch.zeros(padded_rows // 2 + 1, padded_columns // 2 + 1, dtype=torch.float64)
     half[:rows, :columns] = kernel
     waves = torch.from_numpy(dctn(half.numpy(), type=1))
@@ -85,13 +85,14 @@ def _repeated(values: Tensor, dtype: torch.dtype) -> Tensor:
 
 
 class Convolution:
-    """Zero-padded convolution with one real spectrum, its room kept from one to the next.
+    """Zero-padded convolution with one real spectrum, with reused buffers.
 
-    Rows are transformed first, and only those that hold anything; then columns, laid side by side.
+    The rows of the field are transformed first, without the padded ones; then the columns, stored
+    as rows.
     """
 
     def __init__(self, values: Tensor, size: tuple[int, int], padded: tuple[int, int]) -> None:
-        """With ``values`` (padded columns // 2 + 1, 2 padded rows) of fields of ``size``."""
+        # ``values``: (padded columns // 2 + 1, 2 padded rows), for fields of ``size``.
         self.padded = padded
         self._values, (self._rows, self._columns) = values, size
         self._field = values.new_zeros(size[0], padded[1])
@@ -110,7 +111,7 @@ class Convolution:
 
 
 def convolution(compliance: BoxCompliance) -> Convolution:
-    """Displacement [mm] of pressure [MPa]."""
+    """The convolution from pressure [MPa] to displacement [mm]."""
     size = (compliance.rows, compliance.columns)
     padded = (compliance.padded_rows, compliance.padded_columns)
     return Convolution(compliance.values, size, padded)
@@ -122,8 +123,8 @@ class SingleSolution:
 
     Attributes:
         pressure_mpa: (H, W) [MPa].
-        iterations: How many.
-        converged: False where ``max_iterations`` ended it.
+        iterations: Number of iterations.
+        converged: False if ``max_iterations`` stopped it.
     """
 
     pressure_mpa: Tensor
@@ -143,13 +144,13 @@ def solve_single(
     """Solve one contact by depth.
 
     Args:
-        compliance: Of the two surfaces together.
+        compliance: Compliance of the two surfaces together.
         gap_mm: Undeformed gap, (H, W) [mm].
         depth_mm: Approach [mm].
-        start_mpa: First guess, (H, W) [MPa]; what it has where the body does not come below the
-            undeformed surface is not used.
+        start_mpa: First guess, (H, W) [MPa]; used only where the body comes below the undeformed
+            surface.
         tol: Root mean square of the residual gap over the mean displacement in contact.
-        max_iterations: Bound.
+        max_iterations: Bound of the iterations.
     """
     deform = convolution(compliance)
     size = (compliance.rows, compliance.columns)
@@ -176,7 +177,7 @@ def solve_single(
             pressure = pressure.sub_(correction, alpha=_FIRST_STEP).clamp_(min=0)
             displacement = deform.apply(pressure)
             continue
-        # Polak and Ribière's rule forgets by itself what a change of the contact made useless.
+        # Polak and Ribière's rule drops the old direction by itself where the contact has changed.
         conjugacy = max(0.0, _dot(correction, torch.sub(residual, previous, out=previous)) / power)
         torch.add(correction, direction.mul_(free), alpha=conjugacy, out=direction)
         previous, power = residual, _dot(correction, residual)

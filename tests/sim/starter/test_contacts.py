@@ -10,7 +10,6 @@ import torch
 from cltp.data.contact import Split
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Area, Depth, Position, Shape, Side, Texture, area_word, depth_word
-from cltp.torch_threads import torch_threads
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.starter.contacts import DEEPEST_MM, GROUP_CONTACTS, GROUP_SERIES, make_group, split_of
 from sim.starter.series import BODY_FORCE_N, COLUMNS, ROWS, draw_series, num_loads
@@ -18,12 +17,7 @@ from sim.tcl3d.labels import in_contact, label
 
 MINI = sensor_named("gelsight_mini")
 PITCH = MINI.width_mm / COLUMNS
-
-
-@pytest.fixture(scope="module", autouse=True)
-def one_thread():
-    with torch_threads():
-        yield
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 
 @pytest.fixture(scope="module")
