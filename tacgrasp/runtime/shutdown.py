@@ -24,6 +24,9 @@ T = TypeVar("T")
 INTERRUPTS_SURVIVED = 3
 """Number of times that an interrupted safety command is repeated."""
 
+STORED_NAMES = {"gripper_force_gain": "gripper_factor"}
+"""Names of the truth's facts in episode files where they differ from the simulator's."""
+
 FREE_BY_HAND = (
     "what it grips may still be held: support it, then switch the gripper's power off, or remove "
     "the cause and open with tacgrasp jog (key o)"
@@ -96,7 +99,7 @@ def read_truth(rig: Rig) -> TruthFacts | None:
         return None
     if truth is None:
         return None
-    facts = asdict(truth)
+    facts = {STORED_NAMES.get(name, name): value for name, value in asdict(truth).items()}
     x_mm, y_mm = facts.pop("offset_mm")
     return facts | {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
 
