@@ -7,6 +7,7 @@ through the control channel, for records and people, never for a policy.
 
 from __future__ import annotations
 
+import datetime
 import tempfile
 from contextlib import ExitStack
 from dataclasses import dataclass, fields
@@ -14,14 +15,19 @@ from pathlib import Path
 from typing import Any
 
 from primitives.errors import RobotError
+from sim.emulators.dynamixel.fingers import Linkage
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.rig import FINGERS
 from sim.grasp.rig import Truth
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.dynamixel.calibration import save_calibration
-from tacgrasp.drivers.dynamixel.emulated import emulated_calibration
+from tacgrasp.drivers.dynamixel.calibration import (
+    MIN_READINGS,
+    GripperCalibration,
+    save_calibration,
+)
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.rig.hardware import HardwareRig, connect
 
 
@@ -85,7 +91,7 @@ def settings_for(
         )
     ready = emulators.ready
     calibration = folder / "gripper_calibration.yaml"
-    save_calibration(calibration, emulated_calibration(hardware.gripper, FINGERS))
+    save_calibration(calibration, emulated_calibration(hardware.gripper))
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
@@ -93,6 +99,24 @@ def settings_for(
             "gripper": hardware.gripper.model_copy(update=gripper),
             "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
         }
+    )
+
+
+def emulated_calibration(
+    settings: DynamixelSettings, fingers: Linkage = FINGERS
+) -> GripperCalibration:
+    """Calibration of an emulated gripper: its own line of force over current, dated today."""
+    return GripperCalibration(
+        unit=settings.unit,
+        model=settings.model,
+        ids=tuple(servo.id for servo in settings.servos),
+        date=datetime.date.today(),
+        newtons_per_ma=fingers.newtons_per_ma,
+        friction_ma=fingers.friction_ma,
+        residual_n=0.0,
+        max_force_n=fingers.force_n(settings.max_current_ma),
+        num_readings=MIN_READINGS,
+        source="the emulator's own line",
     )
 
 

@@ -5,11 +5,56 @@ from collections.abc import Callable
 from pathlib import Path
 
 from sim.emulators.dynamixel.bus_process import DynamixelEmulator
-from sim.emulators.dynamixel.fingers import SpringLoad
+from sim.emulators.dynamixel.fingers import Linkage, SpringLoad
 from sim.emulators.dynamixel.options import ServoOptions
-from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
+from tacgrasp.drivers.dynamixel.calibration import save_calibration
 from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper, connect_gripper
-from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
+from tacgrasp.rig.emulated import emulated_calibration
+
+UNIT = "emulated"
+MAX_MA = 900.0
+
+
+def emulated_gripper(
+    port: str,
+    folder: Path,
+    *,
+    model: str = "XC330-T288",
+    num_servos: int = 1,
+    baud: int = 1_000_000,
+    linkage: Linkage | None = None,
+) -> DynamixelSettings:
+    """Settings for an emulator at a port; writes its calibration into a folder.
+
+    Args:
+        port: Port announced by the emulator.
+        folder: Folder of the rig's file, or a temporary one.
+        model: Model of the emulated servos.
+        num_servos: Number of emulated servos, 1 or 2.
+        baud: Baud rate of the emulator [bit/s].
+        linkage: Linkage of the emulator; None is its default.
+    """
+    fingers = linkage or Linkage()
+    settings = DynamixelSettings(
+        port=port,
+        baud=baud,
+        unit=UNIT,
+        model=model,
+        servos=tuple(
+            ServoSettings(
+                id=index + 1,
+                open_ticks=round(fingers.ticks(index, fingers.open_width_m)),
+                closed_ticks=round(fingers.ticks(index, 0.0)),
+            )
+            for index in range(num_servos)
+        ),
+        open_width_mm=1000 * fingers.open_width_m,
+        speed_mm_s=200.0,
+        max_current_ma=MAX_MA,
+    )
+    save_calibration(folder / settings.calibration, emulated_calibration(settings, fingers))
+    return settings
 
 
 class EmulatedServos:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 DEVICE = "the gripper"
 
-_PING, _READ, _WRITE, _REBOOT, _SYNC_WRITE = 1, 2, 3, 8, 0x83
+_PING, _READ, _WRITE, _SYNC_WRITE = 1, 2, 3, 0x83
 _BROADCAST = 0xFE
 _ERROR_AT, _SHORTEST = 8, 11  # bytes of a status packet without parameters
 _TX_BUSY, _CORRUPT = -1000, -3002
@@ -157,10 +157,6 @@ class Bus:
         for servo, values in data.items():
             if self.read(servo, address, length).data != values:
                 self.write(servo, address, values)  # succeeds, or raises the servo's refusal
-
-    def reboot(self, servo: int) -> None:
-        """Restart a servo: clears a hardware error, releases the grip. Raises ``BusError``."""
-        self._transact(servo, _REBOOT, b"", 0)
 
     def _read_with_retry(self, servo: int, read: Callable[[], BusReply]) -> BusReply:
         try:

@@ -44,7 +44,6 @@ class ServoSample:
     current: int
     velocity: int
     position: int
-    voltage_v: float
     temperature_c: int
 
 
@@ -217,7 +216,6 @@ def parse_registers(data: bytes) -> ServoSample:
         current=number(126, 2),
         velocity=number(128, 4),
         position=number(reg.PRESENT_POSITION, 4),
-        voltage_v=0.1 * number(reg.VOLTAGE, 2, signed=False),
         temperature_c=number(reg.TEMPERATURE, 1, signed=False),
     )
 

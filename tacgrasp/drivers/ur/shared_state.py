@@ -46,7 +46,6 @@ class CommandOutcome(IntEnum):
     NONE = 0
     DONE = 1
     REFUSED = 2
-    STOPPED = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,7 +9,7 @@ from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import SpringLoad
 from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel.calibration import load_calibration
-from tacgrasp.drivers.dynamixel.emulated import emulated_gripper
+from tests.fakes.emulated_servos import emulated_gripper
 
 RIG = {
     "devices": "hardware",

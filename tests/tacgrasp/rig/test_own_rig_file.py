@@ -12,12 +12,11 @@ import pytest
 import yaml
 
 from sim.emulators.process.spawn import EmulatorProcess
-from sim.emulators.rig import FINGERS
 from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel.calibration import save_calibration
-from tacgrasp.drivers.dynamixel.emulated import emulated_calibration
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.episodes import read_episode
+from tacgrasp.rig.emulated import emulated_calibration
 from tests.fakes.patient_rig import fields
 
 pytest.importorskip("rtde_control")
@@ -40,7 +39,7 @@ def rig(emulators, tmp_path):
     rig["hardware"]["gripper"]["port"] = ready["gripper_port"]
     rig["hardware"]["sensor"]["port"] = ready["sensor_port"]
     settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
-    save_calibration(tmp_path / settings.calibration, emulated_calibration(settings, FINGERS))
+    save_calibration(tmp_path / settings.calibration, emulated_calibration(settings))
     yield rig
     for device in ("ur", "dynamixel", "taxels"):
         emulators.control.clear(device)

@@ -173,7 +173,7 @@ def test_a_refusal_says_why(bus, servos):
     with pytest.raises(BusError, match=r"refused: it can't be written now") as error:
         bus.write(1, reg.TORQUE, b"\1")
     assert error.value.kind is BusFault.REFUSED
-    bus.reboot(1)
+    bus._transact(1, 8, b"", 0)  # reboot
     bus.write(1, reg.TORQUE, b"\1")
 
 

@@ -134,9 +134,7 @@ def test_what_is_no_recording_is_refused(tmp_path, episode, folder):
 def test_a_check_reads_every_touch_once(folder):
     (finding,) = check(RecordedSettings(path=folder, repeat=True))
     assert (
-        finding.ok
-        and "3 recorded clouds" in finding.detail
-        and "nothing is felt" in finding.detail
+        finding.ok and "3 recorded clouds" in finding.detail and "nothing is felt" in finding.detail
     )
     (folder / "touch_3.npy").write_bytes(b"damaged")
     (finding,) = check(RecordedSettings(path=folder))

@@ -21,7 +21,6 @@ from sim.emulators.ur.child import UrChild
 from tacgrasp.drivers.ur import arm as ur
 from tacgrasp.drivers.ur import rtde_link as ur_link
 from tacgrasp.drivers.ur.arm import UrArm, check, connect_arm
-from tacgrasp.drivers.ur.emulated import emulated_arm
 from tacgrasp.drivers.ur.motion_limits import (
     expected_duration_s,
     nearest_rotvec,
@@ -39,6 +38,7 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerPhase,
     WorkerState,
 )
+from tests.fakes.emulated_arm import emulated_arm
 
 pytest.importorskip("rtde_control")
 
