@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from cltp.tactile.cloud import TactileCloud
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from policies.policy import Decision
 from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
 from primitives import Primitive

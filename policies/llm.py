@@ -106,7 +106,7 @@ class LlmPolicy:
         points = encoder_input(cloud)
         sampled = self._clock()
         against = RELUCTANCE | dict.fromkeys(going_in_circles(self._moves), math.inf)
-        reply = self._talker.reply(points, as_request(instruction), against=against)
+        reply = self._talker.reply(points, as_request(instruction), penalties=against)
         replied = self._clock()
         found = extract(reply.text)
         stages = {

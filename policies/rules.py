@@ -11,7 +11,7 @@ from collections.abc import Callable
 
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.states import ContactState
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from policies.goal import Goal
 from policies.policy import Decision
 from policies.speech import speak

@@ -1,6 +1,6 @@
 """Words for a contact and for the advice on it: the teacher's D_t.
 
-What ``speak`` says, ``policies.extraction.extract`` reads back to the same action and verdict,
+What ``speak`` says, ``policies.extraction`` reads back to the same action and verdict,
 whatever the wording (tested over all of them). With a random generator the wording varies: this is
 what the language model learns from. Not here: what to advise (``policies.teacher``).
 """

@@ -2,7 +2,7 @@
 
 As printed it has four holes; the loop closes them as follows:
 
-1. 'Stable' is part of 'unstable': ``policies.extraction.extract`` reads whole words, and negation.
+1. 'Stable' is part of 'unstable': ``policies.extraction`` reads whole words, and negation.
 2. It executes before it tests success. A text that declares success and names no action ends the
    loop and moves nothing; one with both acts, and has to declare again in the next step.
 3. No action, or two: nothing moves, the gel is read and the policy asked again, ``max_asks`` times

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import torch
 
-from cltp.checkpoints.tac3d_llm import WeightsError, save_encoder, save_tac3d_llm
+from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
+from cltp.checkpoints.weight_files import WeightsError
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.llm.causal_lm import Language, small_lm
@@ -14,7 +15,7 @@ from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies.errors import PolicyError
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from policies.llm import (
     LlmPolicy,
     as_request,

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from policies.extraction.extract import extract
-from policies.extraction.verdict_words import DESCRIPTORS
+from policies.extraction import DESCRIPTORS, extract
 from policies.speech import (
     ACTION_WORDINGS,
     CONTACT_WORDINGS,
@@ -70,7 +69,7 @@ def test_there_are_at_least_eight_wordings_of_each_advice_and_no_two_alike():
 def test_each_success_uses_one_of_the_four_descriptors():
     for wording in SUCCESS_WORDINGS:
         words = set(wording.lower().replace(".", " ").replace(",", " ").replace(":", " ").split())
-        assert words & DESCRIPTORS, wording
+        assert words & set(DESCRIPTORS), wording
 
 
 def test_the_contact_is_said_in_words_and_numbers():

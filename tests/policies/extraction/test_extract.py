@@ -6,23 +6,36 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from policies.extraction.clauses import word_set
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from primitives import Primitive
-from tests.policies.extraction.sentences import ACTIONS, AMBIGUOUS, NOTHING, SUCCESS, TABLE
+from tests.policies.extraction.adversarial import ADVERSARIAL
+from tests.policies.extraction.sentences import (
+    ACTIONS,
+    AMBIGUOUS,
+    NOTHING,
+    REFUSED,
+    SUCCESS,
+    TABLE,
+)
 
-JUNK_WORDS = word_set(
+
+def words_of(text):
+    return text.split()
+
+
+JUNK_WORDS = words_of(
     "contact berry bottom left right upper corner deep pad gel mm force depth area table centre "
     "finger is at the of with moderate small pressed 0.3 12 N ( ) , ; slight very tiny "
     "medium large centered middle-left bottom-center cut edge sphere ellipsoid smooth ridged "
     "object newton light firm soft high low too much deepest tilted slipping gripper grasp normal"
 )
-GRAMMAR_WORDS = word_set(
+GRAMMAR_WORDS = words_of(
     "not stable secure move down up the grasp is if or and but , . ? : ; no force increase reduce "
     "<none> move_down <move_up> instead of rather than without avoid before after to be more less "
-    "a grip until once was will n't - ( ) it gripper"
+    "a grip until once was will n't - ( ) it gripper please should remains hold reset again still"
 )
-JUNK = st.lists(st.sampled_from(sorted(JUNK_WORDS)), max_size=12).map(" ".join)
+VOCABULARY = [w for text, _, _ in TABLE for w in text.split()] + " ".join(ADVERSARIAL).split()
+JUNK = st.lists(st.sampled_from(JUNK_WORDS), max_size=12).map(" ".join)
 AFFIRMED = st.sampled_from([t for t in SUCCESS if t.startswith(("The grasp is s", "The grip is"))])
 
 
@@ -55,9 +68,42 @@ def test_a_text_that_asks_for_what_it_forbids_is_ambiguous(text):
     assert not found.success
 
 
-def test_the_table_is_as_long_as_a_parser_of_this_weight_needs():
-    assert len(TABLE) + len(AMBIGUOUS) >= 400
-    assert len({text for text, _, _ in TABLE}) == len(TABLE)
+@pytest.mark.parametrize("text", REFUSED)
+def test_a_sentence_that_is_not_clearly_read_is_refused(text):
+    found = extract(text)
+    assert (found.action, found.success) == (None, False), found.reason
+
+
+@pytest.mark.parametrize("text", ADVERSARIAL)
+def test_a_text_made_to_mislead_neither_moves_nor_declares_anything(text):
+    found = extract(text)
+    assert (found.action, found.success) == (None, False), found.reason
+
+
+@pytest.mark.parametrize(
+    ("text", "action", "success"),
+    [
+        ("please move the gripper downward", Primitive.MOVE_DOWN, False),
+        ("increase force", Primitive.INCREASE_FORCE, False),
+        ("Move up.", Primitive.MOVE_UP, False),
+        ("instead of moving left, move right", Primitive.MOVE_RIGHT, False),
+        ("- reduce the force", Primitive.DECREASE_FORCE, False),
+        ("Action`move_up`", Primitive.MOVE_UP, False),
+        ("STABLE", None, True),
+        ("Secure, reliable hold.", None, True),
+        ("it's_stable", None, True),
+    ],
+)
+def test_plain_words_are_still_read(text, action, success):
+    found = extract(text)
+    assert (found.action, found.success) == (action, success), found.reason
+
+
+def test_the_tables_are_as_long_as_a_reader_of_this_weight_needs():
+    assert len(TABLE) + len(AMBIGUOUS) + len(REFUSED) >= 400
+    assert len(ADVERSARIAL) >= 100
+    for texts in ([text for text, _, _ in TABLE], AMBIGUOUS, REFUSED, ADVERSARIAL):
+        assert len(set(texts)) == len(texts)
 
 
 @given(st.text())
@@ -67,10 +113,17 @@ def test_any_text_is_read_without_an_error(text):
     assert found.reason
 
 
-@given(st.lists(st.sampled_from(["\n", *sorted(GRAMMAR_WORDS)]), max_size=25).map(" ".join))
+@given(st.lists(st.sampled_from(["\n", *GRAMMAR_WORDS]), max_size=25).map(" ".join))
 def test_any_row_of_the_grammars_own_words_is_read_without_an_error(text):
     found = extract(text)
     assert not (found.ambiguous and (found.success or found.action is not None))
+
+
+@given(st.lists(st.sampled_from(VOCABULARY), max_size=20), st.sampled_from([" ", "_", "'", "\n"]))
+def test_any_shuffled_vocabulary_is_read_without_an_error(words, joint):
+    found = extract(joint.join(words))
+    assert not (found.ambiguous and (found.success or found.action is not None))
+    assert found.reason
 
 
 @pytest.mark.parametrize("text", ["", "\x00", "\ud800", "<" * 5000, "not " * 3000, "move " * 3000])
@@ -163,8 +216,8 @@ def test_none_beside_an_action_is_ambiguous(action):
 
 def test_the_reason_says_what_was_read():
     assert extract("Do not move up, move down.").reason == (
-        "asks for move_down; declares no success; 'move up' is negated"
+        "asks for move_down; declares no success; 'do not move up' is forbidden"
     )
     assert extract("The grasp is not secure.").reason == (
-        "asks for no action; no success: 'secure' is denied"
+        "asks for no action; no success: 'the grasp is not secure' denies it"
     )

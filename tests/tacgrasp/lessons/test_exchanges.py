@@ -17,7 +17,7 @@ from cltp.tactile.states import (
     position_word,
 )
 from cltp.texts.captions import caption
-from policies.extraction.extract import extract
+from policies.extraction import extract
 from policies.teacher import teacher
 from tacgrasp.lessons.exchanges import BLIND, TouchLessons, advice_reply, meaning_exchange
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
