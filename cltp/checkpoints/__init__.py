@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""Trained weights on disk: written, read strictly, and refused where they are damaged or don't fit.
+
+Not here: checkpoints of a training under way (``cltp.train.stage``).
+"""

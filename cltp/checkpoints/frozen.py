@@ -1,15 +1,14 @@
-"""Encoders by any method, as they are stored, read back and frozen: pooled features of contacts.
+"""Encoders by any method, frozen: pooled features of contacts.
 
-``FOLDER/encoder`` is either what ``cltp.checkpoints.tac3d_llm.save_encoder`` wrote (CLTP, with
-state heads) or what ``save_frozen`` wrote: an encoder alone, with the method that trained it. 32
-bits: baselines are compared and not shipped.
+``FOLDER/encoder`` is written either by ``cltp.checkpoints.tac3d_llm.save_encoder`` (CLTP, with
+state heads) or by ``save_frozen``: an encoder alone, with the method that trained it, in 32 bits,
+since baselines are compared and not shipped.
 """
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,11 +17,16 @@ from typing import Protocol
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
 from torch import Tensor
 
-from cltp.checkpoints.tac3d_llm import WeightsError, load_encoder
+from cltp.checkpoints.tac3d_llm import load_encoder
+from cltp.checkpoints.weight_files import (
+    CONFIG,
+    WeightsError,
+    load_weights,
+    read_config,
+    save_weights,
+)
 from cltp.data.sampler import Augmentation, Batch
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
@@ -35,11 +39,11 @@ FORMAT = "tacgrasp-frozen-encoder"
 
 
 class FrozenEncoder(Protocol):
-    """Whatever makes features of contacts and learns no more: ``Frozen``, or others' encoders."""
+    """An encoder that is not trained further: ``Frozen``, or an external one."""
 
     @property
     def sha256(self) -> str:
-        """Of its weights."""
+        """SHA-256 of its weights."""
         ...
 
     @property
@@ -53,21 +57,26 @@ class FrozenEncoder(Protocol):
         ...
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Pooled tokens (B, P) and features (B, F) of a batch, with frames where it sees images."""
+        """Pooled tokens (B, P) and aligned features (B, F) of a batch.
+
+        Args:
+            batch: Contacts.
+            frames: Their noisy frames (``noisy_frames``), where the encoder sees images.
+        """
         ...
 
-    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+    def read(self, inputs: Tensor) -> tuple[Tensor, Tensor]:
         """The same of scaled points (B, 1024, 3), or of frames (B, 3, 64, 64)."""
         ...
 
 
 @dataclass(frozen=True, slots=True)
 class Frozen:
-    """An encoder that learns no more.
+    """A trained encoder.
 
     Attributes:
-        encoder: In evaluation mode, without gradients.
-        sha256: Of its weights.
+        encoder: The encoder, in evaluation mode, without gradients.
+        sha256: SHA-256 of its configuration and weights.
     """
 
     encoder: TactileEncoder
@@ -75,29 +84,20 @@ class Frozen:
 
     @property
     def sees_images(self) -> bool:
-        """Whether it takes rendered frames instead of points."""
         return self.encoder.config.takes_images
 
     @property
     def sampling(self) -> Sampling:
-        """How the points lie that it takes."""
         return self.encoder.config.sampling
 
     @torch.inference_mode()
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
-        """Pooled tokens (B, 2 C) and aligned features (B, F) of a batch.
-
-        Args:
-            batch: Contacts.
-            frames: Their noisy frames (``noisy_frames``), where the encoder sees images.
-        """
         return self.read(frames if frames is not None else torch.from_numpy(batch.points))
 
     @torch.inference_mode()
-    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
-        """Pooled tokens (B, 2 C) and aligned features (B, F) of scaled points, or of frames."""
-        found = self.encoder(taken)
-        return found.pooled, found.feature
+    def read(self, inputs: Tensor) -> tuple[Tensor, Tensor]:
+        encoded = self.encoder(inputs)
+        return encoded.pooled, encoded.feature
 
 
 def frozen(encoder: TactileEncoder) -> Frozen:
@@ -109,18 +109,9 @@ def frozen(encoder: TactileEncoder) -> Frozen:
 
 
 def save_frozen(folder: Path, encoder: TactileEncoder, method: str) -> None:
-    """Write an encoder without heads; the configuration last, so that nothing is read half."""
-    folder.mkdir(parents=True, exist_ok=True)
-    weights = {name: value.contiguous() for name, value in encoder.state_dict().items()}
-    for name in ("config.json", "model.safetensors"):
-        (folder / name).unlink(missing_ok=True)
-    beside = folder / "model.safetensors.part"
-    save_file(weights, beside)
-    beside.replace(folder / "model.safetensors")
+    """Write an encoder without heads, in 32 bits."""
     config = {"format": FORMAT, "method": method, "encoder": dataclasses.asdict(encoder.config)}
-    beside = folder / "config.json.part"
-    beside.write_text(json.dumps(config, indent=2) + "\n", encoding="utf-8")
-    beside.replace(folder / "config.json")
+    save_weights(folder, config, encoder.state_dict())
 
 
 def load_frozen(folder: Path) -> Frozen:
@@ -129,28 +120,23 @@ def load_frozen(folder: Path) -> Frozen:
     Raises:
         WeightsError: It is missing, damaged, or its configuration does not match.
     """
-    path = folder / "config.json"
-    try:
-        config = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise WeightsError(f"{folder} holds no encoder; train it with `tacgrasp train`") from None
-    except (OSError, ValueError) as error:
-        raise WeightsError(f"{path} can't be read: {error}") from error
-    if not isinstance(config, dict) or config.get("format") != FORMAT:
+    if not (folder / CONFIG).exists():
+        raise WeightsError(f"{folder} holds no encoder; train it with `tacgrasp train`")
+    config = read_config(folder / CONFIG)
+    if config.get("format") != FORMAT:
         return frozen(load_encoder(folder)[0])
     try:
         encoder = TactileEncoder(EncoderConfig(**config["encoder"]))
-        encoder.load_state_dict(load_file(folder / "model.safetensors"), strict=True)
-    except (KeyError, TypeError, OSError, SafetensorError, RuntimeError, TouchError) as error:
-        first = str(error).splitlines()[0]
-        raise WeightsError(f"the encoder in {folder} does not match its config: {first}") from error
+    except (KeyError, TypeError, TouchError) as error:
+        raise WeightsError(f"{folder}/{CONFIG} describes no encoder: {error}") from error
+    load_weights(folder, encoder)
     return frozen(encoder)
 
 
 def noisy_frames(
     height_mm: Sequence[NDArray[np.float32]],
     sensors: Sequence[SensorSpec],
-    how: Augmentation,
+    augmentation: Augmentation,
     rng: np.random.Generator,
 ) -> Tensor:
     """Frames as the sensors would show contacts: rendered from noisy heights, (B, 3, 64, 64).
@@ -160,9 +146,9 @@ def noisy_frames(
     frames = []
     for heights, sensor in zip(height_mm, sensors, strict=True):
         spread = spread_of(sensor)
-        gain = spread.gain_log_ratio if rng.random() < how.uncalibrated else 0.0
-        if how.noise_level > 0 and rng.random() >= how.clean:
-            unit = NoiseUnit.draw(rng, how.noise_level, gain_log_ratio=gain, spread=spread)
+        gain = spread.gain_log_ratio if rng.random() < augmentation.uncalibrated else 0.0
+        if augmentation.noise_level > 0 and rng.random() >= augmentation.clean:
+            unit = NoiseUnit.draw(rng, augmentation.noise_level, gain_log_ratio=gain, spread=spread)
             heights = unit.apply(heights, sensor, rng)
         frames.append(render(heights - np.float32(np.median(heights)), sensor))
     return torch.stack(frames)

@@ -1,4 +1,4 @@
-"""Weights on disk: one folder a part, safetensors and JSON in the ``save_pretrained`` layout.
+"""The weights of Tac3D-LLM on disk: a folder for each part, in the ``save_pretrained`` layout.
 
     weights/
       README.md         model card: command, seed, checksum of the data, measured scores
@@ -14,18 +14,23 @@ the right shape, and no other; the projector names the tokenizer that it was tra
 from __future__ import annotations
 
 import dataclasses
-import json
 import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import torch
-from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
-from torch import Tensor, nn
+from torch import nn
 
+from cltp.atomic_write import write_atomically
+from cltp.checkpoints.weight_files import (
+    CONFIG,
+    WEIGHTS,
+    WeightsError,
+    load_weights,
+    read_config,
+    save_weights,
+)
 from cltp.encoder.clip_towers import Towers, load_towers
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
@@ -41,11 +46,7 @@ if TYPE_CHECKING:
 
 VERSION = 1
 PROJECTOR_VERSION = 2
-"""2: the heads' readings go with the tokens."""
-
-
-class WeightsError(TouchError):
-    """Weights are missing, damaged or don't fit together."""
+"""2: the heads' readings follow the tokens."""
 
 
 class _EncoderWithHeads(nn.Module):
@@ -72,15 +73,15 @@ def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
     except (KeyError, TypeError, TouchError) as error:
         raise WeightsError(f"{folder}/config.json describes no encoder: {error}") from error
     heads = StateHeads(2 * encoder.config.dim)
-    _load(folder, _EncoderWithHeads(encoder, heads))
+    load_weights(folder, _EncoderWithHeads(encoder, heads))
     return encoder, heads
 
 
 def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
-    """As ``load_encoder``, of an encoder that can take the clouds of sensors.
+    """As ``load_encoder``, for an encoder that can take the clouds of sensors.
 
     Raises:
-        WeightsError: As there, or it takes points that lie otherwise.
+        WeightsError: As there, or the encoder takes points that lie otherwise.
     """
     encoder, heads = load_encoder(folder)
     if encoder.config.sampling != EVEN:
@@ -102,12 +103,12 @@ def load_clip(folder: Path) -> Towers:
     Raises:
         TouchError: As ``cltp.encoder.clip_towers.load_towers``.
     """
-    _present(folder)
+    _require_files(folder)
     return load_towers(folder)
 
 
 def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
-    """Write projector and language model into ``folder``; its encoder is written by itself."""
+    """Write projector and language model into ``folder``; not its encoder (``save_encoder``)."""
     words = model.language.words
     if words is None:
         raise WeightsError("a stock checkpoint is used from its own directory and not written")
@@ -125,8 +126,8 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     """Read a whole Tac3D-LLM.
 
     Args:
-        folder: With ``encoder``, ``projector`` and ``lm``; the latter is read for decoding alone.
-        lm_folder: Another language model in transformers' layout; its projector is ``folder``'s.
+        folder: Folder with ``encoder``, ``projector`` and ``lm``, which is read for decoding alone.
+        lm_folder: Another language model in transformers' layout, behind the same projector.
 
     Raises:
         WeightsError: A part is missing, damaged, or belongs to other weights, or the encoder takes
@@ -136,7 +137,7 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     encoder, heads = load_touching_encoder(folder / "encoder")
     config = _config(folder / "projector", PROJECTOR_VERSION)
     if lm_folder is None:
-        _present(folder / "lm")
+        _require_files(folder / "lm")
         language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
     else:
         language = load_language(lm_folder)
@@ -153,7 +154,7 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
             f"{(encoder.config.dim, language.dim)}"
         )
     projector = Projector(encoder.config.dim, language.dim)
-    _load(folder / "projector", projector)
+    load_weights(folder / "projector", projector)
     return Tac3dLlm(encoder, heads, projector, language).eval()
 
 
@@ -162,49 +163,41 @@ def size_bytes(folder: Path) -> int:
     return sum(path.stat().st_size for path in Path(folder).rglob("*") if path.is_file())
 
 
-def write_card(folder: Path, facts: Mapping[str, str], scores: Mapping[str, float]) -> None:
-    """Write the model card.
+def write_card(folder: Path, facts: Mapping[str, str]) -> None:
+    """Write the model card, with an empty table of scores.
 
     Args:
-        folder: Of the weights.
+        folder: Folder of the weights.
         facts: Command, seed, checksum of the data, versions, duration.
-        scores: Measured scores by name.
     """
     lines = ["# Tac3D-LLM, small", "", "| | |", "|---|---|"]
     lines += [f"| {name} | {value} |" for name, value in facts.items()]
     lines += ["", "## Scores", "", "| | |", "|---|---|"]
-    lines += [f"| {name} | {value:.4g} |" for name, value in scores.items()]
     Path(folder).mkdir(parents=True, exist_ok=True)
-    (Path(folder) / "README.md").write_text("\n".join(lines) + "\n")
-
-
-def _half(state: Mapping[str, Tensor]) -> dict[str, Tensor]:
-    return {
-        name: (value.half() if value.is_floating_point() else value).contiguous()
-        for name, value in state.items()
-    }
+    write_atomically(Path(folder) / "README.md", "\n".join(lines) + "\n")
 
 
 def _save(folder: Path, config: Mapping[str, Any], module: nn.Module) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    beside = folder / f"model.safetensors.{os.getpid()}.part"
-    save_file(_half(module.state_dict()), beside)
-    beside.replace(folder / "model.safetensors")
-    (folder / "config.json").write_text(json.dumps(dict(config), indent=2) + "\n")
+    state = module.state_dict()
+    save_weights(
+        folder,
+        config,
+        {name: v.half() if v.is_floating_point() else v for name, v in state.items()},
+    )
 
 
 def _save_pretrained(folder: Path, model: Any, words: Words) -> None:
-    beside = folder.with_name(f"{folder.name}.{os.getpid()}.part")
-    kept = {name: value.clone() for name, value in model.state_dict().items()}
-    model.half().save_pretrained(beside)
-    model.float().load_state_dict(kept)
-    words.save(beside)
+    part = folder.with_name(f"{folder.name}.{os.getpid()}.part")
+    state = {name: value.clone() for name, value in model.state_dict().items()}
+    model.half().save_pretrained(part)
+    model.float().load_state_dict(state)
+    words.save(part)
     shutil.rmtree(folder, ignore_errors=True)
-    beside.replace(folder)
+    part.replace(folder)
 
 
-def _present(folder: Path) -> None:
-    for name in ("config.json", "model.safetensors"):
+def _require_files(folder: Path) -> None:
+    for name in (CONFIG, WEIGHTS):
         if not (Path(folder) / name).is_file():
             raise WeightsError(
                 f"weights are missing: {Path(folder) / name} does not exist; "
@@ -213,24 +206,8 @@ def _present(folder: Path) -> None:
 
 
 def _config(folder: Path, version: int = VERSION) -> dict[str, Any]:
-    _present(folder)
-    try:
-        config = json.loads((Path(folder) / "config.json").read_text())
-    except (OSError, ValueError) as error:
-        raise WeightsError(f"{folder}/config.json can't be read: {error}") from error
-    if not isinstance(config, dict) or config.get("version") != version:
+    _require_files(folder)
+    config = read_config(Path(folder) / CONFIG)
+    if config.get("version") != version:
         raise WeightsError(f"{folder} holds weights of another version than {version}; train again")
     return config
-
-
-def _load(folder: Path, module: nn.Module) -> None:
-    path = Path(folder) / "model.safetensors"
-    try:
-        state = load_file(path)
-        module.load_state_dict({name: value.float() for name, value in state.items()}, strict=True)
-    except (OSError, SafetensorError, RuntimeError) as error:
-        first = str(error).splitlines()[0]
-        raise WeightsError(f"{path} is damaged or does not fit its config: {first}") from error
-    for name, value in module.state_dict().items():
-        if not torch.isfinite(value).all():
-            raise WeightsError(f"{path}: {name} is not finite; train again")

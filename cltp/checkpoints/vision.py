@@ -1,32 +1,30 @@
-"""Image encoders that others trained, by path: a CLIP or its vision tower in transformers' format.
+"""External image encoders: a CLIP or its vision tower in a directory of transformers' format.
 
-For the vision-based baselines of the paper's appendix A, TVL and UniTouch, if a user has such a
-checkpoint as a directory of transformers. Both were published in layouts of their own (TVL: timm
-and OpenCLIP; UniTouch: ImageBind), which are not read: they have to be converted first. What is
-read is used as it is: frozen, never trained further, shown our rendered frames.
+They stand for the vision-based baselines of the paper's appendix A, TVL and UniTouch, where a user
+has such a checkpoint. Both were published in other layouts (TVL: timm and OpenCLIP; UniTouch:
+ImageBind), which have to be converted first. The encoder is frozen and takes our rendered frames.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import torch
 import torch.nn.functional as F
-from safetensors import SafetensorError
 from torch import Tensor
 
-from cltp.checkpoints.tac3d_llm import WeightsError
+from cltp.checkpoints.weight_files import CONFIG, WeightsError, read_config, require_finite
 from cltp.data.sampler import Batch
+from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
 from cltp.tactile.point_layout import EVEN, Sampling
 
 _CLIP_MEAN = (0.48145466, 0.4578275, 0.40821073)
 _CLIP_STD = (0.26862954, 0.26130258, 0.27577711)
-"""Of CLIP's images (Radford et al. 2021), for checkpoints without preprocessor_config.json."""
+"""Pixels of CLIP (Radford et al. 2021), for checkpoints without preprocessor_config.json."""
 
 KINDS = ("clip", "clip_vision_model")
 """``model_type`` of directories that are read."""
@@ -37,9 +35,9 @@ class VisionCheckpoint:
     """An image encoder in place of ``cltp.checkpoints.frozen.Frozen``.
 
     Attributes:
-        model: In evaluation mode, without gradients.
-        mean, std: Of its images, shape (3, 1, 1).
-        sha256: Of weights and preprocessing.
+        model: The encoder, in evaluation mode, without gradients.
+        mean, std: Mean and spread of its pixels, shape (3, 1, 1).
+        sha256: SHA-256 of weights and preprocessing.
     """
 
     model: Any
@@ -49,12 +47,10 @@ class VisionCheckpoint:
 
     @property
     def sees_images(self) -> bool:
-        """Always: it takes rendered frames."""
         return True
 
     @property
     def sampling(self) -> Sampling:
-        """Of points that it does not take."""
         return EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
@@ -68,18 +64,18 @@ class VisionCheckpoint:
         return self.read(frames)
 
     @torch.inference_mode()
-    def read(self, taken: Tensor) -> tuple[Tensor, Tensor]:
+    def read(self, inputs: Tensor) -> tuple[Tensor, Tensor]:
         """Class token and maximum over patches (B, 2 C), and the aligned feature, of frames.
 
         Args:
-            taken: Frames (B, 3, H, W), 0 to 1; brought to the encoder's size bilinearly.
+            inputs: Frames (B, 3, H, W), 0 to 1; brought to the encoder's size bilinearly.
         """
         size = int(self.model.config.image_size)
-        pixels = F.interpolate(taken, (size, size), mode="bilinear", antialias=True)
-        found = self.model((pixels - self.mean) / self.std, output_hidden_states=True)
-        hidden = found.last_hidden_state
+        pixels = F.interpolate(inputs, (size, size), mode="bilinear", antialias=True)
+        output = self.model((pixels - self.mean) / self.std, output_hidden_states=True)
+        hidden = output.last_hidden_state
         pooled = torch.cat([hidden[:, 0], hidden[:, 1:].amax(dim=1)], dim=1)
-        return pooled, found.image_embeds
+        return pooled, output.image_embeds
 
 
 def load_vision_checkpoint(folder: Path) -> VisionCheckpoint:
@@ -93,7 +89,7 @@ def load_vision_checkpoint(folder: Path) -> VisionCheckpoint:
         WeightsError: It is missing, of another kind, damaged, or its weights are not finite or not
             those of its configuration.
     """
-    config = _json(folder / "config.json")
+    config = read_config(folder / CONFIG)
     kind = config.get("model_type")
     if kind not in KINDS:
         raise WeightsError(
@@ -102,31 +98,28 @@ def load_vision_checkpoint(folder: Path) -> VisionCheckpoint:
         )
     from transformers import CLIPVisionModelWithProjection
 
-    try:
-        loaded: Any = CLIPVisionModelWithProjection.from_pretrained(
-            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
-        )
-        model, info = loaded
-    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
-        first = str(error).splitlines()[0]
-        raise WeightsError(f"no image encoder could be read from {folder}: {first}") from error
-    other = [name for name in info["unexpected_keys"] if kind != "clip" or "vision" in name]
-    if info["missing_keys"] or other or info["mismatched_keys"]:
-        wrong = sorted([*info["missing_keys"], *other, *map(str, info["mismatched_keys"])])
-        raise WeightsError(f"{folder} lacks or adds weights: {', '.join(wrong[:5])}")
+    model = load_strictly(
+        CLIPVisionModelWithProjection,
+        folder,
+        "image encoder",
+        expected=lambda name: kind != "clip" or "vision" in name,
+        error_class=WeightsError,
+    )
     mean, std = _pixels(folder)
     total = hashlib.sha256(f"{mean.tolist()} {std.tolist()}".encode())
+    require_finite(folder, model.state_dict())
     for name, value in sorted(model.state_dict().items()):
-        if not torch.isfinite(value).all():
-            raise WeightsError(f"{folder}: {name} is not finite")
         total.update(name.encode() + value.contiguous().numpy().tobytes())
     return VisionCheckpoint(model.eval().requires_grad_(False), mean, std, total.hexdigest())
 
 
 def _pixels(folder: Path) -> tuple[Tensor, Tensor]:
     path = folder / "preprocessor_config.json"
-    told = _json(path) if path.exists() else {}
-    mean, std = told.get("image_mean", _CLIP_MEAN), told.get("image_std", _CLIP_STD)
+    processing = read_config(path) if path.exists() else {}
+    mean, std = (
+        processing.get(name, usual)
+        for name, usual in (("image_mean", _CLIP_MEAN), ("image_std", _CLIP_STD))
+    )
     try:
         parts = [torch.tensor(part, dtype=torch.float32).view(3, 1, 1) for part in (mean, std)]
     except (TypeError, ValueError, RuntimeError):
@@ -134,13 +127,3 @@ def _pixels(folder: Path) -> tuple[Tensor, Tensor]:
     if not all(part.isfinite().all() for part in parts) or not (parts[1] > 0).all():
         raise WeightsError(f"{path}: image_std must be positive")
     return parts[0], parts[1]
-
-
-def _json(path: Path) -> dict[str, Any]:
-    try:
-        found = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise WeightsError(f"{path} can't be read: {error}") from error
-    if not isinstance(found, dict):
-        raise WeightsError(f"{path} is no configuration")
-    return found

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""The tactile encoder: tokenizers, transformer, state heads, its losses, masked modelling, and CLIP.
+
+Everything here is a module or a loss over tensors. Not here: training (``cltp.train``) and files of
+weights (``cltp.checkpoints``).
+"""

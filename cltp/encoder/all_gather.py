@@ -1,7 +1,7 @@
-"""Rows of a batch that is spread over several processes, brought together; gradients go back.
+"""Rows of a batch gathered from several processes, with gradients going back to them.
 
-Without a process group, or with one process alone, everything is returned as it is. Who starts the
-processes is not decided here (``cltp.train.distributed``).
+Without a process group, or with one process alone, everything is returned as it is. Not here: the
+start of the processes (``cltp.train.distributed``).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from torch import Tensor
 
 
 def num_processes() -> int:
-    """How many processes share a batch; 1 without a process group."""
+    """Number of processes that share a batch; 1 without a process group."""
     return dist.get_world_size() if dist.is_available() and dist.is_initialized() else 1
 
 
@@ -26,7 +26,7 @@ def gathered(rows: Tensor) -> Tensor:
     gradients over the processes (``averaged_gradients``) is then that of one process alone.
 
     Args:
-        rows: Shape (B, ...), as many in every process.
+        rows: Shape (B, ...), with the same B in every process.
 
     Returns:
         Shape (processes · B, ...).
@@ -34,8 +34,8 @@ def gathered(rows: Tensor) -> Tensor:
     if num_processes() == 1:
         return rows
     if rows.requires_grad:
-        found: Tensor = _Gather.apply(rows)
-        return found
+        gathered_rows: Tensor = _Gather.apply(rows)
+        return gathered_rows
     return _all(rows)
 
 
@@ -61,7 +61,7 @@ def _all(rows: Tensor) -> Tensor:
 
 
 class _Gather(torch.autograd.Function):
-    """All rows forwards; backwards the sum of what every process wants of this one's rows."""
+    """Forwards all rows; backwards the sum over processes of the gradients of this one's rows."""
 
     @staticmethod
     def forward(ctx: Any, rows: Tensor) -> Tensor:

@@ -1,6 +1,6 @@
 """The frozen, pre-aligned towers E_L and E_I: any CLIP in transformers' format, or our small one.
 
-Not here: how the small one is aligned (``cltp.train.clip``).
+Not here: the alignment of the small one (``cltp.train.clip``).
 """
 
 from __future__ import annotations
@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import torch
-from safetensors import SafetensorError
 from tokenizers import Tokenizer
 from torch import Tensor, nn
 
+from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
 from cltp.tactile.render import IMAGE_PX
 from cltp.texts.tokenizer import Words
@@ -27,7 +27,7 @@ TEXT_LENGTH = 40
 
 
 def small_clip(words: Words, *, dim: int = 128, layers: int = 2) -> CLIPModel:
-    """A CLIP to be aligned here, with random weights. 1 M parameters by default."""
+    """A CLIP with random weights; 1 M parameters by default."""
     from transformers import CLIPConfig, CLIPModel
 
     tower = {
@@ -60,11 +60,11 @@ class Tokens(Protocol):
     eos: int
 
     def encode(self, text: str) -> list[int]:
-        """Tokens of a text, without those at its ends."""
+        """Tokens of a text, without start and end."""
         ...
 
     def fingerprint(self) -> str:
-        """Tells tokenizers apart."""
+        """SHA-256 of the whole tokenizer."""
         ...
 
 
@@ -72,8 +72,8 @@ class StockTokens:
     """The tokenizer of a stock CLIP checkpoint: ``tokenizer.json`` as its makers wrote it.
 
     Args:
-        folder: Of the checkpoint.
-        config: Its configuration of the text tower, which names the ends of a text.
+        folder: Folder of the checkpoint.
+        config: Configuration of its text tower, which has the numbers of start and end.
 
     Raises:
         TouchError: The file is missing or damaged.
@@ -85,21 +85,19 @@ class StockTokens:
             self._tokenizer = Tokenizer.from_file(str(path))
         except Exception as error:  # the library raises bare Exception for anything it can't read
             raise TouchError(f"no tokenizer could be read from {path}: {error}") from error
-        # Old configurations name 0 and 2, which are letters: the vocabulary knows better.
+        # Old configurations have 0 and 2, which are letters: the vocabulary comes first.
         first, last = (self._tokenizer.token_to_id(token) for token in STOCK_ENDS)
         self.bos = int(config.bos_token_id if first is None else first)
         self.eos = int(config.eos_token_id if last is None else last)
         self.pad = self.eos
 
     def encode(self, text: str) -> list[int]:
-        """Tokens of a text, without those at its ends."""
         return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
 
     def __contains__(self, token: str) -> bool:
         return self._tokenizer.token_to_id(token) is not None
 
     def fingerprint(self) -> str:
-        """SHA-256 of the whole tokenizer."""
         return hashlib.sha256(self._tokenizer.to_str().encode()).hexdigest()
 
 
@@ -107,7 +105,7 @@ STOCK_ENDS = ("<|startoftext|>", "<|endoftext|>")
 
 
 class Towers(nn.Module):
-    """E_L and E_I of a CLIP, frozen, with texts and images going in as they are.
+    """E_L and E_I of a CLIP, frozen; they take texts and pixels.
 
     Args:
         clip: The model.
@@ -121,7 +119,6 @@ class Towers(nn.Module):
 
     @property
     def feature_dim(self) -> int:
-        """Width of the shared space."""
         return int(self.clip.config.projection_dim)
 
     @torch.no_grad()
@@ -138,18 +135,18 @@ class Towers(nn.Module):
 def text_features(clip: CLIPModel, words: Tokens, texts: Sequence[str]) -> Tensor:
     """E_L: features of texts, shape (B, F), normalised.
 
-    A text's feature is read where it ends. transformers does so too, but for the number 2 of the
-    last token, which is ours: there it takes the token of the largest number (for the sake of old
-    checkpoints), somewhere inside the text, where causal attention knows nothing of what follows.
+    The feature of a text is that of its last token. transformers does so too, except where the last
+    token has the number 2, as ours does: for old checkpoints it then takes the token of the largest
+    number, somewhere inside the text, where causal attention has not seen the rest.
     """
     longest = clip.text_model.embeddings.position_embedding.num_embeddings
     rows = [[words.bos, *words.encode(text)[: longest - 2], words.eos] for text in texts]
     width = max(len(row) for row in rows)
     ids = torch.tensor([row + [words.pad] * (width - len(row)) for row in rows])
     mask = torch.tensor([[1] * len(row) + [0] * (width - len(row)) for row in rows])
-    seen = clip.text_model(input_ids=ids.to(clip.device), attention_mask=mask.to(clip.device))
+    output = clip.text_model(input_ids=ids.to(clip.device), attention_mask=mask.to(clip.device))
     ends = mask.sum(dim=1).to(clip.device) - 1
-    last = seen.last_hidden_state[torch.arange(len(rows), device=clip.device), ends]
+    last = output.last_hidden_state[torch.arange(len(rows), device=clip.device), ends]
     return torch.nn.functional.normalize(clip.text_projection(last), dim=-1)
 
 
@@ -158,8 +155,8 @@ def image_features(clip: CLIPModel, pixels: Tensor) -> Tensor:
     size = int(clip.vision_model.embeddings.image_size)
     if pixels.shape[-1] != size:
         pixels = torch.nn.functional.interpolate(pixels, (size, size), mode="bilinear")
-    found = clip.get_image_features(pixel_values=(pixels.to(clip.device) - 0.5) / 0.25)
-    return torch.nn.functional.normalize(found.pooler_output, dim=-1)
+    output = clip.get_image_features(pixel_values=(pixels.to(clip.device) - 0.5) / 0.25)
+    return torch.nn.functional.normalize(output.pooler_output, dim=-1)
 
 
 def load_towers(folder: Path) -> Towers:
@@ -170,16 +167,7 @@ def load_towers(folder: Path) -> Towers:
     """
     from transformers import CLIPModel
 
-    try:
-        loaded: Any = CLIPModel.from_pretrained(
-            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
-        )
-        clip, info = loaded
-    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
-        raise TouchError(f"no CLIP could be read from {folder}: {error}") from error
-    wrong = [*info["missing_keys"], *info["unexpected_keys"]]
-    if wrong:
-        raise TouchError(f"CLIP in {folder} lacks or adds weights: {', '.join(sorted(wrong)[:5])}")
+    clip = load_strictly(CLIPModel, folder, "CLIP")
     return Towers(clip, _tokens_of(folder, clip.config.text_config))
 
 

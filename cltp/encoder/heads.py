@@ -1,8 +1,8 @@
 """Heads that read a contact state from the encoder's pooled tokens, and their targets.
 
-Beyond the paper, whose encoder learns from captions and images alone: numbers (its 'limitations'
-asks for them) make the tokens precise enough to act on. Used in pre-training beside the contrastive
-losses and in evaluation.
+Beyond the paper, whose encoder learns from captions and images alone: numbers, which its section on
+limitations names, make the tokens precise enough to act on. Used in pre-training beside the
+contrastive losses, and in evaluation.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from torch import Tensor, nn
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 
 SMALLEST_FORCE_N = 0.05
-"""Forces are learned as logarithms, softened here: below this, errors count in newtons."""
+"""Forces are learned as logarithms; below this force, errors count in newtons."""
 
 IGNORED = -1
 
 
 class Targets(NamedTuple):
-    """What the heads should say for a batch.
+    """Labels of a batch for the heads.
 
     Attributes:
-        classes: Shape (B, 5), indices into ``CLASSES``; ``IGNORED`` where nobody named one.
+        classes: Shape (B, 5), indices into ``CLASSES``; ``IGNORED`` where there is no label.
         numbers: Shape (B, 5), transformed ``NUMBERS``.
         touching: Shape (B,), 1 where there is contact.
         cut: Shape (B, 4), 1 for each side that cuts the contact.
@@ -40,7 +40,7 @@ class Targets(NamedTuple):
 
 
 def targets(states: Sequence[ContactState]) -> Targets:
-    """Targets of labels."""
+    """Targets of labelled states."""
     classes = [
         [
             IGNORED if (word := getattr(state, slot)) is None else names.index(word)
@@ -72,10 +72,10 @@ def restored(values: Tensor) -> Tensor:
 
 
 def with_read_numbers(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
-    """States with what the heads read in place of their numbers; words stay, as does no contact.
+    """States with the heads' numbers in place of their own; words stay, and states without contact.
 
     Args:
-        states: B of them.
+        states: B states.
         numbers: Shape (B, 5), transformed ``NUMBERS``, as the heads give them.
     """
     read = restored(numbers.detach().float().cpu())
@@ -88,13 +88,13 @@ def with_read_numbers(states: Sequence[ContactState], numbers: Tensor) -> list[C
 
 
 class HeadsOutput(NamedTuple):
-    """What the heads say of a batch.
+    """Output of the heads for a batch.
 
     Attributes:
-        logits: Of the five slots, each (B, classes).
+        logits: Logits of the five slots, each (B, classes).
         numbers: Shape (B, 5), transformed ``NUMBERS``.
         touching: Shape (B,), logit of contact.
-        cut: Shape (B, 4), logit of each side's cutting the contact.
+        cut: Shape (B, 4), logit that each side cuts the contact.
     """
 
     logits: tuple[Tensor, ...]
@@ -124,17 +124,16 @@ class StateHeads(nn.Module):
         *logits, numbers, touching, cut = out.split([*self.sizes, len(NUMBERS), 1, len(Side)], -1)
         return HeadsOutput(tuple(logits), numbers, touching[:, 0], cut)
 
-    def losses(self, pooled: Tensor, wanted: Targets) -> dict[str, Tensor]:
+    def losses(self, pooled: Tensor, labels: Targets) -> dict[str, Tensor]:
         """Named terms, each a mean over the batch."""
         logits, numbers, touching, cut = self(pooled)
         terms = {}
         for column, (slot, scores) in enumerate(zip(CLASSES, logits, strict=True)):
-            goal = wanted.classes[:, column]
-            total = F.cross_entropy(scores, goal, ignore_index=IGNORED, reduction="sum")
-            terms[slot] = total / (goal != IGNORED).sum().clamp(min=1)
-        felt = wanted.touching[:, None]
-        off = F.smooth_l1_loss(numbers, wanted.numbers, beta=0.1, reduction="none")
-        terms["numbers"] = (off * felt).sum(1).mean()
-        terms["touching"] = F.binary_cross_entropy_with_logits(touching, wanted.touching)
-        terms["cut"] = F.binary_cross_entropy_with_logits(cut, wanted.cut)
+            classes = labels.classes[:, column]
+            total = F.cross_entropy(scores, classes, ignore_index=IGNORED, reduction="sum")
+            terms[slot] = total / (classes != IGNORED).sum().clamp(min=1)
+        errors = F.smooth_l1_loss(numbers, labels.numbers, beta=0.1, reduction="none")
+        terms["numbers"] = (errors * labels.touching[:, None]).sum(1).mean()
+        terms["touching"] = F.binary_cross_entropy_with_logits(touching, labels.touching)
+        terms["cut"] = F.binary_cross_entropy_with_logits(cut, labels.cut)
         return terms

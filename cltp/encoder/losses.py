@@ -1,12 +1,12 @@
-"""The contrastive losses of CLTP. They know nothing of towers.
+"""The contrastive losses of CLTP, over features of any encoders.
 
-Source: paper, section 4, L_T2L and L_T2I; the temperature as ULIP has it, started at 0.07 and kept
-from falling below 0.01, and its negatives, gathered over all processes. The paper sums over a batch
-where we take the mean, which only scales.
+Source: paper, section 4, L_T2L and L_T2I; the temperature as ULIP has it, started at 0.07 and at
+least 0.01, with negatives gathered over all processes. The paper sums over a batch where we take
+the mean, which only scales.
 
-Ours: several rows may belong together. Two contacts with the same caption are no negatives of each
-other, and a text that names one dimension alone fits every contact of that class; ``fits`` says so,
-and each row then has to give all that fit it the same share.
+Ours: several rows may match. Two contacts with the same caption are no negatives of each other, and
+a text that names one dimension alone is true of every contact of that class. Each row then has to
+give all its ``matches`` the same probability.
 """
 
 from __future__ import annotations
@@ -34,27 +34,27 @@ class ContrastiveLoss(nn.Module):
         """One over the temperature, at most 100."""
         return self.log_scale.clamp(max=LARGEST_LOG_SCALE).exp()
 
-    def forward(self, one: Tensor, other: Tensor, fits: Tensor | None = None) -> Tensor:
-        """Loss of features (B, F) and (B, F), row i of one belonging to row i of the other.
+    def forward(self, one: Tensor, other: Tensor, matches: Tensor | None = None) -> Tensor:
+        """Loss of features (B, F) and (B, F), row i of one matching row i of the other.
 
-        With several processes, all give the loss of the rows of all.
+        With several processes, each gives the loss of the rows of all.
 
         Args:
             one: Features of one kind.
-            other: Of the other.
-            fits: Shape (B, B) over the rows of all processes, bool: which rows of ``one`` (first
-                index) belong to which of ``other``; each to some. None: to its own alone.
+            other: Features of the other kind.
+            matches: Shape (B, B) over the rows of all processes, bool: which rows of ``one`` (first
+                index) match which of ``other``; each row has a match. None: its own alone.
         """
         one = gathered(F.normalize(one, dim=-1))
         other = gathered(F.normalize(other, dim=-1))
         similar = self.scale * one @ other.T
-        if fits is None:
+        if matches is None:
             pairs = torch.arange(len(one), device=one.device)
             return 0.5 * (F.cross_entropy(similar, pairs) + F.cross_entropy(similar.T, pairs))
-        shares = fits.to(similar.dtype)
+        targets = matches.to(similar.dtype)
         return 0.5 * (
-            F.cross_entropy(similar, shares / shares.sum(1, keepdim=True))
-            + F.cross_entropy(similar.T, shares.T / shares.T.sum(1, keepdim=True))
+            F.cross_entropy(similar, targets / targets.sum(1, keepdim=True))
+            + F.cross_entropy(similar.T, targets.T / targets.T.sum(1, keepdim=True))
         )
 
 
@@ -70,13 +70,13 @@ class CltpLoss(nn.Module):
         touch: Tensor,
         language: Tensor,
         image: Tensor | None = None,
-        fits: Tensor | None = None,
+        matches: Tensor | None = None,
     ) -> dict[str, Tensor]:
         """Named terms; without images (the paper's ablation) ``t2l`` alone.
 
-        ``fits`` is for language: which contacts belong to which texts.
+        ``matches`` is for language: which contacts match which texts.
         """
-        terms = {"t2l": self.contrast(touch, language, fits)}
+        terms = {"t2l": self.contrast(touch, language, matches)}
         if image is not None:
             terms["t2i"] = self.contrast(touch, image)
         return terms
@@ -86,10 +86,9 @@ class CltpLoss(nn.Module):
 
         Args:
             touch: Features, shape (B, F).
-            prompts: Features of one text a class, shape (classes, F), normalised.
-            classes: Shape (B,), the class of each contact; negative where it has none.
+            prompts: Features of one text for each class, shape (classes, F), normalised.
+            classes: Shape (B,), the class of each contact; negative without a label.
         """
         similar = self.contrast.scale * F.normalize(touch, dim=-1) @ prompts.T
-        known = classes >= 0
         total = F.cross_entropy(similar, classes, ignore_index=-1, reduction="sum")
-        return total / known.sum().clamp(min=1)
+        return total / (classes >= 0).sum().clamp(min=1)

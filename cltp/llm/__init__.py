@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""The language model behind the encoder: projector, reading tokens, generation, fast decoding.
+
+Not here: training (``cltp.train``), the texts that it learns (``cltp.texts``, ``tacgrasp.lessons``)
+and decisions made of its replies (``policies``).
+"""

@@ -1,8 +1,8 @@
 """Causal language models of the Qwen2 family: our small one, or any local checkpoint directory.
 
-What they share, as far as Tac3D-LLM needs it, is ``Language``: inputs as embeddings, tokens as the
-checkpoint's own tokenizer makes them, and the eight actions as sequences of tokens. Ours are one
-token each; a stock checkpoint spells them.
+``Language`` is the part of them that Tac3D-LLM needs: inputs as embeddings, tokens of the
+checkpoint's own tokenizer, and the eight actions as sequences of tokens. Our tokenizer has one
+token for each action; a stock one spells them.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import torch
-from safetensors import SafetensorError
 from torch import Tensor
 
+from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
 from cltp.texts.exchange_packing import prompt_ids
 from cltp.texts.tokenizer import ACTIONS, Words
@@ -23,7 +23,7 @@ if TYPE_CHECKING:  # its import takes seconds: only where it is needed
     from transformers import Qwen2ForCausalLM
 
 CUE = "Action:"
-"""Stands before the action in every D_t."""
+"""The text before the action in every D_t."""
 
 
 def small_lm(words: Words, *, dim: int = 192, layers: int = 4) -> Qwen2ForCausalLM:
@@ -32,7 +32,7 @@ def small_lm(words: Words, *, dim: int = 192, layers: int = 4) -> Qwen2ForCausal
     Args:
         words: Its tokenizer; input and output embeddings are shared.
         dim: Hidden width, a multiple of 48.
-        layers: Layers.
+        layers: Number of layers.
     """
     from transformers import Qwen2Config, Qwen2ForCausalLM
 
@@ -91,7 +91,6 @@ class Language:
         return self._stock_ids(ask)
 
     def decode(self, ids: Sequence[int]) -> str:
-        """Text of tokens."""
         if self.words:
             return self.words.decode(ids)
         return str(self._stock.decode(ids, skip_special_tokens=True))
@@ -106,7 +105,7 @@ class Language:
 
 
 def load_language(folder: Path) -> Language:
-    """Read a Qwen2 or Qwen2.5-VL directory in transformers' layout; ours are told by their tokens.
+    """Read a Qwen2 or Qwen2.5-VL directory in transformers' layout, with our tokenizer or its own.
 
     Raises:
         TouchError: Missing, damaged, another architecture, or weights that don't fit strictly.
@@ -124,19 +123,11 @@ def load_language(folder: Path) -> Language:
     }
     try:
         kind = AutoConfig.from_pretrained(folder, local_files_only=True).model_type
-        if kind not in kinds:
-            raise TouchError(f"{folder} holds a {kind} model; Tac3D-LLM takes {' or '.join(kinds)}")
-        loaded: Any = kinds[kind].from_pretrained(
-            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
-        )
-    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
+    except (OSError, ValueError) as error:
         raise TouchError(f"no language model could be read from {folder}: {error}") from error
-    lm, info = loaded
-    wrong = sorted([*info["missing_keys"], *info["unexpected_keys"]])
-    wrong += [str(key) for key in info.get("mismatched_keys", [])]
-    if wrong:
-        raise TouchError(f"language model in {folder}: weights don't fit: {', '.join(wrong[:5])}")
-    lm.eval()
+    if kind not in kinds:
+        raise TouchError(f"{folder} holds a {kind} model; Tac3D-LLM takes {' or '.join(kinds)}")
+    lm = load_strictly(kinds[kind], folder, "language model").eval()
     try:
         return Language(lm, words=Words.load(folder))
     except TouchError:

@@ -2,7 +2,7 @@
 
 Same weights and same numbers as transformers' ``Qwen2ForCausalLM`` (tested), a batch of one, a
 cache of keys and values that is allocated once, matrices that share an input joined into one. At
-a few million parameters a token costs little arithmetic: what counts is the number of calls.
+a few million parameters a token costs little arithmetic: the number of calls decides.
 """
 
 from __future__ import annotations
@@ -29,9 +29,9 @@ class FastDecoder:
     """Runs a Qwen2 token by token.
 
     Args:
-        lm: A ``Qwen2ForCausalLM`` or a ``cltp.llm.stored_lm.StoredLm``. Its weights are copied;
-            make a new decoder after training on.
-        longest: Positions that the cache holds.
+        lm: A ``Qwen2ForCausalLM`` or a ``cltp.llm.stored_lm.StoredLm``. Its weights are copied, so
+            that it needs a new decoder after further training.
+        longest: Number of positions that the cache holds.
     """
 
     def __init__(self, lm: Any, longest: int = 512) -> None:
@@ -46,10 +46,10 @@ class FastDecoder:
         self._norm = lm.model.norm.weight.detach().clone()
         self._embedding = lm.get_input_embeddings().weight.detach().clone()
         self._head = lm.get_output_embeddings().weight.detach().clone()
-        self._longest = longest
+        self.longest = longest
         with torch.no_grad():
-            places = torch.arange(longest, device=self._norm.device)[None]
-            cos, sin = lm.model.rotary_emb(self._embedding[:1, None], places)
+            positions = torch.arange(longest, device=self._norm.device)[None]
+            cos, sin = lm.model.rotary_emb(self._embedding[:1, None], positions)
         self._cos, self._sin = cos[0].float(), sin[0].float()
         half = self._size // 2
         self._sin[:, :half] *= -1  # rotation by halves: (-x2, x1) becomes one multiplication
@@ -57,20 +57,15 @@ class FastDecoder:
         self._keys, self._values = self._norm.new_zeros(shape), self._norm.new_zeros(shape)
         self._length = 0
 
-    @property
-    def longest(self) -> int:
-        """Positions that the cache holds."""
-        return self._longest
-
     @torch.no_grad()
     def prefill(self, embeddings: Tensor) -> Tensor:
-        """Start again with the given inputs (T, D) and return the last position's logits (V,)."""
+        """Begin with inputs (T, D); return the logits of what follows, shape (V,)."""
         self._length = 0
         return self._advance(embeddings)
 
     @torch.no_grad()
     def step(self, token: int) -> Tensor:
-        """Append a token and return the logits of what follows, shape (V,)."""
+        """Append a token; return the logits of what follows, shape (V,)."""
         return self._advance(self._embedding[token : token + 1])
 
     def embed(self, ids: list[int]) -> Tensor:
@@ -87,13 +82,13 @@ class FastDecoder:
             normed = F.rms_norm(x, width, layer.norm1, self._eps)
             qkv = F.linear(normed, layer.qkv, layer.qkv_bias)
             qkv = qkv.view(count, heads + 2 * kv_heads, size).transpose(0, 1)
-            turned = qkv[: heads + kv_heads]
-            turned = turned * cos + turned.roll(size // 2, -1) * sin
+            rotated = qkv[: heads + kv_heads]
+            rotated = rotated * cos + rotated.roll(size // 2, -1) * sin
             keys, values = self._keys[number], self._values[number]
-            keys[0, :, start:end] = turned[heads:]
+            keys[0, :, start:end] = rotated[heads:]
             values[0, :, start:end] = qkv[heads + kv_heads :]
             mixed = F.scaled_dot_product_attention(
-                turned[None, :heads],
+                rotated[None, :heads],
                 keys[:, :, :end],
                 values[:, :, :end],
                 is_causal=count > 1 and start == 0,
@@ -130,27 +125,27 @@ def greedy(
     max_tokens: int,
     watch: Callable[[int, Tensor], None] | None = None,
     prefilled: Callable[[], None] | None = None,
-    against: Mapping[int, float] | None = None,
+    penalties: Mapping[int, float] | None = None,
 ) -> list[int]:
-    """Tokens that follow the given inputs, the likeliest each time.
+    """Tokens that follow some inputs, the most probable one each time.
 
     Args:
         decoder: Runs the model.
         embeddings: Shape (T, D).
         stop: Token that ends the reply; it is not returned.
-        max_tokens: At most so many.
+        max_tokens: Bound on the number of tokens.
         watch: Called with every chosen token and the logits that it was chosen from.
-        prefilled: Called once, when the given inputs have been gone through.
-        against: Taken from the logits of these tokens; infinite: never chosen.
+        prefilled: Called once, after the inputs.
+        penalties: Amounts taken from the logits of tokens; an infinite one excludes its token.
     """
-    room = decoder.longest - len(embeddings)
+    limit = min(max_tokens, decoder.longest - len(embeddings))
     ids: list[int] = []
     logits = decoder.prefill(embeddings)
     if prefilled is not None:
         prefilled()
-    while len(ids) < min(max_tokens, room):
-        for costly, cost in (against or {}).items():
-            logits[costly] -= cost
+    while len(ids) < limit:
+        for penalised, penalty in (penalties or {}).items():
+            logits[penalised] -= penalty
         token = int(logits.argmax())
         if token == stop:
             break

@@ -1,8 +1,8 @@
-"""Floating-point operations of the model's parts, counted by formula: a floor for their durations.
+"""Floating-point operations of the model's parts, by formula: a lower bound for their durations.
 
-A product of an (m, k) with a (k, n) matrix is 2 m k n operations. Counted are products,
-convolutions and attention; norms, activations and additions are left out, so that a floor is never
-too high.
+A product of an (m, k) with a (k, n) matrix is 2 m k n operations. Products, convolutions and
+attention are counted; norms, activations and additions are left out, so that the bound is never too
+high.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from cltp.tactile.cloud import NUM_POINTS
 
 
 def encoder_operations(encoder: TactileEncoder) -> int:
-    """Operations of E_T on one cloud: its layers', as they run, and attention's 4 T² C a block."""
+    """Operations of E_T on one cloud: those of its layers, and 4 T² C for attention in a block."""
     total = 0
 
     def count(layer: nn.Module, _: Any, out: Tensor) -> None:
@@ -48,8 +48,8 @@ def projector_operations(projector: Projector, num_tokens: int) -> int:
     """Operations of the MLP on one cloud's tokens, and of the readings' tokens beside them.
 
     Args:
-        projector: Its widths count.
-        num_tokens: Of the encoder: the groups and the class token.
+        projector: The projector.
+        num_tokens: Number of the encoder's tokens: the groups and the class token.
     """
     dim = projector.lm_dim
     readings = projector.readings
@@ -63,12 +63,12 @@ def prefill_operations(config: Any, num_tokens: int) -> int:
 
     Args:
         config: transformers' ``Qwen2Config``.
-        num_tokens: Touch and prompt. Position t attends to t others.
+        num_tokens: Number of tokens of touch and prompt. Position t attends to t others.
     """
-    places = num_tokens * (num_tokens + 1) // 2
+    attended = num_tokens * (num_tokens + 1) // 2
     return (
         num_tokens * _matrices(config)
-        + places * _attended(config)
+        + attended * _attention(config)
         + 2 * config.vocab_size * config.hidden_size
     )
 
@@ -76,12 +76,12 @@ def prefill_operations(config: Any, num_tokens: int) -> int:
 def generate_operations(config: Any, num_before: int, num_tokens: int) -> int:
     """Operations of ``num_tokens`` further single tokens after ``num_before`` positions."""
     each = _matrices(config) + 2 * config.vocab_size * config.hidden_size
-    places = sum(range(num_before + 1, num_before + num_tokens + 1))
-    return num_tokens * each + places * _attended(config)
+    attended = sum(range(num_before + 1, num_before + num_tokens + 1))
+    return num_tokens * each + attended * _attention(config)
 
 
 def _matrices(config: Any) -> int:
-    """Of the layers' matrices on one token."""
+    """Operations of the layers' matrices on one token."""
     dim, inner = config.hidden_size, config.intermediate_size
     size = getattr(config, "head_dim", None) or dim // config.num_attention_heads
     query, key = config.num_attention_heads * size, config.num_key_value_heads * size
@@ -92,7 +92,7 @@ def _matrices(config: Any) -> int:
     )
 
 
-def _attended(config: Any) -> int:
-    """Of one token's attention to one position: a product for the score, one for the value."""
+def _attention(config: Any) -> int:
+    """Operations of one token's attention to one position: a product each for score and value."""
     size = getattr(config, "head_dim", None) or config.hidden_size // config.num_attention_heads
     return 4 * int(config.num_hidden_layers) * config.num_attention_heads * size

@@ -1,8 +1,8 @@
 """Replies of Tac3D-LLM about one contact: text, the choice among eight actions, and durations.
 
-For our own model the eight actions are tokens, and the choice is the softmax over them at the place
-where the reply names one. For a stock checkpoint, once the reply has come to ``Action:``, a prefix
-trie leaves only what continues one of the eight names. Nothing else in a reply is constrained.
+In our own model the eight actions are tokens, and the choice is the softmax over them at the
+position where the reply names one. In a stock checkpoint, a prefix trie after ``Action:`` leaves
+only the tokens that continue one of the eight names. The rest of a reply is not constrained.
 """
 
 from __future__ import annotations
@@ -25,19 +25,19 @@ from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.texts.tokenizer import ACTIONS
 
 MAX_TOKENS = 96
-"""A reply that is longer never ends. Our own take about 60."""
+"""Bound on the tokens of a reply; our own take about 60."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Reply:
-    """What the model said.
+    """A reply of the model.
 
     Attributes:
         text: D_t.
         ended: False when ``max_tokens`` came before the end: the text is cut off.
-        num_tokens: Tokens generated.
-        action: One of ``cltp.texts.tokenizer.ACTIONS``, None when the reply comes to none.
-        probabilities: Of the eight at the action's place; empty when it comes to none.
+        num_tokens: Number of generated tokens.
+        action: One of ``cltp.texts.tokenizer.ACTIONS``; None when the reply has none.
+        probabilities: Probabilities of the eight at the action's position; empty without one.
         stage_ms: Durations of encode, project, prefill (the prompt's tokens, which also give the
             first of the reply) and generate (the others) [ms].
     """
@@ -51,7 +51,7 @@ class Reply:
 
     @property
     def confidence(self) -> float:
-        """Probability of the action among the eight; 0 without one."""
+        """Probability of the action among the eight; 0 without an action."""
         return max(self.probabilities, default=0.0)
 
 
@@ -59,8 +59,8 @@ class Talker:
     """Asks a Tac3D-LLM about contacts.
 
     Args:
-        model: Its weights are taken as they are now.
-        clock: For durations [s].
+        model: The model; its weights are copied.
+        clock: Source of the time for durations [s].
     """
 
     def __init__(self, model: Tac3dLlm, clock: Callable[[], float] = time.perf_counter) -> None:
@@ -71,7 +71,6 @@ class Talker:
 
     @property
     def model(self) -> Tac3dLlm:
-        """What is asked."""
         return self._model
 
     @torch.inference_mode()
@@ -81,17 +80,17 @@ class Talker:
         prompt: str,
         *,
         max_tokens: int = MAX_TOKENS,
-        against: Mapping[str, float] | None = None,
+        penalties: Mapping[str, float] | None = None,
     ) -> Reply:
         """Ask about one contact.
 
         Args:
             points: Shape (1024, 3), from ``cltp.tactile.encoder_input.encoder_input``.
-            prompt: What a person asks.
-            max_tokens: Bound on the reply.
-            against: What speaks against actions out of ``cltp.texts.tokenizer.ACTIONS``, in nats
-                taken from their logits: the logarithm of how many times likelier one has to be than
-                what is said in its place. Infinite: the reply must not ask for it.
+            prompt: A person's question or instruction.
+            max_tokens: Bound on the tokens of the reply.
+            penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which
+                are taken from their logits: a penalised action must be exp(penalty) times as
+                probable as the one that replaces it. An infinite penalty excludes an action.
         """
         marks = [self._clock()]
         encoded = self._model.encoder(torch.from_numpy(points)[None])
@@ -103,9 +102,9 @@ class Talker:
         def prefilled() -> None:
             marks.append(self._clock())
 
-        say = partial(_own, self._fast) if self._fast is not None else _stock
-        ids, ended, chances = say(
-            self._language, inputs, max_tokens, prefilled, dict(against or {})
+        generate = partial(_own, self._fast) if self._fast is not None else _stock
+        ids, ended, probabilities = generate(
+            self._language, inputs, max_tokens, prefilled, dict(penalties or {})
         )
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
@@ -114,8 +113,8 @@ class Talker:
             text=text,
             ended=ended,
             num_tokens=len(ids),
-            action=ACTIONS[int(np.argmax(chances))] if chances else None,
-            probabilities=tuple(chances),
+            action=ACTIONS[int(np.argmax(probabilities))] if probabilities else None,
+            probabilities=tuple(probabilities),
             stage_ms={
                 stage: 1e3 * (end - begin)
                 for stage, begin, end in zip(stages, marks, marks[1:], strict=False)
@@ -129,14 +128,14 @@ def _own(
     inputs: Tensor,
     max_tokens: int,
     prefilled: Callable[[], None],
-    against: Mapping[str, float],
+    penalties: Mapping[str, float],
 ) -> tuple[list[int], bool, list[float]]:
     actions = [tokens[0] for tokens in language.actions()]
-    found: list[Tensor] = []
+    probabilities: list[Tensor] = []
 
     def watch(token: int, logits: Tensor) -> None:
-        if token in actions and not found:
-            found.append(logits[actions].softmax(-1))
+        if token in actions and not probabilities:
+            probabilities.append(logits[actions].softmax(-1))
 
     ids = greedy(
         decoder,
@@ -145,9 +144,11 @@ def _own(
         max_tokens=max_tokens,
         watch=watch,
         prefilled=prefilled,
-        against={t: against[a] for t, a in zip(actions, ACTIONS, strict=True) if a in against},
+        penalties={
+            t: penalties[a] for t, a in zip(actions, ACTIONS, strict=True) if a in penalties
+        },
     )
-    return ids, len(ids) < max_tokens, found[0].tolist() if found else []
+    return ids, len(ids) < max_tokens, probabilities[0].tolist() if probabilities else []
 
 
 def _stock(
@@ -155,9 +156,9 @@ def _stock(
     inputs: Tensor,
     max_tokens: int,
     prefilled: Callable[[], None],
-    against: Mapping[str, float],
+    penalties: Mapping[str, float],
 ) -> tuple[list[int], bool, list[float]]:
-    """The same by transformers' own forward, with its cache, for any checkpoint of the family."""
+    """Generate by transformers' own forward, with its cache, for any checkpoint of the family."""
     run = _Run(language)
     logits = run.feed(inputs)
     prefilled()
@@ -168,20 +169,22 @@ def _stock(
             return ids, True, []
         ids.append(token)
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
-            chances = _score(run, logits_after(run, token), language.actions())
-            chances = [
-                chance * math.exp(-against.get(name, 0.0))
-                for name, chance in zip(ACTIONS, chances, strict=True)
+            logits = logits_after(run, token)
+            weights = [
+                probability * math.exp(-penalties.get(name, 0.0))
+                for name, probability in zip(
+                    ACTIONS, _action_probabilities(run, logits, language.actions()), strict=True
+                )
             ]
-            chances = [chance / (sum(chances) or 1.0) for chance in chances]
-            ids += language.actions()[int(np.argmax(chances))]
-            return ids, True, chances
+            probabilities = [weight / (sum(weights) or 1.0) for weight in weights]
+            ids += language.actions()[int(np.argmax(probabilities))]
+            return ids, True, probabilities
         logits = logits_after(run, token)
     return ids, False, []
 
 
 class _Run:
-    """A forward pass that goes on from where it stands."""
+    """A forward pass that continues after the tokens so far."""
 
     def __init__(self, language: Language) -> None:
         self._language = language
@@ -213,29 +216,29 @@ def logits_after(run: _Run, token: int) -> Tensor:
     return run.feed(run.embed([token]))
 
 
-def _score(run: _Run, logits: Tensor, names: list[list[int]]) -> list[float]:
+def _action_probabilities(run: _Run, logits: Tensor, names: list[list[int]]) -> list[float]:
     """Probability of each name under the trie of all of them.
 
     At every node the model's distribution is restricted to tokens that continue some name, so that
     the probabilities of the eight add up to 1 however many tokens each takes.
     """
-    chances = [0.0] * len(names)
+    probabilities = [0.0] * len(names)
 
     def descend(prefix: list[int], logits: Tensor, mass: float) -> None:
         inside = [n for n in range(len(names)) if names[n][: len(prefix)] == prefix]
         if len(inside) == 1 or any(len(names[n]) == len(prefix) for n in inside):
             ended = next((n for n in inside if len(names[n]) == len(prefix)), inside[0])
-            chances[ended] += mass
+            probabilities[ended] += mass
             return
         nexts = sorted({names[n][len(prefix)] for n in inside})
-        shares = logits[nexts].softmax(-1).tolist()
-        here = run.length
-        for token, share in zip(nexts, shares, strict=True):
+        fractions = logits[nexts].softmax(-1).tolist()
+        length = run.length
+        for token, fraction in zip(nexts, fractions, strict=True):
             branch = [*prefix, token]
-            alone = sum(names[n][: len(branch)] == branch for n in inside) == 1
-            descend(branch, logits if alone else logits_after(run, token), mass * share)
-            if not alone:
-                run.rewind(here)
+            is_leaf = sum(names[n][: len(branch)] == branch for n in inside) == 1
+            descend(branch, logits if is_leaf else logits_after(run, token), mass * fraction)
+            if not is_leaf:
+                run.rewind(length)
 
     descend([], logits, 1.0)
-    return chances
+    return probabilities

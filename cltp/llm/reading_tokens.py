@@ -1,9 +1,9 @@
-"""Tokens of what the state heads read, for the language model: numbers that it can copy.
+"""Tokens of the state heads' readings, for the language model: numbers that it can copy.
 
-Beyond the paper, which hands on the encoder's tokens alone: a language model of a few million
-weights, trained for minutes, learns to say a millimetre from those tokens only coarsely. Here each
-number becomes a token of its phases at ten, a hundred, a thousand and ten thousand times the last
-digit that is spoken, so that each digit is a direction of the embedding.
+Beyond the paper, which passes on the encoder's tokens alone: from those, a language model of a few
+million weights, trained for minutes, learns to write a millimetre only coarsely. Here each number
+becomes a token of its phases at ten, a hundred, a thousand and ten thousand times the last digit
+that is written, so that each digit is a direction of the embedding.
 
 Source: Fourier number embeddings (Zhou et al., FoNE, 2025), here of measured numbers.
 """
@@ -26,16 +26,16 @@ LAST_DIGIT = {
     "area_fraction": 0.001,
     "force_n": 0.01,
 }
-"""The last digit of each number as it is spoken, in its unit."""
+"""The last digit of each number as it is written, in its unit."""
 
 PERIODS = (10.0, 100.0, 1000.0, 10000.0)
-"""Of the phases, in last digits."""
+"""Periods of the phases, in last digits."""
 
 NUM_READINGS = 1 + len(NUMBERS)
 
 
 class ReadingTokens(nn.Module):
-    """From what the heads say to tokens: one of all words, one of each number.
+    """The heads' readings as tokens: one for all words, one for each number.
 
     Args:
         dim: Width D of the tokens.
@@ -55,10 +55,10 @@ class ReadingTokens(nn.Module):
         self.register_buffer("periods", torch.tensor(PERIODS), persistent=False)
 
     def forward(self, readings: HeadsOutput) -> Tensor:
-        """What ``StateHeads`` says of a batch to tokens (B, 1 + 5, D)."""
+        """Output of ``StateHeads`` to tokens (B, 1 + 5, D)."""
         logits, numbers, touching, cut = readings
-        chances = [scores.softmax(-1) for scores in logits]
-        words = torch.cat([*chances, touching.sigmoid()[:, None], cut.sigmoid()], dim=-1)
+        classes = [scores.softmax(-1) for scores in logits]
+        words = torch.cat([*classes, touching.sigmoid()[:, None], cut.sigmoid()], dim=-1)
         features = self.features(numbers)
         tokens = [self.words(words)]
         tokens += [layer(features[:, i]) for i, layer in enumerate(self.numbers)]

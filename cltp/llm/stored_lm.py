@@ -1,9 +1,8 @@
-"""Our own small Qwen2 as its files hold it: enough to decode with, in milliseconds.
+"""Our own small Qwen2, read from its files in milliseconds, for decoding alone.
 
-``cltp.llm.fast_decode`` needs the weights and a few sizes. Reading them through transformers gives
-the same numbers (tested), but importing that library alone takes seconds, more than all else that a
-robot waits for before its first action. Any other checkpoint, and training, go through
-``cltp.llm.causal_lm``.
+``cltp.llm.fast_decode`` needs the weights and a few sizes. transformers reads the same numbers
+(tested), but its import alone takes seconds, more than everything else before a robot's first
+action. Any other checkpoint, and training, go through ``cltp.llm.causal_lm``.
 """
 
 from __future__ import annotations
@@ -22,13 +21,13 @@ from torch import Tensor
 
 from cltp.errors import TouchError
 
-AS_SMALL_LM = {
+SMALL_LM_SETTINGS = {
     "model_type": "qwen2",
     "hidden_act": "silu",
     "tie_word_embeddings": True,
     "use_sliding_window": False,
 }
-"""What ``cltp.llm.causal_lm.small_lm`` always makes; anything else is no language model of ours."""
+"""Settings of ``cltp.llm.causal_lm.small_lm``; another one is no language model of ours."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,13 +35,13 @@ class StoredConfig:
     """Sizes of a Qwen2, under transformers' names.
 
     Attributes:
-        vocab_size: Tokens.
+        vocab_size: Number of tokens.
         hidden_size: Width D.
         intermediate_size: Width inside the gated MLP.
-        num_hidden_layers: Layers.
-        num_attention_heads: Heads of queries.
-        num_key_value_heads: Heads of keys and values.
-        rms_norm_eps: Of the norms.
+        num_hidden_layers: Number of layers.
+        num_attention_heads: Number of heads of queries.
+        num_key_value_heads: Number of heads of keys and values.
+        rms_norm_eps: Epsilon of the norms.
         rope_theta: Base of the rotary frequencies.
     """
 
@@ -57,12 +56,11 @@ class StoredConfig:
 
     @property
     def head_dim(self) -> int:
-        """Width of a head."""
         return self.hidden_size // self.num_attention_heads
 
 
 class StoredLm:
-    """Weights and sizes, where ``FastDecoder`` and ``Language`` look for them.
+    """Weights and sizes, under the names that ``FastDecoder`` and ``Language`` use.
 
     Args:
         config: Sizes.
@@ -78,20 +76,19 @@ class StoredLm:
         self.model.rotary_emb = self._rotary
 
     def get_input_embeddings(self) -> Any:
-        """What has the table (V, D) as ``weight``."""
+        """The table (V, D), as ``weight``; output embeddings are the same."""
         return self.model.embed_tokens
 
     def get_output_embeddings(self) -> Any:
-        """The same: they are shared."""
         return self.model.embed_tokens
 
-    def _rotary(self, like: Tensor, places: Tensor) -> tuple[Tensor, Tensor]:
+    def _rotary(self, like: Tensor, positions: Tensor) -> tuple[Tensor, Tensor]:
         """Cosine and sine of positions (1, T), each of shape (1, T, head_dim)."""
         half = torch.arange(0, self.config.head_dim, 2, device=like.device).float()
         frequency = 1.0 / self.config.rope_theta ** (half / self.config.head_dim)
-        angle = places[..., None].float() * frequency
-        both = torch.cat([angle, angle], dim=-1)
-        return both.cos(), both.sin()
+        angle = positions[..., None].float() * frequency
+        angles = torch.cat([angle, angle], dim=-1)
+        return angles.cos(), angles.sin()
 
 
 def load_stored_lm(folder: Path) -> StoredLm:
@@ -105,9 +102,9 @@ def load_stored_lm(folder: Path) -> StoredLm:
         state = load_file(folder / "model.safetensors")
     except (OSError, SafetensorError) as error:
         raise TouchError(f"no language model could be read from {folder}: {error}") from error
-    wanted = _shapes(config)
-    wrong = sorted(set(wanted) ^ set(state))
-    wrong += [name for name in wanted if name in state and state[name].shape != wanted[name]]
+    shapes = _shapes(config)
+    wrong = sorted(set(shapes) ^ set(state))
+    wrong += [name for name in shapes if name in state and state[name].shape != shapes[name]]
     if wrong:
         raise TouchError(f"language model in {folder}: weights don't fit: {', '.join(wrong[:5])}")
     floats = {name: value.float() for name, value in state.items()}
@@ -119,13 +116,13 @@ def load_stored_lm(folder: Path) -> StoredLm:
 
 def _config(path: Path) -> StoredConfig:
     try:
-        said = json.loads(path.read_text())
-        other = {k: said.get(k) for k, value in AS_SMALL_LM.items() if said.get(k) != value}
-        rope = said["rope_parameters"]
+        stored = json.loads(path.read_text())
+        other = {k: stored.get(k) for k, v in SMALL_LM_SETTINGS.items() if stored.get(k) != v}
+        rope = stored["rope_parameters"]
         if other or rope["rope_type"] != "default":
             raise TouchError(f"{path} describes no language model of ours: {other or rope}")
-        said = {**said, "rope_theta": rope["rope_theta"]}
-        return StoredConfig(**{part.name: said[part.name] for part in fields(StoredConfig)})
+        sizes = {**stored, "rope_theta": rope["rope_theta"]}
+        return StoredConfig(**{part.name: sizes[part.name] for part in fields(StoredConfig)})
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise TouchError(f"{path} describes no language model: {error!r}") from error
 
@@ -160,10 +157,8 @@ def _tree(state: Mapping[str, Tensor]) -> SimpleNamespace:
     root = SimpleNamespace()
     for name, value in state.items():
         *path, last = name.split(".")
-        here = root
+        node = root
         for part in path:
-            if not hasattr(here, part):
-                setattr(here, part, SimpleNamespace())
-            here = getattr(here, part)
-        setattr(here, last, value)
+            node = node.__dict__.setdefault(part, SimpleNamespace())
+        setattr(node, last, value)
     return root

@@ -1,9 +1,8 @@
 """Tac3D-LLM: encoder tokens, projected into a causal language model's input space.
 
 Source: paper, section 5.3, after LLaVA: a small MLP maps the encoder's tokens to embeddings, which
-stand before the prompt; beyond the paper, what the encoder's state heads read follows them as a few
-tokens more (``cltp.llm.reading_tokens``). Not here: how replies are generated
-(``cltp.llm.generation``).
+stand before the prompt. Beyond the paper, the readings of the encoder's state heads follow them as
+a few more tokens (``cltp.llm.reading_tokens``). Not here: replies (``cltp.llm.generation``).
 """
 
 from __future__ import annotations
@@ -37,9 +36,9 @@ class Projector(nn.Module):
         self.readings = ReadingTokens(lm_dim)
 
     def forward(self, tokens: Tensor, readings: HeadsOutput) -> Tensor:
-        """Tokens (B, G + 1, C) and what the heads read to embeddings (B, G + 1 + 6, D)."""
-        seen = self.second(F.gelu(self.first(tokens)))
-        return torch.cat([seen, self.readings(readings)], dim=1)
+        """Tokens (B, G + 1, C) and the heads' readings to embeddings (B, G + 1 + 6, D)."""
+        projected = self.second(F.gelu(self.first(tokens)))
+        return torch.cat([projected, self.readings(readings)], dim=1)
 
 
 class Tac3dLlm(nn.Module):
@@ -68,7 +67,7 @@ class Tac3dLlm(nn.Module):
 
     @property
     def num_touch(self) -> int:
-        """Touch tokens in front of a prompt: the groups, the class token and the readings."""
+        """Number of touch tokens before a prompt: the groups, the class token and the readings."""
         return self.encoder.config.num_groups + 1 + NUM_READINGS
 
     def touch(self, points: Tensor) -> Tensor:
@@ -76,14 +75,14 @@ class Tac3dLlm(nn.Module):
         return self.projected(self.encoder(points))
 
     def projected(self, encoded: Encoded) -> Tensor:
-        """Embeddings of what the encoder made of a batch: shape (B, P, D)."""
+        """Embeddings of an encoded batch: shape (B, P, D)."""
         return self.projector(encoded.tokens, self.heads(encoded.pooled))
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.
 
-        Only replies are learned. Returns the weighted mean as ``language``, and for people
-        ``action_right``: the share of actions that come first among the eight.
+        Only replies are learned. Returns the weighted mean as ``language``, and as a score
+        ``action_right``: the fraction of actions that are the most probable of the eight.
         """
         embedded = self.lm.get_input_embeddings()(packed.ids)
         num_touch = 0
@@ -103,8 +102,8 @@ class Tac3dLlm(nn.Module):
         terms = {"language": (each * weights).sum() / weights.sum()}
         if self.language.words is not None:
             actions = torch.tensor(self.language.words.actions, device=labels.device)
-            place = torch.isin(labels, actions)
-            if place.any():
-                chosen = actions[logits[place][:, actions].argmax(dim=1)]
-                terms["action_right"] = (chosen == labels[place]).float().mean().detach()
+            is_action = torch.isin(labels, actions)
+            if is_action.any():
+                chosen = actions[logits[is_action][:, actions].argmax(dim=1)]
+                terms["action_right"] = (chosen == labels[is_action]).float().mean().detach()
         return terms

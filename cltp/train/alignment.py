@@ -16,6 +16,7 @@ import torch
 from torch import Tensor, nn
 
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
+from cltp.checkpoints.weight_files import CONFIG
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
@@ -105,7 +106,7 @@ def train_cltp(
         workers=workers,
         checkpoint_s=checkpoint_s,
     )
-    if stage.done and folder.exists():
+    if stage.done and (folder / CONFIG).exists():  # the last file that is written
         return folder
     sampler = Sampler(
         data,

@@ -1,10 +1,10 @@
 """Calibrate a sensor on presses of a ball of known diameter: from frames to ``GradientNet``.
 
-First the slopes of the bare sphere, where the gel surely follows it. Then, if profiles of the gel
-are given, place and depth of every press are fitted to what the network sees and it is trained on
-all of the gel, twice: on the sphere alone, what surrounds the contact isn't learnt, and heights
-drift (``tacgrasp bench balls``, with ``--bare-sphere`` and without). Deterministic for a seed on
-one machine.
+The network first learns the slopes of the bare sphere, where the gel follows it. If profiles of the
+gel are given, position and depth of every press are then fitted to the network's slopes, and it
+learns all of the gel; both are done twice. From the sphere alone, the surroundings of a contact
+would not be learned, and heights would drift (``tacgrasp bench balls``, with ``--bare-sphere`` and
+without). Deterministic for a seed on one machine.
 
 Not here: the file (``cltp.sensing.calibration``).
 """
@@ -37,25 +37,25 @@ from cltp.torch_threads import torch_threads
 
 HIDDEN = 32
 MIN_PRESSES = 5
-"""Fewer presses can't cover a field; our choice."""
+"""Fewer presses can't cover the sensing area; our choice."""
 
-_NEAR_MM = 3.5  # what is called near a press: ball, bulge and a rim
-_NEAR_SAMPLES, _FAR_SAMPLES = 3000, 1500  # pixels a frame; the far ones keep the gel flat
+_NEAR_MM = 3.5  # distance from a press that holds ball, bulge and a rim
+_NEAR_SAMPLES, _FAR_SAMPLES = 3000, 1500  # pixels of a frame; the far ones keep the gel flat
 _BATCH = 4096
 _RATE = 1e-2
 
 StepReport = Callable[[int, int], None]
-"""Told the step and how many there are."""
+"""Receives the step and the number of steps."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TrainedPhotometric:
-    """What calibrating gives.
+    """A calibrated network.
 
     Attributes:
         net: The network.
-        presses: Of the frames used, in their order.
-        rejected: Index of each frame that was left out, and why.
+        presses: Presses of the frames used, in their order.
+        rejected: Index of each frame that was left out, with the reason.
         residual: Misfit of the slopes within ``_NEAR_MM``, root mean square [mm per mm].
     """
 
@@ -81,12 +81,12 @@ def train_gradients(
     Args:
         frames: One press each, (rows, columns, 3) uint8.
         background: The untouched gel.
-        sensor: Whose frames they are.
-        diameter_mm: Of the ball [mm].
-        profiles: Of this gel around this ball; None learns from the bare sphere alone.
-        seed: Of weights and samples.
-        steps: Of training on the sphere, and on the gel before and after the second fit.
-        report: Progress.
+        sensor: Sensor of the frames.
+        diameter_mm: Diameter of the ball [mm].
+        profiles: Profiles of this gel around this ball; None learns from the bare sphere alone.
+        seed: Seed of weights and samples.
+        steps: Training steps on the sphere, and on the gel before and after the second fit.
+        report: Receives the progress.
 
     Raises:
         TouchError: The ball can't have this diameter, a frame is no frame of this sensor, or
@@ -115,11 +115,11 @@ def train_gradients(
         train(shape, steps[0])
         shape = profiles
         for count in steps[1:]:
-            seen = Photometer(model.numpy(), background, sensor)
+            photometer = Photometer(model.numpy(), background, sensor)
             presses = [
                 fit_press(
                     press,
-                    *seen.gradients(frames[i]),
+                    *photometer.gradients(frames[i]),
                     profiles,
                     mm_per_px=sensor.mm_per_px,
                     max_depth_mm=float(profiles.depths_mm[-1]),
@@ -147,10 +147,10 @@ def _find_all(
         except TouchError as error:
             rejected[index] = str(error)
     if len(presses) < MIN_PRESSES:
-        why = f"; the first left out: {next(iter(rejected.values()))}" if rejected else ""
+        reason = f"; the first left out: {next(iter(rejected.values()))}" if rejected else ""
         raise TouchError(
             f"a ball was found in {len(presses)} of {len(frames)} frames, expected at least "
-            f"{MIN_PRESSES}, spread over the field{why}"
+            f"{MIN_PRESSES}, spread over the sensing area{reason}"
         )
     return used, presses, rejected
 
@@ -175,17 +175,11 @@ class _Net(nn.Module):
         return (self.last(hidden).view(-1, 2, 3) * inputs[:, None, :3]).sum(-1)
 
     def numpy(self) -> GradientNet:
-        def of(value: Tensor) -> NDArray[np.float32]:
-            return value.detach().numpy()
-
-        return GradientNet(
-            w1=of(self.first.weight.T),
-            b1=of(self.first.bias),
-            w2=of(self.second.weight.T),
-            b2=of(self.second.bias),
-            w3=of(self.last.weight.T),
-            b3=of(self.last.bias),
-        )
+        arrays = {}
+        for number, layer in enumerate((self.first, self.second, self.last), start=1):
+            arrays[f"w{number}"] = layer.weight.T.detach().numpy()
+            arrays[f"b{number}"] = layer.bias.detach().numpy()
+        return GradientNet(**arrays)
 
 
 def _samples(
@@ -197,20 +191,20 @@ def _samples(
     far: int = _FAR_SAMPLES,
 ) -> tuple[Tensor, Tensor]:
     """Pixels of all frames whose slope is known: inputs (N, 5), slopes (N, 2)."""
-    place = position_inputs(sensor)
+    positions = position_inputs(sensor)
     row, column = (a.ravel().astype(float) for a in np.mgrid[0 : sensor.rows, 0 : sensor.columns])
     inputs, targets = [], []
     for change, press in zip(changes, presses, strict=True):
         slopes = slopes_of(press, shape, column, row, sensor.mm_per_px)
-        known = np.isfinite(slopes).all(axis=1)
+        has_slope = np.isfinite(slopes).all(axis=1)
         r = np.hypot(column - press.column, row - press.row) * sensor.mm_per_px
         chosen = np.concatenate(
             [
-                rng.permutation(np.flatnonzero(known & (r < _NEAR_MM)))[:_NEAR_SAMPLES],
-                rng.permutation(np.flatnonzero(known & (r >= _NEAR_MM)))[:far],
+                rng.permutation(np.flatnonzero(has_slope & (r < _NEAR_MM)))[:_NEAR_SAMPLES],
+                rng.permutation(np.flatnonzero(has_slope & (r >= _NEAR_MM)))[:far],
             ]
         )
-        inputs.append(np.concatenate([change[chosen], place[chosen]], axis=1))
+        inputs.append(np.concatenate([change[chosen], positions[chosen]], axis=1))
         targets.append(slopes[chosen].astype(np.float32))
     return torch.from_numpy(np.concatenate(inputs)), torch.from_numpy(np.concatenate(targets))
 

@@ -1,1 +1,4 @@
-"""TODO: what this folder is for, what it may import."""
+"""The weights that the llm policy uses: their training, their evaluation and their model card.
+
+Not here: the comparison of encoders with the paper's methods (``tacgrasp.pretraining``).
+"""

@@ -145,7 +145,7 @@ def train_language_model(
             f"`{about['command']}`: {about['preset']}, {about['steps']} steps of "
             f"{about['batch_size']}, data checksum {checksums}"
         )
-    write_card(out, facts, {})
+    write_card(out, facts)
 
 
 def _require_mark(out: Path, *, blind: bool) -> None:

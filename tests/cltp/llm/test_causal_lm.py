@@ -20,7 +20,7 @@ from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.llm.causal_lm import Language, load_language, small_lm
 from cltp.llm.fast_decode import FastDecoder, greedy
-from cltp.llm.generation import Talker, _own, _Run, _score
+from cltp.llm.generation import Talker, _action_probabilities, _own, _Run
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.texts.exchange_packing import NOT_LEARNED, Exchange, pack
 from cltp.texts.tokenizer import ACTIONS, Words
@@ -157,7 +157,7 @@ def test_ten_thousand_words_are_cut_to_what_the_model_can_take(words: Words) -> 
 
 
 class ScriptedDecoder:
-    """Says ``<increase_force>`` with known chances, then ends."""
+    """Says ``<increase_force>`` with known probabilities, then ends."""
 
     longest = 100
 
@@ -176,30 +176,30 @@ class ScriptedDecoder:
 
 def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words: Words) -> None:
     language = tiny_model(words).language
-    ids, ended, chances = _own(
-        ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None, ()
+    ids, ended, probabilities = _own(
+        ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None, {}
     )
     assert words.decode(ids).strip() == "<increase_force>"
     assert ended
-    assert chances == pytest.approx([1 / 14] * 4 + [0.5] + [1 / 14] * 3)
+    assert probabilities == pytest.approx([1 / 14] * 4 + [0.5] + [1 / 14] * 3)
 
 
 def test_a_barred_action_is_neither_said_nor_given_a_chance(words: Words) -> None:
     language = tiny_model(words).language
     decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
     barred = {"<increase_force>": math.inf}
-    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, barred)
+    ids, _, probabilities = _own(decoder, language, inputs, 10, lambda: None, barred)
     assert words.decode(ids).strip() != "<increase_force>"
-    assert chances == pytest.approx([1 / 7] * 4 + [0.0] + [1 / 7] * 3)
+    assert probabilities == pytest.approx([1 / 7] * 4 + [0.0] + [1 / 7] * 3)
 
 
 def test_what_speaks_against_an_action_takes_from_its_chance(words: Words) -> None:
     language = tiny_model(words).language
     decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
-    against = {"<increase_force>": math.log(3.5)}
-    ids, _, chances = _own(decoder, language, inputs, 10, lambda: None, against)
+    penalties = {"<increase_force>": math.log(3.5)}
+    ids, _, probabilities = _own(decoder, language, inputs, 10, lambda: None, penalties)
     assert words.decode(ids).strip() == "<increase_force>"  # still the likeliest, by 2 to 1
-    assert chances == pytest.approx([1 / 9] * 4 + [2 / 9] + [1 / 9] * 3)
+    assert probabilities == pytest.approx([1 / 9] * 4 + [2 / 9] + [1 / 9] * 3)
 
 
 def test_a_reply_reports_its_stages_and_whether_it_ended(words: Words) -> None:
@@ -269,8 +269,8 @@ def test_a_stock_checkpoint_chooses_among_the_eight_after_the_cue(tmp_path: Path
         run = _Run(language)
         inputs = torch.randn(6, language.dim)
         logits = run.feed(inputs)
-        chances = _score(run, logits, names)
-        assert sum(chances) == pytest.approx(1.0, abs=1e-5)
+        probabilities = _action_probabilities(run, logits, names)
+        assert sum(probabilities) == pytest.approx(1.0, abs=1e-5)
         fresh = _Run(language)  # the trie leaves the model where it was
         torch.testing.assert_close(fresh.feed(inputs), logits)
         assert run.length == fresh.length

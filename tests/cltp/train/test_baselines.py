@@ -7,7 +7,8 @@ import pytest
 import torch
 
 from cltp.checkpoints.frozen import frozen, load_frozen, noisy_frames, save_frozen
-from cltp.checkpoints.tac3d_llm import WeightsError, save_clip, save_encoder
+from cltp.checkpoints.tac3d_llm import save_clip, save_encoder
+from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter

@@ -9,13 +9,13 @@ import torch
 
 from cltp.checkpoints.frozen import frozen
 from cltp.checkpoints.tac3d_llm import (
-    WeightsError,
     load_clip,
     load_encoder,
     load_tac3d_llm,
     save_encoder,
     size_bytes,
 )
+from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter

@@ -70,7 +70,7 @@ class Scripted:
         )
 
     def reply(
-        self, points: np.ndarray, prompt: str, *, against: Mapping[str, float] | None = None
+        self, points: np.ndarray, prompt: str, *, penalties: Mapping[str, float] | None = None
     ) -> Reply:
         return self._reply
 

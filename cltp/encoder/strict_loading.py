@@ -1,0 +1,47 @@
+"""Models of transformers from a local directory, read strictly."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import torch
+from safetensors import SafetensorError
+
+from cltp.errors import TouchError
+
+
+def load_strictly(
+    model_class: Any,
+    folder: Path,
+    title: str,
+    *,
+    expected: Callable[[str], bool] = lambda name: True,
+    error_class: type[TouchError] = TouchError,
+) -> Any:
+    """Read a model in 32 bits, with every weight there, of the right shape, and no other.
+
+    Args:
+        model_class: A model class of transformers.
+        folder: Directory in transformers' layout.
+        title: Name of the model in errors.
+        expected: Whether a weight in the directory must be one of the model's; others are ignored.
+        error_class: Class of the errors.
+
+    Raises:
+        TouchError: Missing, damaged, or weights that don't fit.
+    """
+    try:
+        model, info = model_class.from_pretrained(
+            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
+        )
+    except (OSError, ValueError, RuntimeError, SafetensorError) as error:
+        reason = str(error).splitlines()[0] if str(error) else repr(error)
+        raise error_class(f"no {title} could be read from {folder}: {reason}") from error
+    wrong = [*info["missing_keys"], *map(str, info["mismatched_keys"])]
+    wrong += [name for name in info["unexpected_keys"] if expected(name)]
+    if wrong:
+        names = ", ".join(sorted(wrong)[:5])
+        raise error_class(f"the {title} in {folder} lacks or adds weights: {names}")
+    return model
