@@ -1,9 +1,9 @@
-"""Bodies that a gripper can hold: their surface as a finger sees it, and what they are made of.
+"""Bodies that a gripper can hold: their surface towards a finger, and their physical properties.
 
-A body is a height field (how far its surface lies behind the point that is nearest to the finger)
-with a mass, a stiffness, a friction and a bruise limit, drawn from stated ranges by a seed. Both
-fingers are taken to see the same surface (mirrored): our simplification, exact for bodies that are
-symmetric about the plane between the fingers.
+A body is a height field (depth of its surface behind the point that is nearest to the finger) with
+a mass, a stiffness, a friction and a bruise limit, drawn from stated ranges by a seed. Both fingers
+touch the same surface (mirrored): our simplification, exact for bodies that are symmetric about the
+plane between the fingers.
 
 Body frame: the pad's axes (x right, y up), origin at the point nearest to the finger.
 """
@@ -46,9 +46,9 @@ class Body:
     """One drawn body.
 
     Attributes:
-        name: What it is.
+        name: Name of its kind.
         gap_mm: Shape (N, N), height field on a square grid of ``PITCH_MM`` centred on the origin,
-            row 0 at the top; 0 at the point nearest to the finger, ``NO_BODY_MM`` where nothing is.
+            row 0 at the top; 0 at the point nearest to the finger, ``NO_BODY_MM`` outside the body.
         com_mm: Centre of mass (x, y) relative to that point [mm].
         gyration_mm: Radius of gyration about the closing axis [mm].
         thickness_mm: Extent along the closing direction [mm].
@@ -56,8 +56,8 @@ class Body:
         young_mpa: Young's modulus [MPa]; infinite for a rigid body.
         poisson: Poisson's ratio.
         friction: Coulomb coefficient against the gel.
-        bruise_n: Force of flat gelled fingers that just bruises (or cracks) it [N]; the pressure
-            that this makes is the limit wherever and however it is held (``sim.grasp.world``).
+        bruise_n: Force of flat gelled fingers that just bruises (or cracks) it [N]; the resulting
+            pressure is the limit for every grip (``sim.grasp.world``).
     """
 
     name: str
@@ -98,7 +98,7 @@ class Body:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PropertyRanges:
-    """What an object's properties are drawn from. Sources beside each preset."""
+    """Ranges of an object's properties. Sources stand above the presets."""
 
     mass_g: Range
     young_mpa: Range
@@ -148,7 +148,7 @@ OBJECTS: dict[str, PropertyRanges] = {
     ),
 }
 
-_GRID = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
+GRID_MM = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
 
 
 def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
@@ -156,9 +156,9 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
 
     Args:
         name: A key of ``OBJECTS``.
-        rng: Where the draws come from.
-        tails: Share of each range left out at either end: 0 draws from all, 0.1 from the 10-90 %
-            quantiles.
+        rng: Random generator.
+        tails: Fraction of each range left out at either end: 0 draws from all of it, 0.1 from the
+            10-90 % quantiles.
 
     Raises:
         ValueError: Unknown kind; the message lists the known ones.
@@ -167,8 +167,8 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
         raise ValueError(f"unknown object {name!r}; known: {', '.join(OBJECTS)}")
     ranges = OBJECTS[name]
 
-    def draw(of: Range) -> float:
-        return of.quantile(tails + (1 - 2 * tails) * rng.random())
+    def draw(quantity: Range) -> float:
+        return quantity.quantile(tails + (1 - 2 * tails) * rng.random())
 
     mass_g = draw(ranges.mass_g)
     young, friction, bruise = draw(ranges.young_mpa), draw(ranges.friction), draw(ranges.bruise_n)
@@ -187,10 +187,10 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
     )
 
 
-Shaped = tuple[FloatArray, tuple[float, float], float, float]
+BodyShape = tuple[FloatArray, tuple[float, float], float, float]
 
 
-def _strawberry(mass_g: float, rng: np.random.Generator) -> Shaped:
+def _strawberry(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Berry hanging tip down: revolved profile, tilted a little, with achenes.
 
     Diameter from the mass at constant shape through (7 g, 25 mm), ± 6 %: within 4 % of the four
@@ -201,7 +201,7 @@ def _strawberry(mass_g: float, rng: np.random.Generator) -> Shaped:
     shoulder = rng.uniform(0.55, 0.65)  # where it is widest, from the tip
 
     def radius(s: FloatArray) -> FloatArray:
-        """Radius [mm] at the share s of the length from the tip; ends are round (∝ √)."""
+        """Radius [mm] at the fraction s of the length from the tip; ends are round (∝ √)."""
         inside = np.clip(s, 0.0, 1.0)
         # s^a (1-s)^b is widest at a / (a + b); a = 1/2 keeps the tip round
         a, b = 0.5, 0.5 * (1 - shoulder) / shoulder
@@ -212,7 +212,7 @@ def _strawberry(mass_g: float, rng: np.random.Generator) -> Shaped:
     return _revolved(radius, length, roll, _achenes(rng, length))
 
 
-def _egg(mass_g: float, rng: np.random.Generator) -> Shaped:
+def _egg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Egg standing on its blunt end; a 60 g egg is about 43 mm wide and 56 mm long."""
     diameter = 43.0 * (mass_g / 60.0) ** (1 / 3)
     length = diameter * rng.uniform(1.22, 1.38)
@@ -225,7 +225,7 @@ def _egg(mass_g: float, rng: np.random.Generator) -> Shaped:
     return _revolved(radius, length, rng.normal(0, math.radians(4)))
 
 
-def _tomato(mass_g: float, rng: np.random.Generator) -> Shaped:
+def _tomato(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Cherry tomato: a slightly oval ball, density 1 g/cm³."""
     oval = rng.uniform(0.95, 1.25)
     diameter = (6 * mass_g * 1000 / (math.pi * oval)) ** (1 / 3)
@@ -237,7 +237,7 @@ def _tomato(mass_g: float, rng: np.random.Generator) -> Shaped:
     return _revolved(radius, diameter * oval, rng.normal(0, math.radians(20)))
 
 
-def _peg(mass_g: float, rng: np.random.Generator) -> Shaped:
+def _peg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Upright steel peg, 12-20 mm across, its length (from the mass at 7.8 g/cm³) 25-80 mm."""
     diameter = rng.uniform(12, 20)
     length = float(np.clip(mass_g * 1000 / 7.8 / (math.pi * diameter**2 / 4), 25, 80))
@@ -249,7 +249,7 @@ def _peg(mass_g: float, rng: np.random.Generator) -> Shaped:
     return _revolved(radius, length, rng.normal(0, math.radians(2)))
 
 
-_SHAPES: dict[str, Callable[[float, np.random.Generator], Shaped]] = {
+_SHAPES: dict[str, Callable[[float, np.random.Generator], BodyShape]] = {
     "strawberry": _strawberry,
     "cherry_tomato": _tomato,
     "egg": _egg,
@@ -262,28 +262,28 @@ def _revolved(
     length: float,
     roll: float,
     relief: Callable[[FloatArray, FloatArray], FloatArray] | None = None,
-) -> Shaped:
+) -> BodyShape:
     """Height field of a body of revolution whose axis lies in the plane between the fingers.
 
     Args:
-        radius: Radius [mm] at the share s of the length, 0 at the lower end.
-        length: Along the axis [mm].
+        radius: Radius [mm] at the fraction s of the length, 0 at the lower end.
+        length: Length along the axis [mm].
         roll: Tilt of the axis from the vertical, in the pad's plane [rad].
-        relief: Added height [mm] at (s, angle about the axis), for seeds and the like.
+        relief: Added height [mm] at (s, angle about the axis), such as seeds.
     """
-    x, y = np.meshgrid(_GRID, -_GRID)
+    x, y = np.meshgrid(GRID_MM, -GRID_MM)
     s = np.linspace(0, 1, 401)
     r = radius(s)
     widest = float(s[r >= r.max() - 1e-9].mean())
     # along and across the axis, from the widest point, which is the nearest to the finger
     t = x * math.sin(roll) + y * math.cos(roll)
     u = x * math.cos(roll) - y * math.sin(roll)
-    share = widest + t / length
-    reach = radius(share)
-    hit = (reach > np.abs(u)) & (share > 0) & (share < 1)
+    fraction = widest + t / length
+    reach = radius(fraction)
+    hit = (reach > np.abs(u)) & (fraction > 0) & (fraction < 1)
     front = np.sqrt(np.clip(reach**2 - u**2, 0, None))
     if relief is not None:
-        front = front + relief(share, np.arctan2(u, front))
+        front = front + relief(fraction, np.arctan2(u, front))
     gap = np.where(hit, front[hit].max() - front, NO_BODY_MM)
     weight = r**2
     centroid = float((s * weight).sum() / weight.sum())
@@ -306,17 +306,17 @@ def _achenes(
     height = rng.uniform(0.05, 0.12)
     start = rng.uniform(0, 2 * math.pi)
     index = np.arange(count)
-    at_s = 0.06 + 0.88 * (index + 0.5) / count
-    at_angle = (start + index * math.pi * (3 - math.sqrt(5))) % (2 * math.pi) - math.pi
+    seeds_s = 0.06 + 0.88 * (index + 0.5) / count
+    seeds_angle = (start + index * math.pi * (3 - math.sqrt(5))) % (2 * math.pi) - math.pi
     half_long, half_wide, mean_radius = 1.0, 0.6, 0.42 * length
 
     def relief(s: FloatArray, angle: FloatArray) -> FloatArray:
         bumps = np.zeros_like(s)
-        for one_s, one_angle in zip(at_s, at_angle, strict=True):
-            if abs(one_angle) > 1.3:  # behind the berry, seen from this finger
+        for seed_s, seed_angle in zip(seeds_s, seeds_angle, strict=True):
+            if abs(seed_angle) > 1.3:  # on the side away from this finger
                 continue
-            along = (s - one_s) * length / half_long
-            across = (angle - one_angle) * mean_radius / half_wide
+            along = (s - seed_s) * length / half_long
+            across = (angle - seed_angle) * mean_radius / half_wide
             bumps = np.maximum(bumps, np.clip(1 - along**2 - across**2, 0, None))
         return height * bumps
 

@@ -1,7 +1,7 @@
 """Simulated arm, gripper, tactile sensor and clock around one ``sim.grasp.world.Grasp``.
 
-They see only what real ones would: poses, commanded forces, a noisy gel. Time is simulated: motions
-and waits take the time that they would take, at once.
+They observe only what real ones would: poses, commanded forces, a noisy gel. Time is simulated: the
+clock jumps by the duration of motions and waits.
 """
 
 from __future__ import annotations
@@ -38,22 +38,20 @@ OPEN_SPEED_M_S = 0.05
 
 
 class SimClock:
-    """Time in a simulated world: real time, plus what motions and waits would have taken."""
+    """Clock of a simulated world: real time plus the duration of simulated motions and waits."""
 
     def __init__(self) -> None:
-        self._ahead_s = 0.0
+        self._offset_s = 0.0
         self._grasp: Grasp | None = None
 
     def monotonic(self) -> float:
-        """Monotonic clock [s]."""
-        return time.monotonic() + self._ahead_s
+        return time.monotonic() + self._offset_s
 
     def wall(self) -> float:
-        """Wall clock [s since the epoch], metadata only."""
-        return time.time() + self._ahead_s
+        return time.time() + self._offset_s
 
     def sleep(self, seconds: float) -> None:
-        """Let simulated time pass; the world acts."""
+        """Let simulated time pass; the attached grasp follows."""
         if seconds < 0:
             raise ValueError(f"can't sleep for {seconds} s")
         self.advance(seconds)
@@ -61,15 +59,14 @@ class SimClock:
             self._grasp.wait(seconds)
 
     def advance(self, seconds: float) -> None:
-        """Move the clock on after a motion that the world has already done."""
-        self._ahead_s += seconds
+        """Advance the clock after a motion that the world has already made."""
+        self._offset_s += seconds
 
-    def watch(self, grasp: Grasp) -> None:
-        """Let ``sleep`` act on this grasp."""
+    def attach(self, grasp: Grasp) -> None:
+        """Attach the grasp that ``sleep`` acts on."""
         self._grasp = grasp
 
     def stamp(self) -> Stamp:
-        """Both clocks, now."""
         return Stamp(monotonic_s=self.monotonic(), wall_s=self.wall())
 
 
@@ -82,14 +79,13 @@ class SimArm:
         self._connected = True
 
     def pose(self) -> Pose:
-        """The pose of the TCP in the base frame."""
         self._check_connected()
         return self._pose
 
     def move_to(
         self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
     ) -> Pose:
-        """Move on a straight line; the world decides what happens to what is held."""
+        """Move on a straight line; the world moves the held body, or lets it slip."""
         self._check_connected()
         if not (0 < speed_m_s <= 1 and 0 < acceleration_m_s2 <= 10):
             raise LimitError(
@@ -117,7 +113,6 @@ class SimArm:
         """Nothing to stop: simulated motions have ended when ``move_to`` returns."""
 
     def disconnect(self) -> None:
-        """Refuse further commands."""
         self._connected = False
 
     def _check_connected(self) -> None:
@@ -126,7 +121,7 @@ class SimArm:
 
 
 def settled_width_m(grasp: Grasp) -> float:
-    """Opening at which closed fingers rest [m]: on what they hold, 0 when that is nothing."""
+    """Opening at which closed fingers rest [m]: on the held body, 0 without one."""
     if grasp.patch is None:
         return 0.0
     return max(0.0, grasp.fingers.body.thickness_mm - 2 * grasp.patch.depth_mm) / 1000
@@ -145,12 +140,11 @@ class SimGripper:
         self._connected = True
 
     def state(self) -> GripperState:
-        """Opening and last commanded force."""
         self._check_connected()
         return self._state
 
     def grip(self, force_n: float) -> GripperState:
-        """Close, or adjust the grip, to a commanded force; the true one is ``force_gain`` times it."""
+        """Close, or adjust the grip, to a commanded force, which ``force_gain`` multiplies."""
         self._check_connected()
         if not (math.isfinite(force_n) and 0 < force_n <= MAX_FORCE_N):
             raise LimitError(f"force must lie in (0, {MAX_FORCE_N}] N, got {force_n}")
@@ -192,40 +186,37 @@ class SimSensor:
         grasp: Grasp,
         clock: SimClock,
         spec: SensorSpec,
-        unit: NoiseUnit,
+        noise: NoiseUnit,
         seed: int,
     ) -> None:
         self._grasp, self._clock, self._spec = grasp, clock, spec
-        self._unit, self._seed = unit, seed
+        self._noise, self._seed = noise, seed
         self._rng = np.random.default_rng([seed, 2])
         self._connected = True
 
     @property
     def spec(self) -> SensorSpec:
-        """Which sensor this is."""
         return self._spec
 
     def height_mm(self) -> NDArray[np.float32]:
-        """The gel as it is now, with this unit's errors and this contact's noise.
+        """Current surface of the gel, with this unit's errors and this contact's noise.
 
-        The drift is that of the reconstruction, not of the camera: frames of one contact share it,
-        a new grip draws a new one, and averaging frames takes none of it away.
+        The drift is an error of the reconstruction, not of the camera: frames of one contact share
+        it, a new grip draws a new one, and averaging frames does not reduce it.
 
         Returns:
             Shape (ROWS, COLUMNS) [mm].
         """
         patch = self._grasp.patch
-        clean = np.zeros((ROWS, COLUMNS)) if patch is None else patch.height_mm
+        true_mm = np.zeros((ROWS, COLUMNS)) if patch is None else patch.height_mm
         contact = np.random.default_rng([self._seed, 3, self._grasp.contacts])
-        return self._unit.apply(clean, self._spec, contact)
+        return self._noise.apply(true_mm, self._spec, contact)
 
     def read(self) -> TactileCloud:
-        """A cloud of the gel as it is now."""
         if not self._connected:
             raise TouchError("the simulated sensor is disconnected")
         heights, stamp = self.height_mm(), self._clock.stamp()
         return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=stamp)
 
     def disconnect(self) -> None:
-        """Refuse further reads."""
         self._connected = False

@@ -1,11 +1,12 @@
-"""Contact and friction of a body between two flat fingers: pressure, and what it can hold.
+"""Contact and friction of a body between two flat fingers: pressure, and the load that it resists.
 
-One contact solve a grip (``sim.gel.layer``), and the limit of static friction of both patches
-against a load. What becomes of the body in time is in ``sim.grasp.world``.
+Each grip takes one contact solve (``sim.gel.layer``); the static friction of both patches limits
+the load. The body's motion over time is in ``sim.grasp.world``.
 
 World and pad share axes: x right, y up (towards the palm), gravity along -y. Both fingers carry
-the same gel, one of them the camera. The pad ends at the sensor's field: the part of a patch that
-would lie beyond it carries nothing, so what is left carries all of the force, at a higher pressure.
+the same gel, one of them the camera. The pad ends with the sensing area: the part of a patch beyond
+it carries nothing, so that the rest carries all of the force, at a higher pressure.
+
 Sources: limit surface and maximum dissipation after Goyal, Ruina and
 Papadopoulos (1991), 'Planar sliding with dry friction'; contact in ``sim.gel.layer``.
 """
@@ -31,7 +32,7 @@ FloatArray = NDArray[np.float64]
 GRAVITY_M_S2 = 9.81
 
 ROWS, COLUMNS = 60, 80
-"""Grid over the sensor's field: 0.254 mm on a GelSight Mini."""
+"""Grid over the sensing area: 0.254 mm on a GelSight Mini."""
 
 BRUISE_RADIUS_MM = 1.5
 """Pressure is averaged over a disc of this radius before it is compared with the bruise limit.
@@ -50,7 +51,7 @@ _BLOCK = 2
 def _motions(count: int = 500) -> FloatArray:
     """Unit planar motions (x, y, rotation × length), spread evenly over half of the sphere.
 
-    The other half are their opposites, in which friction dissipates the same. Shape (count, 3).
+    Friction dissipates the same in their opposites, the other half. Shape (count, 3).
     """
     i = np.arange(count) + 0.5
     z = 1 - i / count
@@ -62,25 +63,25 @@ def _motions(count: int = 500) -> FloatArray:
 _MOTIONS = _motions()
 
 
-def _around(motion: FloatArray, spread: float) -> FloatArray:
+def _neighbours(motion: FloatArray, spread: float) -> FloatArray:
     """Unit motions in a 5 × 5 grid of steps ``spread`` about one. Shape (25, 3)."""
-    aside = np.cross(motion, np.eye(3)[int(np.argmin(np.abs(motion)))])
-    aside /= np.linalg.norm(aside)
-    other = np.cross(motion, aside)
+    first = np.cross(motion, np.eye(3)[int(np.argmin(np.abs(motion)))])
+    first /= np.linalg.norm(first)
+    second = np.cross(motion, first)
     steps = spread * np.arange(-2, 3)
-    near = motion + steps[:, None, None] * aside + steps[:, None] * other
-    near = near.reshape(-1, 3)
-    return np.asarray(near / np.linalg.norm(near, axis=1, keepdims=True))
+    neighbours = motion + steps[:, None, None] * first + steps[:, None] * second
+    neighbours = neighbours.reshape(-1, 3)
+    return np.asarray(neighbours / np.linalg.norm(neighbours, axis=1, keepdims=True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Patch:
-    """A body pressed between the fingers, seen by one of them.
+    """A body pressed between the fingers, as one of them touches it.
 
     Attributes:
         force_n: True normal force [N].
         offset_mm: The body's origin on the pad [mm, gel frame].
-        height_mm: Shape (ROWS, COLUMNS), the gel's surface over the field [mm].
+        height_mm: Shape (ROWS, COLUMNS), surface of the gel over the sensing area [mm].
         pressure_kpa: Same shape.
         peak_kpa: Largest pressure, averaged as ``BRUISE_RADIUS_MM`` says.
         depth_mm: Approach of the body [mm].
@@ -113,7 +114,7 @@ class Resistance:
 
 @dataclass(slots=True, kw_only=True)
 class _Friction:
-    """A patch's loaded blocks about the centre of mass; what ``_MOTIONS`` dissipate in them."""
+    """Loaded blocks of a patch about the centre of mass, and their dissipation in ``_MOTIONS``."""
 
     patch: Patch
     force: FloatArray
@@ -123,7 +124,7 @@ class _Friction:
     dissipated: FloatArray = field(default_factory=lambda: np.zeros(0))
 
     def slide(self, motions: FloatArray) -> FloatArray:
-        """Force times sliding speed, summed over the blocks, for each motion."""
+        """Sum over the blocks of force times sliding speed, for each motion."""
         return np.asarray(np.sqrt(self._squared_speed(motions)) @ self.force)
 
     def patch_speed(self, motion: FloatArray) -> float:
@@ -144,16 +145,16 @@ class _Worst(NamedTuple):
     excess_n: float
 
 
-def _worst(motions: FloatArray, dissipated: FloatArray, load: FloatArray) -> _Worst:
-    """The motion, of either sign, that the load is nearest to driving."""
+def _find_worst(motions: FloatArray, dissipated: FloatArray, load: FloatArray) -> _Worst:
+    """The motion, of either sign, with the smallest margin against the load."""
     power = motions @ load
     margins = dissipated / np.maximum(np.abs(power), 1e-12)
-    at = int(np.argmin(margins))
-    forwards = 1.0 if power[at] >= 0 else -1.0
+    index = int(np.argmin(margins))
+    forwards = 1.0 if power[index] >= 0 else -1.0
     return _Worst(
-        margin=float(margins[at]),
-        motion=forwards * motions[at],
-        excess_n=float(abs(power[at]) - dissipated[at]),
+        margin=float(margins[index]),
+        motion=forwards * motions[index],
+        excess_n=float(abs(power[index]) - dissipated[index]),
     )
 
 
@@ -178,7 +179,7 @@ class FlatFingers:
 
     @property
     def bruise_kpa(self) -> float:
-        """Pressure that bruises the body: what its bruise force makes at the pad's centre [kPa]."""
+        """Pressure that bruises the body: that of its bruise force at the pad's centre [kPa]."""
         if self._bruise_kpa is None:
             self._bruise_kpa = self.press((0.0, 0.0), self.body.bruise_n).peak_kpa
         return self._bruise_kpa
@@ -186,7 +187,7 @@ class FlatFingers:
     def slip_minimum_n(self, accelerations_m_s2: Sequence[tuple[float, float]]) -> float:
         """Smallest true force [N] that holds the body, centred, through all accelerations.
 
-        Interpolated between eight forces from 0.04 to 16 N, in which it nearly is a power law.
+        Interpolated between eight forces from 0.04 to 16 N, where it nearly is a power law.
         """
         forces = np.geomspace(0.04, 16, 8)
         patches = self.press_many([(0.0, 0.0)] * len(forces), forces.tolist())
@@ -197,11 +198,11 @@ class FlatFingers:
         return float(np.exp(np.interp(0.0, np.log(margins), np.log(forces))))
 
     def gap_mm(self, offset_mm: tuple[float, float]) -> FloatArray:
-        """How far the body lies behind its nearest point, over the pad [mm]."""
+        """Gap between pad and body, over the pad [mm]."""
         return self.body.gap_on(self._x_mm - offset_mm[0], self._y_mm - offset_mm[1])
 
     def reaches(self, offset_mm: tuple[float, float]) -> bool:
-        """Whether the fingers, closing, would meet the body at all."""
+        """Whether closing fingers would touch the body at all."""
         return bool(self.gap_mm(offset_mm).min() < self.body.thickness_mm / 2)
 
     def press(self, offset_mm: tuple[float, float], force_n: float) -> Patch:
@@ -211,7 +212,7 @@ class FlatFingers:
     def press_many(
         self, offsets_mm: list[tuple[float, float]], forces_n: list[float]
     ) -> list[Patch]:
-        """Like ``press`` for several places and forces in one batch."""
+        """Like ``press`` for several positions and forces in one batch."""
         gaps = np.stack([self.gap_mm(offset) for offset in offsets_mm])
         gaps -= gaps.min(axis=(1, 2), keepdims=True)
         with torch.inference_mode():
@@ -242,23 +243,23 @@ class FlatFingers:
     def resistance(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> Resistance:
         """Whether the patch holds the body while the fingers accelerate.
 
-        The load on either patch is half of weight and inertia, and what the slanted pressure adds:
-        a body cut by the pad's edge is squeezed outwards. Motions are taken about the centre of
+        The load on either patch is half of weight and inertia, plus the push of slanted pressure: a
+        body cut by the pad's edge is squeezed outwards. Motions are taken about the centre of
         mass, so that an off-centre patch must carry the moment by torsion.
 
         Args:
-            patch: What is held.
-            acceleration_m_s2: Of the fingers, (x, y) of the pad.
+            patch: Patch of the held body.
+            acceleration_m_s2: Acceleration of the fingers along the pad's (x, y).
         """
         friction = self._friction_of(patch)
         half_mass = self.body.mass_kg / 2
         load = friction.push.copy()
         load[0] -= half_mass * acceleration_m_s2[0]
         load[1] -= half_mass * (GRAVITY_M_S2 + acceleration_m_s2[1])
-        worst = _worst(_MOTIONS, friction.dissipated, load)
+        worst = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
-            near = _around(worst.motion, spread)
-            worst = _worst(near, self.body.friction * friction.slide(near), load)
+            neighbours = _neighbours(worst.motion, spread)
+            worst = _find_worst(neighbours, self.body.friction * friction.slide(neighbours), load)
         return Resistance(
             margin=worst.margin,
             motion=worst.motion,
@@ -267,9 +268,9 @@ class FlatFingers:
         )
 
     def _friction_of(self, patch: Patch) -> _Friction:
-        """What the patch can dissipate in every motion; kept for the patch last asked about."""
+        """Dissipation of a patch in every motion; cached for the last patch."""
         if self._friction is None or self._friction.patch is not patch:
-            force, x, y, push_x, push_y = self._loaded(patch)
+            force, x, y, push_x, push_y = self._loaded_blocks(patch)
             moment = float((x * push_y - y * push_x).sum()) / _LENGTH_MM
             push = np.array([push_x.sum(), push_y.sum(), moment])
             friction = _Friction(patch=patch, force=force, x=x, y=y, push=push)
@@ -277,8 +278,8 @@ class FlatFingers:
             self._friction = friction
         return self._friction
 
-    def _loaded(self, patch: Patch) -> tuple[FloatArray, ...]:
-        """Loaded blocks: force [N], place about the centre of mass [mm], outward push [N].
+    def _loaded_blocks(self, patch: Patch) -> tuple[FloatArray, ...]:
+        """Loaded blocks: force [N], position about the centre of mass [mm], outward push [N].
 
         Blocks of ``_BLOCK``² elements (0.5 mm) carry the friction of their elements; the moment
         that this leaves out is that of an element about its block's centre, below 0.3 mm.
@@ -286,8 +287,8 @@ class FlatFingers:
         force = patch.pressure_kpa * 1e-3 * self._pitch_mm**2
         slope_y, slope_x = np.gradient(patch.height_mm, -self._pitch_mm, self._pitch_mm)
         blocks = [
-            _in_blocks(of)
-            for of in (
+            _in_blocks(grid)
+            for grid in (
                 force,
                 force * self._x_mm,
                 force * self._y_mm[:, None],
@@ -304,8 +305,8 @@ class FlatFingers:
     def inertia_kg(self, motion: FloatArray) -> float:
         """Half of the body's mass as seen along a unit motion (one patch carries half) [kg]."""
         gyration = self.body.gyration_mm / _LENGTH_MM
-        share = motion[0] ** 2 + motion[1] ** 2 + (gyration * motion[2]) ** 2
-        return float(self.body.mass_kg / 2 * share)
+        fraction = motion[0] ** 2 + motion[1] ** 2 + (gyration * motion[2]) ** 2
+        return float(self.body.mass_kg / 2 * fraction)
 
 
 def _in_blocks(field_: FloatArray) -> FloatArray:

@@ -1,8 +1,8 @@
 """Bodies from scanned meshes (millimetres): any closed mesh can be grasped in simulation.
 
-The mesh is turned so that a narrow side that bulges in the middle meets the fingers and its longer
-other extent hangs; its height field is cast with rays (open3d). It is taken as rigid and can't be
-bruised.
+The mesh is turned so that the fingers close on a narrow side that bulges in the middle, and the
+longer of its other extents is upright. Its height field is cast with rays (open3d). It is rigid and
+cannot be bruised.
 """
 
 from __future__ import annotations
@@ -15,25 +15,26 @@ import numpy as np
 
 from cltp.errors import TouchError
 from sim.gel.gap import NO_BODY_MM
-from sim.grasp.bodies import HALF_SPAN_MM, PITCH_MM, Body, FloatArray
+from sim.grasp.bodies import GRID_MM, HALF_SPAN_MM, Body, FloatArray
+from sim.grasp.devices import MAX_WIDTH_M
 from sim.objects.meshes import IntArray, checked_mesh, volume_and_centre
 
 DENSITY_G_PER_MM3 = 0.3e-3
-"""Of a mesh whose mass is not given. Our assumption: household things are hollow or light."""
+"""Density of a mesh without a given mass. Our assumption: household objects are hollow or light."""
 
 RIGID_MPA = 2000.0
 UNBRUISED_N = 1000.0
-MAX_OPENING_MM = 110.0
-_EXTENT_WEIGHT = 0.05  # mm of hollow that a grasp narrower by 20 mm is worth
+MAX_OPENING_MM = 1000 * MAX_WIDTH_M
+_EXTENT_WEIGHT = 0.05  # hollow [mm] that outweighs a narrower grasp, per mm of width
 
 
-def body_from_mesh(path: Path, *, mass_g: float | None, like: Body) -> Body:
+def body_from_mesh(path: Path, *, mass_g: float | None, template: Body) -> Body:
     """Turn a mesh into a body between the fingers.
 
     Args:
-        path: PLY, OBJ or STL, millimetres, closed.
+        path: PLY, OBJ or STL file of a closed mesh in millimetres.
         mass_g: Its mass [g]; None: from its volume.
-        like: Whose friction it gets.
+        template: Body with the friction of the new one.
 
     Raises:
         TouchError: The mesh is refused by ``sim.objects.meshes``, or too large for the gripper.
@@ -69,7 +70,7 @@ def body_from_mesh(path: Path, *, mass_g: float | None, like: Body) -> Body:
         mass_kg=mass_g / 1000,
         young_mpa=RIGID_MPA,
         poisson=0.3,
-        friction=like.friction,
+        friction=template.friction,
         bruise_n=UNBRUISED_N,
     )
 
@@ -85,14 +86,13 @@ def _turn(extents: FloatArray, closing: int) -> FloatArray:
 
 
 def _gap(vertices: FloatArray, faces: IntArray) -> FloatArray:
-    """Height field of the side that faces the sensor's finger (+z), as ``Body.gap_mm``."""
+    """Height field of the side towards the sensor's finger (+z), as ``Body.gap_mm``."""
     import open3d
 
     scene: Any = open3d.t.geometry.RaycastingScene()
     tensor: Any = open3d.core.Tensor
     scene.add_triangles(tensor(vertices.astype(np.float32)), tensor(faces.astype(np.uint32)))
-    axis = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
-    x, y = np.meshgrid(axis, -axis)
+    x, y = np.meshgrid(GRID_MM, -GRID_MM)
     top = float(vertices[:, 2].max()) + 1.0
     origins = np.stack([x, y, np.full_like(x, top)], axis=-1)
     rays = np.concatenate([origins, np.zeros_like(origins)], axis=-1)

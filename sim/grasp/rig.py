@@ -1,6 +1,6 @@
-"""A simulated episode: the devices around one drawn body, and the truth behind them.
+"""A simulated episode: the devices around one drawn body, and the truth of their world.
 
-The truth of the world is had from ``SimRig.truth`` by benchmarks and records, never by a policy.
+Benchmarks and records read the truth from ``SimRig.truth``; a policy never does.
 """
 
 from __future__ import annotations
@@ -29,8 +29,8 @@ from sim.grasp.fingers import FlatFingers
 from sim.grasp.world import Grasp
 
 BENCHMARK_SEED = 1_000_000
-"""Seeds from here on belong to the benchmark, and draw from all of every range; smaller ones belong
-to training and tuning, and draw from the 10-90 % quantiles."""
+"""First seed of the benchmark. Its seeds draw from all of every range; smaller ones are for
+training and tuning and draw from the 10-90 % quantiles."""
 
 OFFSET_X_MM = Range(low=-11.0, high=11.0)
 OFFSET_Y_MM = Range(low=-8.5, high=8.5)
@@ -39,21 +39,21 @@ GRIPPER_FORCE_GAIN = Range(low=0.5, high=2.0, log=True)
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
-    """What really happened, for records and benchmarks.
+    """True state of a simulated world, for records and benchmarks.
 
     Attributes:
-        held: Lifted or not, the body is between the fingers and has slipped less than 1 mm.
+        held: The body, lifted or not, is between the fingers and has slipped less than 1 mm.
         slipped: It slid (or turned, at the patch) by 1 mm or more.
-        slip_mm: By how much [mm].
+        slip_mm: Its slip [mm].
         dropped: It is no longer between the fingers.
-        bruised_at_start: The first grip passed its pressure limit.
-        bruised: A later action did.
+        bruised_at_start: The first grip exceeded its pressure limit.
+        bruised: A later action exceeded it.
         peak_force_n: Largest true force so far [N].
         peak_kpa: Largest (averaged) pressure so far [kPa].
         force_n: True force now [N], 0 when nothing is held.
-        offset_mm: Where the body's origin is on the pad [mm, gel frame].
+        offset_mm: Position of the body's origin on the pad [mm, gel frame].
         gripper_force_gain: Ratio of true to commanded force.
-        mass_g, friction, young_mpa, bruise_n: The body's draws.
+        mass_g, friction, young_mpa, bruise_n: Properties of the body.
     """
 
     held: bool
@@ -75,12 +75,12 @@ class Truth:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SimRig:
-    """The devices of one simulated episode, and how it starts.
+    """The devices of one simulated episode, and its start.
 
     Attributes:
         arm, gripper, sensor, clock: The devices, at the start pose, open.
         grasp: The world behind them; for the oracle and the benchmark only.
-        start_pose: Where the first grasp is made.
+        start_pose: Pose of the first grasp.
         first_force_n: First commanded force [N], drawn with the body.
         pad_x_in_tcp, pad_y_in_tcp: The pad's axes in the TCP frame, unit vectors.
     """
@@ -96,7 +96,7 @@ class SimRig:
     pad_y_in_tcp: tuple[float, float, float] = PAD_Y_IN_TCP
 
     def truth(self) -> Truth:
-        """What really happened so far. Never for a policy."""
+        """True state of the world, never for a policy."""
         grasp, body = self.grasp, self.grasp.fingers.body
         return Truth(
             held=grasp.patch is not None and not grasp.slipped and not grasp.dropped,
@@ -140,22 +140,23 @@ def build(
     gripper_force_gain: float | None = None,
     noise_level: float = 1.0,
 ) -> SimRig:
-    """Draw an episode: a body, where the fingers start, a gripper force gain, a sensor unit.
+    """Draw an episode: a body, its position on the pad, a gripper force gain, a sensor unit.
 
     Args:
         object_name: A key of ``sim.grasp.bodies.OBJECTS``.
-        seed: Draws everything; below ``BENCHMARK_SEED`` from the 10-90 % quantiles.
+        seed: Random seed of the body, its position, the gripper and the sensor; below
+        ``BENCHMARK_SEED`` from the 10-90 % quantiles.
         mesh: Grasp this mesh (millimetres) instead of the drawn body.
         mass_g: Mass of the mesh [g]; by default from its volume (see ``sim.grasp.mesh_bodies``).
         sensor_name: A key of ``cltp.tactile.sensors.SENSORS``.
-        start_offset_mm: Where the body lies on the pad at first, instead of the draw [mm].
+        start_offset_mm: Position of the body on the pad at the start, instead of the draw [mm].
         first_force_n: First commanded force instead of the draw [N].
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
-        noise_level: 1 is the sensor that was measured, 0 a perfect one.
+        noise_level: 1 is the noise of the measured sensor, 0 a perfect one.
 
     Raises:
-        RobotError: Unknown object.
-        TouchError: Unknown sensor.
+        RobotError: The object is unknown.
+        TouchError: The sensor is unknown.
     """
     if object_name not in OBJECTS:
         raise RobotError(f"unknown object {object_name!r}; known: {', '.join(OBJECTS)}")
@@ -170,12 +171,12 @@ def build(
     force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
     grasp = Grasp(fingers=FlatFingers(body, sensor, gel_of(sensor_name)), body_xy_mm=offset)
     clock = SimClock()
-    clock.watch(grasp)
-    unit = NoiseUnit.draw(sensor_rng, noise_level)
+    clock.attach(grasp)
+    noise = NoiseUnit.draw(sensor_rng, noise_level)
     return SimRig(
         arm=SimArm(grasp, clock),
         gripper=SimGripper(grasp, clock, force_gain),
-        sensor=SimSensor(grasp, clock, sensor, unit, seed),
+        sensor=SimSensor(grasp, clock, sensor, noise, seed),
         clock=clock,
         grasp=grasp,
         start_pose=START_POSE,
@@ -186,4 +187,4 @@ def build(
 def _mesh_body(mesh: Path, mass_g: float | None, drawn: Body) -> Body:
     from sim.grasp.mesh_bodies import body_from_mesh  # loads open3d, which most runs don't need
 
-    return body_from_mesh(mesh, mass_g=mass_g, like=drawn)
+    return body_from_mesh(mesh, mass_g=mass_g, template=drawn)

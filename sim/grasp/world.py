@@ -1,9 +1,8 @@
-"""The truth of a grasp in time: what is held, slides, falls or is bruised.
+"""The truth of a grasp over time: the body is held, slides, falls or is bruised.
 
-Rigid-body dynamics of one body against the friction of two patches (``sim.grasp.fingers``). Not a
-physics
-engine: nothing else is touched, and what the body stands on carries it until it is lifted. In-plane
-rotation counts as slip, but the body's surface is not turned with it.
+Rigid-body dynamics of one body against the friction of two patches (``sim.grasp.fingers``). This is
+no physics engine: the body touches nothing else, and its support carries it until it is lifted.
+In-plane rotation counts as slip, but the body's surface is not turned with it.
 """
 
 from __future__ import annotations
@@ -16,15 +15,15 @@ from sim.grasp.fingers import FlatFingers, Patch, Resistance
 SLIPPED_MM = 1.0
 DROPPED_MM = 12.0
 SPUN_MM = 30.0
-"""A body that has turned this far in the grip hangs; sliding is not followed any further."""
+"""Slip from which sliding is not simulated any further: a body that turned so far hangs."""
 
-_SAME_PRESSURE = 1.02  # the same grip a little elsewhere on the grid differs by less than 2 %
+_SAME_PRESSURE = 1.02  # a grip shifted on the grid changes the pressure by less than 2 %
 
 
 def trapezoid_s(
     distance_m: float, speed_m_s: float, acceleration_m_s2: float
 ) -> tuple[float, float]:
-    """Duration of each ramp and of the cruise between them on a straight way [s]."""
+    """Duration of each ramp and of the cruise between them on a straight path [s]."""
     speed = min(speed_m_s, math.sqrt(distance_m * acceleration_m_s2))
     return speed / acceleration_m_s2, distance_m / speed - speed / acceleration_m_s2
 
@@ -35,13 +34,13 @@ class Grasp:
 
     Attributes:
         fingers: Contact and friction.
-        body_xy_mm: Where the body's origin is, in the world's pad axes [mm].
-        pad_xy_mm: Where the pad's centre is.
-        patch: What is held, None while the fingers are open or hold nothing.
-        slip_mm: How far the body has slid along the pads, turning included [mm].
-        slid_mm: How far without turning [mm].
-        grips: Times that the fingers closed or changed their force.
-        contacts: Times that what the gel feels changed by a command.
+        body_xy_mm: Position of the body's origin, in the world's pad axes [mm].
+        pad_xy_mm: Position of the pad's centre [mm].
+        patch: Patch of the held body, None while the fingers are open or hold nothing.
+        slip_mm: Distance that the body has slid along the pads, turning included [mm].
+        slid_mm: The same without turning [mm].
+        grips: Number of times that the fingers closed or changed their force.
+        contacts: Number of commands that changed the contact with the gel.
         peak_force_n, peak_kpa: Largest true force and pressure so far.
     """
 
@@ -72,9 +71,9 @@ class Grasp:
     def close(self, force_n: float) -> None:
         """Close with, or adjust a grip to, a true force [N].
 
-        A bruise is counted when the pressure passes both the limit and all that this body has borne
-        before (flesh that gave way gives way no further under less): the first grip's as
-        ``bruised_at_start``, any later one's as ``bruised``.
+        A bruise is counted when the pressure exceeds both the limit and the body's peak so far
+        (flesh yields no further under less): for the first grip as ``bruised_at_start``, for a
+        later one as ``bruised``.
         """
         before = self.peak_kpa * _SAME_PRESSURE
         self.grips += 1
@@ -94,7 +93,7 @@ class Grasp:
             self.load((0.0, 0.0), 0.05)
 
     def open(self) -> None:
-        """Let go; what was lifted falls."""
+        """Open the fingers; a lifted body falls."""
         if self.patch is not None and self._lifted_mm > 1.0:
             self.dropped = True
         self.patch = None
@@ -104,8 +103,8 @@ class Grasp:
     def move(self, by_mm: tuple[float, float], speed_m_s: float, acceleration_m_s2: float) -> float:
         """Move the fingers on a straight line with a trapezoidal speed; returns its duration [s].
 
-        A held body comes along, and slides while the friction of both patches is exceeded. While it
-        stands on what it was found on, that carries its weight.
+        A held body moves with them, and slides while the load exceeds the friction of both patches.
+        Until it is lifted, its support carries its weight.
         """
         distance = math.hypot(*by_mm) / 1000
         if distance == 0:
@@ -130,20 +129,20 @@ class Grasp:
 
     def load(self, acceleration_m_s2: tuple[float, float], seconds: float) -> None:
         """Slide under a constant load for a while; the patch follows in steps of 0.5 mm."""
-        left = seconds
-        while left > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
-            held = self.fingers.resistance(self.patch, acceleration_m_s2)
-            if held.margin >= 1 and self._speed <= 0:
+        remaining_s = seconds
+        while remaining_s > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
+            resistance = self.fingers.resistance(self.patch, acceleration_m_s2)
+            if resistance.margin >= 1 and self._speed <= 0:
                 return
-            gain = held.excess_n / self.fingers.inertia_kg(held.motion)
-            step = min(left, self._time_to_slide(gain, 0.5e-3 / held.patch_speed))
+            gain = resistance.excess_n / self.fingers.inertia_kg(resistance.motion)
+            step = min(remaining_s, self._time_to_slide(gain, 0.5e-3 / resistance.patch_speed))
             slide_mm = 1000 * max(0.0, self._speed * step + gain * step**2 / 2)
             self._speed = max(0.0, self._speed + gain * step)
-            self._slide(held, slide_mm)
-            left -= step
+            self._slide(resistance, slide_mm)
+            remaining_s -= step
 
     def _time_to_slide(self, gain: float, distance_m: float) -> float:
-        """Time until a slide covers a distance or, slowed by ``gain``, stops [s]."""
+        """Time until a slide covers a distance or, with a negative ``gain`` [m/s²], stops [s]."""
         if gain < 0:
             stop = self._speed / -gain
             if self._speed * stop / 2 <= distance_m:
@@ -151,13 +150,13 @@ class Grasp:
         root = math.sqrt(max(0.0, self._speed**2 + 2 * gain * distance_m))
         return max(1e-6, 2 * distance_m / (self._speed + root)) if self._speed + root > 0 else 1e-3
 
-    def _slide(self, held: Resistance, slide_mm: float) -> None:
-        self.slip_mm += slide_mm * held.patch_speed
-        x, y = held.motion[0] * slide_mm, held.motion[1] * slide_mm
+    def _slide(self, resistance: Resistance, slide_mm: float) -> None:
+        self.slip_mm += slide_mm * resistance.patch_speed
+        x, y = resistance.motion[0] * slide_mm, resistance.motion[1] * slide_mm
         self.body_xy_mm = (self.body_xy_mm[0] + x, self.body_xy_mm[1] + y)
         self.slid_mm += math.hypot(x, y)
-        gone = self.slid_mm > DROPPED_MM or not self.fingers.reaches(self.offset_mm)
-        if gone or self.patch is None:
+        is_lost = self.slid_mm > DROPPED_MM or not self.fingers.reaches(self.offset_mm)
+        if is_lost or self.patch is None:
             self.dropped, self.patch = True, None
         elif math.dist(self.patch.offset_mm, self.offset_mm) > 0.05:
             self.patch = self.fingers.press(self.offset_mm, self.patch.force_n)

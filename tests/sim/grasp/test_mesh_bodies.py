@@ -23,7 +23,7 @@ def written(mesh: trimesh.Trimesh, folder: Path) -> Path:
 
 def test_a_ball_becomes_a_ball(tmp_path):
     path = written(trimesh.creation.icosphere(subdivisions=5, radius=15.0), tmp_path)
-    body = body_from_mesh(path, mass_g=None, like=LIKE)
+    body = body_from_mesh(path, mass_g=None, template=LIKE)
     gap = body.gap_on(np.array([0.0, 4.0]), np.array([0.0, -4.0]))
     sagitta = 15 - np.sqrt(15**2 - 16)
     assert gap[0, 0] == pytest.approx(0.0, abs=0.02)
@@ -35,7 +35,7 @@ def test_a_ball_becomes_a_ball(tmp_path):
 
 def test_a_long_box_hangs_along_its_length_and_keeps_a_given_mass(tmp_path):
     path = written(trimesh.creation.box((80.0, 12.0, 30.0)), tmp_path)
-    body = body_from_mesh(path, mass_g=50.0, like=LIKE)
+    body = body_from_mesh(path, mass_g=50.0, template=LIKE)
     assert body.thickness_mm == pytest.approx(12.0)
     assert body.mass_kg == 0.05
     inside = body.gap_on(np.array([-14.0, 14.0]), np.array([20.0, -20.0]))
@@ -47,13 +47,13 @@ def test_an_open_mesh_is_refused(tmp_path):
     mesh = trimesh.creation.box((20.0, 20.0, 20.0))
     mesh.update_faces(np.arange(len(mesh.faces)) > 1)
     with pytest.raises(TouchError, match="open"):
-        body_from_mesh(written(mesh, tmp_path), mass_g=None, like=LIKE)
+        body_from_mesh(written(mesh, tmp_path), mass_g=None, template=LIKE)
 
 
 def test_a_mesh_in_metres_is_refused(tmp_path):
     with pytest.raises(TouchError, match="metres"):
         body_from_mesh(
-            written(trimesh.creation.icosphere(radius=0.015), tmp_path), mass_g=None, like=LIKE
+            written(trimesh.creation.icosphere(radius=0.015), tmp_path), mass_g=None, template=LIKE
         )
 
 
@@ -61,13 +61,15 @@ def test_a_mesh_inside_out_is_refused(tmp_path):
     mesh = trimesh.creation.icosphere(radius=15.0)
     mesh.invert()
     with pytest.raises(TouchError, match="inside out"):
-        body_from_mesh(written(mesh, tmp_path), mass_g=None, like=LIKE)
+        body_from_mesh(written(mesh, tmp_path), mass_g=None, template=LIKE)
 
 
 def test_a_mesh_wider_than_the_gripper_is_refused(tmp_path):
     with pytest.raises(TouchError, match="gripper opens"):
         body_from_mesh(
-            written(trimesh.creation.box((150.0, 150.0, 150.0)), tmp_path), mass_g=None, like=LIKE
+            written(trimesh.creation.box((150.0, 150.0, 150.0)), tmp_path),
+            mass_g=None,
+            template=LIKE,
         )
 
 
@@ -76,12 +78,12 @@ def test_an_empty_or_foreign_file_is_refused(tmp_path, content):
     path = tmp_path / "thing.ply"
     path.write_bytes(content)
     with pytest.raises(TouchError, match=r"thing\.ply"):
-        body_from_mesh(path, mass_g=None, like=LIKE)
+        body_from_mesh(path, mass_g=None, template=LIKE)
 
 
 @pytest.mark.skipif(not SHARED.is_dir(), reason=f"{SHARED} is absent")
 @pytest.mark.parametrize("name", ["household/plastic_apple", "household/black_marker"])
 def test_scanned_objects_can_be_held(name):
-    body = body_from_mesh(SHARED / f"{name}.ply", mass_g=None, like=LIKE)
+    body = body_from_mesh(SHARED / f"{name}.ply", mass_g=None, template=LIKE)
     middle = body.gap_mm.shape[0] // 2
     assert body.gap_mm[middle, middle] < 2.0

@@ -55,7 +55,9 @@ def test_the_true_force_is_the_commanded_one_times_the_hidden_factor():
 
 
 def test_a_perfect_sensor_feels_where_how_deep_and_how_firm():
-    rig = build("cherry_tomato", 3, start_offset_mm=(3.0, -2.0), gripper_force_gain=1.0, noise_level=0)
+    rig = build(
+        "cherry_tomato", 3, start_offset_mm=(3.0, -2.0), gripper_force_gain=1.0, noise_level=0
+    )
     rig.gripper.grip(1.0)
     state = contact_state(rig.sensor.read())
     assert (state.x_mm, state.y_mm) == pytest.approx((3.0, -2.0), abs=0.3)
