@@ -1,5 +1,6 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
+# make test-all  the same with the slow tests
 # make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
 
@@ -8,7 +9,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test weights setup clean
+.PHONY: run test test-all weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -19,6 +20,9 @@ test: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/python -m pytest
+
+test-all: test
+	$(BIN)/python -m pytest -m "slow and not hardware and not gpu"
 
 weights: setup
 	$(BIN)/tacgrasp data generate --out runs/tcl3d --seed 0
