@@ -16,6 +16,8 @@ from cltp.llm.generation import Reply
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import Slots, parse_caption
 
+REQUEST = "Describe the contact."
+
 
 class Speaker(Protocol):
     """What evaluation needs of ``cltp.llm.generation.Talker``."""
@@ -29,21 +31,21 @@ def predict_by_captions(
     speaker: Speaker,
     batches: Sequence[Batch],
     read_numbers: Callable[[str], Sequence[float] | None],
-    request: str = "Describe the contact.",
 ) -> Predictions:
     """Ask for a caption of each contact and read classes and numbers out of it.
+
+    A reply that is no caption is wrong in all dimensions.
 
     Args:
         speaker: The model.
         batches: Contacts.
         read_numbers: Reads ``NUMBERS`` out of a reply; None where it has none, which counts as
             infinitely wrong.
-        request: The request for a caption. A reply that is no caption is wrong in all dimensions.
     """
     classes, numbers = [], []
     for batch in batches:
         for points in batch.points:
-            text = speaker.reply(points, request).text
+            text = speaker.reply(points, REQUEST).text
             try:
                 slots = parse_caption(text.split(".")[0])
             except TouchError:

@@ -32,6 +32,7 @@ from cltp.train.stage import ProgressReport, silent
 
 SCHEDULE = Schedule(steps=1500, batch_size=256, learning_rate=1e-3)
 COVERAGE = 0.9
+"""Fraction of the true values that shall lie inside their intervals."""
 HIDDEN = 256
 
 _DEPTH = list(CLASSES).index("depth")
@@ -219,12 +220,11 @@ class NumberProbe:
         return means.mean(dim=0), (spreads.square().mean(dim=0) + DISAGREEMENT * between).sqrt()
 
     @torch.no_grad()
-    def calibrate(self, encoded: EncodedContacts, coverage: float = COVERAGE) -> IntervalScale:
+    def calibrate(self, encoded: EncodedContacts) -> IntervalScale:
         """Scale intervals on contacts that were not learned from.
 
         Args:
             encoded: Contacts with the noise that the intervals shall hold for.
-            coverage: Fraction of the true values that shall lie inside.
         """
         touching = encoded.classes[:, _DEPTH] >= 0
         mean, spread = self._mean_and_spread(encoded.pooled[touching])
@@ -233,7 +233,7 @@ class NumberProbe:
         value = restored(mean)
         distance = (value[:, 1:3] - numbers[:, 1:3]).norm(dim=1) / spread[:, 1:3].norm(dim=1)
         # The finite-sample correction of conformal prediction: one more than the fraction.
-        rank = min(len(error), math.ceil((len(error) + 1) * coverage)) - 1
+        rank = min(len(error), math.ceil((len(error) + 1) * COVERAGE)) - 1
         return IntervalScale(error.sort(dim=0).values[rank], float(distance.sort().values[rank]))
 
     @torch.no_grad()

@@ -18,6 +18,9 @@ from cltp.tactile.render import render
 from cltp.tactile.sensors import sensor_named
 from cltp.texts.captions import caption
 
+RANKS = (1, 5, 10)
+"""Ranks k at which retrieval is counted."""
+
 
 @dataclass(frozen=True, slots=True)
 class RetrievalScores:
@@ -29,22 +32,17 @@ class RetrievalScores:
         text_to_contact: By rank k, the fraction of captions with one of their contacts among the k
             nearest.
         chance: Fraction that guessing gives at rank 1, contact to text.
-        contacts: Number of contacts.
         captions: Number of different captions.
     """
 
     contact_to_text: dict[int, float]
     text_to_contact: dict[int, float]
     chance: float
-    contacts: int
     captions: int
 
 
 def score_retrieval(
-    towers: Towers,
-    encoded: EncodedContacts,
-    captions: Sequence[str],
-    ranks: Sequence[int] = (1, 5, 10),
+    towers: Towers, encoded: EncodedContacts, captions: Sequence[str]
 ) -> RetrievalScores:
     """Retrieve among all contacts and captions of a set.
 
@@ -52,17 +50,15 @@ def score_retrieval(
         towers: The encoders that share the space.
         encoded: Contacts.
         captions: One caption a contact; contacts with the same words share one.
-        ranks: The ranks k to count.
     """
     texts, own = _different(captions)
     features = torch.cat([towers.texts(texts[n : n + 64]).cpu() for n in range(0, len(texts), 64)])
     cosines = F.normalize(encoded.feature, dim=1) @ features.T
-    hits = {rank: _hits(cosines, own, rank) for rank in ranks}
+    hits = {rank: _hits(cosines, own, rank) for rank in RANKS}
     return RetrievalScores(
         contact_to_text={rank: float(items.mean()) for rank, (items, _) in hits.items()},
         text_to_contact={rank: float(words.mean()) for rank, (_, words) in hits.items()},
         chance=1 / len(texts),
-        contacts=len(captions),
         captions=len(texts),
     )
 

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""Pre-training methods side by side: train each on one data set, evaluate and report them.
+
+Reproduces the paper's tables 1, 2 and A. Not here: the methods themselves (``cltp.train``), their
+scores (``cltp.evaluation``), and the weights of the controller (``tacgrasp.training``).
+"""

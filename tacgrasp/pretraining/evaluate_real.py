@@ -120,6 +120,6 @@ def _result(
     run: EvaluationRun, table: str, name: str, method: TrainedMethod, scores: ClassScores
 ) -> Result:
     """A result, stored where the method says what it was trained on."""
-    known = replace(method, data=method.data or "")
-    result = run.class_result(table, name, known, SPLIT, scores)
+    of_data = replace(method, data=method.data or "")
+    result = run.class_result(table, name, of_data, SPLIT, scores)
     return run.store(result) if method.data is not None else result

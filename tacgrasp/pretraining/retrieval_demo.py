@@ -9,14 +9,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import torch
 from rich.console import Console
 from rich.table import Table
 
 from cltp.atomic_write import write_atomically
-from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.retrieval import nearest_contacts, nearest_texts
+from cltp.evaluation.splits import EvaluationSplit
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.html_page import render_page
 from tacgrasp.pretraining.checkpoints import find_method
@@ -56,8 +55,7 @@ class RetrievalMatches:
         contact: Number of the contact; None for a text.
         rank: Rank of the contact's own caption among all; None for a text.
         among: Number of contacts or texts to choose from.
-        split: Split of the contacts.
-        about: Description of the evaluation split.
+        split: Evaluation split of the contacts.
         matches: The nearest, best first.
     """
 
@@ -65,8 +63,7 @@ class RetrievalMatches:
     contact: int | None
     rank: int | None
     among: int
-    split: Split
-    about: str
+    split: EvaluationSplit
     matches: list[RetrievalMatch]
 
 
@@ -95,6 +92,7 @@ def find_matches(
     data = ContactDataset(run.data, split=split.split)
     captions = captions_of(data, encoded)
     if text is not None:
+        query, rank, among = text, None, len(encoded)
         matches = [
             RetrievalMatch(
                 text=captions[row],
@@ -104,17 +102,15 @@ def find_matches(
             )
             for row, cosine in nearest_contacts(towers, encoded, text, count)
         ]
-        query, rank, among = text, None, len(encoded)
     else:
-        rows = torch.eq(encoded.index, contact if contact is not None else -1).nonzero()
-        if not len(rows):
+        if contact not in encoded.index.tolist():
             raise UsageError(
                 f"no contact {contact} in {split.name}; it has 0 to {int(encoded.index.max())}"
             )
-        query, texts = captions[int(rows[0, 0])], sorted(set(captions))
-        nearest = nearest_texts(towers, encoded.feature[int(rows[0, 0])], texts, len(texts))
-        rank = next(n for n, (one, _) in enumerate(nearest, start=1) if one == query)
-        among = len(texts)
+        row, texts = encoded.index.tolist().index(contact), sorted(set(captions))
+        query, among = captions[row], len(texts)
+        nearest = nearest_texts(towers, encoded.feature[row], texts, among)
+        rank = [one for one, _ in nearest].index(query) + 1
         matches = [
             RetrievalMatch(text=one, cosine=cosine, is_own=one == query)
             for one, cosine in nearest[:count]
@@ -124,8 +120,7 @@ def find_matches(
         contact=contact,
         rank=rank,
         among=among,
-        split=split.split,
-        about=split.about,
+        split=split,
         matches=matches,
     )
 
@@ -152,9 +147,9 @@ def print_matches(matches: RetrievalMatches, console: Console) -> None:
 
 def _heading(matches: RetrievalMatches) -> str:
     if matches.contact is None:
-        return f"“{matches.query}”: the nearest of {matches.among} contacts ({matches.about})"
+        return f"“{matches.query}”: the nearest of {matches.among} contacts ({matches.split.about})"
     return (
-        f"contact {matches.contact} ({matches.about}) is: {matches.query}\n"
+        f"contact {matches.contact} ({matches.split.about}) is: {matches.query}\n"
         f"its own words are number {matches.rank} of {matches.among} texts"
     )
 
@@ -171,7 +166,7 @@ def write_page(folder: Path, matches: RetrievalMatches, path: Path) -> None:
         UsageError: The page can't be written.
         TouchError: The data are damaged.
     """
-    data = ContactDataset(folder, split=matches.split)
+    data = ContactDataset(folder, split=matches.split.split)
 
     def picture(index: int | None) -> str | None:
         return None if index is None else small_picture(data, index, _PICTURE_PX)

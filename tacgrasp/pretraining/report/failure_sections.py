@@ -30,9 +30,9 @@ def _confused_shapes(groups: Groups) -> Iterator[PageSection]:
             continue
         cells = [f"{_TABLES[table]}, {split}"]
         for one, other in CONFUSED_SHAPES:
-            there = _rate(counts, names.index(one), names.index(other))
+            rate = _rate(counts, names.index(one), names.index(other))
             back = _rate(counts, names.index(other), names.index(one))
-            cells.append(f"{there} / {back}")
+            cells.append(f"{rate} / {back}")
         right = (same[0].values.get("shape"), merged_accuracy(same[0], "sphere", "ellipsoid"))
         cells += ["–" if value is None else f"{value:.1f}" for value in right]
         wrong = [

@@ -24,6 +24,11 @@ class PageTable:
     head: list[str]
     rows: list[list[str]]
 
+    @property
+    def text_columns(self) -> set[int]:
+        """Columns with sentences, which are wrapped."""
+        return {column for row in self.rows for column, cell in enumerate(row) if len(cell) > 40}
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PagePlot:

@@ -1,4 +1,4 @@
-"""Pre-training methods on the command line: trained, tried, reported, and everything refused."""
+"""Pre-training methods on the command line: trained, evaluated, reported; wrong use refused."""
 
 import csv
 import dataclasses
@@ -94,6 +94,17 @@ def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(evaluate, "NumberProbe", partial(NumberProbe, schedule=quick))
 
 
+def real_touches(folder: Path, rows: str = "0.npy,sphere,,,,\n", count: int = 1) -> list[str]:
+    """Flags of a folder of height maps with a table of labels."""
+    folder.mkdir(exist_ok=True)
+    for number in range(count):
+        np.save(folder / f"{number}.npy", fake_contact(number).height_mm)
+    table = folder / "labels.csv"
+    table.write_text(f"file,shape,texture,depth,position,area\n{rows}")
+    predictions = str(folder / "predictions.csv")
+    return ["--real", str(folder), "--labels", str(table), "--out", predictions]
+
+
 def complaint(argv: list[str], capsys: pytest.CaptureFixture[str]) -> str:
     capsys.readouterr()
     assert main(argv) == 2
@@ -168,9 +179,7 @@ def test_baselines_are_measured_once(
     assert main(few) == main(["eval", "probe", *places]) == 0
     splits = len(calls) // 2
     assert calls == [4] * splits + [None] * splits
-    alone = next(
-        (tmp_path / "results").glob("probe-geometric_baseline-heights alone-contact-s0.json")
-    )
+    alone = tmp_path / "results" / "probe-geometric_baseline-heights alone-contact-s0.json"
     before = alone.stat().st_mtime_ns
     assert main(few) == main(["eval", "probe", *places]) == 0
     assert len(calls) == 2 * splits
@@ -188,8 +197,8 @@ def test_text_finds_contacts_and_a_contact_finds_texts(
     assert "the nearest of 6 contacts" in capsys.readouterr().out
     page = tmp_path / "found.html"
     assert main(["eval", "retrieval", *places, "--contact", "3", "--page", str(page)]) == 0
-    said = capsys.readouterr().out
-    assert re.search(r"contact 3 \(.*\) is: a .*\n.*own words are number \d of \d texts", said)
+    text = capsys.readouterr().out
+    assert re.search(r"contact 3 \(.*\) is: a .*\n.*own words are number \d of \d texts", text)
     assert page.read_text().count("<img") == 1
     assert page.read_text().count("<li") == 5
     assert "one of them" in complaint(
@@ -202,30 +211,25 @@ def test_real_touches_are_named_from_a_table(
     places: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     folder = tmp_path / "real"
-    folder.mkdir()
-    for number in range(3):
-        np.save(folder / f"{number}.npy", fake_contact(number).height_mm)
-    table = folder / "labels.csv"
-    head = "file,shape,texture,depth,position,area\n"
-    table.write_text(head + "0.npy,sphere,,deep,,\n1.npy,,smooth,,centered,\n2.npy,,,,,tiny\n")
-    predictions = tmp_path / "said.csv"
-    real = ["--real", str(folder), "--labels", str(table), "--out", str(predictions)]
-    assert main(["eval", "zero-shot", *places, *real]) == 0
-    rows = list(csv.DictReader(predictions.open()))
-    assert len(rows) == 3
-    assert rows[0]["shape"] in CLASSES["shape"]
+    rows = "0.npy,sphere,,deep,,\n1.npy,,smooth,,centered,\n2.npy,,,,,tiny\n"
+    flags = ["eval", "zero-shot", *places, *real_touches(folder, rows, 3)]
+    assert main(flags) == 0
+    predictions = list(csv.DictReader((folder / "predictions.csv").open()))
+    assert len(predictions) == 3
+    assert predictions[0]["shape"] in CLASSES["shape"]
     (stored,) = (tmp_path / "results").glob("*cltp*real*.json")
-    judged = json.loads(stored.read_text())
-    assert sum(map(sum, judged["confusion"]["depth"])) == 1
+    assert sum(map(sum, json.loads(stored.read_text())["confusion"]["depth"])) == 1
     (baseline,) = (tmp_path / "results").glob("*geometric_baseline*real*.json")
     assert json.loads(baseline.read_text())["values"]["shape"] is None
-    table.write_text(head + "0.npy,blob,,,,\n")
-    assert "row 2: no shape 'blob'" in complaint(["eval", "zero-shot", *places, *real], capsys)
-    table.write_text(head + "9.npy,,,,,\n")
-    assert "9.npy does not exist" in complaint(["eval", "zero-shot", *places, *real], capsys)
-    table.write_text("file,shape\n0.npy,sphere\n")
-    assert "needs the columns" in complaint(["eval", "zero-shot", *places, *real], capsys)
-    assert "belong together" in complaint(["eval", "zero-shot", *places, *real[:2]], capsys)
+    for row, expected in (
+        ("0.npy,blob", "row 2: no shape 'blob'"),
+        ("9.npy,", "9.npy does not exist"),
+    ):
+        real_touches(folder, f"{row},,,,\n")
+        assert expected in complaint(flags, capsys)
+    (folder / "labels.csv").write_text("file,shape\n0.npy,sphere\n")
+    assert "needs the columns" in complaint(flags, capsys)
+    assert "belong together" in complaint(flags[:-4], capsys)
 
 
 @pytest.mark.parametrize("tokenizer", ["pressed", "fine"])
@@ -237,13 +241,9 @@ def test_encoders_of_other_points_name_real_touches(
     wide = load_clip(out / "clip").feature_dim
     encoder = TactileEncoder(dataclasses.replace(config, feature_dim=wide))
     save_encoder(tmp_path / "weights" / "encoder", encoder, StateHeads(48))
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
-    table = tmp_path / "labels.csv"
-    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
-    said = tmp_path / "said.csv"
-    argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(said)]
-    assert main(["eval", "zero-shot", *argv, "--weights", str(tmp_path / "weights")]) == 0
-    (row,) = csv.DictReader(said.open())
+    argv = [*real_touches(tmp_path), "--weights", str(tmp_path / "weights")]
+    assert main(["eval", "zero-shot", *argv]) == 0
+    (row,) = csv.DictReader((tmp_path / "predictions.csv").open())
     assert row["shape"] in CLASSES["shape"]
 
 
@@ -277,17 +277,14 @@ def test_contacts_are_moved_by_a_share(
 def test_probes_name_real_touches_by_points_and_by_frames(
     places: list[str], tmp_path: Path, quick_probes: None
 ) -> None:
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
-    table = tmp_path / "labels.csv"
-    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
-    figures, said = tmp_path / "figures.json", tmp_path / "said.csv"
-    real = ["--real", str(tmp_path), "--labels", str(table), "--out", str(said)]
-    assert main(["eval", "probe", *places, *real, "--json", str(figures)]) == 0
+    figures = tmp_path / "figures.json"
+    argv = [*places, *real_touches(tmp_path), "--json", str(figures)]
+    assert main(["eval", "probe", *argv]) == 0
     found = json.loads(figures.read_text())["probe"]
     assert set(found) == {"cltp", "random", "geometric_baseline"}
     assert found["cltp"]["real"]["shape"] in (0.0, 100.0)
     assert found["cltp"]["real"]["depth"] is None
-    (row,) = csv.DictReader((tmp_path / "said-random.csv").open())
+    (row,) = csv.DictReader((tmp_path / "predictions-random.csv").open())
     assert 0 < float(row["depth_probability"]) <= 1
 
 
@@ -299,20 +296,17 @@ def test_an_image_encoder_of_others_stands_for_a_method(
     assert main(["eval", "probe", *places, *argv]) == 0
     assert json.loads(figures.read_text())["probe"]["tvl"]["contact"]["shape"] is not None
     (stored,) = (tmp_path / "results").glob("probe-tvl-*-contact-s0.json")
-    told = json.loads(stored.read_text())
-    assert (told["variant"], told["budget"]) == ("checkpoint clip", None)
+    content = json.loads(stored.read_text())
+    assert (content["variant"], content["budget"]) == ("checkpoint clip", None)
 
 
-def test_weights_that_come_along_name_real_touches_and_store_nothing(
+def test_shipped_weights_name_real_touches_and_store_nothing(
     out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     for part in ("clip", "cltp/encoder"):
         shutil.copytree(out / part, tmp_path / "weights" / Path(part).name)
-    np.save(tmp_path / "0.npy", fake_contact(0).height_mm)
-    table = tmp_path / "labels.csv"
-    table.write_text("file,shape,texture,depth,position,area\n0.npy,sphere,,,,\n")
-    argv = ["--real", str(tmp_path), "--labels", str(table), "--out", str(tmp_path / "said.csv")]
-    argv += ["--weights", str(tmp_path / "weights"), "--results", str(tmp_path / "results")]
+    argv = ["--weights", str(tmp_path / "weights"), "--results", str(tmp_path / "results")]
+    argv += real_touches(tmp_path)
     assert main(["eval", "zero-shot", *argv]) == 0
     assert "not stored for the report" in capsys.readouterr().out
     assert not list(tmp_path.glob("results/*.json"))
@@ -365,7 +359,7 @@ def test_the_papers_numbers_have_five_dimensions() -> None:
     assert {method for _, method, _ in PAPER} <= set(TITLES)
 
 
-def test_encoders_of_other_data_are_not_tried(
+def test_encoders_of_other_data_are_refused(
     out: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     other = write_data(tmp_path / "other", first=1000)
