@@ -13,7 +13,7 @@ the change of pressure (our choice: it bounds the error of the surface).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import torch
 from torch import Tensor
@@ -87,14 +87,7 @@ class _Residual:
 
     def retain(self, mask: Tensor) -> _Residual:
         """Residual of the contacts whose ``mask`` is True."""
-        return _Residual(
-            gap=self.gap[mask],
-            contact=self.contact[mask],
-            count=self.count[mask],
-            level=self.level[mask],
-            norm=self.norm[mask],
-            mean=self.mean[mask],
-        )
+        return _Residual(**{each.name: getattr(self, each.name)[mask] for each in fields(self)})
 
 
 def _dot(a: Tensor, b: Tensor) -> Tensor:

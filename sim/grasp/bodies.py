@@ -15,12 +15,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
-
-FloatArray = NDArray[np.float64]
 
 PITCH_MM = 0.15
 HALF_SPAN_MM = 24.0

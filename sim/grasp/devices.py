@@ -70,13 +70,29 @@ class SimClock:
         return Stamp(monotonic_s=self.monotonic(), wall_s=self.wall())
 
 
-class SimArm:
+class _Device:
+    """A device that refuses commands and reads once it is disconnected."""
+
+    _name: str
+    _error: type[RobotError | TouchError] = RobotError
+    _connected = True
+
+    def disconnect(self) -> None:
+        self._connected = False
+
+    def _check_connected(self) -> None:
+        if not self._connected:
+            raise self._error(f"the simulated {self._name} is disconnected")
+
+
+class SimArm(_Device):
     """Moves the pad of a simulated grasp; a ``primitives.devices.Arm``."""
+
+    _name = "arm"
 
     def __init__(self, grasp: Grasp, clock: SimClock) -> None:
         self._grasp, self._clock = grasp, clock
         self._pose = START_POSE
-        self._connected = True
 
     def pose(self) -> Pose:
         self._check_connected()
@@ -112,13 +128,6 @@ class SimArm:
     def stop(self) -> None:
         """Nothing to stop: simulated motions have ended when ``move_to`` returns."""
 
-    def disconnect(self) -> None:
-        self._connected = False
-
-    def _check_connected(self) -> None:
-        if not self._connected:
-            raise RobotError("the simulated arm is disconnected")
-
 
 def settled_width_m(grasp: Grasp) -> float:
     """Opening at which closed fingers rest [m]: on the held body, 0 without one."""
@@ -127,17 +136,18 @@ def settled_width_m(grasp: Grasp) -> float:
     return max(0.0, grasp.fingers.body.thickness_mm - 2 * grasp.patch.depth_mm) / 1000
 
 
-class SimGripper:
+class SimGripper(_Device):
     """Closes the fingers of a simulated grasp; a ``primitives.devices.Gripper``.
 
     Attributes:
         force_gain: Ratio of true to commanded force; hidden from policies.
     """
 
+    _name = "gripper"
+
     def __init__(self, grasp: Grasp, clock: SimClock, force_gain: float) -> None:
         self._grasp, self._clock, self.force_gain = grasp, clock, force_gain
         self._state = GripperState(width_m=MAX_WIDTH_M, force_n=0.0, closed=False)
-        self._connected = True
 
     def state(self) -> GripperState:
         self._check_connected()
@@ -169,17 +179,11 @@ class SimGripper:
     def stop(self) -> None:
         """Nothing to stop; the grip is kept."""
 
-    def disconnect(self) -> None:
-        """Refuse further commands; the grip is kept."""
-        self._connected = False
 
-    def _check_connected(self) -> None:
-        if not self._connected:
-            raise RobotError("the simulated gripper is disconnected")
-
-
-class SimSensor:
+class SimSensor(_Device):
     """A ``tacgrasp.rig.protocols.TactileSensor`` that reads the gel of a simulated grasp."""
+
+    _name, _error = "sensor", TouchError
 
     def __init__(
         self,
@@ -192,7 +196,6 @@ class SimSensor:
         self._grasp, self._clock, self._spec = grasp, clock, spec
         self._noise, self._seed = noise, seed
         self._rng = np.random.default_rng([seed, 2])
-        self._connected = True
 
     @property
     def spec(self) -> SensorSpec:
@@ -213,10 +216,6 @@ class SimSensor:
         return self._noise.apply(true_mm, self._spec, contact)
 
     def read(self) -> TactileCloud:
-        if not self._connected:
-            raise TouchError("the simulated sensor is disconnected")
+        self._check_connected()
         heights, stamp = self.height_mm(), self._clock.stamp()
         return cloud_from_heights(heights, self._spec, rng=self._rng, stamp=stamp)
-
-    def disconnect(self) -> None:
-        self._connected = False

@@ -20,14 +20,11 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 
-from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from sim.gel.layer import ElasticLayer, GelMaterial
 from sim.grasp.bodies import Body
-
-FloatArray = NDArray[np.float64]
 
 GRAVITY_M_S2 = 9.81
 

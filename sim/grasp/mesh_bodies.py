@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from cltp.errors import TouchError
+from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
-from sim.grasp.bodies import GRID_MM, HALF_SPAN_MM, Body, FloatArray
+from sim.grasp.bodies import GRID_MM, HALF_SPAN_MM, Body
 from sim.grasp.devices import MAX_WIDTH_M
 from sim.objects.meshes import IntArray, checked_mesh, volume_and_centre
 

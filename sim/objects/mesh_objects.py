@@ -16,17 +16,14 @@ from typing import Any
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.errors import TouchError
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell, Form
-from sim.objects.meshes import SUFFIXES, checked_mesh
+from sim.objects.meshes import SUFFIXES, IntArray, checked_mesh
 from sim.objects.object import Family, Part, SolidObject
-from sim.objects.ray_casting import FloatArray
-
-IntArray = NDArray[np.int64]
 
 CREASE_DEG = 25.0
 """Angle between faces from which they belong to different regions. Our choice: a tube with 16 sides

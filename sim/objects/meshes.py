@@ -16,8 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cltp.errors import TouchError
+from cltp.tactile.cloud import FloatArray
 
-FloatArray = NDArray[np.float64]
 IntArray = NDArray[np.int64]
 
 SUFFIXES = (".ply", ".obj", ".stl", ".off")

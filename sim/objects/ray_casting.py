@@ -18,12 +18,10 @@ from typing import Protocol
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import Tensor
 
+from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
-
-FloatArray = NDArray[np.float64]
 
 FINGER_RADIUS_MM = 10.0
 """Radius of the ball that finds random surface points. Our choice: about half a pad."""

@@ -13,13 +13,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensor_noise import smooth_field
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import Texture
-
-FloatArray = NDArray[np.float64]
 
 _LIMITS: dict[Texture, tuple[tuple[float, float], tuple[float, float]]] = {
     Texture.SMOOTH: ((0.0, 0.0), (0.0, 0.0)),

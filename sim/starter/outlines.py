@@ -12,9 +12,9 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from cltp.tactile.cloud import FloatArray
+
 Point = tuple[float, float]
 
 

@@ -10,11 +10,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
-
-FloatArray = NDArray[np.float64]
 
 MIN_MM, MAX_MM = 0.2, 500.0
 

@@ -13,16 +13,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DEPTH_LIMITS_MM, Shape, Texture
 from sim.grasp.bodies import Body, Range, draw_body
 from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm
 from sim.starter.textures import relief_mm
-
-FloatArray = NDArray[np.float64]
 
 ROWS, COLUMNS = 75, 100
 """Grid over the sensing area: 0.2 mm on a GelSight Mini."""

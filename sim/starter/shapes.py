@@ -12,13 +12,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.gel.gap import NO_BODY_MM
 from sim.starter.surfaces import SURFACES, Surface
-
-FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

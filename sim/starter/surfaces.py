@@ -13,13 +13,12 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.gel.gap import NO_BODY_MM
 from sim.starter.outlines import arc, circle, convex, rectangle, segment
 
-FloatArray = NDArray[np.float64]
 Surface = Callable[[FloatArray, FloatArray], FloatArray]
 
 

@@ -10,13 +10,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import Texture
 from sim.objects.skins import caps, grain, valley
-
-FloatArray = NDArray[np.float64]
 
 
 def relief_mm(

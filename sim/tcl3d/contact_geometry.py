@@ -13,9 +13,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell
-from sim.tcl3d.masks import BoundingRectangle, FloatArray, Mask, bounding_rectangle, dilate
+from sim.tcl3d.masks import BoundingRectangle, Mask, bounding_rectangle, dilate
 
 _NEARBY_MM = 0.3  # largest gap of surface that is about to touch
 

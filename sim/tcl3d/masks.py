@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import label
 
-FloatArray = NDArray[np.float64]
+from cltp.tactile.cloud import FloatArray
+
 Mask = NDArray[np.bool_]
 
 _CRUMB = 0.12  # fraction of the largest piece up to which pieces don't count

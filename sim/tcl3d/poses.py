@@ -20,11 +20,11 @@ import numpy as np
 import torch
 from scipy.spatial.transform import Rotation
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
 from sim.objects.object import Mount, SolidObject
 from sim.objects.ray_casting import (
     Castable,
-    FloatArray,
     SurfacePoint,
     frame_at,
     gradient,

@@ -17,7 +17,7 @@ import numpy as np
 import torch
 
 from cltp.data.contact import Contact, Gel, Split
-from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import DEPTH_LIMITS_MM
 from sim.gel.gap import NO_BODY_MM
@@ -25,7 +25,7 @@ from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.objects.catalogue import CATALOGUE, SMALL, UNSEEN
 from sim.objects.catalogue_large import LARGE
 from sim.objects.object import SolidObject
-from sim.objects.ray_casting import FloatArray, PadView, cast_pad_rays
+from sim.objects.ray_casting import PadView, cast_pad_rays
 from sim.objects.skins import SMOOTH, fade, relief_of
 from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import in_contact, label

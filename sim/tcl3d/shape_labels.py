@@ -18,12 +18,12 @@ from collections import Counter
 
 import numpy as np
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.gel.gap import NO_BODY_MM
 from sim.objects.faces import Cell, Form
 from sim.tcl3d.contact_geometry import ContactGeometry, ShapeLabel, with_nearby_surface
 from sim.tcl3d.masks import (
-    FloatArray,
     Mask,
     angle_between,
     border_fraction,

@@ -10,10 +10,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import AREA_LIMITS, DEPTH_LIMITS_MM, DIMENSIONS, ContactState, Texture
 from sim.objects.object import SolidObject
-from sim.objects.ray_casting import FloatArray
 from sim.tcl3d.contact_geometry import ContactGeometry
 
 SHAPE, TEXTURE, DEPTH, POSITION, AREA = DIMENSIONS
