@@ -17,20 +17,17 @@ from torch import Tensor, nn
 
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
 from cltp.checkpoints.weight_files import CONFIG
-from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
 from cltp.tactile.states import CLASSES
 from cltp.train.clip_feature_cache import FrozenFeatures
-from cltp.train.curves import plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLTP_SCHEDULE, CltpRecipe, Schedule
-from cltp.train.stage import ProgressReport, Stage, silent
+from cltp.train.stage import Stage, TrainingRun
 from cltp.train.text_targets import draw_prompts, draw_texts, matches_of_all
 
 
@@ -43,69 +40,47 @@ class _Learner(nn.Module):
 
 
 def train_cltp(
-    data_dir: Path,
-    out_dir: Path,
-    *,
+    run: TrainingRun,
     config: EncoderConfig,
     schedule: Schedule = CLTP_SCHEDULE,
     recipe: CltpRecipe | None = None,
+    *,
     with_images: bool = True,
     also: Sequence[Path] = (),
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
     shuffle_labels: bool = False,
-    seed: int = 0,
-    checkpoint_s: float = 60.0,
-    report: ProgressReport = silent,
-    workers: Workers | None = None,
 ) -> Path:
-    """Train, or continue training, and write ``out_dir/encoder``.
-
-    The checkpoint lies in ``out_dir/.training``, beside ``cltp.csv`` and ``cltp.png``: the terms of
-    every step, and the temperature.
+    """Train, or continue training, and write ``run.out / "encoder"``.
 
     Args:
-        data_dir: A data set of contacts; its training split is used.
-        out_dir: Folder of weights.
+        run: Data, folder, seed, progress and processes.
         config: Sizes of the encoder; its feature is made as wide as CLIP's.
         schedule: How long and how fast the encoder learns.
         recipe: What is minimised.
         with_images: Whether L_T2I is minimised too; the paper's ablation goes without.
         also: Further data sets to learn from, in one random order with the first.
         augmentation: How contacts are varied.
-        clip_dir: Folder of the towers; ``out_dir/clip`` when not given.
+        clip_dir: Folder of the towers; ``run.out / "clip"`` when not given.
         shuffle_labels: Gives each contact the label of another: a control that must not learn.
-        seed: Seed of weights, order, noise and mirroring.
-        checkpoint_s: Seconds between checkpoints.
-        report: Receives the progress.
-        workers: The processes that train together.
 
     Raises:
         TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
     """
-    workers, recipe = workers or Workers(), recipe or CltpRecipe()
-    data = ContactDataset(data_dir, split=Split.TRAIN, also=also)
-    clip_dir = clip_dir or out_dir / "clip"
+    workers, seed, recipe = run.workers, run.seed, recipe or CltpRecipe()
+    data = run.dataset(also)
+    clip_dir = clip_dir or run.out / "clip"
     towers = load_clip(clip_dir).to(workers.device)
     config = dataclasses.replace(config, feature_dim=towers.feature_dim)
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
     identity = {
         "data": data.checksum(),
-        "seed": seed,
         "config": config.identity,
-        "variant": f"{recipe} {with_images} {shuffle_labels} {augmentation} {workers.count}",
+        "variant": f"{recipe} {with_images} {shuffle_labels} {augmentation}",
     }
-    folder = out_dir / "encoder"
-    stage = Stage(
-        "cltp",
-        out_dir / ".training",
-        learner,
-        schedule,
-        identity,
-        workers=workers,
-        checkpoint_s=checkpoint_s,
-    )
+    folder = run.out / "encoder"
+    stage = Stage("cltp", run, learner, schedule, identity)
     if stage.done and (folder / CONFIG).exists():  # the last file that is written
         return folder
     sampler = Sampler(
@@ -118,7 +93,7 @@ def train_cltp(
     )
     cache = clip_dir.parent / ".training" if workers.is_first else None
     frozen = FrozenFeatures(towers, data, cache)
-    run = _Run(
+    losses = _Losses(
         learner=learner,
         frozen=frozen,
         recipe=recipe,
@@ -127,11 +102,10 @@ def train_cltp(
         workers=workers,
         seed=seed,
     )
-    learner.train()
-    stage.run(run.losses, report)
+    stage.train(losses)
     if workers.is_first:
         frozen.save()
-        plot_curves(stage.curves, stage.curves.with_suffix(".png"))
+        stage.plot()
         learner.cpu().eval()
         save_encoder(folder, learner.encoder, learner.heads)
     workers.wait()
@@ -139,8 +113,8 @@ def train_cltp(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class _Run:
-    """One training: from the number of a step to its terms."""
+class _Losses:
+    """From the number of a step to its terms."""
 
     learner: _Learner
     frozen: FrozenFeatures
@@ -150,7 +124,7 @@ class _Run:
     workers: Workers
     seed: int
 
-    def losses(self, step: int) -> dict[str, Tensor]:
+    def __call__(self, step: int) -> dict[str, Tensor]:
         """Terms of a step, over this process's part of its batch and the others' negatives."""
         batch, device = next(self.batches), self.workers.device
         labels = targets(batch.states)

@@ -25,7 +25,6 @@ from torch import Tensor, nn
 
 from cltp.checkpoints.frozen import noisy_frames, save_frozen
 from cltp.checkpoints.tac3d_llm import load_clip
-from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.all_gather import gathered
@@ -36,13 +35,11 @@ from cltp.encoder.losses import ContrastiveLoss
 from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patch_size, patches
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
-from cltp.train.curves import plot_curves
-from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, TRAINING_ORDER
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
-from cltp.train.stage import ProgressReport, Stage, silent
+from cltp.train.stage import Stage, TrainingRun
 
 BASELINES = tuple(name for name in TRAINING_ORDER if name not in ALIGNED_METHODS)
 
@@ -54,30 +51,22 @@ Losses = Callable[[Batch, int], dict[str, Tensor]]
 
 def train_baseline(
     method: str,
-    data_dir: Path,
-    out_dir: Path,
-    *,
+    run: TrainingRun,
     config: EncoderConfig,
     schedule: Schedule,
+    *,
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
-    seed: int = 0,
-    report: ProgressReport = silent,
-    workers: Workers | None = None,
 ) -> Path:
-    """Train, or continue training, and write ``out_dir/encoder``.
+    """Train, or continue training, and write ``run.out / "encoder"``.
 
     Args:
         method: Out of ``BASELINES``.
-        data_dir: A data set of contacts; its training split is used.
-        out_dir: Folder of this method.
+        run: Data, folder, seed, progress and processes.
         config: Sizes of the encoder.
         schedule: How long and how fast the encoder learns.
         augmentation: How contacts are varied.
         clip_dir: Folder of the towers, for vision-based methods.
-        seed: Seed of weights, order, noise and masks.
-        report: Receives the progress.
-        workers: The processes that train together.
 
     Raises:
         TouchError: Data, towers or checkpoint can't be used, the encoder does not take the input of
@@ -88,79 +77,64 @@ def train_baseline(
     if method != "random" and config.takes_images != (method in IMAGE_METHODS):
         taken = "image" if method in IMAGE_METHODS else "points"
         raise TouchError(f"{method} needs an encoder of {taken}, got tokenizer {config.tokenizer}")
-    run = _Run(
-        data=ContactDataset(data_dir, split=Split.TRAIN),
-        folder=out_dir / ".training",
-        schedule=schedule,
-        augmentation=augmentation or Augmentation(),
-        seed=seed,
-        report=report,
-        workers=workers or Workers(),
-        config=config,
-    )
-    torch.manual_seed(seed)
-    encoder = TactileEncoder(config).to(run.workers.device)
+    device = run.workers.device
+    work = _Work(run, run.dataset(), config, schedule, augmentation or Augmentation())
+    torch.manual_seed(run.seed)
+    encoder = TactileEncoder(config).to(device)
     if method == "point_mae":
-        mae = PointMae(encoder, patch_size(config)).to(run.workers.device)
-        run.stage(
-            method, mae, lambda batch, step: mae.losses(run.points(batch), run.torch_rng(step))
+        mae = PointMae(encoder, patch_size(config)).to(device)
+        work.train(
+            method, mae, lambda batch, step: mae.losses(work.points(batch), work.torch_rng(step))
         )
     elif method == "point_bert":
-        _train_point_bert(encoder, run)
+        _train_point_bert(encoder, work)
     elif method in IMAGE_METHODS:
         if clip_dir is None:
             raise TouchError(f"{method} is aligned with a tower of language; name a CLIP")
-        _train_vision(method, encoder, load_clip(clip_dir), run)
+        _train_vision(method, encoder, load_clip(clip_dir), work)
     if run.workers.is_first:
-        save_frozen(out_dir / "encoder", encoder.cpu(), method)
+        save_frozen(run.out / "encoder", encoder.cpu(), method)
     run.workers.wait()
-    return out_dir / "encoder"
+    return run.out / "encoder"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Run:
-    """What all methods share: data, schedule, and how a stage is run over them."""
+@dataclass(frozen=True, slots=True)
+class _Work:
+    """What the stages of a method share, and how one is run."""
 
+    run: TrainingRun
     data: ContactDataset
-    folder: Path
+    config: EncoderConfig
     schedule: Schedule
     augmentation: Augmentation
-    seed: int
-    report: ProgressReport
-    workers: Workers
-    config: EncoderConfig
 
-    def stage(
+    def train(
         self, name: str, model: nn.Module, losses: Losses, schedule: Schedule | None = None
     ) -> None:
         """Train a model by the losses of a batch in a step."""
         identity = {
             "data": self.data.checksum(),
-            "seed": self.seed,
             "config": self.config.identity,
-            "variant": f"{self.augmentation} {self.workers.count}",
+            "variant": str(self.augmentation),
         }
-        stage = Stage(
-            name, self.folder, model, schedule or self.schedule, identity, workers=self.workers
-        )
+        stage = Stage(name, self.run, model, schedule or self.schedule, identity)
         sampler = Sampler(
-            self.data, self.augmentation, seed=self.seed, sampling=self.config.sampling
+            self.data, self.augmentation, seed=self.run.seed, sampling=self.config.sampling
         )
         batches = prefetched(stage.batches(sampler))
 
         def terms(step: int) -> dict[str, Tensor]:
             batch = next(batches)
             check_batch(name, step, self.data, batch, targets(batch.states))
-            with self.workers.autocast():
+            with self.run.workers.autocast():
                 return losses(batch, step)
 
-        model.train()
-        stage.run(terms, self.report)
-        if self.workers.is_first and stage.curves.exists():
-            plot_curves(stage.curves, stage.curves.with_suffix(".png"))
+        stage.train(terms)
+        if self.run.workers.is_first:
+            stage.plot()
 
     def points(self, batch: Batch) -> Tensor:
-        return torch.from_numpy(batch.points).to(self.workers.device)
+        return torch.from_numpy(batch.points).to(self.run.workers.device)
 
     def torch_rng(self, step: int) -> torch.Generator:
         """Random generator of a step, the same wherever a training is continued."""
@@ -168,27 +142,27 @@ class _Run:
         return torch.Generator().manual_seed(number)
 
     def rng(self, step: int) -> np.random.Generator:
-        return np.random.default_rng([self.seed, 66, self.workers.part(step)])
+        return np.random.default_rng([self.run.seed, 66, self.run.workers.part(step)])
 
 
-def _train_point_bert(encoder: TactileEncoder, run: _Run) -> None:
-    words = ShapeWords(encoder.config.dim, patch_size(encoder.config)).to(run.workers.device)
-    steps = max(1, round(_VOCABULARY_FRACTION * run.schedule.steps))
+def _train_point_bert(encoder: TactileEncoder, work: _Work) -> None:
+    words = ShapeWords(encoder.config.dim, patch_size(encoder.config)).to(work.run.workers.device)
+    steps = max(1, round(_VOCABULARY_FRACTION * work.schedule.steps))
 
     def word_losses(batch: Batch, step: int) -> dict[str, Tensor]:
         with torch.no_grad():
-            cloud = patches(encoder, run.points(batch))
+            cloud = patches(encoder, work.points(batch))
         temperature = max(_COLDEST, _COLDEST ** (step / steps))
-        return words.losses(cloud, temperature, run.torch_rng(step))
+        return words.losses(cloud, temperature, work.torch_rng(step))
 
-    word_schedule = dataclasses.replace(run.schedule, steps=steps)
-    run.stage("point_bert_words", words, word_losses, word_schedule)
-    bert = PointBert(encoder, words).to(run.workers.device)
-    run.stage(
+    word_schedule = dataclasses.replace(work.schedule, steps=steps)
+    work.train("point_bert_words", words, word_losses, word_schedule)
+    bert = PointBert(encoder, words).to(work.run.workers.device)
+    work.train(
         "point_bert",
         bert,
-        lambda batch, step: bert.losses(run.points(batch), run.torch_rng(step)),
-        dataclasses.replace(run.schedule, steps=max(1, run.schedule.steps - steps)),
+        lambda batch, step: bert.losses(work.points(batch), work.torch_rng(step)),
+        dataclasses.replace(work.schedule, steps=max(1, work.schedule.steps - steps)),
     )
 
 
@@ -198,35 +172,35 @@ class _VisionLearner(nn.Module):
         self.encoder, self.contrast = encoder, ContrastiveLoss()
 
 
-def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, run: _Run) -> None:
+def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, work: _Work) -> None:
     if encoder.config.feature_dim != towers.feature_dim:
         raise TouchError(
             f"the encoder's feature has width {encoder.config.feature_dim}, the towers' "
             f"{towers.feature_dim}; choose a preset that fits"
         )
-    learner = _VisionLearner(encoder).to(run.workers.device)
+    learner = _VisionLearner(encoder).to(work.run.workers.device)
     text_features: dict[str, Tensor] = {}
-    sensors = run.data.column("sensor")
+    sensors = work.data.column("sensor")
 
     def losses(batch: Batch, step: int) -> dict[str, Tensor]:
-        texts = surface_texts(method, run.data, batch)
+        texts = surface_texts(method, work.data, batch)
         for text in texts:
             if text not in text_features:
                 text_features[text] = towers.texts([text])[0].cpu()
         pixels = noisy_frames(
             batch.height_mm,
             [sensor_named(sensors[index]) for index in batch.index],
-            run.augmentation,
-            run.rng(step),
+            work.augmentation,
+            work.rng(step),
         )
-        vision = encoder(pixels.to(run.workers.device)).feature.float()
-        language = torch.stack([text_features[text] for text in texts]).to(run.workers.device)
+        vision = encoder(pixels.to(work.run.workers.device)).feature.float()
+        language = torch.stack([text_features[text] for text in texts]).to(work.run.workers.device)
         numbers = torch.tensor([zlib.crc32(text.encode()) for text in texts], device=vision.device)
         numbers = gathered(numbers)
         terms = {"t2l": learner.contrast(vision, language, numbers[:, None] == numbers[None])}
         return terms | {"temperature": 1 / learner.contrast.scale.detach()}
 
-    run.stage(method, learner, losses)
+    work.train(method, learner, losses)
 
 
 def surface_texts(method: str, data: ContactDataset, batch: Batch) -> list[str]:

@@ -18,19 +18,15 @@ from torch import Tensor, nn
 from transformers import CLIPModel
 
 from cltp.checkpoints.tac3d_llm import save_clip
-from cltp.data.contact import Split
-from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
 from cltp.encoder.losses import CltpLoss
 from cltp.tactile.states import CLASSES
 from cltp.texts.tokenizer import Words
 from cltp.train.clip_feature_cache import rendered
-from cltp.train.curves import plot_curves
-from cltp.train.distributed import Workers
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLIP_SCHEDULE, ClipRecipe, Schedule
-from cltp.train.stage import ProgressReport, Stage, silent
+from cltp.train.stage import Stage, TrainingRun
 from cltp.train.text_targets import TextTargets, draw_prompts, draw_texts, matches, matches_of_all
 
 READ_SCALE = 16.0
@@ -74,46 +70,37 @@ class _Learner(nn.Module):
 
 
 def train_clip(
-    data_dir: Path,
-    out_dir: Path,
+    run: TrainingRun,
     words: Words,
-    *,
     schedule: Schedule = CLIP_SCHEDULE,
     recipe: ClipRecipe | None = None,
+    *,
     dim: int = 128,
-    seed: int = 0,
-    report: ProgressReport = silent,
-    workers: Workers | None = None,
 ) -> Path:
-    """Train, or continue training, and write ``out_dir/clip``.
+    """Train, or continue training, and write ``run.out / "clip"``.
 
     Args:
-        data_dir: A data set of contacts; its training split is used.
-        out_dir: Folder of weights; checkpoints lie in its ``.training``.
+        run: Data, folder, seed, progress and processes.
         words: The tokenizer of captions.
         schedule: How long and how fast CLIP learns.
         recipe: What is minimised.
         dim: Width of the towers and of the shared space.
-        seed: Seed of weights, order and mirroring.
-        report: Receives the progress.
-        workers: The processes that train together.
 
     Raises:
         TouchError: The data can't be read, or a checkpoint is of another training.
     """
-    workers, recipe = workers or Workers(), recipe or ClipRecipe()
-    data = ContactDataset(data_dir, split=Split.TRAIN)
+    workers, seed, recipe = run.workers, run.seed, recipe or ClipRecipe()
+    data = run.dataset()
     torch.manual_seed(seed)
     learner = _Learner(small_clip(words, dim=dim)).to(workers.device)
     identity = {
         "data": data.checksum(),
-        "seed": seed,
         "dim": dim,
         "words": words.fingerprint(),
-        "variant": f"{recipe} {workers.count}",
+        "variant": str(recipe),
     }
-    stage = Stage("clip", out_dir / ".training", learner, schedule, identity, workers=workers)
-    folder = out_dir / "clip"
+    stage = Stage("clip", run, learner, schedule, identity)
+    folder = run.out / "clip"
     if stage.done and folder.exists():
         return folder
     sampler = Sampler(data, RENDERED, seed=seed)
@@ -141,10 +128,9 @@ def train_clip(
         temperature = 1 / learner.loss.contrast.scale.detach()
         return terms | {"right": right.float().mean(), "temperature": temperature}
 
-    learner.train()
-    stage.run(losses, report)
+    stage.train(losses)
     if workers.is_first:
-        plot_curves(stage.curves, stage.curves.with_suffix(".png"))
+        stage.plot()
         save_clip(folder, learner.clip.cpu().eval(), words)
     workers.wait()
     return folder

@@ -35,10 +35,9 @@ from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.states import ContactState
 from cltp.texts.exchange_packing import Exchange, Packed, pack
 from cltp.texts.tokenizer import Words
-from cltp.train.distributed import Workers
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
-from cltp.train.stage import ProgressReport, Stage, silent
+from cltp.train.stage import Stage, TrainingRun
 
 STAGES = {
     "text": Schedule(steps=300, batch_size=24, learning_rate=2e-3),
@@ -85,48 +84,40 @@ def train_words(
 
 
 def train_llm(
-    data_dir: Path,
-    out_dir: Path,
+    run: TrainingRun,
     words: Words,
     lessons: Lessons,
-    *,
     schedules: Mapping[str, Schedule] = STAGES,
+    *,
     dim: int = 192,
     layers: int = 4,
     augmentation: Augmentation | None = None,
-    seed: int = 0,
-    report: ProgressReport = silent,
 ) -> Path:
-    """Train, or continue training, and write ``out_dir/projector`` and ``out_dir/lm``.
+    """Train, or continue training, and write ``projector`` and ``lm`` into ``run.out``.
 
     Args:
-        data_dir: A data set of contacts; its training split is used.
-        out_dir: Folder of weights, with ``encoder`` in it.
+        run: Data, folder with ``encoder`` in it, seed and progress.
         words: The tokenizer.
         lessons: The exchanges about contacts.
         schedules: How long and how fast each of the ``STAGES`` learns.
         dim: Hidden width of the language model.
         layers: Number of its layers.
         augmentation: How contacts are varied.
-        seed: Seed of weights, order, noise and wording.
-        report: Receives the progress.
 
     Raises:
         TouchError: Data, encoder or a checkpoint can't be used.
     """
-    data = ContactDataset(data_dir, split=Split.TRAIN)
-    encoder, heads = load_touching_encoder(out_dir / "encoder")
-    torch.manual_seed(seed)
-    device = Workers().device
+    data = run.dataset()
+    encoder, heads = load_touching_encoder(run.out / "encoder")
+    torch.manual_seed(run.seed)
     language = Language(small_lm(words, dim=dim, layers=layers), words=words)
     projector = Projector(encoder.config.dim, language.dim)
-    model = Tac3dLlm(encoder, heads, projector, language).to(device)
-    learner = _Learner(model, device, words, data, lessons, augmentation, seed)
+    model = Tac3dLlm(encoder, heads, projector, language).to(run.workers.device)
+    learner = _Learner(run, model, words, data, lessons, augmentation)
     identity = {
         "data": data.checksum(),
         "encoder": _fingerprint(encoder),
         "words": words.fingerprint(),
-        "seed": seed,
         "lm": f"{dim} {layers} {augmentation}",
     }
     learned = nn.ModuleList([model.projector, model.lm])  # in every stage: checkpoints then chain
@@ -134,10 +125,9 @@ def train_llm(
         model.requires_grad_(False)
         model.projector.requires_grad_(name in ("projector", "joint"))
         model.lm.requires_grad_(name in ("text", "joint"))
-        stage = Stage(name, out_dir / ".training", learned, schedules[name], identity)
-        learner.run(stage, number, report)
-    save_tac3d_llm(out_dir, model.cpu().eval())
-    return out_dir
+        learner.train(Stage(name, run, learned, schedules[name], identity), number)
+    save_tac3d_llm(run.out, model.cpu().eval())
+    return run.out
 
 
 def _fingerprint(encoder: TactileEncoder) -> float:
@@ -147,31 +137,29 @@ def _fingerprint(encoder: TactileEncoder) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Learner:
+    run: TrainingRun
     model: Tac3dLlm
-    device: torch.device
     words: Words
     data: ContactDataset
     lessons: Lessons
     augmentation: Augmentation | None
-    seed: int
 
-    def run(self, stage: Stage, number: int, report: ProgressReport) -> None:
-        self.model.train()
+    def train(self, stage: Stage, number: int) -> None:
         batches = prefetched(self._batches(stage, number))
 
         def losses(step: int) -> dict[str, Tensor]:
             encoded, packed = next(batches)
-            packed = Packed(*(part.to(self.device) for part in packed))
+            packed = Packed(*(part.to(self.run.workers.device) for part in packed))
             touch = self.model.projected(encoded) if encoded is not None else None
             return self.model.loss(touch, packed)
 
-        stage.run(losses, report)
+        stage.train(losses)
 
     def _batches(self, stage: Stage, number: int) -> Iterator[tuple[Encoded | None, Packed]]:
-        sampler = Sampler(self.data, self.augmentation, seed=1000 * self.seed + number)
+        sampler = Sampler(self.data, self.augmentation, seed=1000 * self.run.seed + number)
         size = stage.schedule.batch_size
         for step in range(stage.step, stage.schedule.steps):
-            rng = np.random.default_rng([self.seed, number, step])
+            rng = np.random.default_rng([self.run.seed, number, step])
             if stage.name == "text":
                 states = [self.data.state(int(i)) for i in rng.integers(len(self.data), size=size)]
                 encoded, readings, num_touch = None, states, 0
@@ -179,7 +167,9 @@ class _Learner:
                 batch = sampler.numbered(size, step)
                 states, num_touch = batch.states, self.model.num_touch
                 with torch.no_grad():
-                    encoded = self.model.encoder(torch.from_numpy(batch.points).to(self.device))
+                    encoded = self.model.encoder(
+                        torch.from_numpy(batch.points).to(self.run.workers.device)
+                    )
                     numbers = self.model.heads(encoded.pooled).numbers
                 readings = with_read_numbers(states, numbers)
             exchanges = [

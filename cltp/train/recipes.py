@@ -6,7 +6,7 @@ Loads no torch, so that a command line can show these values and pass them on wh
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Literal
 
 from cltp.errors import TouchError
@@ -38,8 +38,10 @@ class AlignmentRecipe:
     prompt_weight: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.prompt_weight < 0:
-            raise TouchError(f"prompt_weight must be at least 0, got {self.prompt_weight}")
+        for part in fields(self):
+            value = getattr(self, part.name)
+            if part.name.endswith("_weight") and value < 0:
+                raise TouchError(f"{part.name} must be at least 0, got {value}")
 
     @property
     def shares_texts(self) -> bool:
@@ -61,11 +63,6 @@ class ClipRecipe(AlignmentRecipe):
 
     read_weight: float = 1.0
 
-    def __post_init__(self) -> None:
-        AlignmentRecipe.__post_init__(self)
-        if self.read_weight < 0:
-            raise TouchError(f"read_weight must be at least 0, got {self.read_weight}")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CltpRecipe(AlignmentRecipe):
@@ -84,8 +81,6 @@ class CltpRecipe(AlignmentRecipe):
 
     def __post_init__(self) -> None:
         AlignmentRecipe.__post_init__(self)
-        if self.head_weight < 0:
-            raise TouchError(f"head_weight must be at least 0, got {self.head_weight}")
         if not 0 <= self.moved <= 1:
             raise TouchError(f"moved must be a fraction from 0 to 1, got {self.moved}")
 

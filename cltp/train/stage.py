@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -17,10 +18,12 @@ import torch
 from torch import Tensor, nn
 
 from cltp.atomic_write import replacing
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch, Sampler
 from cltp.encoder.all_gather import averaged_gradients
 from cltp.errors import TouchError
-from cltp.train.curves import CurveFile
+from cltp.train.curves import CurveFile, plot_curves
 from cltp.train.distributed import Workers
 from cltp.train.recipes import Schedule
 
@@ -37,18 +40,41 @@ def silent(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> No
     """A ``ProgressReport`` that shows nothing."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TrainingRun:
+    """What every trainer needs: its data and folder, seed, progress and processes.
+
+    Attributes:
+        data: A data set of contacts; its training split is used.
+        out: Folder of weights; checkpoints and curves lie in its ``.training``.
+        seed: Seed of weights, order, noise and wordings.
+        report: Receives the progress.
+        workers: The processes that train together.
+        checkpoint_s: Seconds between checkpoints.
+    """
+
+    data: Path
+    out: Path
+    seed: int = 0
+    report: ProgressReport = silent
+    workers: Workers = field(default_factory=Workers)
+    checkpoint_s: float = 60.0
+
+    def dataset(self, also: Sequence[Path] = ()) -> ContactDataset:
+        """The training split, in one random order with that of further data sets."""
+        return ContactDataset(self.data, split=Split.TRAIN, also=also)
+
+
 class Stage:
     """Runs one stage.
 
     Args:
         name: Name of the stage and of its checkpoint.
-        folder: Folder of the checkpoint.
+        run: Folder, seed, progress and processes.
         model: Everything that is learned, and everything whose state the checkpoint must hold.
         schedule: How long and how fast the stage learns.
-        identity: What the stage is made of (seed, checksum of the data, sizes). A checkpoint of
-            another identity is refused, so that two trainings never mix.
-        workers: The processes that share each step; this one alone when not given.
-        checkpoint_s: Seconds between checkpoints.
+        identity: What the stage is made of besides schedule, seed and number of processes: data,
+            sizes, recipe. A checkpoint of another identity is refused, so that trainings never mix.
         clock: Source of the time for checkpoints [s].
 
     Raises:
@@ -58,21 +84,19 @@ class Stage:
     def __init__(
         self,
         name: str,
-        folder: Path,
+        run: TrainingRun,
         model: nn.Module,
         schedule: Schedule,
         identity: Mapping[str, Any],
         *,
-        workers: Workers | None = None,
-        checkpoint_s: float = 60.0,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self.name, self.model, self.schedule = name, model, schedule
-        self._workers = workers or Workers()
+        self._run, self._workers, self._clock = run, run.workers, clock
         self._means: dict[str, float] = {}
-        self._path = Path(folder) / f"{name}.checkpoint"
-        self._identity = json.dumps({**identity, "schedule": str(schedule)}, sort_keys=True)
-        self._checkpoint_s, self._clock = checkpoint_s, clock
+        self._path = run.out / ".training" / f"{name}.checkpoint"
+        shared = {"schedule": str(schedule), "seed": run.seed, "workers": run.workers.count}
+        self._identity = json.dumps({**identity, **shared}, sort_keys=True)
         self._parameters = [p for p in model.parameters() if p.requires_grad]
         groups: list[dict[str, Any]] = [
             {
@@ -103,19 +127,17 @@ class Stage:
         steps = range(self.step, self.schedule.steps)
         return (sampler.numbered(size, self._workers.part(step)) for step in steps)
 
-    def run(
-        self, losses: Callable[[int], Mapping[str, Tensor]], report: ProgressReport = silent
-    ) -> None:
-        """Do the remaining steps.
+    def train(self, losses: Callable[[int], Mapping[str, Tensor]]) -> None:
+        """Do the remaining steps, and report every ten.
 
         Args:
             losses: Named terms of a step; the sum of those with gradients is minimised, the others
                 are scores for people.
-            report: Receives the progress every ten steps.
 
         Raises:
             TouchError: The loss is not finite.
         """
+        self.model.train()
         saved_s = self._clock()
         while not self.done:
             terms = losses(self.step)
@@ -124,11 +146,16 @@ class Stage:
             self.step += 1
             self._note({name: float(term.detach()) for name, term in terms.items()})
             if self._workers.is_first and (self.step % 10 == 0 or self.done):
-                report(self.name, self.step, self.schedule.steps, self._means)
-            if self._clock() - saved_s > self._checkpoint_s or self.done:
+                self._run.report(self.name, self.step, self.schedule.steps, self._means)
+            if self._clock() - saved_s > self._run.checkpoint_s or self.done:
                 self.save()
                 saved_s = self._clock()
         self._workers.wait()
+
+    def plot(self) -> None:
+        """Draw the curves beside their CSV file."""
+        if self.curves.exists():
+            plot_curves(self.curves, self.curves.with_suffix(".png"))
 
     def _note(self, terms: Mapping[str, float]) -> None:
         for name, value in terms.items():

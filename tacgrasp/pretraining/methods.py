@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import torch
@@ -25,11 +25,10 @@ from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.train.alignment import train_cltp
 from cltp.train.baselines import train_baseline
 from cltp.train.clip import train_clip
-from cltp.train.distributed import Workers
 from cltp.train.llm import train_words
 from cltp.train.methods import ALIGNED_METHODS, METHODS
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
-from cltp.train.stage import ProgressReport, silent
+from cltp.train.stage import ProgressReport, TrainingRun
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.exchanges import TouchLessons
 
@@ -37,24 +36,14 @@ ABOUT = "about.json"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PretrainingRun:
-    """Folders, seed, progress and processes that all stages of one command share.
+class PretrainingRun(TrainingRun):
+    """What all stages of one command share; ``out`` is the folder of all methods.
 
     Attributes:
-        out: Folder of all methods.
-        data: A data set of contacts; its training split is used.
-        seed: Seed of weights, order and noise.
         command: The command line, for ``about.json``.
-        report: Receives the progress.
-        workers: The processes that train together.
     """
 
-    out: Path
-    data: Path
-    seed: int = 0
     command: str
-    report: ProgressReport = silent
-    workers: Workers = field(default_factory=Workers)
 
     def announce(self, stage: str, folder: Path) -> None:
         """Print the folder that a stage writes."""
@@ -73,16 +62,7 @@ def pretrain_clip(
     """
     run.announce("clip", run.out / "clip")
     words = train_words(run.data, TouchLessons(), seed=run.seed)
-    return train_clip(
-        run.data,
-        run.out,
-        words,
-        schedule=schedule,
-        recipe=recipe,
-        seed=run.seed,
-        report=run.report,
-        workers=run.workers,
-    )
+    return train_clip(run, words, schedule, recipe)
 
 
 def pretrain(
@@ -118,34 +98,22 @@ def pretrain(
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     folder = run.out / method
     run.announce(method, folder / "encoder")
-    report = _labelled(run.report, method)
+    config, clip = PRESETS[preset], run.out / "clip"
+    training = replace(run, out=folder, report=_labelled(run.report, method))
     if method in ALIGNED_METHODS:
         train_cltp(
-            run.data,
-            folder,
-            also=() if also is None else (also,),
-            config=PRESETS[preset],
-            schedule=schedule,
-            augmentation=LEARNING_NOISE,
-            recipe=recipe,
+            training,
+            config,
+            schedule,
+            recipe,
             with_images=method == "cltp",
-            clip_dir=run.out / "clip",
-            seed=run.seed,
-            report=report,
-            workers=run.workers,
+            also=() if also is None else (also,),
+            augmentation=LEARNING_NOISE,
+            clip_dir=clip,
         )
     else:
         train_baseline(
-            method,
-            run.data,
-            folder,
-            config=PRESETS[preset],
-            schedule=schedule,
-            augmentation=LEARNING_NOISE,
-            clip_dir=run.out / "clip",
-            seed=run.seed,
-            report=report,
-            workers=run.workers,
+            method, training, config, schedule, augmentation=LEARNING_NOISE, clip_dir=clip
         )
     if run.workers.is_first:
         about = {

@@ -38,7 +38,7 @@ from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Policy, PolicyError
-from policies.teacher import teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
 from tacgrasp.lessons.exchanges import BLIND
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
@@ -191,7 +191,11 @@ class _CaseEvaluation:
         self._deciders: dict[str, Callable[[TactileCloud, Case], str | None]] = {
             "llm": lambda cloud, case: _decided(llm, cloud, case.instruction.text),
             "rules": lambda cloud, case: answer_of(
-                teacher(contact_state(cloud), case.instruction.goal)
+                teacher(
+                    contact_state(cloud),
+                    case.instruction.goal,
+                    move_step_mm=LESSON_MOVE_STEP_MM,
+                )
             ),
         }
         if blind is not None:

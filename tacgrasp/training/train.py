@@ -30,6 +30,7 @@ from cltp.checkpoints.tac3d_llm import (
 from cltp.data.dataset import ContactDataset
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
+from cltp.train.stage import TrainingRun
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.lessons.exchanges import TouchLessons
@@ -125,7 +126,7 @@ def train_language_model(
     words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
-        train_llm(data, out, words, lessons, seed=seed, report=report)
+        train_llm(TrainingRun(data=data, out=out, seed=seed, report=report), words, lessons)
     if _digest(out) == before:
         return  # nothing was left to do: the card with its scores still holds
     facts = {

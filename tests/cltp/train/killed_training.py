@@ -11,7 +11,7 @@ import torch
 from cltp.encoder.encoder import PRESETS
 from cltp.train.alignment import train_cltp
 from cltp.train.recipes import CltpRecipe, Schedule
-from cltp.train.stage import ProgressReport, silent
+from cltp.train.stage import ProgressReport, TrainingRun, silent
 
 
 def train_a_little(
@@ -19,13 +19,10 @@ def train_a_little(
 ) -> None:
     """The training that is killed, or not."""
     train_cltp(
-        data,
-        weights,
-        config=PRESETS["tiny"],
-        schedule=Schedule(steps=16, batch_size=6, learning_rate=1e-3),
-        recipe=CltpRecipe(prompt_weight=0.5),
-        checkpoint_s=checkpoint_s,
-        report=report,
+        TrainingRun(data=data, out=weights, report=report, checkpoint_s=checkpoint_s),
+        PRESETS["tiny"],
+        Schedule(steps=16, batch_size=6, learning_rate=1e-3),
+        CltpRecipe(prompt_weight=0.5),
     )
 
 

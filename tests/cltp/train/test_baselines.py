@@ -30,6 +30,7 @@ from cltp.texts.tokenizer import Words
 from cltp.train.baselines import BASELINES, surface_texts, train_baseline
 from cltp.train.curves import read_curves
 from cltp.train.recipes import Schedule
+from cltp.train.stage import TrainingRun
 from tests.fakes.fake_contacts import fake_contact
 
 MINI = SENSORS["gelsight_mini"]
@@ -151,9 +152,8 @@ def test_every_method_trains_and_is_read_back(
 ) -> None:
     config = SIZES[SEES.get(method, "lattice")]
     schedule = Schedule(steps=8, batch_size=4, learning_rate=1e-3)
-    folder = train_baseline(
-        method, data_dir, tmp_path, config=config, schedule=schedule, clip_dir=clip_dir
-    )
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    folder = train_baseline(method, run, config, schedule, clip_dir=clip_dir)
     read = load_frozen(folder)
     assert read.encoder.config == config
     data = ContactDataset(data_dir, split=Split.TRAIN)
@@ -169,13 +169,14 @@ def test_every_method_trains_and_is_read_back(
 
 def test_a_method_refuses_an_encoder_that_cannot_see_it(data_dir: Path, tmp_path: Path) -> None:
     schedule = Schedule(steps=1, batch_size=4, learning_rate=1e-3)
+    run = TrainingRun(data=data_dir, out=tmp_path)
     for method, tokenizer in (("tvl", "fps"), ("point_mae", "image")):
         with pytest.raises(TouchError, match="needs an encoder of"):
-            train_baseline(method, data_dir, tmp_path, config=SIZES[tokenizer], schedule=schedule)
+            train_baseline(method, run, SIZES[tokenizer], schedule)
     with pytest.raises(TouchError, match="name a CLIP"):
-        train_baseline("tvl", data_dir, tmp_path, config=SIZES["image"], schedule=schedule)
+        train_baseline("tvl", run, SIZES["image"], schedule)
     with pytest.raises(TouchError, match="known: random, point_mae"):
-        train_baseline("simclr", data_dir, tmp_path, config=SIZES["lattice"], schedule=schedule)
+        train_baseline("simclr", run, SIZES["lattice"], schedule)
 
 
 def test_vision_hears_of_touch_and_material_alone(data_dir: Path) -> None:

@@ -50,7 +50,7 @@ from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
-from cltp.train.stage import Stage
+from cltp.train.stage import Stage, TrainingRun
 from tests.fakes.fake_contacts import fake_contact
 
 MINI = SENSORS["gelsight_mini"]
@@ -59,6 +59,10 @@ TINY = PRESETS["tiny"]
 
 def schedule(steps: int, batch_size: int, rate: float = 3e-3) -> Schedule:
     return Schedule(steps=steps, batch_size=batch_size, learning_rate=rate)
+
+
+def run_in(folder: Path, seed: int = 0) -> TrainingRun:
+    return TrainingRun(data=folder, out=folder, seed=seed)
 
 
 class Sayings:
@@ -98,14 +102,14 @@ def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Tiny weights that have learned twelve clean contacts by heart."""
     folder = tmp_path_factory.mktemp("weights")
     words = train_words(data_dir, Sayings(), num_contacts=60, size=400)
-    train_clip(data_dir, folder, words, schedule=schedule(6, 12), dim=32)
-    train_cltp(data_dir, folder, config=TINY, schedule=schedule(150, 12), augmentation=CLEAN)
+    run = TrainingRun(data=data_dir, out=folder)
+    train_clip(run, words, schedule(6, 12), dim=32)
+    train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
     train_llm(
-        data_dir,
-        folder,
+        run,
         words,
         Sayings(),
-        schedules={
+        {
             "text": schedule(40, 12, 5e-3),
             "projector": schedule(30, 12, 5e-3),
             "joint": schedule(130, 12, 5e-3),
@@ -349,14 +353,8 @@ def test_shuffled_labels_do_not_generalise(data_dir: Path, trained: Path, tmp_pa
     folder = tmp_path / "w"
     (folder / "clip").parent.mkdir(parents=True)
     (folder / "clip").symlink_to(trained / "clip")
-    train_cltp(
-        data_dir,
-        folder,
-        config=TINY,
-        schedule=schedule(100, 12),
-        augmentation=CLEAN,
-        shuffle_labels=True,
-    )
+    run = TrainingRun(data=data_dir, out=folder)
+    train_cltp(run, TINY, schedule(100, 12), augmentation=CLEAN, shuffle_labels=True)
     data = ContactDataset(data_dir, split=Split.TRAIN)
     encoder, heads = load_encoder(folder / "encoder")
     encoded = encode_batches(frozen(encoder), random_batches(data, 12, CLEAN))
@@ -380,7 +378,7 @@ def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -
     def stage(folder: Path) -> tuple[Stage, torch.nn.Linear]:
         torch.manual_seed(0)
         model = torch.nn.Linear(3, 1)
-        return Stage("s", folder, model, schedule(30, 1), {"seed": 0}), model
+        return Stage("s", run_in(folder, 0), model, schedule(30, 1), {}), model
 
     def losses(model: torch.nn.Linear):  # type: ignore[no-untyped-def]
         def of(step: int) -> dict[str, torch.Tensor]:
@@ -390,7 +388,7 @@ def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -
         return of
 
     whole, model = stage(tmp_path / "whole")
-    whole.run(losses(model))
+    whole.train(losses(model))
     first, cut = stage(tmp_path / "cut")
 
     def stopped(step: int) -> dict[str, torch.Tensor]:
@@ -401,33 +399,34 @@ def test_training_goes_on_where_it_was_stopped(data_dir: Path, tmp_path: Path) -
         return losses(cut)(step)
 
     with pytest.raises(KeyboardInterrupt):
-        first.run(stopped)
+        first.train(stopped)
     second, resumed = stage(tmp_path / "cut")
     assert second.step == 13
-    second.run(losses(resumed))
+    second.train(losses(resumed))
     torch.testing.assert_close(resumed.weight, model.weight, rtol=0, atol=0)
 
 
 def test_a_checkpoint_of_another_training_is_refused(tmp_path: Path) -> None:
     model = torch.nn.Linear(2, 1)
-    Stage("s", tmp_path, model, schedule(3, 1), {"seed": 0}).save()
+    Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {}).save()
     with pytest.raises(TouchError, match="other data, seed or sizes"):
-        Stage("s", tmp_path, model, schedule(3, 1), {"seed": 1})
-    (tmp_path / "s.checkpoint").write_bytes(b"half")
+        Stage("s", run_in(tmp_path, 1), model, schedule(3, 1), {})
+    (tmp_path / ".training" / "s.checkpoint").write_bytes(b"half")
     with pytest.raises(TouchError, match="delete it"):
-        Stage("s", tmp_path, model, schedule(3, 1), {"seed": 0})
+        Stage("s", run_in(tmp_path, 0), model, schedule(3, 1), {})
 
 
 def test_a_loss_that_is_not_finite_stops_the_stage(tmp_path: Path) -> None:
     model = torch.nn.Linear(2, 1)
-    stage = Stage("s", tmp_path, model, schedule(3, 1), {})
+    stage = Stage("s", run_in(tmp_path), model, schedule(3, 1), {})
     with pytest.raises(TouchError, match="learning rate"):
-        stage.run(lambda step: {"loss": model.weight.sum() * float("nan")})
+        stage.train(lambda step: {"loss": model.weight.sum() * float("nan")})
 
 
 def test_a_finished_training_is_not_repeated(trained: Path, data_dir: Path) -> None:
     before = (trained / "encoder" / "model.safetensors").stat().st_mtime_ns
-    train_cltp(data_dir, trained, config=TINY, schedule=schedule(150, 12), augmentation=CLEAN)
+    run = TrainingRun(data=data_dir, out=trained)
+    train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
     assert (trained / "encoder" / "model.safetensors").stat().st_mtime_ns == before
 
 

@@ -28,6 +28,7 @@ from cltp.train.curves import CurveFile, plot_curves, read_curves, smoothed
 from cltp.train.distributed import Workers, joined_workers
 from cltp.train.finite_check import check_batch
 from cltp.train.recipes import CltpRecipe, Schedule
+from cltp.train.stage import TrainingRun
 from tests.cltp.train.killed_training import train_a_little
 from tests.fakes.fake_contacts import fake_contact
 from tests.paths import ROOT
@@ -94,15 +95,8 @@ def test_without_images_and_heads_language_alone_is_learned(
 ) -> None:
     schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
     recipe = CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0)
-    train_cltp(
-        data_dir,
-        tmp_path,
-        config=TINY,
-        schedule=schedule,
-        recipe=recipe,
-        with_images=False,
-        clip_dir=towers_dir,
-    )
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    train_cltp(run, TINY, schedule, recipe, with_images=False, clip_dir=towers_dir)
     assert set(read_curves(tmp_path / ".training/cltp.csv")) == {
         "step",
         "learning_rate",
@@ -158,10 +152,10 @@ def test_moved_contacts_are_another_training(
     data_dir: Path, towers_dir: Path, tmp_path: Path
 ) -> None:
     schedule = Schedule(steps=2, batch_size=4, learning_rate=1e-3)
-    kwargs = {"config": TINY, "schedule": schedule, "clip_dir": towers_dir}
-    train_cltp(data_dir, tmp_path, recipe=CltpRecipe(moved=0.5), **kwargs)  # type: ignore[arg-type]
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    train_cltp(run, TINY, schedule, CltpRecipe(moved=0.5), clip_dir=towers_dir)
     with pytest.raises(TouchError, match="other data, seed or sizes"):
-        train_cltp(data_dir, tmp_path, recipe=CltpRecipe(), **kwargs)  # type: ignore[arg-type]
+        train_cltp(run, TINY, schedule, CltpRecipe(), clip_dir=towers_dir)
 
 
 def test_damaged_features_are_refused(data_dir: Path, towers_dir: Path, tmp_path: Path) -> None:
@@ -249,10 +243,12 @@ def test_two_accelerated_processes_train_together(
     code = (
         "import sys; from pathlib import Path; from cltp.encoder.encoder import PRESETS\n"
         "from cltp.train.alignment import train_cltp; from cltp.train.recipes import Schedule\n"
+        "from cltp.train.stage import TrainingRun\n"
         "from cltp.train.distributed import joined_workers\n"
         "s = Schedule(steps=3, batch_size=8, learning_rate=1e-3)\n"
-        "train_cltp(Path(sys.argv[1]), Path(sys.argv[2]), config=PRESETS['tiny'], schedule=s,\n"
-        "           workers=joined_workers('bf16'))\n"
+        "run = TrainingRun(data=Path(sys.argv[1]), out=Path(sys.argv[2]),\n"
+        "                  workers=joined_workers('bf16'))\n"
+        "train_cltp(run, PRESETS['tiny'], s)\n"
     )
     script = tmp_path / "together.py"
     script.write_text(code)

@@ -12,7 +12,7 @@ from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side
 from policies import Decision
-from policies.teacher import teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives import Primitive
 from tacgrasp.__main__ import main
 from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
@@ -68,7 +68,8 @@ def test_the_two_instructions_of_a_pair_ask_for_different_answers_on_one_contact
         assert one.answer != other.answer
         assert one.instruction.text != other.instruction.text
         for case in (one, other):
-            advice = teacher(data.state(case.index), case.instruction.goal)
+            state, goal = data.state(case.index), case.instruction.goal
+            advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
             assert answer_of(advice) == case.answer
     assert choose_pairs(data, 20, clear=clear) == pairs
     assert choose_pairs(data, 20, clear=clear, seed=1) != pairs

@@ -14,6 +14,7 @@ import torch
 from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply
 from cltp.texts.tokenizer import ACTIONS, Words
+from cltp.train.stage import TrainingRun
 from policies import PolicyError
 from policies.llm import LlmPolicy
 from tacgrasp import policy_factory
@@ -250,6 +251,16 @@ def test_an_instruction_that_it_cannot_know_is_refused_before_anything_moves(
     assert not (tmp_path / "episodes").exists()
 
 
+def test_another_length_of_moves_than_in_training_is_refused_before_anything_moves(
+    weights: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    argv = [*RUN, "--weights", str(weights), "--record", str(tmp_path / "episodes")]
+    printed = complaint([*argv, "--primitives.move-step-mm", "5"], capsys)
+    assert f"--primitives.move-step-mm is 5 mm, but the weights in {weights} were" in printed
+    assert "trained with 3 mm" in printed
+    assert not (tmp_path / "episodes").exists()
+
+
 NO_ACTIONS = {
     "names nothing": ("A berry is a fine thing.", True),
     "is empty": ("", True),
@@ -360,12 +371,12 @@ class Trainer:
         self.blind: bool | None = None
 
         def stage(name: str, *parts: str):  # type: ignore[no-untyped-def]
-            def carry_out(data: Path, out: Path, *args: object, **_: object) -> None:
-                self.carried_out.append((name, out))
+            def carry_out(run: TrainingRun, *args: object, **_: object) -> None:
+                self.carried_out.append((name, run.out))
                 if name == "llm":
                     self.blind = args[1]._blind  # type: ignore[attr-defined]
                 for part in parts:
-                    shutil.copytree(weights / part, out / part, dirs_exist_ok=True)
+                    shutil.copytree(weights / part, run.out / part, dirs_exist_ok=True)
 
             return carry_out
 

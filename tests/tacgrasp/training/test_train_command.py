@@ -1,10 +1,13 @@
 """``tacgrasp train``: one trainer and one data set for each stage, whichever flags are present."""
 
+import inspect
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from cltp.train.distributed import Workers
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining import methods, run_all
@@ -39,40 +42,48 @@ class Trainers:
     """Notes the arguments of every trainer in the place of training."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.calls: list[tuple[str, tuple[Any, ...], dict[str, Any]]] = []
+        self.calls: list[tuple[str, inspect.BoundArguments]] = []
 
-        def trainer(name: str):  # type: ignore[no-untyped-def]
-            def note(data: Path, out: Path, *args: Any, **kwargs: Any) -> None:
-                out.mkdir(parents=True, exist_ok=True)
-                self.calls.append((name, (data, out, *args), kwargs))
+        def noted(name: str):  # type: ignore[no-untyped-def]
+            signature = inspect.signature(getattr(methods, name))
+
+            def note(*args: Any, **kwargs: Any) -> None:
+                bound = signature.bind(*args, **kwargs)
+                bound.arguments["run"].out.mkdir(parents=True, exist_ok=True)
+                self.calls.append((name, bound))
 
             return note
 
         for name in ("train_clip", "train_cltp", "train_baseline"):
-            monkeypatch.setattr(methods, name, trainer(name))
+            monkeypatch.setattr(methods, name, noted(name))
         monkeypatch.setattr(methods, "train_words", lambda *_, **__: "words")
-        monkeypatch.setattr(run_all, "joined_workers", lambda precision: methods.Workers())
+        monkeypatch.setattr(run_all, "joined_workers", lambda precision: Workers())
         monkeypatch.setattr(run_all.torch, "set_num_threads", lambda _: None)
 
-    def run(self, stage: str, data: Path, out: Path, flags: list[str]) -> tuple[Any, ...]:
+    def arguments(
+        self, stage: str, data: Path, out: Path, flags: list[str]
+    ) -> tuple[str, dict[str, Any]]:
+        """The trainer that a command calls, and its arguments."""
         places = ["--data", str(data), "--out", str(out)]
         assert main(["train", stage, *places, *(flag.format(data=data) for flag in flags)]) == 0
-        (call,) = self.calls
-        return call
+        ((name, bound),) = self.calls
+        return name, bound.arguments
 
 
 @pytest.mark.parametrize("flags", CLIP_FLAGS, ids=" ".join)
 def test_clip_is_one_trainer_on_one_data_set_whichever_flags_are_present(
     flags: list[str], data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    name, args, kwargs = Trainers(monkeypatch).run("clip", data, tmp_path / "out", flags)
-    assert (name, args) == ("train_clip", (data, tmp_path / "out", "words"))
-    changed = {
-        "recipe": kwargs["recipe"] != ClipRecipe(),
-        "schedule": kwargs["schedule"] != CLIP_SCHEDULE,
-        "seed": kwargs["seed"] != 0,
-    }
-    assert sum(changed.values()) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
+    out = tmp_path / "out"
+    name, arguments = Trainers(monkeypatch).arguments("clip", data, out, flags)
+    run = arguments["run"]
+    assert (name, run.data, run.out, arguments["words"]) == ("train_clip", data, out, "words")
+    changed = [
+        arguments["recipe"] != ClipRecipe(),
+        arguments["schedule"] != CLIP_SCHEDULE,
+        run.seed != 0,
+    ]
+    assert sum(changed) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
 
 
 @pytest.mark.parametrize("flags", CLTP_FLAGS, ids=" ".join)
@@ -80,29 +91,29 @@ def test_cltp_is_one_trainer_on_one_data_set_whichever_flags_are_present(
     flags: list[str], data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     out = tmp_path / "out"
-    name, args, kwargs = Trainers(monkeypatch).run("cltp", data, out, flags)
-    assert (name, args) == ("train_cltp", (data, out / "cltp"))
-    assert kwargs["clip_dir"] == out / "clip"
-    assert kwargs["augmentation"] == methods.LEARNING_NOISE
-    changed = {
-        "recipe": kwargs["recipe"] != CltpRecipe(),
-        "schedule": kwargs["schedule"] != CLTP_SCHEDULE,
-        "config": kwargs["config"] != methods.PRESETS["small_graded"],
-        "also": kwargs["also"] != (),
-        "seed": kwargs["seed"] != 0,
-    }
-    assert sum(changed.values()) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
+    name, arguments = Trainers(monkeypatch).arguments("cltp", data, out, flags)
+    run = arguments["run"]
+    assert (name, run.data, run.out) == ("train_cltp", data, out / "cltp")
+    assert (arguments["clip_dir"], arguments["with_images"]) == (out / "clip", True)
+    assert arguments["augmentation"] == methods.LEARNING_NOISE
+    changed = [
+        arguments["recipe"] != CltpRecipe(),
+        arguments["schedule"] != CLTP_SCHEDULE,
+        arguments["config"] != methods.PRESETS["small_graded"],
+        arguments["also"] != (),
+        run.seed != 0,
+    ]
+    assert sum(changed) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
 
 
 def test_without_image_is_the_papers_ablation_in_a_folder_of_its_own(
     data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    trainers, out = Trainers(monkeypatch), tmp_path / "out"
-    name, args, kwargs = trainers.run("cltp", data, out, ["--no-image"])
-    assert (name, args[1], kwargs["with_images"]) == ("train_cltp", out / "cltp_no_image", False)
-    assert (
-        f"cltp_no_image: writing {out / 'cltp_no_image' / 'encoder'}\n" in capsys.readouterr().out
-    )
+    name, arguments = Trainers(monkeypatch).arguments("cltp", data, tmp_path, ["--no-image"])
+    folder = tmp_path / "cltp_no_image"
+    assert (name, arguments["run"].out) == ("train_cltp", folder)
+    assert not arguments["with_images"]
+    assert f"cltp_no_image: writing {folder / 'encoder'}\n" in capsys.readouterr().out
 
 
 def test_the_flags_of_a_recipe_and_a_schedule_arrive_whole(
@@ -110,13 +121,11 @@ def test_the_flags_of_a_recipe_and_a_schedule_arrive_whole(
 ) -> None:
     flags = ["--texts", "caption", "--prompt-weight", "0.5", "--head-weight", "0.25"]
     flags += ["--moved", "0.5", "--steps", "7", "--batch-size", "8"]
-    _, _, kwargs = Trainers(monkeypatch).run("cltp", data, tmp_path, flags)
-    assert kwargs["recipe"] == CltpRecipe(
+    _, arguments = Trainers(monkeypatch).arguments("cltp", data, tmp_path, flags)
+    assert arguments["recipe"] == CltpRecipe(
         texts="caption", prompt_weight=0.5, head_weight=0.25, moved=0.5
     )
-    schedule = kwargs["schedule"]
-    assert (schedule.steps, schedule.batch_size) == (7, 8)
-    assert schedule.learning_rate == CLTP_SCHEDULE.learning_rate
+    assert arguments["schedule"] == replace(CLTP_SCHEDULE, steps=7, batch_size=8)
 
 
 @pytest.mark.parametrize("stage", ["clip", "cltp", "point-mae", "random", "probe"])
