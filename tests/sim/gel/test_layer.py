@@ -208,15 +208,15 @@ def test_a_contact_does_not_depend_on_its_company():
     bodies = torch.tensor([0.1, 0.2, 0.4, 0.3])
     gap = torch.cat([ball(r, 76, 102, 0.2) for r in (1.0, 5.0, 15.0, 40.0)])
     force = torch.tensor([0.1, 3.0, 0.0, 1.0])
-    together = field(body_modulus_mpa=bodies).press_to_force(gap, force)
+    batch = field(body_modulus_mpa=bodies).press_to_force(gap, force)
     for k in range(4):
-        alone = field(body_modulus_mpa=bodies[k : k + 1]).press_to_force(
+        single = field(body_modulus_mpa=bodies[k : k + 1]).press_to_force(
             gap[k : k + 1], force[k : k + 1]
         )
-        assert alone.iterations.item() == together.iterations[k].item()
+        assert single.iterations.item() == batch.iterations[k].item()
         # Reductions and transforms run along one contact at a time, so even rounding agrees.
-        assert torch.allclose(alone.height_mm[0], together.height_mm[k], atol=1e-6)
-        assert torch.allclose(alone.pressure_kpa[0], together.pressure_kpa[k], atol=1e-3)
+        assert torch.allclose(single.height_mm[0], batch.height_mm[k], atol=1e-6)
+        assert torch.allclose(single.pressure_kpa[0], batch.pressure_kpa[k], atol=1e-3)
 
 
 def test_pressure_ends_where_the_body_ends_while_the_surface_moves_outside():

@@ -37,45 +37,45 @@ def flat_patch(blocks: list[tuple[int, int]], force_n: float) -> Patch:
 
 
 def test_friction_of_both_patches_holds_two_mu_times_the_force():
-    held = fingers()
-    patch = held.press((0.0, 0.0), 1.0)
+    resistance = fingers()
+    patch = resistance.press((0.0, 0.0), 1.0)
     closed_form = 2 * 0.5 * 1.0 / (0.02 * (GRAVITY_M_S2 + 2.5))
-    margin = held.resistance(patch, (0.0, 2.5)).margin
+    margin = resistance.resistance(patch, (0.0, 2.5)).margin
     assert margin == pytest.approx(closed_form, rel=0.02)
 
 
 def test_a_load_aside_adds_to_the_weight_as_a_vector():
-    held = fingers()
-    patch = held.press((0.0, 0.0), 1.0)
+    resistance = fingers()
+    patch = resistance.press((0.0, 0.0), 1.0)
     closed_form = 2 * 0.5 / (0.02 * np.hypot(GRAVITY_M_S2, 6.0))
-    assert held.resistance(patch, (6.0, 0.0)).margin == pytest.approx(closed_form, rel=0.02)
+    assert resistance.resistance(patch, (6.0, 0.0)).margin == pytest.approx(closed_form, rel=0.02)
 
 
 def test_a_weight_beside_two_points_is_held_by_the_lever_rule():
     # points at ±r, weight at x = d > r: the nearer point carries W (d + r) / 2r of it
-    held = fingers()
-    centre_row, left, right = ROWS // 2, 20, 58
-    patch = flat_patch([(centre_row, left), (centre_row, right)], force_n=1.0)
-    r = (right - left) / 2 * PITCH_MM
-    middle = ((left + right) / 2 + 1 - COLUMNS / 2) * PITCH_MM
+    resistance = fingers()
+    centre_row, slid, right = ROWS // 2, 20, 58
+    patch = flat_patch([(centre_row, slid), (centre_row, right)], force_n=1.0)
+    r = (right - slid) / 2 * PITCH_MM
+    middle = ((slid + right) / 2 + 1 - COLUMNS / 2) * PITCH_MM
     y = (ROWS / 2 - centre_row - 1) * PITCH_MM
     d = 1.5 * r
-    held.body = dataclasses.replace(held.body, com_mm=(middle + d, y))
+    resistance.body = dataclasses.replace(resistance.body, com_mm=(middle + d, y))
     half_weight = 0.01 * GRAVITY_M_S2
     closed_form = 0.5 * 1.0 / 2 / (half_weight * (d + r) / (2 * r))
-    assert held.resistance(patch, (0.0, 0.0)).margin == pytest.approx(closed_form, rel=0.03)
+    assert resistance.resistance(patch, (0.0, 0.0)).margin == pytest.approx(closed_form, rel=0.03)
 
 
 def test_a_whole_patch_is_not_pushed_and_a_cut_one_is_pushed_over_the_edge():
-    held = fingers()
-    whole, cut = held.press_many([(0.0, 0.0), (9.5, 0.0)], [1.0, 1.0])
-    assert abs(held._friction_of(whole).push[0]) < 0.01
-    assert held._friction_of(cut).push[0] > 0.01
+    resistance = fingers()
+    whole, cut = resistance.press_many([(0.0, 0.0), (9.5, 0.0)], [1.0, 1.0])
+    assert abs(resistance._friction_of(whole).push[0]) < 0.01
+    assert resistance._friction_of(cut).push[0] > 0.01
 
 
 def test_a_patch_cut_by_the_edge_carries_all_of_the_force_at_a_higher_pressure():
-    held = fingers()
-    whole, cut = held.press_many([(0.0, 0.0), (9.5, 7.0)], [1.0, 1.0])
+    resistance = fingers()
+    whole, cut = resistance.press_many([(0.0, 0.0), (9.5, 7.0)], [1.0, 1.0])
     for patch in (whole, cut):
         force = patch.pressure_kpa.sum() * 1e-3 * PITCH_MM**2
         assert force == pytest.approx(1.0, rel=1e-3)
@@ -83,21 +83,21 @@ def test_a_patch_cut_by_the_edge_carries_all_of_the_force_at_a_higher_pressure()
 
 
 def test_the_slip_minimum_is_the_force_at_which_the_margin_is_one():
-    held = fingers()
+    resistance = fingers()
     accelerations = [(0.0, 2.5), (6.0, 0.0)]
-    minimum = held.slip_minimum_n(accelerations)
-    patch = held.press((0.0, 0.0), minimum)
-    margin = min(held.resistance(patch, each).margin for each in accelerations)
+    minimum = resistance.slip_minimum_n(accelerations)
+    patch = resistance.press((0.0, 0.0), minimum)
+    margin = min(resistance.resistance(patch, each).margin for each in accelerations)
     assert margin == pytest.approx(1.0, rel=0.03)
 
 
 def test_the_bruise_force_makes_the_bruise_pressure_at_the_centre():
-    held = fingers()
-    patch = held.press((0.0, 0.0), held.body.bruise_n)
-    assert patch.peak_kpa == pytest.approx(held.bruise_kpa)
+    resistance = fingers()
+    patch = resistance.press((0.0, 0.0), resistance.body.bruise_n)
+    assert patch.peak_kpa == pytest.approx(resistance.bruise_kpa)
 
 
 def test_fingers_beside_the_body_do_not_reach_it():
-    held = fingers()
-    assert held.reaches((0.0, 0.0))
-    assert not held.reaches((40.0, 0.0))
+    resistance = fingers()
+    assert resistance.reaches((0.0, 0.0))
+    assert not resistance.reaches((40.0, 0.0))

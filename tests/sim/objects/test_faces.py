@@ -22,8 +22,8 @@ from sim.tcl3d.masks import (
 PITCH = 0.2
 
 
-def scattered(share, seed, rows=37, columns=52):
-    return np.random.default_rng(seed).random((rows, columns)) < share
+def scattered(fraction, seed, rows=37, columns=52):
+    return np.random.default_rng(seed).random((rows, columns)) < fraction
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -59,17 +59,17 @@ def test_growing_is_dilation_by_a_cross(times):
         assert np.array_equal(dilate(mask, times), binary_dilation(mask, iterations=times))
 
 
-@pytest.mark.parametrize("where", [(0, 0), (36, 51), (0, 20), (17, 51), (18, 25)])
-def test_slopes_at_a_mask_are_those_of_the_whole_field(where):
+@pytest.mark.parametrize("point", [(0, 0), (36, 51), (0, 20), (17, 51), (18, 25)])
+def test_slopes_at_a_mask_are_those_of_the_whole_field(point):
     gap = np.random.default_rng(1).random((37, 52))
     down, right = np.gradient(gap, PITCH)
     one, some = np.zeros(gap.shape, dtype=bool), np.zeros(gap.shape, dtype=bool)
-    one[where] = True
-    some[max(where[0] - 3, 0) : where[0] + 3, max(where[1] - 5, 0) : where[1] + 2] = True
+    one[point] = True
+    some[max(point[0] - 3, 0) : point[0] + 3, max(point[1] - 5, 0) : point[1] + 2] = True
     for mask in (one, some & scattered(0.5, 2) | one):
-        found = slopes(gap, mask, PITCH)
-        assert np.array_equal(found[0], down[mask])
-        assert np.array_equal(found[1], right[mask])
+        result = slopes(gap, mask, PITCH)
+        assert np.array_equal(result[0], down[mask])
+        assert np.array_equal(result[1], right[mask])
 
 
 def test_nowhere_there_are_no_slopes():
@@ -104,17 +104,17 @@ def test_half_of_what_lies_at_the_border_is_cut():
 @pytest.mark.parametrize("pitch", [0.05, 0.2])
 def test_closing_is_the_largest_and_then_the_smallest_within_a_square(pitch):
     size = 2 * round(CLOSING_MM / pitch / 2) + 1
-    loads = np.stack([scattered(share, 3, 60, 90) for share in (0.002, 0.02, 0.1)])
+    loads = np.stack([scattered(fraction, 3, 60, 90) for fraction in (0.002, 0.02, 0.1)])
     for load, closed in zip(loads, in_contact(torch.from_numpy(loads).float(), pitch), strict=True):
         wide = np.pad(load, 2 * size, mode="edge")
-        known = minimum_filter(maximum_filter(wide, size), size)
-        assert np.array_equal(closed, known[2 * size : -2 * size, 2 * size : -2 * size])
+        expected = minimum_filter(maximum_filter(wide, size), size)
+        assert np.array_equal(closed, expected[2 * size : -2 * size, 2 * size : -2 * size])
 
 
 def test_a_touch_counts_the_points_of_its_cells_and_not_those_of_none():
     cells = np.array([[0, 0, 2], [-1, 2, 2]])
     touching = np.array([[True, False, True], [True, True, False]])
-    touch = ContactGeometry(
+    contact = ContactGeometry(
         gap_mm=np.zeros((2, 3)),
         cells=cells,
         cell_table=(Cell(form=Form.FLAT),) * 4,
@@ -123,5 +123,5 @@ def test_a_touch_counts_the_points_of_its_cells_and_not_those_of_none():
         depth_mm=0.1,
         pitch_mm=PITCH,
     )
-    assert touch.counts.tolist() == [1, 0, 2, 0]
-    assert touch.count_cells(~touching).tolist() == [1, 0, 1, 0]
+    assert contact.counts.tolist() == [1, 0, 2, 0]
+    assert contact.count_cells(~touching).tolist() == [1, 0, 1, 0]

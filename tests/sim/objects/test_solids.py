@@ -57,9 +57,9 @@ def test_no_distance_grows_faster_than_it_says(obj):
     draw = torch.Generator().manual_seed(3)
     reach = min(1.4 * obj.reach_mm, 80)
     points = (2 * torch.rand(1500, 3, generator=draw, dtype=torch.float64) - 1) * reach
-    beside = points + 0.02 * torch.randn(1500, 3, generator=draw, dtype=torch.float64)
+    outside = points + 0.02 * torch.randn(1500, 3, generator=draw, dtype=torch.float64)
     away = obj.distance(points)
-    growth = (away - obj.distance(beside)).abs() / (points - beside).norm(dim=1)
+    growth = (away - obj.distance(outside)).abs() / (points - outside).norm(dim=1)
     assert float(growth[away > 0].max()) < 1.05 * obj.max_slope
 
 

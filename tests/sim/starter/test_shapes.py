@@ -94,14 +94,14 @@ def test_a_pose_turns_shifts_and_tilts():
         textured=False,
     )
     upright = gap_mm(bar, IndenterPose(x_mm=5, y_mm=1, turn_rad=math.pi / 2), X, Y)
-    there = upright < NO_BODY_MM
-    assert X[there].mean() == pytest.approx(5, abs=PITCH)
-    assert Y[there].mean() == pytest.approx(1, abs=PITCH)
-    assert np.ptp(Y[there]) == pytest.approx(6, abs=2 * PITCH)
-    assert np.ptp(X[there]) == pytest.approx(1, abs=2 * PITCH)
+    covered = upright < NO_BODY_MM
+    assert X[covered].mean() == pytest.approx(5, abs=PITCH)
+    assert Y[covered].mean() == pytest.approx(1, abs=PITCH)
+    assert np.ptp(Y[covered]) == pytest.approx(6, abs=2 * PITCH)
+    assert np.ptp(X[covered]) == pytest.approx(1, abs=2 * PITCH)
     tilted = gap_mm(bar, IndenterPose(x_mm=0, y_mm=0, slope_x=0.1), X, Y)
-    there = tilted < NO_BODY_MM
-    assert tilted[there].max() == pytest.approx(0.1 * 6, abs=0.1 * 2 * PITCH)
+    covered = tilted < NO_BODY_MM
+    assert tilted[covered].max() == pytest.approx(0.1 * 6, abs=0.1 * 2 * PITCH)
     assert X.ravel()[tilted.argmin()] == pytest.approx(-3, abs=PITCH)
 
 

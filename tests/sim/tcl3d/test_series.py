@@ -28,12 +28,12 @@ def test_the_numbers_of_the_paper_come_out():
 
 
 def test_no_split_shares_a_series_and_unseen_objects_stay_unseen():
-    orders = [tcl3d.series_request(0, number) for number in range(3000)]
-    for order in orders:
-        assert (order.obj.name in UNSEEN) == (order.split is Split.OBJECT)
-        assert (order.gel in tcl3d.OTHER_GELS) == (order.split is Split.PHYSICS)
+    requests = [tcl3d.series_request(0, number) for number in range(3000)]
+    for request in requests:
+        assert (request.obj.name in UNSEEN) == (request.split is Split.OBJECT)
+        assert (request.gel in tcl3d.OTHER_GELS) == (request.split is Split.PHYSICS)
     assert not set(tcl3d.GELS) & set(tcl3d.OTHER_GELS)
-    shares = Counter(order.split for order in orders)
+    shares = Counter(request.split for request in requests)
     assert shares[Split.TRAIN] > 0.6 * 3000
     assert min(shares[s] for s in (Split.TEST, Split.VALIDATION, Split.PHYSICS)) > 0.02 * 3000
     assert tcl3d.series_request(0, tcl3d.GELSTEREO_FIRST).sensor.name == "gelstereo"
@@ -41,13 +41,13 @@ def test_no_split_shares_a_series_and_unseen_objects_stay_unseen():
 
 
 def test_a_series_is_the_same_whatever_is_made_beside_it():
-    alone = tcl3d.make_series(1, 21)
+    single = tcl3d.make_series(1, 21)
     tcl3d.make_series(1, 40)
     tcl3d.make_series(2, 21)
     again = tcl3d.make_series(1, 21)
-    assert [pack_heights(c.height_mm) for c in alone] == [pack_heights(c.height_mm) for c in again]
-    assert [c.state for c in alone] == [c.state for c in again]
-    assert [c.unsure for c in alone] == [c.unsure for c in again]
+    assert [pack_heights(c.height_mm) for c in single] == [pack_heights(c.height_mm) for c in again]
+    assert [c.state for c in single] == [c.state for c in again]
+    assert [c.unsure for c in single] == [c.unsure for c in again]
 
 
 def test_the_elements_of_every_sensor_s_grid_are_squares_of_a_fifth_of_a_millimetre():
@@ -74,11 +74,11 @@ def test_large_objects_are_approached_within_15_degrees_of_where_they_are_met():
     rng = np.random.default_rng(0)
     steepest = 0.0
     for _ in range(20):
-        met = random_surface_point(obj, rng)
-        assert np.linalg.norm(met.point) == pytest.approx(12.5, abs=0.01)
-        assert met.normal @ met.point == pytest.approx(12.5, abs=0.01)
-        pose = surface_pose(obj, met, rng, GEL, 0.2, textured=False)
-        angle = math.degrees(math.acos(min(1.0, pose.object_from_pad[:, 2] @ met.normal)))
+        contact = random_surface_point(obj, rng)
+        assert np.linalg.norm(contact.point) == pytest.approx(12.5, abs=0.01)
+        assert contact.normal @ contact.point == pytest.approx(12.5, abs=0.01)
+        pose = surface_pose(obj, contact, rng, GEL, 0.2, textured=False)
+        angle = math.degrees(math.acos(min(1.0, pose.object_from_pad[:, 2] @ contact.normal)))
         assert angle <= CONE_DEG + 1e-6
         steepest = max(steepest, angle)
     assert steepest > 8
@@ -104,8 +104,8 @@ def test_a_flat_face_hardly_leans():
 def test_what_is_turned_at_random_touches_with_its_lowest_point():
     obj = object_named("peg_square_8")
     towards = np.array([1.0, 1.0, 1.0]) / math.sqrt(3)
-    met = support_point(obj, towards)
-    np.testing.assert_allclose(met.point, [4, 4, 0], atol=0.25)  # its fillet is 0.25 mm
+    contact = support_point(obj, towards)
+    np.testing.assert_allclose(contact.point, [4, 4, 0], atol=0.25)  # its fillet is 0.25 mm
     np.testing.assert_allclose(frame_at(towards)[:, 2], towards)
 
 

@@ -48,15 +48,15 @@ def named(solids, point, towards=(0, 0, 1), depth_mm=0.5):
     obj = thing_of(*solids) if isinstance(solids, tuple) else thing_of(solids)
     normal = np.array(towards, dtype=float)
     normal /= np.linalg.norm(normal)
-    felt = cast_pad_rays(obj, frame_at(normal), np.array(point, dtype=float), X, Y)
-    assert felt is not None
+    view = cast_pad_rays(obj, frame_at(normal), np.array(point, dtype=float), X, Y)
+    assert view is not None
     cells = np.full(X.shape, -1)
-    there = felt.gap_mm < 40
-    cells[there] = obj.cell(torch.from_numpy(felt.points[there])).numpy()
-    touching = felt.gap_mm < 0.6 * depth_mm
+    covered = view.gap_mm < 40
+    cells[covered] = obj.cell(torch.from_numpy(view.points[covered])).numpy()
+    touching = view.gap_mm < 0.6 * depth_mm
     return name_shape(
         ContactGeometry(
-            gap_mm=felt.gap_mm,
+            gap_mm=view.gap_mm,
             cells=cells,
             cell_table=obj.cells,
             touching=touching,
@@ -81,9 +81,9 @@ BOX = box(60, 50, 40, 0.3)
     ],
 )
 def test_a_box_is_a_plane_an_edge_or_a_corner(towards, point, shape):
-    found = named(BOX, point, towards)
-    assert found.shape is shape
-    assert found.sure
+    label = named(BOX, point, towards)
+    assert label.shape is shape
+    assert label.sure
 
 
 @pytest.mark.parametrize(
@@ -95,9 +95,9 @@ def test_a_box_is_a_plane_an_edge_or_a_corner(towards, point, shape):
     ],
 )
 def test_a_cylinder_is_a_disc_on_its_end_and_an_edge_on_its_rim(towards, point, shape):
-    found = named(rod(9, 40), point, towards)
-    assert found.shape is shape
-    assert found.sure
+    label = named(rod(9, 40), point, towards)
+    assert label.shape is shape
+    assert label.sure
 
 
 @pytest.mark.parametrize(
@@ -126,9 +126,9 @@ def test_a_cylinder_is_a_disc_on_its_end_and_an_edge_on_its_rim(towards, point, 
     ],
 )
 def test_a_shape_that_touches_in_full_is_called_by_its_name(solid, point, shape):
-    found = named(solid, point)
-    assert found.shape is shape
-    assert found.sure
+    label = named(solid, point)
+    assert label.shape is shape
+    assert label.sure
 
 
 def test_half_a_ring_on_the_pad_is_a_crescent():

@@ -31,8 +31,8 @@ def ball(radius, at_x=0.0, at_y=0.0):
 
 def block(half_x, half_y):
     y, x = axes()
-    there = (x.abs() < half_x) & (y.abs() < half_y)
-    return torch.where(there, 0.01 * (x + 0.5 * y + 1.5 * half_x), torch.inf)[None]
+    covered = (x.abs() < half_x) & (y.abs() < half_y)
+    return torch.where(covered, 0.01 * (x + 0.5 * y + 1.5 * half_x), torch.inf)[None]
 
 
 def layers(**options):
@@ -46,14 +46,14 @@ def test_rigid_bodies_are_felt_as_on_the_whole_grid():
     gap[2] -= gap[2].min()
     depth = torch.tensor([0.8, 0.5, 0.4, 0.3])
     short, whole = layers()
-    seen, truth = short.press_to_depth(gap, depth), whole.press_to_depth(gap, depth, tol=1e-6)
-    assert seen.converged.all()
-    error = (seen.height_mm - truth.height_mm).abs()
+    fine_press, truth = short.press_to_depth(gap, depth), whole.press_to_depth(gap, depth, tol=1e-6)
+    assert fine_press.converged.all()
+    error = (fine_press.height_mm - truth.height_mm).abs()
     assert error.max() < 4e-3
     assert error.square().mean((1, 2)).sqrt().max() < 3e-4
-    assert torch.allclose(seen.force_n, truth.force_n, rtol=2e-3)
-    area, known = ((p.pressure_kpa > 0).float().mean((1, 2)) for p in (seen, truth))
-    assert torch.allclose(area, known, atol=4e-3)  # a nearly flat ball has a long faint rim
+    assert torch.allclose(fine_press.force_n, truth.force_n, rtol=2e-3)
+    area, reference = ((p.pressure_kpa > 0).float().mean((1, 2)) for p in (fine_press, truth))
+    assert torch.allclose(area, reference, atol=4e-3)  # a nearly flat ball has a long faint rim
 
 
 def test_soft_bodies_are_felt_as_on_the_whole_grid():
@@ -61,10 +61,10 @@ def test_soft_bodies_are_felt_as_on_the_whole_grid():
     gap = torch.cat([ball(15.0), ball(6.0, 3.0, 2.0)])
     force = torch.tensor([1.5, 0.8])
     short, whole = layers(body_modulus_mpa=modulus)
-    seen, truth = short.press_to_force(gap, force), whole.press_to_force(gap, force, tol=1e-6)
-    assert torch.allclose(seen.force_n, force, rtol=1e-5)
-    assert torch.allclose(seen.depth_mm, truth.depth_mm, rtol=2e-3)
-    error = (seen.height_mm - truth.height_mm).abs()
+    fine_press, truth = short.press_to_force(gap, force), whole.press_to_force(gap, force, tol=1e-6)
+    assert torch.allclose(fine_press.force_n, force, rtol=1e-5)
+    assert torch.allclose(fine_press.depth_mm, truth.depth_mm, rtol=2e-3)
+    error = (fine_press.height_mm - truth.height_mm).abs()
     assert error.max() < 4e-3
     assert error.square().mean((1, 2)).sqrt().max() < 5e-4
 
@@ -80,11 +80,11 @@ def test_where_a_rigid_body_touches_the_surface_is_the_body_s():
 def test_a_contact_is_the_same_bit_for_bit_in_any_company():
     gap = torch.cat([ball(3.0), ball(9.0, 4.0, 1.0), ball(30.0, -2.0)])
     depth = torch.tensor([0.5, 0.3, 0.7])
-    together = layers()[0].press_to_depth(gap, depth)
+    batch = layers()[0].press_to_depth(gap, depth)
     for k in range(3):
-        alone = layers()[0].press_to_depth(gap[k : k + 1], depth[k : k + 1])
-        assert torch.equal(alone.height_mm[0], together.height_mm[k])
-        assert torch.equal(alone.pressure_kpa[0], together.pressure_kpa[k])
+        single = layers()[0].press_to_depth(gap[k : k + 1], depth[k : k + 1])
+        assert torch.equal(single.height_mm[0], batch.height_mm[k])
+        assert torch.equal(single.pressure_kpa[0], batch.pressure_kpa[k])
 
 
 def test_a_press_of_rising_force_starts_from_the_one_before():
@@ -141,9 +141,9 @@ def test_grids_that_can_t_be_halved_are_solved_whole():
     y, x = axes(51, 61, 0.2)
     gap = ((x**2 + y**2) / 10.0)[None]
     whole = ElasticLayer(MINI, rows=51, columns=61, pitch_mm=0.2)
-    seen = FineLayer(whole).press_to_depth(gap, 0.3)
+    fine_press = FineLayer(whole).press_to_depth(gap, 0.3)
     truth = whole.press_to_depth(gap, 0.3, tol=fine.TOLERANCE)
-    assert torch.equal(seen.height_mm, truth.height_mm)
+    assert torch.equal(fine_press.height_mm, truth.height_mm)
 
 
 def test_bad_input_is_refused_by_name():
@@ -163,16 +163,16 @@ def test_bad_input_is_refused_by_name():
 def test_an_accelerator_finds_the_same_heights():
     gap = torch.cat([ball(3.155), ball(9.0, 5.0, -4.0), ball(80.0)])
     depth = torch.tensor([0.8, 0.5, 0.3])
-    here = layers()[0].press_to_depth(gap, depth)
-    there = layers(device="cuda")[0].press_to_depth(gap.cuda(), depth.cuda())
-    assert (here.height_mm - there.height_mm.cpu()).abs().max() < 3e-3
+    on_cpu = layers()[0].press_to_depth(gap, depth)
+    covered = layers(device="cuda")[0].press_to_depth(gap.cuda(), depth.cuda())
+    assert (on_cpu.height_mm - covered.height_mm.cpu()).abs().max() < 3e-3
 
 
 def test_a_thick_gel_is_pressed_too():
     thick = GelMaterial(thickness_mm=math.inf, young_mpa=0.2, poisson=0.4)
     whole = ElasticLayer(thick, rows=ROWS, columns=COLUMNS, pitch_mm=PITCH)
-    seen, truth = (gel.press_to_depth(ball(5.0), 0.4) for gel in (FineLayer(whole), whole))
-    assert seen.force_n.item() == pytest.approx(truth.force_n.item(), rel=2e-3)
+    fine_press, truth = (gel.press_to_depth(ball(5.0), 0.4) for gel in (FineLayer(whole), whole))
+    assert fine_press.force_n.item() == pytest.approx(truth.force_n.item(), rel=2e-3)
 
 
 def test_one_body_at_several_depths_is_pressed_as_so_many_bodies():
@@ -188,10 +188,10 @@ def test_what_lies_behind_a_thin_body_does_not_keep_it_off_on_the_coarser_grids(
     bar = torch.where(y.abs() < 1.5 * PITCH, 0.0, 50.0).expand(1, ROWS, COLUMNS)
     boxes = []
 
-    def noted(contact):
+    def record_contact(contact):
         boxes.append(contact)
         return boxes_around(contact)
 
-    monkeypatch.setattr(fine, "boxes_around", noted)
+    monkeypatch.setattr(fine, "boxes_around", record_contact)
     layers()[0].press_to_depth(bar, 0.3)
     assert all(contact.any() for contact in boxes)

@@ -31,10 +31,10 @@ def springs(gap, depth):
 def test_a_field_is_convolved_as_by_the_spectrum_of_batches(size):
     field = torch.rand(size, dtype=torch.float64)
     room = convolution(box_compliance(kernel(*size), torch.float64))
-    wanted = spectrum_from(kernel(*size), torch.float64, field.device).apply(field[None])[0]
-    assert torch.allclose(room.apply(field), wanted, rtol=1e-10)
+    expected = spectrum_from(kernel(*size), torch.float64, field.device).apply(field[None])[0]
+    assert torch.allclose(room.apply(field), expected, rtol=1e-10)
     # Nothing of a field is left behind for the next.
-    assert torch.allclose(room.apply(field), wanted, rtol=1e-10)
+    assert torch.allclose(room.apply(field), expected, rtol=1e-10)
 
 
 def test_a_soft_body_yields_beside_the_gel():
@@ -42,14 +42,14 @@ def test_a_soft_body_yields_beside_the_gel():
     gel, body = (
         box_compliance(k, torch.float64) for k in (kernel(24, 32), love_kernel(24, 32, PITCH))
     )
-    apart = convolution(gel).apply(field) + convolution(body).apply(field) / 0.3
-    assert torch.allclose(convolution(gel.in_series(body, 1 / 0.3)).apply(field), apart)
+    separate = convolution(gel).apply(field) + convolution(body).apply(field) / 0.3
+    assert torch.allclose(convolution(gel.in_series(body, 1 / 0.3)).apply(field), separate)
 
 
 @pytest.mark.parametrize("size", [(64, 80), (75, 61)])
 def test_a_contact_alone_is_that_of_the_plain_solver(size):
     gap, depth = ball(*size), 0.4
-    alone = solve_single(
+    single = solve_single(
         box_compliance(kernel(*size), torch.float64),
         gap,
         depth,
@@ -67,11 +67,11 @@ def test_a_contact_alone_is_that_of_the_plain_solver(size):
         tol=1e-7,
         max_iterations=500,
     )
-    assert alone.converged
+    assert single.converged
     assert plain.converged.all()
-    assert torch.allclose(alone.pressure_mpa, plain.pressure_mpa[0], atol=1e-7)
-    assert (alone.pressure_mpa >= 0).all()
-    assert 2 * alone.iterations < plain.iterations.item()
+    assert torch.allclose(single.pressure_mpa, plain.pressure_mpa[0], atol=1e-7)
+    assert (single.pressure_mpa >= 0).all()
+    assert 2 * single.iterations < plain.iterations.item()
 
 
 def test_a_finer_grid_needs_hardly_more_steps():
