@@ -93,24 +93,12 @@ class Executed:
     ended_s: float
 
 
-def rotated(rotvec_rad: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Turn a vector by a rotation vector.
+def rotate(rotvec_rad: NDArray[np.float64], vector: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Turn a vector, shape (3,) in any unit, by a rotation vector, shape (3,) [rad]."""
+    from scipy.spatial.transform import Rotation  # slow to import, and needed by moves alone
 
-    Args:
-        rotvec_rad: Shape (3,) [rad].
-        vector: Shape (3,), any unit.
-
-    Returns:
-        Shape (3,), same unit.
-
-    Source: Rodrigues' rotation formula.
-    """
-    angle = float(np.linalg.norm(rotvec_rad))
-    if angle < 1e-12:
-        return np.array(vector, dtype=np.float64)
-    axis = np.asarray(rotvec_rad, dtype=np.float64) / angle
-    along = axis * float(axis @ vector) * (1 - math.cos(angle))
-    return vector * math.cos(angle) + np.cross(axis, vector) * math.sin(angle) + along
+    turned = Rotation.from_rotvec(np.array(rotvec_rad)).apply(np.array(vector))  # no read-only ones
+    return np.asarray(turned, dtype=np.float64)
 
 
 class Executor:
@@ -214,7 +202,7 @@ class Executor:
         here = self._arm.pose()
         pad_x, pad_y = PAD_DIRECTION[primitive]
         direction_tcp = pad_x * self._axes[0] + pad_y * self._axes[1]
-        direction_base = rotated(here.rotvec_rad, direction_tcp)
+        direction_base = rotate(here.rotvec_rad, direction_tcp)
         target = Pose(
             position_m=here.position_m + direction_base * step.value * 1e-3,
             rotvec_rad=here.rotvec_rad,

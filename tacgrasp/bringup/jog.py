@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from cltp.tactile.measure import contact_state
 from primitives.devices import Pose
-from primitives.execution import PadAxes, rotated
+from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force, clamp_step
 from tacgrasp.console import contact_text
 from tacgrasp.rig.protocols import Rig
@@ -185,4 +185,4 @@ class Jogger:
         if step.frame == "base":
             return np.array(step.direction)
         x, y, _ = step.direction
-        return rotated(pose.rotvec_rad, x * self._pad[0] + y * self._pad[1])
+        return rotate(pose.rotvec_rad, x * self._pad[0] + y * self._pad[1])

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from cltp.errors import TouchError
 from cltp.tactile.measure import contact_state
 from primitives.devices import Pose
-from primitives.execution import PadAxes, rotated
+from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force
 from tacgrasp.base.errors import UsageError
 from tacgrasp.rig.protocols import Rig
@@ -67,7 +67,7 @@ def find_pad_axes(
     start, steps = rig.arm.pose(), STEP_MM * np.vstack([np.eye(3), -np.eye(3)])
     targets = [
         Pose(
-            position_m=start.position_m + 1e-3 * rotated(start.rotvec_rad, step),
+            position_m=start.position_m + 1e-3 * rotate(start.rotvec_rad, step),
             rotvec_rad=start.rotvec_rad,
         )
         for step in steps

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from primitives.devices import Pose
-from primitives.execution import rotated
+from primitives.execution import rotate
 from primitives.limits import check_workspace
 from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
@@ -38,7 +38,7 @@ def verify_by_lifting(rig: Rig, steps: Steps, config: RunConfig) -> Verification
     settings = config.verify
     start = rig.arm.pose()
     lifted = _shifted(start, UP * settings.lift_mm / 1000)
-    pad_x = rotated(start.rotvec_rad, np.array(config.pad.x_axis))
+    pad_x = rotate(start.rotvec_rad, np.array(config.pad.x_axis))
     sideways = _shifted(lifted, pad_x * settings.shake_mm / 1000)
     for pose in (lifted, sideways):
         check_workspace(pose, config.limits())

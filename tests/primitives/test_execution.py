@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from primitives import LimitError, Primitive, RobotError
 from primitives.devices import GripperState, Pose
-from primitives.execution import Executor, PadAxes, rotated
+from primitives.execution import Executor, PadAxes, rotate
 from primitives.limits import Limits
 from primitives.primitive import PAD_DIRECTION
 
@@ -262,10 +262,10 @@ def test_a_step_has_its_length_whatever_the_tool_points_at(rotvec, primitive):
 
 def test_rotation_vectors_turn_as_worked_out_by_hand():
     quarter = np.array([0, 0, math.pi / 2])
-    assert rotated(quarter, np.array([1.0, 0, 0])) == pytest.approx(np.array([0, 1, 0]))
+    assert rotate(quarter, np.array([1.0, 0, 0])) == pytest.approx(np.array([0, 1, 0]))
     third = 2 * math.pi / 3 / math.sqrt(3) * np.ones(3)  # about the diagonal: x -> y -> z
-    assert rotated(third, np.array([1.0, 0, 0])) == pytest.approx(np.array([0, 1, 0]))
-    assert rotated(np.zeros(3), np.array([1.0, 2, 3])) == pytest.approx(np.array([1, 2, 3]))
+    assert rotate(third, np.array([1.0, 0, 0])) == pytest.approx(np.array([0, 1, 0]))
+    assert rotate(np.zeros(3), np.array([1.0, 2, 3])) == pytest.approx(np.array([1, 2, 3]))
 
 
 @pytest.mark.parametrize(
