@@ -21,6 +21,7 @@ from cltp.texts.tokenizer import Words
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.policy import Decision
+from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.primitive import PAD_DIRECTION, Primitive
 
 ABSTAIN_BELOW = 0.3
@@ -70,7 +71,7 @@ class LlmPolicy:
         model = load_tac3d_llm(Path(folder), lm_folder=lm_folder)
         self._words = model.language.words
         self._talker = Talker(model, clock)
-        self._abstain_below, self._clock = abstain_below, clock
+        self._folder, self._abstain_below, self._clock = folder, abstain_below, clock
         self._moves: list[Primitive] = []
 
     @property
@@ -86,6 +87,19 @@ class LlmPolicy:
     def start(self) -> None:
         """Forget the moves of the episode before."""
         self._moves = []
+
+    def check_move_step(self, move_step_mm: float) -> None:
+        """Refuse moves of another length than those that the weights were trained with.
+
+        Raises:
+            PolicyError: It is another length.
+        """
+        if not math.isclose(move_step_mm, LESSON_MOVE_STEP_MM, abs_tol=1e-6):
+            raise PolicyError(
+                f"--primitives.move-step-mm is {move_step_mm:g} mm, but the weights in "
+                f"{self._folder} were trained with {LESSON_MOVE_STEP_MM:g} mm; leave it, or "
+                "decide with --policy rules, which takes any step"
+            )
 
     def check(self, text: str) -> None:
         """Refuse an instruction or question that the model can't have understood.

@@ -24,6 +24,8 @@ class RulesPolicy:
     def __init__(
         self,
         goal: Goal,
+        *,
+        move_step_mm: float,
         measure: Callable[[TactileCloud], ContactState] | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
@@ -31,6 +33,7 @@ class RulesPolicy:
 
         Args:
             goal: What a good grasp is.
+            move_step_mm: Length of a move that the rig carries out [mm].
             measure: From a cloud to a state; None takes ``cltp.tactile.measure.contact_state``.
             clock: For the durations of the stages [s].
         """
@@ -38,7 +41,8 @@ class RulesPolicy:
             from cltp.tactile.measure import contact_state
 
             measure = contact_state
-        self._goal, self._measure, self._clock = goal, measure, clock
+        self._goal, self._move_step_mm = goal, move_step_mm
+        self._measure, self._clock = measure, clock
 
     @property
     def name(self) -> str:
@@ -57,7 +61,7 @@ class RulesPolicy:
         marks = [self._clock()]
         state = self._measure(cloud)
         marks.append(self._clock())
-        advice = teacher(state, self._goal)
+        advice = teacher(state, self._goal, move_step_mm=self._move_step_mm)
         marks.append(self._clock())
         text = speak(state, advice)
         marks.append(self._clock())

@@ -15,8 +15,9 @@ from policies.goal import Band, Goal
 from primitives import Primitive
 from primitives.execution import INCREASE_FACTOR
 
-MOVE_STEP_MM = 3.0
-"""How far one move goes; the design's default. Only used to see whether a move would help."""
+LESSON_MOVE_STEP_MM = 3.0
+"""Length of a move [mm] in the lessons of the language model, and the default of every run.
+Source: the design."""
 
 DEPTH_EXPONENT = 2.0 / 3.0
 """Indentation grows as force to this power. Source: Hertz; a bonded gel grows less."""
@@ -57,7 +58,7 @@ class Advice:
     why: Why
 
 
-def teacher(state: ContactState, goal: Goal) -> Advice:
+def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     """Advise on one contact.
 
     The first that applies decides, in this order:
@@ -68,7 +69,7 @@ def teacher(state: ContactState, goal: Goal) -> Advice:
        move grasps again with the same force and would bruise again.
     4. Off centre: a move towards the contact, along the axis whose excess is the larger part of
        its band; or towards the one side that cuts the contact off. Only where a step of
-       ``MOVE_STEP_MM`` brings it nearer, so that two moves never undo each other.
+       ``move_step_mm`` brings it nearer, so that two moves never undo each other.
     5. Too light (force, depth or area below its band): ``increase_force``, if force × 1.5, and the
        depth that Hertz then expects, stay below their upper limits.
     6. Nothing that would help (a band narrower than a step of its action): no action and no
@@ -78,6 +79,7 @@ def teacher(state: ContactState, goal: Goal) -> Advice:
     Args:
         state: The contact; depth in mm, position in mm in the gel frame, force in N.
         goal: Bands in the same units.
+        move_step_mm: Length of one move [mm]; only used to see whether a move would help.
 
     Source: paper, section 5.3 and figure 'Tac3D-LLM Application' (bottom-center: move down;
     centred but too firm: reduce); the order and the limits are ours.
@@ -93,7 +95,7 @@ def teacher(state: ContactState, goal: Goal) -> Advice:
     )
     if any(value > band.high for value, band in quantities):
         return _advise(Primitive.DECREASE_FORCE, Why.TOO_FIRM)
-    move = _move_to_center(state, goal)
+    move = _move_to_center(state, goal, move_step_mm)
     if move is not None:
         return move
     if any(value < band.low for value, band in quantities):
@@ -111,7 +113,7 @@ def _advise(action: Primitive | None, why: Why) -> Advice:
     return Advice(action=action, success=False, why=why)
 
 
-def _move_to_center(state: ContactState, goal: Goal) -> Advice | None:
+def _move_to_center(state: ContactState, goal: Goal, move_step_mm: float) -> Advice | None:
     axes = (
         (state.x_mm, goal.x_mm, Primitive.MOVE_LEFT, Primitive.MOVE_RIGHT, Side.LEFT, Side.RIGHT),
         (state.y_mm, goal.y_mm, Primitive.MOVE_DOWN, Primitive.MOVE_UP, Side.BOTTOM, Side.TOP),
@@ -119,7 +121,7 @@ def _move_to_center(state: ContactState, goal: Goal) -> Advice | None:
     outside: list[tuple[float, Primitive]] = []
     for value, band, lower, higher, _, _ in axes:
         excess = _excess(value, band)
-        step = MOVE_STEP_MM if value > band.high else -MOVE_STEP_MM
+        step = move_step_mm if value > band.high else -move_step_mm
         if excess > 0 and _excess(value - step, band) < excess:  # the contact comes to meet us
             half_width = max((band.high - band.low) / 2, 1e-6)
             outside.append((excess / half_width, higher if value > band.high else lower))
@@ -132,7 +134,7 @@ def _move_to_center(state: ContactState, goal: Goal) -> Advice | None:
             (low_side, lower, -1) if low_side in state.cut else (high_side, higher, 1)
         )
         middle = (band.low + band.high) / 2
-        then = value - sign * MOVE_STEP_MM
+        then = value - sign * move_step_mm
         if side in state.cut and then in band and abs(then - middle) < abs(value - middle):
             return _advise(action, Why.CUT)
     return None

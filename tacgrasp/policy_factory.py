@@ -53,6 +53,7 @@ def load_llm(weights: Path | None = None) -> LlmPolicy:
 def _llm(config: RunConfig) -> Policy:
     policy = load_llm(config.weights)
     try:
+        policy.check_move_step(config.primitives.move_step_mm)
         policy.check(config.instruction)  # an error now is better than one during the grasp
     except PolicyError as error:
         raise UsageError(str(error)) from None
@@ -62,7 +63,7 @@ def _llm(config: RunConfig) -> Policy:
 def _rules(config: RunConfig) -> Policy:
     from policies.rules import RulesPolicy
 
-    return RulesPolicy(config.goal.goal())
+    return RulesPolicy(config.goal.goal(), move_step_mm=config.primitives.move_step_mm)
 
 
 def _fixed_force(config: RunConfig) -> Policy:

@@ -14,6 +14,7 @@ from typing import Any, Literal
 from pydantic import Field, model_validator
 
 from policies.goal import Band, Goal
+from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
 from tacgrasp.config.hardware import HardwareConfig, with_workspace
@@ -64,7 +65,7 @@ class PrimitivesConfig(SettingsBase):
     """
 
     clear_mm: Number = Field(default=2.0, ge=0.2, le=50)
-    move_step_mm: Number = Field(default=3.0, ge=0.1, le=20)
+    move_step_mm: Number = Field(default=LESSON_MOVE_STEP_MM, ge=0.1, le=20)
 
 
 class LoopConfig(SettingsBase):

@@ -23,7 +23,7 @@ from cltp.texts.captions import NO_CONTACT, caption
 from cltp.texts.exchange_packing import Exchange
 from policies.goal import Goal
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
-from policies.teacher import Advice, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, Advice, teacher
 from tacgrasp.lessons.instructions import Instruction, draw_instruction, draw_instruction_near
 from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
 
@@ -71,7 +71,7 @@ def wanted(goal: Goal) -> str:
 
 def advice_reply(state: ContactState, goal: Goal, felt: ContactState | None = None) -> str:
     """D_t for a contact and a goal; ``policies.extraction`` reads the advice in it."""
-    advice = teacher(state, goal)
+    advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
     action = f"<{advice.action}>" if advice.action is not None else "<none>"
     return f"{described(felt or state)} {wanted(goal)} Action: {action}. {_why(advice)}"
 

@@ -31,7 +31,7 @@ from numpy.typing import NDArray
 from cltp.data.dataset import ContactDataset
 from cltp.tactile.states import ContactState
 from policies.goal import Goal
-from policies.teacher import Advice, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, Advice, teacher
 from primitives import Primitive
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instructions import LEVELS, Instruction, draw_instruction_near, task_goals
@@ -184,10 +184,12 @@ def _in_turns(by_answer: dict[str, list[int]]) -> Iterator[tuple[str, int]]:
 
 def answer_for(state: ContactState, goal: Goal, *, clear: bool) -> str | None:
     """The teacher's answer; None where it knows no way or, if ``clear``, where noise decides."""
-    answer = answer_of(teacher(state, goal))
+    answer = answer_of(teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM))
     if answer is None or not clear or not state.in_contact:
         return answer
-    around = {answer_of(teacher(near, goal)) for near in _around(state)}
+    around = {
+        answer_of(teacher(near, goal, move_step_mm=LESSON_MOVE_STEP_MM)) for near in _around(state)
+    }
     return answer if around == {answer} else None
 
 

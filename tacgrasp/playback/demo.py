@@ -54,9 +54,6 @@ GOAL = GoalConfig(
 """Goal of the demos, so that tuning a task does not change them. Its band of the area is narrow: a
 contact cut by the pad's edge is inside, the whole contact at the same force is too firm."""
 
-MOVE_STEP_MM = 5.0
-"""Distance from the pad's lower edge to its centre [mm]: the paper's example needs one move."""
-
 DEMOS: dict[str, Demo] = {
     "paper": Demo(
         summary="bottom-center -> move_down; centred but too firm -> decrease_force; stable",
@@ -150,6 +147,5 @@ def _config(demo: Demo, record: Path) -> RunConfig:
             "seed": demo.seed,
             "policy": demo.policy,
             "goal": GOAL,
-            "primitives": config.primitives.model_copy(update={"move_step_mm": MOVE_STEP_MM}),
         }
     )

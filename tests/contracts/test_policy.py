@@ -6,10 +6,8 @@ import pytest
 
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
-from policies import Decision, PolicyError
 from policies.baselines import FixedForcePolicy, RandomPolicy
 from policies.goal import Band, Goal
-from policies.recorded import RecordedPolicy
 from policies.rules import RulesPolicy
 from primitives import Primitive
 from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract
@@ -20,10 +18,6 @@ GOAL = Goal(
     area_fraction=Band(low=0.01, high=0.6),
     x_mm=Band(low=-2.5, high=2.5),
     y_mm=Band(low=-2.5, high=2.5),
-)
-RECORDED = tuple(
-    Decision(text=f"Next: {p}.", action=p, success=False, reason="recorded")
-    for p in list(Primitive)[: len(CLOUDS)]
 )
 
 
@@ -48,7 +42,7 @@ def by_eye(cloud) -> ContactState:
 
 class TestRules(PolicyContract):
     def make(self):
-        return RulesPolicy(GOAL, by_eye)
+        return RulesPolicy(GOAL, move_step_mm=3.0, measure=by_eye)
 
     def test_each_dent_gets_its_advice(self, policy):
         actions = [d.action for d in self.decide_all(policy)]
@@ -67,7 +61,8 @@ class TestRules(PolicyContract):
 
     def test_stages_are_the_differences_of_the_clock_in_ms(self):
         ticks = iter([0.0, 0.001, 0.003, 0.006, 0.010])
-        stages = RulesPolicy(GOAL, by_eye, lambda: next(ticks)).decide(CLOUDS[0], "").stage_ms
+        policy = RulesPolicy(GOAL, move_step_mm=3.0, measure=by_eye, clock=lambda: next(ticks))
+        stages = policy.decide(CLOUDS[0], "").stage_ms
         assert list(stages.values()) == pytest.approx([1, 2, 3, 4])
 
 
@@ -77,7 +72,7 @@ class TestRules(PolicyContract):
 )
 class TestRulesAsShipped(PolicyContract):
     def make(self):
-        return RulesPolicy(GOAL)
+        return RulesPolicy(GOAL, move_step_mm=3.0)
 
     def test_dents_off_centre_are_followed_and_no_dent_is_a_reset(self, policy):
         actions = [d.action for d in self.decide_all(policy)]
@@ -108,18 +103,3 @@ class TestRandom(PolicyContract):
         other = RandomPolicy(seed=8)
         ours = [policy.decide(CLOUDS[0], "").text for _ in range(20)]
         assert ours != [other.decide(CLOUDS[0], "").text for _ in range(20)]
-
-
-class TestRecorded(PolicyContract):
-    decisions = len(RECORDED)
-
-    def make(self):
-        return RecordedPolicy(RECORDED)
-
-    def test_it_gives_the_recording_in_order(self, policy):
-        assert tuple(self.decide_all(policy)) == RECORDED
-
-    def test_it_says_when_the_recording_is_over(self, policy):
-        self.decide_all(policy)
-        with pytest.raises(PolicyError, match=f"has {len(RECORDED)} decisions and all were given"):
-            policy.decide(CLOUDS[0], INSTRUCTION)

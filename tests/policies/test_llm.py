@@ -1,3 +1,4 @@
+import re
 from pathlib import Path
 
 import numpy as np
@@ -136,6 +137,18 @@ def test_an_instruction_that_it_cannot_know_is_refused(
 def test_known_words_are_let_through(words: Words) -> None:
     check_instruction("Hold the strawberry securely.", words)
     check_instruction("Hebe die Erdbeere vorsichtig.", None)  # a stock model may know it
+
+
+def test_moves_of_another_length_than_in_training_are_refused_by_name_and_value(
+    untrained: Path,
+) -> None:
+    policy = LlmPolicy(untrained)
+    policy.check_move_step(3.0)
+    message = (
+        f"--primitives.move-step-mm is 5 mm, but the weights in {untrained} were trained with 3 mm"
+    )
+    with pytest.raises(PolicyError, match=re.escape(message)):
+        policy.check_move_step(5.0)
 
 
 def test_missing_weights_say_what_to_do(tmp_path: Path) -> None:

@@ -15,9 +15,9 @@ from policies.speech import (
     describe,
     speak,
 )
-from policies.teacher import Advice, Why, teacher
+from policies.teacher import Advice, Why
 from primitives import Primitive
-from tests.policies.test_teacher import GOAL, NOTHING, TOUCHES, touch
+from tests.policies.test_teacher import GOAL, NOTHING, TOUCHES, advise, touch
 
 ADVICE = [
     *((Advice(action=p, success=False, why=Why.TOO_FIRM), w) for p in Primitive
@@ -47,7 +47,7 @@ def test_every_advice_in_every_wording_reads_back_after_every_contact(template):
 
 @given(st.one_of(st.just(NOTHING), TOUCHES), st.integers(0, 2**32 - 1))
 def test_whatever_is_felt_the_teachers_words_read_back_to_its_advice(state, seed):
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     for text in (speak(state, advice), speak(state, advice, np.random.default_rng(seed))):
         found = extract(text)
         assert (found.action, found.success) == (advice.action, advice.success), text
@@ -55,7 +55,7 @@ def test_whatever_is_felt_the_teachers_words_read_back_to_its_advice(state, seed
 
 @given(TOUCHES, st.integers(0, 2**32 - 1))
 def test_the_action_as_a_token_at_the_end_says_the_same(state, seed):
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     token = "none" if advice.action is None else advice.action
     found = extract(f"{speak(state, advice, np.random.default_rng(seed))} Action: <{token}>.")
     assert (found.action, found.success) == (advice.action, advice.success)
@@ -82,7 +82,7 @@ def test_the_contact_is_said_in_words_and_numbers():
 
 def test_words_are_fixed_without_a_generator_and_vary_with_one():
     state = touch(y=-5)
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     rng = np.random.default_rng(0)
     assert speak(state, advice) == speak(state, advice)
     assert len({speak(state, advice, rng) for _ in range(50)}) > 30

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies.goal import Band, Goal
-from policies.teacher import MOVE_STEP_MM, SLIVER_SHARE, Why, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_SHARE, Advice, Why, teacher
 from primitives import Primitive
 from primitives.execution import INCREASE_FACTOR
 from primitives.primitive import PAD_DIRECTION
@@ -22,6 +22,7 @@ GOAL = Goal(
     x_mm=Band(low=-2.5, high=2.5),
     y_mm=Band(low=-2.0, high=2.0),
 )
+STEP_MM = LESSON_MOVE_STEP_MM
 NOTHING = ContactState(
     depth_mm=0, x_mm=0, y_mm=0, area_fraction=0, force_n=0, depth=None, position=None, area=None
 )
@@ -39,6 +40,10 @@ def touch(*, x=0.0, y=0.0, depth=0.3, share=0.1, force=1.5, cut=()) -> ContactSt
         area=area_word(share),
         cut=frozenset(cut),
     )
+
+
+def advise(state: ContactState, goal: Goal) -> Advice:
+    return teacher(state, goal, move_step_mm=STEP_MM)
 
 
 TOUCHES = st.builds(
@@ -76,61 +81,61 @@ TOUCHES = st.builds(
     ],
 )
 def test_each_contact_gets_the_advice_worked_out_by_hand(state, action, why):
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     assert (advice.action, advice.success, advice.why) == (action, False, why)
 
 
 def test_a_contact_inside_every_band_is_success_without_action():
-    advice = teacher(touch(), GOAL)
+    advice = advise(touch(), GOAL)
     assert (advice.action, advice.success, advice.why) == (None, True, Why.GOOD)
 
 
 def test_the_papers_example_is_followed():
-    first = teacher(touch(y=-5, force=1.5), GOAL)  # 'bottom-center' -> down
-    second = teacher(touch(force=2.5), GOAL)  # 'centered but too firm' -> less force
+    first = advise(touch(y=-5, force=1.5), GOAL)  # 'bottom-center' -> down
+    second = advise(touch(force=2.5), GOAL)  # 'centered but too firm' -> less force
     assert [first.action, second.action] == [Primitive.MOVE_DOWN, Primitive.DECREASE_FORCE]
-    assert teacher(touch(), GOAL).success
+    assert advise(touch(), GOAL).success
 
 
 def test_too_firm_comes_before_moving_and_moving_before_too_light():
-    assert teacher(touch(x=8, force=3), GOAL).action is Primitive.DECREASE_FORCE
-    assert teacher(touch(x=8, force=0.3), GOAL).action is Primitive.MOVE_RIGHT
+    assert advise(touch(x=8, force=3), GOAL).action is Primitive.DECREASE_FORCE
+    assert advise(touch(x=8, force=0.3), GOAL).action is Primitive.MOVE_RIGHT
 
 
 def test_an_increase_that_would_overshoot_is_not_advised():
     narrow = replace(GOAL, force_n=Band(low=1.0, high=1.2))
-    advice = teacher(touch(force=0.95), narrow)  # 0.95 * 1.5 = 1.425 > 1.2
+    advice = advise(touch(force=0.95), narrow)  # 0.95 * 1.5 = 1.425 > 1.2
     assert (advice.action, advice.success, advice.why) == (None, False, Why.BAND_TOO_NARROW)
-    assert teacher(touch(force=0.79), narrow).action is Primitive.INCREASE_FORCE  # 1.185
+    assert advise(touch(force=0.79), narrow).action is Primitive.INCREASE_FORCE  # 1.185
     deep = touch(force=0.9, depth=0.47)  # 0.47 * 1.5^(2/3) = 0.616 > 0.6
-    assert teacher(deep, GOAL).why is Why.BAND_TOO_NARROW
+    assert advise(deep, GOAL).why is Why.BAND_TOO_NARROW
 
 
 def test_a_move_that_would_not_come_nearer_is_not_advised():
     narrow = replace(GOAL, x_mm=Band(low=-1, high=1))
-    assert teacher(touch(x=1.4), narrow).why is Why.BAND_TOO_NARROW  # would come to -1.6
-    assert teacher(touch(x=1.6), narrow).action is Primitive.MOVE_RIGHT  # comes to -1.4
+    assert advise(touch(x=1.4), narrow).why is Why.BAND_TOO_NARROW  # would come to -1.6
+    assert advise(touch(x=1.6), narrow).action is Primitive.MOVE_RIGHT  # comes to -1.4
 
 
 def test_a_contact_cut_on_both_sides_is_too_large_for_the_pad_not_off_centre():
-    assert teacher(touch(y=1.8, cut=[Side.TOP, Side.BOTTOM]), GOAL).success
+    assert advise(touch(y=1.8, cut=[Side.TOP, Side.BOTTOM]), GOAL).success
 
 
 @given(TOUCHES)
 def test_a_move_always_brings_the_contact_nearer_to_its_band(state):
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     if advice.action not in PAD_DIRECTION:
         return
     dx, dy = PAD_DIRECTION[advice.action]
     middle = np.zeros(2)  # both bands are symmetric
     here = np.array([state.x_mm, state.y_mm])
-    then = here - MOVE_STEP_MM * np.array([dx, dy])
+    then = here - STEP_MM * np.array([dx, dy])
     assert np.linalg.norm(then - middle) < np.linalg.norm(here - middle)
 
 
 @given(TOUCHES)
 def test_success_means_every_band_and_an_action_means_no_success(state):
-    advice = teacher(state, GOAL)
+    advice = advise(state, GOAL)
     inside = (
         state.force_n in GOAL.force_n
         and state.depth_mm in GOAL.depth_mm
@@ -145,21 +150,30 @@ def test_success_means_every_band_and_an_action_means_no_success(state):
 
 @given(TOUCHES)
 def test_the_force_never_goes_up_into_a_limit(state):
-    if teacher(state, GOAL).action is Primitive.INCREASE_FORCE:
+    if advise(state, GOAL).action is Primitive.INCREASE_FORCE:
         assert state.force_n * INCREASE_FACTOR <= GOAL.force_n.high
 
 
 @given(st.floats(-7.5, 7.5), st.sets(st.sampled_from([Side.TOP, Side.BOTTOM])))
 def test_two_moves_never_undo_each_other(y, cut):
-    first = teacher(touch(y=y, cut=cut), GOAL)
+    first = advise(touch(y=y, cut=cut), GOAL)
     if first.action not in (Primitive.MOVE_UP, Primitive.MOVE_DOWN):
         return
-    step = MOVE_STEP_MM if first.action is Primitive.MOVE_UP else -MOVE_STEP_MM
+    step = STEP_MM if first.action is Primitive.MOVE_UP else -STEP_MM
     back = {Primitive.MOVE_UP: Primitive.MOVE_DOWN, Primitive.MOVE_DOWN: Primitive.MOVE_UP}
     for then_cut in ([], [Side.TOP], [Side.BOTTOM]):
-        second = teacher(touch(y=y - step, cut=then_cut), GOAL)
+        second = advise(touch(y=y - step, cut=then_cut), GOAL)
         assert second.action is not back[first.action]
 
 
 def test_the_sliver_is_a_millimetre_or_so_of_a_gelsight_mini():
     assert SLIVER_SHARE * sensor_named("gelsight_mini").area_mm2 == pytest.approx(1.2, abs=0.1)
+
+
+def test_the_length_of_a_step_decides_whether_a_move_helps():
+    narrow = replace(GOAL, x_mm=Band(low=-1.5, high=1.5))
+    state = touch(x=2.0)  # 3 mm bring it to -1.0, 5 mm to -3.0, 4 mm to -2.0: as far off as before
+    assert teacher(state, narrow, move_step_mm=3.0).action is Primitive.MOVE_RIGHT
+    for step_mm in (4.0, 5.0):
+        advice = teacher(state, narrow, move_step_mm=step_mm)
+        assert (advice.action, advice.why) == (None, Why.BAND_TOO_NARROW)

@@ -3,8 +3,6 @@
 Every read returns the next recorded cloud, whatever the robot does, stamped with the time of the
 read. It is for a rig without a sensor, to look at a policy, and never for a grasp. The end of the
 recording is an error.
-
-Not here: policies that repeat an episode's decisions (``policies.recorded``).
 """
 
 from __future__ import annotations

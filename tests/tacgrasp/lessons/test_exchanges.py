@@ -18,7 +18,7 @@ from cltp.tactile.states import (
 )
 from cltp.texts.captions import caption
 from policies.extraction import extract
-from policies.teacher import teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.exchanges import BLIND, TouchLessons, advice_reply, meaning_exchange
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instruction_words import LEVELS as LEVEL_WORDS
@@ -83,7 +83,8 @@ def test_extraction_reads_the_advice_of_the_teacher_in_every_reply(
     state: ContactState, force_n: float
 ) -> None:
     goal = goal_of_force(force_n / 1.4, force_n * 1.4)
-    advice, found = teacher(state, goal), extract(advice_reply(state, goal))
+    advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
+    found = extract(advice_reply(state, goal))
     assert found.action == advice.action
     assert found.success == advice.success
     assert not found.ambiguous
