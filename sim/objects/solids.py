@@ -240,8 +240,8 @@ class Rods:
         u, v, w = (at - of for at, of in zip((x, y, z), start, strict=True))
         if not balls:
             a, b, c = along
-            share = ((u * a + v * b + w * c) / length).clamp_(0, 1)
-            u, v, w = u - share * a, v - share * b, w - share * c
+            fraction = ((u * a + v * b + w * c) / length).clamp_(0, 1)
+            u, v, w = u - fraction * a, v - fraction * b, w - fraction * c
         return u * u + v * v + w * w
 
     def distance(self, points: Tensor) -> Tensor:

@@ -20,7 +20,7 @@ import torch
 from scipy.fft import dctn, next_fast_len
 from torch import Tensor
 
-_LEAST_SHARE = 1e-4  # smallest fraction of the largest compliance: bounds the preconditioner
+_MIN_FRACTION = 1e-4  # smallest fraction of the largest compliance: bounds the preconditioner
 _FIRST_STEP = 0.8  # fraction of the first correction; the whole of it mostly overshoots
 
 
@@ -68,7 +68,7 @@ def box_compliance(kernel: Tensor, dtype: torch.dtype) -> BoxCompliance:
     down, across = torch.arange(rows), torch.arange(columns)
     nearest = kernel[torch.minimum(down, rows - down)][:, torch.minimum(across, columns - across)]
     periodic = torch.fft.rfft2(nearest).real
-    periodic = periodic.clamp(min=_LEAST_SHARE * float(periodic.max()))
+    periodic = periodic.clamp(min=_MIN_FRACTION * float(periodic.max()))
     return BoxCompliance(
         rows=rows,
         columns=columns,
