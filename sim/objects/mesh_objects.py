@@ -61,7 +61,7 @@ def object_from_mesh(path: Path) -> SolidObject:
     """
     vertices, faces = checked_mesh(path)
     vertices = vertices - (vertices.min(axis=0) + vertices.max(axis=0)) / 2
-    surface = _Surface(vertices, faces)
+    surface = _MeshSolid(vertices, faces)
     large = float(np.ptp(vertices, axis=0).max()) >= SMALL_MM
     return MeshObject(
         name=path.stem,
@@ -71,7 +71,7 @@ def object_from_mesh(path: Path) -> SolidObject:
     )
 
 
-class _Surface:
+class _MeshSolid:
     """A closed mesh as a ``sim.objects.solids.Solid``."""
 
     def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
@@ -123,7 +123,7 @@ class MeshObject(SolidObject):
     def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
         """See ``sim.objects.ray_casting.Castable``: by rays, exact, instead of sphere tracing."""
         solid = self.parts[0].solid
-        if not isinstance(solid, _Surface):
+        if not isinstance(solid, _MeshSolid):
             raise TypeError(f"{self.name} is not made of a mesh")
         return solid.rays(origins, along, far_mm)
 
