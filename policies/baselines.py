@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from cltp.tactile.cloud import TactileCloud
 from policies.extraction import extract
+from policies.observation import Observation
 from policies.policy import Decision
 from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
 from primitives import Primitive
@@ -33,7 +33,7 @@ class FixedForcePolicy:
     def start(self) -> None:
         """Nothing to forget."""
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         """Declare success, whatever was felt."""
         return _said("The grasp is secure.")
 
@@ -53,7 +53,7 @@ class RandomPolicy:
     def start(self) -> None:
         """The draws go on: the seed was given once."""
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         """Draw, whatever was felt."""
         choices = list(Primitive)
         drawn = int(self._rng.integers(len(choices) + 1))

@@ -20,6 +20,7 @@ from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
+from policies.observation import Observation
 from policies.policy import Decision
 from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.primitive import PAD_DIRECTION, Primitive
@@ -109,7 +110,7 @@ class LlmPolicy:
         """
         check_instruction(text, self._words)
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         """Feel, say, extract.
 
         Raises:
@@ -117,7 +118,7 @@ class LlmPolicy:
         """
         self.check(instruction)
         begin = self._clock()
-        points = encoder_input(cloud)
+        points = encoder_input(observation.cloud)
         sampled = self._clock()
         against = RELUCTANCE | dict.fromkeys(going_in_circles(self._moves), math.inf)
         reply = self._talker.reply(points, as_request(instruction), penalties=against)

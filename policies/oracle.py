@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from cltp.tactile.cloud import TactileCloud
+from policies.observation import Observation
 from policies.policy import Decision
 from primitives import Primitive
 
@@ -47,8 +47,8 @@ class OraclePolicy:
     def start(self) -> None:
         """Nothing to forget."""
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
-        """Decide from the truth; cloud and instruction are ignored."""
+    def decide(self, observation: Observation, instruction: str) -> Decision:
+        """Decide from the truth; observation and instruction are ignored."""
         action = self._action(self._truth())
         text = "The grasp is secure." if action is None else f"Do {action.value}."
         return Decision(text=text, action=action, success=action is None, reason="truth")

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from cltp.tactile.cloud import TactileCloud
+from policies.observation import Observation
 from primitives import Primitive
 
 
@@ -39,10 +39,10 @@ class Policy(Protocol):
         """What the command line and the episodes call it."""
         ...
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         """Say what the contact is and what to do.
 
-        Deterministic: the same cloud and instruction after the same ``start`` give the same
+        Deterministic: the same observation and instruction after the same ``start`` give the same
         Decision (a random policy draws from the seed given at its construction).
 
         Raises:

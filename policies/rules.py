@@ -10,9 +10,11 @@ import time
 from collections.abc import Callable
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from policies.extraction import extract
 from policies.goal import Goal
+from policies.observation import Observation
 from policies.policy import Decision
 from policies.speech import speak
 from policies.teacher import teacher
@@ -37,10 +39,6 @@ class RulesPolicy:
             measure: From a cloud to a state; None takes ``cltp.tactile.measure.contact_state``.
             clock: For the durations of the stages [s].
         """
-        if measure is None:
-            from cltp.tactile.measure import contact_state
-
-            measure = contact_state
         self._goal, self._move_step_mm = goal, move_step_mm
         self._measure, self._clock = measure, clock
 
@@ -52,14 +50,17 @@ class RulesPolicy:
     def start(self) -> None:
         """Nothing to forget: every touch is judged by itself."""
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         """Say what the contact is and what to do.
 
         Raises:
             TouchError: The cloud can't be measured.
         """
         marks = [self._clock()]
-        state = self._measure(cloud)
+        if self._measure is not None:
+            state = self._measure(observation.cloud)
+        else:
+            state = contact_state(observation.cloud, in_contact=observation.in_contact)
         marks.append(self._clock())
         advice = teacher(state, self._goal, move_step_mm=self._move_step_mm)
         marks.append(self._clock())

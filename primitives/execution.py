@@ -2,10 +2,15 @@
 
 What each primitive does, on every rig alike (our choice, since the paper leaves it open): a move
 opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes to the last
-commanded force, since a closed gripper would carry the object along; ``increase_force`` and
-``decrease_force`` multiply the last force by 1.5 and 0.65; ``reset`` opens, goes back to the start
-pose and grasps again with the first force. Not here: how many resets an episode may have, or what
-to do after an error (the loop).
+commanded force, since a closed gripper would carry the object along. ``increase_force`` and
+``decrease_force`` multiply the last force by 1.5 and 0.65, or, where the force is felt and the goal
+is known, bring the felt force towards the goal (``force_factor``). ``reset`` opens, goes back to
+the start pose and grasps again.
+
+A first grasp and a reset are an approach where touch is given: the force rises in small steps from
+almost nothing until something is felt, at most to ``first_force_n``, so that no object is pressed
+harder than it takes to find it. Without touch they close with ``first_force_n`` at once. Not here:
+how many resets an episode may have, or what to do after an error (the loop).
 """
 
 from __future__ import annotations
@@ -28,10 +33,51 @@ from primitives.limits import (
     distance_mm,
 )
 from primitives.primitive import PAD_DIRECTION, Primitive
+from primitives.sense import ContactSense, Interval
 
 INCREASE_FACTOR = 1.5
 DECREASE_FACTOR = 0.65
 """Our choice: 1.5 × 0.65 is just below 1, so that one of each ends a little gentler."""
+
+MAX_INCREASE, MIN_DECREASE = 2.0, 0.5
+"""Largest changes of the force towards a goal, as factors. Our choice: a felt force is off by up to
+a third, so twice the force of a light grip stays far below the next bruise."""
+
+AT_LIMIT = "the force is already at its limit"
+"""Note of a change of force that sent nothing because of the limits."""
+
+OVER = 1.1
+"""Factor by which a change of force passes the end of the goal that it goes to. Our choice: the
+felt force varies by some percent from frame to frame."""
+
+APPROACH_STEP_N = 0.05
+"""Step of the commanded force during the approach [N]."""
+
+CLOSED_WIDTH_M = 0.0005
+"""Opening from which on the fingers have closed on nothing [m]."""
+
+
+def force_factor(
+    *, increase: bool, felt: Interval | None, goal_n: tuple[float, float] | None
+) -> float:
+    """Factor on the commanded force.
+
+    Below the goal an increase goes just over its low end as felt, by at most ``MAX_INCREASE``; above
+    it a decrease goes just under its high end, by at most ``MIN_DECREASE``. Inside the goal a change never
+    leaves it. Without a felt force or a goal, and for a change away from the goal, the factors are
+    ``INCREASE_FACTOR`` and ``DECREASE_FACTOR``.
+    """
+    plain = INCREASE_FACTOR if increase else DECREASE_FACTOR
+    if felt is None or goal_n is None or felt.value <= 0:
+        return plain
+    low, high = goal_n
+    if low <= felt.value <= high:
+        return min(plain, high / felt.value) if increase else max(plain, low / felt.value)
+    if increase and felt.value < low:
+        return min(MAX_INCREASE, min(low * OVER, high) / felt.value)
+    if not increase and felt.value > high:
+        return max(MIN_DECREASE, max(high / OVER, low) / felt.value)
+    return plain
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -116,6 +162,8 @@ class Executor:
         start_pose: Pose,
         pad_axes: PadAxes,
         clock: Callable[[], float],
+        sense: ContactSense | None = None,
+        goal_force_n: tuple[float, float] | None = None,
         dry_run: bool = False,
     ) -> None:
         """Take the devices; nothing is sent yet.
@@ -126,10 +174,13 @@ class Executor:
             limits: Bounds of everything that will be sent.
             clear_mm: Opening before a move [mm].
             move_step_mm: Length of a move [mm]; clamped like every step.
-            first_force_n: Force of the first grasp and of a reset [N]; clamped likewise.
+            first_force_n: Force of the first grasp and of a reset [N]; with ``sense`` the largest
+                force until something is felt. Clamped likewise.
             start_pose: Where ``reset`` goes [base frame].
             pad_axes: The pad's axes in the TCP frame.
             clock: Monotonic [s].
+            sense: Touch during a closing; None closes without feeling.
+            goal_force_n: Band of the felt force that changes of the force go towards [N].
             dry_run: Read the devices, send them nothing.
 
         Raises:
@@ -147,6 +198,7 @@ class Executor:
         self._start_pose = start_pose
         self._axes = np.array([pad_axes.x_tcp, pad_axes.y_tcp])
         self._clock = clock
+        self._sense, self._goal_force_n = sense, goal_force_n
         self._dry_run = dry_run
         self._force_n = 0.0
         self._travel_mm = 0.0
@@ -161,27 +213,33 @@ class Executor:
         """Way of the TCP over the episode so far, measured [mm]."""
         return self._travel_mm
 
-    def grasp(self) -> Executed:
-        """Close with the first force where the arm stands.
+    def grasp(self, force_n: float | None = None) -> Executed:
+        """Approach, or close with the first force, where the arm stands.
+
+        Args:
+            force_n: Close with this force at once instead (a replay) [N].
 
         Raises:
             RobotError: A device failed.
         """
         started = self._clock()
-        force = clamp_force(self._first_force_n, self._limits)
-        if not self._dry_run:
-            self._grip(force.value)
+        first = self._first(force_n)
+        sent, notes = self._close(first, feel=force_n is None)
         return self._done(
             None,
-            asked=f"close with {self._first_force_n:.3g} N",
-            sent=f"close with {force.value:.3g} N",
-            notes=(force.note,),
+            asked=self._first_words(first, feel=force_n is None),
+            sent=sent,
+            notes=notes,
             opened=False,
             started=started,
         )
 
-    def execute(self, primitive: Primitive) -> Executed:
+    def execute(self, primitive: Primitive, force_n: float | None = None) -> Executed:
         """Carry out one primitive.
+
+        Args:
+            primitive: The primitive.
+            force_n: Commanded force after it instead of the executor's own choice (a replay) [N].
 
         Raises:
             LimitError: It would leave the workspace or the allowed travel, or there was no grasp
@@ -192,12 +250,12 @@ class Executor:
             raise LimitError(f"{primitive} before the first grasp: call grasp() first")
         started = self._clock()
         if primitive in PAD_DIRECTION:
-            return self._move(primitive, started)
+            return self._move(primitive, started, force_n)
         if primitive is Primitive.RESET:
-            return self._reset(started)
-        return self._change_force(primitive, started)
+            return self._reset(started, force_n)
+        return self._change_force(primitive, started, force_n)
 
-    def _move(self, primitive: Primitive, started: float) -> Executed:
+    def _move(self, primitive: Primitive, started: float, force_n: float | None) -> Executed:
         step = clamp_step(self._move_step_mm, self._limits)
         here = self._arm.pose()
         pad_x, pad_y = PAD_DIRECTION[primitive]
@@ -212,7 +270,8 @@ class Executor:
         if not self._dry_run:
             self._gripper.open_by(self._clear_m)
             self._go(here, target)
-            self._grip(self._force_n)
+            self._take_reference()
+            self._grip(clamp_force(force_n or self._force_n, self._limits).value)
         x, y, z = direction_base * step.value
         return self._done(
             primitive,
@@ -223,31 +282,36 @@ class Executor:
             started=started,
         )
 
-    def _reset(self, started: float) -> Executed:
+    def _reset(self, started: float, force_n: float | None) -> Executed:
         here = self._arm.pose()
         way_mm = distance_mm(here, self._start_pose)
         check_travel(self._travel_mm, way_mm, self._limits)
-        force = clamp_force(self._first_force_n, self._limits)
         if not self._dry_run:
             self._gripper.open_by(self._clear_m)
             self._go(here, self._start_pose)
-            self._grip(force.value)
+        first = self._first(force_n)
+        sent, notes = self._close(first, feel=force_n is None)
         return self._done(
             Primitive.RESET,
-            asked=f"start pose, close with {self._first_force_n:.3g} N",
-            sent=f"{way_mm:.3g} mm to the start pose, close with {force.value:.3g} N",
-            notes=(force.note,),
+            asked=f"start pose, {self._first_words(first, feel=force_n is None)}",
+            sent=f"{way_mm:.3g} mm to the start pose, {sent}",
+            notes=notes,
             opened=not self._dry_run,
             started=started,
         )
 
-    def _change_force(self, primitive: Primitive, started: float) -> Executed:
+    def _change_force(
+        self, primitive: Primitive, started: float, force_n: float | None
+    ) -> Executed:
         increase = primitive is Primitive.INCREASE_FORCE
         before = self._force_n or clamp_force(self._first_force_n, self._limits).value
-        asked = before * (INCREASE_FACTOR if increase else DECREASE_FACTOR)
+        felt = None if self._sense is None else self._sense.felt_force()
+        factor = force_factor(increase=increase, felt=felt, goal_n=self._goal_force_n)
+        asked = force_n or before * factor
         force = clamp_force(asked, self._limits)
         unchanged = math.isclose(force.value, before, rel_tol=1e-9)
-        notes = (force.note, "the force is already at its limit" if unchanged else "")
+        reason = AT_LIMIT if force.note else "the goal leaves no room for a change"
+        notes = (force.note, reason if unchanged else "")
         if not self._dry_run and not unchanged:
             self._grip(force.value)
         return self._done(
@@ -259,9 +323,41 @@ class Executor:
             started=started,
         )
 
-    def _grip(self, force_n: float) -> None:
-        self._gripper.grip(force_n)
+    def _first(self, force_n: float | None) -> float:
+        return self._first_force_n if force_n is None else force_n
+
+    def _first_words(self, force_n: float, *, feel: bool) -> str:
+        if self._sense is None or not feel:
+            return f"close with {force_n:.3g} N"
+        return f"close until something is felt, at most {force_n:.3g} N"
+
+    def _close(self, force_n: float, *, feel: bool) -> tuple[str, tuple[str, ...]]:
+        """Close from open: by an approach where touch is given; what was sent, and notes."""
+        force = clamp_force(force_n, self._limits)
+        if self._sense is None or not feel:
+            if not self._dry_run:
+                self._grip(force.value)
+            return f"close with {force.value:.3g} N", (force.note,)
+        if self._dry_run:
+            return "nothing", ()
+        self._take_reference()
+        commanded = min(max(APPROACH_STEP_N, self._limits.min_force_n), force.value)
+        while True:
+            width_m = self._grip(commanded).width_m
+            if self._sense.in_contact():
+                return f"close to {commanded:.3g} N, where something was felt", (force.note,)
+            if commanded >= force.value or width_m < CLOSED_WIDTH_M:
+                return f"close to {commanded:.3g} N; nothing was felt", (force.note,)
+            commanded = min(commanded + APPROACH_STEP_N, force.value)
+
+    def _take_reference(self) -> None:
+        if self._sense is not None:
+            self._sense.take_reference()
+
+    def _grip(self, force_n: float) -> GripperState:
+        state = self._gripper.grip(force_n)
         self._force_n = force_n
+        return state
 
     def _go(self, here: Pose, target: Pose) -> None:
         try:

@@ -7,8 +7,12 @@ As printed it has four holes; the loop closes them as follows:
    loop and moves nothing; one with both acts, and has to declare again in the next step.
 3. No action, or two: nothing moves, the gel is read and the policy asked again, ``max_asks`` times
    in a row, then ``no_action``.
-4. It never ends: actions, time, travel and force are bounded; the second ``reset`` ends it with
-   ``contact_lost``. Every end has a name and leaves the gripper as the task says.
+4. It never ends: actions, time, travel and force are bounded. Every end has a name and leaves the
+   gripper as the task says.
+
+Contact is decided by test before any policy (``tacgrasp.rig.gel_sense``). Fingers that have closed
+on nothing are followed by the runtime's own ``reset``, without asking the policy; the second one
+with no contact in between ends the episode with ``contact_lost``.
 
 A declared success is then checked by lifting (``tacgrasp.runtime.verify``); only that makes a
 ``success``.
@@ -20,15 +24,16 @@ from collections.abc import Callable, Sequence
 from itertools import count
 
 from cltp import TouchError
-from policies import Policy, PolicyError
+from policies import Decision, Policy, PolicyError
 from primitives import LimitError, Primitive, RobotError
-from primitives.execution import Executed, Executor
+from primitives.execution import AT_LIMIT, Executed, Executor
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeError
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
 from tacgrasp.runtime.shutdown import Ending, close
-from tacgrasp.runtime.steps import Recorder, Step, Steps, read_observation
+from tacgrasp.runtime.steps import NOTHING_TOUCHES, Recorder, Step, Steps, read_observation
 
 
 def run_episode(
@@ -40,6 +45,7 @@ def run_episode(
     verify: Callable[[Rig, Steps, RunConfig], Verification],
     recorder: Recorder,
     observers: Sequence[Observer] = (),
+    sense: GelSense | None = None,
 ) -> Outcome:
     """Close the loop until one of the named ends; the robot is then in the task's state.
 
@@ -57,8 +63,12 @@ def run_episode(
             steps.check_time()
             for attempt in count(1):  # repeated after an error, loop.max_faults times in a row
                 try:
-                    observation = read_observation(rig)
-                    decision = policy.decide(observation.cloud, config.instruction)
+                    observation = read_observation(rig, sense)
+                    if observation.in_contact is False:
+                        decision = NOTHING_TOUCHES
+                    else:
+                        seen = observation.for_policy(steps.elapsed_s)
+                        decision = policy.decide(seen, config.instruction)
                     break
                 except (TouchError, PolicyError) as error:
                     steps.survive(error, attempt)
@@ -75,7 +85,7 @@ def run_episode(
             _check_bounds(step, decision.action, steps, config)
             executed = executor.execute(decision.action)
             steps.record(step, executed)
-            _check_sent(executed)
+            _check_sent(executed, decision, steps)
     except EndOfEpisode as reached:
         end = reached
     except LimitError as error:
@@ -99,19 +109,21 @@ def run_episode(
 
 
 def _check_bounds(step: Step, action: Primitive, steps: Steps, config: RunConfig) -> None:
-    """End the episode in place of a second reset or of an action beyond ``max_steps``."""
-    if action is Primitive.RESET and steps.num_resets:
-        steps.record(step, note="second reset: not executed")
-        raise EndOfEpisode(EndReason.CONTACT_LOST, "the policy asked for a second reset")
+    """End the episode in place of a second empty closing or an action beyond ``max_steps``."""
+    if step.decision is NOTHING_TOUCHES and steps.num_empty:
+        steps.record(step, note="second closing on nothing: not executed")
+        raise EndOfEpisode(EndReason.CONTACT_LOST, "the fingers closed on nothing twice in a row")
     if steps.num_actions >= config.loop.max_steps:
         steps.record(step, note="max_steps: not executed")
         message = f"{steps.num_actions} actions without a good grasp (loop.max_steps)"
         raise EndOfEpisode(EndReason.MAX_STEPS, message)
 
 
-def _check_sent(executed: Executed) -> None:
-    """End the episode when nothing was sent: the next observation would be the same, for ever."""
+def _check_sent(executed: Executed, decision: Decision, steps: Steps) -> None:
+    """Bound what sends nothing: the next observation would be the same, for ever."""
     if executed.dry_run:
         raise EndOfEpisode(EndReason.MAX_STEPS, "dry run: one decision, nothing was sent")
-    if executed.sent == "nothing":  # the force is at its limit already
+    if executed.sent == "nothing" and AT_LIMIT in executed.clamped:
         raise EndOfEpisode(EndReason.LIMIT, "; ".join(executed.clamped))
+    if executed.sent == "nothing":  # the goal leaves no room for the change
+        steps.count_blank(decision)

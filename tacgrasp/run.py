@@ -25,6 +25,7 @@ from tacgrasp.episodes import (
 )
 from tacgrasp.loop import run_episode
 from tacgrasp.rig.factory import make_executor
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
 from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
@@ -43,7 +44,8 @@ def run_recorded(
     if not config.dry_run:
         rig.expect_untouched()
     header = _header(rig, policy, config)
-    executor = make_executor(rig, config)
+    sense = GelSense(rig.sensor)
+    executor = make_executor(rig, config, sense)
     directory = make_record_directory(config.record)
     path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)
     outcome: Outcome | None = None
@@ -57,6 +59,7 @@ def run_recorded(
                 verify=not_lifted if config.dry_run else verify_by_lifting,
                 recorder=recorder,
                 observers=observers,
+                sense=sense,
             )
     except EpisodeError as error:
         if outcome is None:

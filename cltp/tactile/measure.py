@@ -41,18 +41,24 @@ _DEEPEST_CELLS = 3  # cells whose mean is the depth: one alone is at the mercy o
 _MAX_CELLS = 64
 
 
-def contact_state(cloud: TactileCloud) -> ContactState:
+def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> ContactState:
     """Measure a contact.
+
+    Args:
+        cloud: The cloud.
+        in_contact: Whether something touches the gel, where a test has shown it
+            (``cltp.tactile.contact_test``); None decides by the depth, ``NO_CONTACT_MM``.
 
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
     from the displaced volume.
     """
-    depths, x, y = _cells(cloud)
+    depths = cell_means(cloud)
     depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
-    if depth < NO_CONTACT_MM:
+    if in_contact is False or depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):
         return NO_CONTACT_STATE
+    x, y = grid_axes_mm(cloud.sensor, *depths.shape)
     filled = np.nan_to_num(depths, nan=0.0)
     x_mm, y_mm = _centroid_mm(filled, depth, x, y)
     footprint = filled > FOOTPRINT_FRACTION * depth
@@ -70,8 +76,8 @@ def contact_state(cloud: TactileCloud) -> ContactState:
     )
 
 
-def _cells(cloud: TactileCloud) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Mean indentation in n × n cells, NaN where no point is, and the cells' centres [mm]."""
+def cell_means(cloud: TactileCloud) -> FloatArray:
+    """Mean indentation in n × n cells over the sensing area [mm], NaN where there is no point."""
     sensor, points = cloud.sensor, cloud.points_mm.astype(np.float64)
     n = min(_MAX_CELLS, math.isqrt(len(points)))
     column = np.clip(((points[:, 0] / sensor.width_mm + 0.5) * n).astype(int), 0, n - 1)
@@ -80,8 +86,7 @@ def _cells(cloud: TactileCloud) -> tuple[FloatArray, FloatArray, FloatArray]:
     count = np.bincount(index, minlength=n * n)
     total = np.bincount(index, weights=points[:, 2], minlength=n * n)
     with np.errstate(invalid="ignore"):
-        mean = (total / count).reshape(n, n)
-    return mean, *grid_axes_mm(sensor, n, n)
+        return np.asarray((total / count).reshape(n, n))
 
 
 def _centroid_mm(

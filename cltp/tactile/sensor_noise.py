@@ -198,6 +198,76 @@ class NoiseUnit:
         return noisy
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SlowDrift:
+    """Slow change of the untouched gel of one unit: a smooth random process in time and space.
+
+    It goes on whether the gel is touched or not, and nothing that the fingers do draws it anew.
+
+    Attributes:
+        fields: Shape (K, H, W): amplitudes of the process' components [mm].
+        rates: Shape (K,): their angular frequencies [rad/s].
+        phases: Shape (K,): their phases [rad].
+
+    Source: sizes of ``NoiseSpread`` for the part of 3 to 8 mm; a broad part of 10 to 20 mm and up to
+    0.3 mm, as seen on a GelSight Mini that was left nearly alone for minutes (two to three grey
+    levels, integrated by another unit's calibration). Times of one to several minutes are our
+    reading of the same observation.
+    """
+
+    fields: NDArray[np.float32]
+    rates: NDArray[np.float64]
+    phases: NDArray[np.float64]
+
+    @classmethod
+    def draw(
+        cls,
+        rng: np.random.Generator,
+        shape: tuple[int, int],
+        sensor: SensorSpec,
+        unit: NoiseUnit,
+        level: float = 1.0,
+    ) -> SlowDrift:
+        """Draw the drift of an episode.
+
+        Args:
+            rng: Source of the draws.
+            shape: (H, W) of the height maps over the whole sensing area.
+            sensor: The model of the unit.
+            unit: The unit, whose ``drift_mm`` and ``drift_length_mm`` are used.
+            level: Factor on the broad part, as in ``NoiseUnit.draw``.
+        """
+        broad_mm = level * math.exp(rng.uniform(math.log(BROAD_MM[0]), math.log(BROAD_MM[1])))
+        parts = (
+            (unit.drift_mm, rng.uniform(*unit.drift_length_mm)),
+            (broad_mm, rng.uniform(*BROAD_LENGTH_MM)),
+        )
+        period_s = math.exp(rng.uniform(math.log(PERIOD_S[0]), math.log(PERIOD_S[1])))
+        fields = [
+            amplitude_mm / math.sqrt(COMPONENTS / 2) * smooth_field(shape, sensor, length_mm, rng)
+            for amplitude_mm, length_mm in parts
+            for _ in range(COMPONENTS)
+        ]
+        count = len(fields)
+        return cls(
+            fields=np.stack(fields).astype(np.float32),
+            rates=2 * math.pi / period_s * rng.standard_normal(count),
+            phases=rng.uniform(0, 2 * math.pi, count),
+        )
+
+    def at(self, t_s: float) -> NDArray[np.float32]:
+        """The drift at a time of the episode [s], shape (H, W) [mm]."""
+        weights = np.cos(self.rates * t_s + self.phases).astype(np.float32)
+        return np.asarray(np.tensordot(weights, self.fields, axes=1), dtype=np.float32)
+
+
+BROAD_MM = (0.03, 0.3)
+BROAD_LENGTH_MM = (10.0, 20.0)
+PERIOD_S = (60.0, 600.0)
+COMPONENTS = 4
+"""Cosines in time that make up each part of a drift."""
+
+
 def _without_border(
     height_mm: NDArray[np.float32], sensor: SensorSpec, border_mm: float
 ) -> NDArray[np.float32]:

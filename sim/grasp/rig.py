@@ -36,6 +36,9 @@ OFFSET_X_MM = Range(low=-11.0, high=11.0)
 OFFSET_Y_MM = Range(low=-8.5, high=8.5)
 GRIPPER_FORCE_GAIN = Range(low=0.5, high=2.0, log=True)
 
+FIRST_TOUCH_N = 0.6
+"""Largest commanded force until something is felt [N]: 0.3 N times the largest force gain."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Truth:
@@ -81,7 +84,7 @@ class SimRig:
         arm, gripper, sensor, clock: The devices, at the start pose, open.
         grasp: The world behind them; for the oracle and the benchmark only.
         start_pose: Pose of the first grasp.
-        first_force_n: First commanded force [N], drawn with the body.
+        first_force_n: Largest commanded force until something is felt [N].
         pad_x_in_tcp, pad_y_in_tcp: The pad's axes in the TCP frame, unit vectors.
     """
 
@@ -150,7 +153,8 @@ def build(
         mass_g: Mass of the mesh [g]; by default from its volume (see ``sim.grasp.mesh_bodies``).
         sensor_name: A key of ``cltp.tactile.sensors.SENSORS``.
         start_offset_mm: Position of the body on the pad at the start, instead of the draw [mm].
-        first_force_n: First commanded force instead of the draw [N].
+        first_force_n: Largest commanded force until something is felt, instead of
+            ``FIRST_TOUCH_N`` [N].
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
         noise_level: 1 is the noise of the measured sensor, 0 a perfect one.
 
@@ -176,11 +180,11 @@ def build(
     return SimRig(
         arm=SimArm(grasp, clock),
         gripper=SimGripper(grasp, clock, force_gain),
-        sensor=SimSensor(grasp, clock, sensor, noise, seed),
+        sensor=SimSensor(grasp, clock, sensor, noise, seed, drift_level=noise_level),
         clock=clock,
         grasp=grasp,
         start_pose=START_POSE,
-        first_force_n=first_force_n or OBJECTS[object_name].first_force_n.quantile(u[3]),
+        first_force_n=first_force_n or FIRST_TOUCH_N,
     )
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.texts.captions import caption
-from policies import PolicyError
+from policies import Observation, PolicyError
 
 if TYPE_CHECKING:
     from policies.llm import LlmPolicy
@@ -54,7 +54,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -
         description = model.ask(cloud, CAPTION_REQUEST)
     except PolicyError as error:
         description = f"nothing: {error}"
-    decision = model.decide(cloud, instruction)
+    decision = model.decide(Observation(cloud=cloud), instruction)
     if decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:

@@ -14,7 +14,7 @@ import yaml
 from pydantic import ValidationError
 
 from cltp import TouchError
-from policies import Decision, Policy, PolicyError
+from policies import Decision, Observation, Policy, PolicyError
 from primitives.devices import Pose
 from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
@@ -84,7 +84,7 @@ def differences(episode: Episode, policy: Policy) -> Iterator[Difference]:
         if step.phase is not StepPhase.LOOP or step.decision is None:
             continue
         try:
-            decision = policy.decide(step.cloud, episode.header.instruction)
+            decision = policy.decide(Observation(cloud=step.cloud), episode.header.instruction)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue
@@ -122,10 +122,11 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
     try:
         _approach(rig, episode.steps[0].tcp_pose, config)
         executor = make_executor(rig, config)
-        executor.grasp()
+        executor.grasp(episode.steps[0].gripper.force_n or None)
         for step in episode.steps:
             if step.executed is not None and step.executed.primitive is not None:
-                executed = executor.execute(step.executed.primitive)
+                recorded = step.executed
+                executed = executor.execute(recorded.primitive, recorded.force_n or None)
                 deviation_mm = distance_mm(executed.reached, step.executed.reached)
                 yield RepeatedAction(index=step.index, executed=executed, deviation_mm=deviation_mm)
             elif step.phase is StepPhase.VERIFY_AFTER:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from primitives.execution import Executor, PadAxes
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 
 if TYPE_CHECKING:
@@ -66,8 +67,13 @@ def _simulated(config: RunConfig) -> SimRig:
     return rig
 
 
-def make_executor(rig: Rig, config: RunConfig) -> Executor:
+def make_executor(rig: Rig, config: RunConfig, sense: GelSense | None = None) -> Executor:
     """Executor of the primitives on a rig, within the configured limits.
+
+    Args:
+        rig: The rig.
+        config: The run.
+        sense: Touch while the fingers close; None closes without feeling.
 
     Raises:
         LimitError: The rig starts outside its workspace.
@@ -82,5 +88,7 @@ def make_executor(rig: Rig, config: RunConfig) -> Executor:
         start_pose=rig.start_pose,
         pad_axes=PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis),
         clock=rig.clock.monotonic,
+        sense=None if sense is None else sense.for_executor(),
+        goal_force_n=config.goal.force_n,
         dry_run=config.dry_run,
     )

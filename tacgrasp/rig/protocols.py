@@ -32,6 +32,16 @@ class TactileSensor(Protocol):
             TouchError: No fresh frame could be captured; an old one is never returned.
         """
 
+    def take_reference(self) -> None:
+        """Take the gel as it is, under open fingers, as untouched: later clouds are relative to it.
+
+        Slow drift of the gel since the last reference is gone afterwards. A sensor that plays a
+        recording does nothing.
+
+        Raises:
+            TouchError: No fresh frame could be captured; the old reference stays.
+        """
+
     def disconnect(self) -> None:
         """Free the device. Idempotent, never raises."""
 
@@ -94,7 +104,7 @@ class Rig(Protocol):
 
     @property
     def first_force_n(self) -> float:
-        """Commanded force of the first grasp [N]."""
+        """Largest commanded force of a first grasp until something is felt [N]."""
 
     def expect_untouched(self) -> None:
         """Check before the first grasp that nothing touches the gel; the gripper is open.

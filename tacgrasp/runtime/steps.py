@@ -14,11 +14,14 @@ from typing import Protocol
 from cltp import TouchError
 from cltp.tactile.cloud import Stamp, TactileCloud
 from policies import Decision, PolicyError
+from policies import Observation as PolicyObservation
 from primitives import Primitive
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
+from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, StepPhase, StepRecord
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
 
@@ -51,6 +54,8 @@ class Observation:
         gripper: State of the gripper, read after the cloud.
         stamp: Start of the reading, on the rig's clocks.
         started_s: Start of the reading, on this computer's performance counter [s].
+        in_contact: Whether something touches the gel, by test; None where none was possible.
+        felt_force_n: Force that the contact suggests [N]; None without contact or test.
     """
 
     cloud: TactileCloud
@@ -58,22 +63,47 @@ class Observation:
     gripper: GripperState
     stamp: Stamp
     started_s: float
+    in_contact: bool | None = None
+    felt_force_n: Interval | None = None
+
+    def for_policy(self, t_s: float) -> PolicyObservation:
+        """What a policy is given of it, ``t_s`` seconds after the start of the episode."""
+        return PolicyObservation(
+            cloud=self.cloud,
+            in_contact=self.in_contact,
+            width_m=self.gripper.width_m,
+            commanded_force_n=self.gripper.force_n,
+            felt_force_n=self.felt_force_n,
+            t_s=t_s,
+        )
 
 
-def read_observation(rig: Rig) -> Observation:
-    """Read sensor, arm and gripper.
+NOTHING_TOUCHES = Decision(
+    text="Nothing touches the gel. Action: <reset>.",
+    action=Primitive.RESET,
+    success=False,
+    reason="no contact by test: the policy is not asked",
+)
+"""The runtime's own decision without contact, in place of any policy's."""
+
+
+def read_observation(rig: Rig, sense: GelSense | None = None) -> Observation:
+    """Read sensor, arm and gripper, and test for contact.
 
     Raises:
         TouchError: The sensor gives no fresh cloud.
         RobotError: Pose or gripper can't be read.
     """
     stamp, started_s = rig.clock.stamp(), time.perf_counter()
+    cloud = rig.sensor.read()
     return Observation(
-        cloud=rig.sensor.read(),
+        cloud=cloud,
         tcp_pose=rig.arm.pose(),
         gripper=rig.gripper.state(),
         stamp=stamp,
         started_s=started_s,
+        in_contact=None if sense is None else sense.in_contact(cloud),
+        felt_force_n=None if sense is None else sense.felt_force(cloud),
     )
 
 
@@ -103,7 +133,7 @@ class Steps:
     Attributes:
         num_steps: Steps recorded so far, verification included.
         num_actions: Actions executed so far.
-        num_resets: Resets among them.
+        num_empty: Closings on nothing in a row, each followed by the runtime's own reset.
         started_s: Start of the episode on the rig's monotonic clock [s].
     """
 
@@ -112,7 +142,7 @@ class Steps:
     ) -> None:
         self._rig, self._bounds = rig, bounds
         self._recorder, self._observers = recorder, observers
-        self.num_steps = self.num_actions = self.num_resets = 0
+        self.num_steps = self.num_actions = self.num_empty = 0
         self.started_s = rig.clock.monotonic()
         self._num_blanks = 0
         self._last: Step | None = None
@@ -179,7 +209,8 @@ class Steps:
             self._last = step
         if executed is not None and not executed.dry_run:
             self.num_actions += 1
-            self.num_resets += executed.primitive is Primitive.RESET
+        if step.observation.in_contact is not None and executed is not None:
+            self.num_empty = 0 if step.observation.in_contact else self.num_empty + 1
         record = StepRecord(
             index=self.num_steps,
             phase=step.phase,

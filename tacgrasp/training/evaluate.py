@@ -37,7 +37,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
-from policies import Policy, PolicyError
+from policies import Observation, Policy, PolicyError
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
 from tacgrasp.lessons.exchanges import BLIND
@@ -260,7 +260,7 @@ def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | Non
     """A primitive's name, ``NONE`` for success, None where the policy holds or refuses."""
     policy.start()  # each case is an episode of its own: no action is barred for the one before
     try:
-        decision = policy.decide(cloud, instruction)
+        decision = policy.decide(Observation(cloud=cloud), instruction)
     except PolicyError:
         return None
     if decision.action is not None:

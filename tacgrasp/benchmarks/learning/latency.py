@@ -19,7 +19,7 @@ from rich.progress import track
 from rich.table import Table
 
 from cltp.tactile.cloud import TactileCloud
-from policies import Policy
+from policies import Observation, Policy
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
@@ -58,11 +58,12 @@ def run(
     policy = make_policy(policy_name, config)
     rig = make_rig(config)
     clouds = _clouds(rig)
+    observations = [Observation(cloud=cloud, in_contact=True) for cloud in clouds]
     policy.start()
     durations, stages = [], defaultdict(list)
     for number in track(range(WARM_UP + ticks), description="decisions", transient=True):
         began = time.perf_counter()
-        decision = policy.decide(clouds[number % len(clouds)], config.instruction)
+        decision = policy.decide(observations[number % len(clouds)], config.instruction)
         duration_ms = 1e3 * (time.perf_counter() - began)
         if number >= WARM_UP:
             durations.append(duration_ms)

@@ -23,6 +23,7 @@ from tacgrasp.console import make_console
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.factory import make_executor, make_rig
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
 
@@ -121,13 +122,15 @@ def _end(config: RunConfig) -> RigEnd:
     except RobotError as error:
         return RigEnd(reason="not started", facts=(), steps=0, message=str(error))
     try:
+        sense = GelSense(rig.sensor)
         outcome = run_episode(
             rig,
-            make_executor(rig, config),
+            make_executor(rig, config, sense),
             policy,
             config,
             verify=verify_by_lifting,
             recorder=NoRecorder(),
+            sense=sense,
         )
     finally:
         rig.disconnect()

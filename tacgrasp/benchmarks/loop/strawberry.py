@@ -31,6 +31,7 @@ from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.factory import make_executor
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
 
@@ -69,8 +70,8 @@ class EpisodeResult:
 
     @property
     def bruised(self) -> bool:
-        """Bruised by the policy, not by a first grasp that it did not choose."""
-        return self.truth.bruised or (self.chose_first_force and self.truth.bruised_at_start)
+        """Bruised at any time, from the first touch on."""
+        return self.truth.bruised or self.truth.bruised_at_start
 
     @property
     def verified(self) -> bool:
@@ -97,13 +98,15 @@ def run_seed(
 def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -> EpisodeResult:
     name, force_n = contestant
     rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
+    sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
     outcome = run_episode(
         rig,
-        make_executor(rig, config),
+        make_executor(rig, config, sense),
         _policy(name, config, rig, slip_minimum_n),
         config,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
+        sense=sense,
     )
     return EpisodeResult(
         seed=config.seed,

@@ -1,0 +1,30 @@
+"""What a policy is given in a step: one cloud, and what the gripper knows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from cltp.tactile.cloud import TactileCloud
+from primitives.sense import Interval
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Observation:
+    """Readings at the start of a step.
+
+    Attributes:
+        cloud: Tactile cloud [mm, gel frame].
+        in_contact: Whether something touches the gel, by test against the open fingers of the same
+            closing; None where no such test was possible (a file, an old episode).
+        width_m: Opening of the gripper [m]; None where it is not known.
+        commanded_force_n: Force last commanded [N], 0 when open; None where it is not known.
+        felt_force_n: Force that the contact suggests [N]; None without contact or reading.
+        t_s: Time since the episode began [s].
+    """
+
+    cloud: TactileCloud
+    in_contact: bool | None = None
+    width_m: float | None = None
+    commanded_force_n: float | None = None
+    felt_force_n: Interval | None = None
+    t_s: float = 0.0

@@ -1,0 +1,69 @@
+"""Touch as the executor and the loop need it: contact by test, and the felt force.
+
+Not here: how contact is tested (``cltp.tactile.contact_test``).
+"""
+
+from __future__ import annotations
+
+import math
+
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
+from cltp.tactile.measure import contact_state
+from primitives.sense import ContactSense, Interval
+from tacgrasp.rig.protocols import TactileSensor
+
+FELT_SPREAD = 0.5
+"""Half width of the interval of a felt force, in ln F. Source: 1.6 times the residual of
+``cltp.tactile.measure.force_from``, which is 0.15 to 0.32 above 0.4 N."""
+
+
+class GelSense:
+    """Contact and felt force of one sensor, against its gel with open fingers."""
+
+    def __init__(self, sensor: TactileSensor) -> None:
+        self._sensor = sensor
+        self._untouched: UntouchedGel | None = None
+        self._cloud: TactileCloud | None = None
+
+    def for_executor(self) -> ContactSense:
+        """The functions that the executor is given."""
+        return ContactSense(
+            take_reference=self.take_reference,
+            in_contact=self.read_contact,
+            felt_force=lambda: None if self._cloud is None else self.felt_force(self._cloud),
+        )
+
+    def take_reference(self) -> None:
+        """Take the gel with open fingers as untouched, and learn its noise.
+
+        Raises:
+            TouchError: The sensor gives no fresh cloud.
+        """
+        self._sensor.take_reference()
+        self._untouched = UntouchedGel([self._sensor.read() for _ in range(NUM_FRAMES)])
+        self._cloud = None
+
+    def read_contact(self) -> bool:
+        """Read a new frame and test it.
+
+        Raises:
+            TouchError: The sensor gives no fresh cloud.
+        """
+        self._cloud = self._sensor.read()
+        return bool(self.in_contact(self._cloud))
+
+    def in_contact(self, cloud: TactileCloud) -> bool | None:
+        """Whether something touches the gel in a cloud; None before the first reference."""
+        self._cloud = cloud
+        return None if self._untouched is None else self._untouched.test(cloud).in_contact
+
+    def felt_force(self, cloud: TactileCloud) -> Interval | None:
+        """Force that a cloud suggests [N]; None without contact."""
+        state = contact_state(cloud, in_contact=self.in_contact(cloud))
+        if not state.in_contact or state.force_n <= 0:
+            return None
+        factor = math.exp(FELT_SPREAD)
+        return Interval(
+            value=state.force_n, low=state.force_n / factor, high=state.force_n * factor
+        )
