@@ -5,7 +5,8 @@ opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes
 commanded force, since a closed gripper would carry the object along. ``increase_force`` and
 ``decrease_force`` multiply the last force by 1.5 and 0.65, or, where the force is felt and the goal
 is known, bring the felt force towards the goal (``force_factor``). ``reset`` opens, goes back to
-the start pose and grasps again.
+the start pose and grasps again. After a closing on nothing it opens as wide as before the first
+grasp, since the object stands where the fingers have to go back to.
 
 A first grasp and a reset are an approach where touch is given: the force rises in small steps from
 almost nothing until something is felt, at most to ``first_force_n``, so that no object is pressed
@@ -51,10 +52,12 @@ OVER = 1.1
 felt force varies by some percent from frame to frame."""
 
 APPROACH_STEP_N = 0.05
-"""Step of the commanded force during the approach [N]."""
+"""Least step of the commanded force during the approach [N]."""
 
-CLOSED_WIDTH_M = 0.0005
-"""Opening from which on the fingers have closed on nothing [m]."""
+CLOSED_WIDTH_M = 0.001
+"""Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin, and
+a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap when
+closed are closed by the approach up to its limit of force, and no further."""
 
 
 def force_factor(
@@ -62,10 +65,10 @@ def force_factor(
 ) -> float:
     """Factor on the commanded force.
 
-    Below the goal an increase goes just over its low end as felt, by at most ``MAX_INCREASE``; above
-    it a decrease goes just under its high end, by at most ``MIN_DECREASE``. Inside the goal a change never
-    leaves it. Without a felt force or a goal, and for a change away from the goal, the factors are
-    ``INCREASE_FACTOR`` and ``DECREASE_FACTOR``.
+    Below the goal an increase goes just over its low end as felt, by at most ``MAX_INCREASE``;
+    above it a decrease goes just under its high end, by at most ``MIN_DECREASE``. Inside the goal a
+    change never leaves it. Without a felt force or a goal, and for a change away from the goal, the
+    factors are ``INCREASE_FACTOR`` and ``DECREASE_FACTOR``.
     """
     plain = INCREASE_FACTOR if increase else DECREASE_FACTOR
     if felt is None or goal_n is None or felt.value <= 0:
@@ -164,6 +167,7 @@ class Executor:
         clock: Callable[[], float],
         sense: ContactSense | None = None,
         goal_force_n: tuple[float, float] | None = None,
+        force_step_n: float = 0.0,
         dry_run: bool = False,
     ) -> None:
         """Take the devices; nothing is sent yet.
@@ -181,6 +185,7 @@ class Executor:
             clock: Monotonic [s].
             sense: Touch during a closing; None closes without feeling.
             goal_force_n: Band of the felt force that changes of the force go towards [N].
+            force_step_n: Least change of the force that the gripper makes [N].
             dry_run: Read the devices, send them nothing.
 
         Raises:
@@ -199,6 +204,8 @@ class Executor:
         self._axes = np.array([pad_axes.x_tcp, pad_axes.y_tcp])
         self._clock = clock
         self._sense, self._goal_force_n = sense, goal_force_n
+        self._approach_step_n = max(APPROACH_STEP_N, force_step_n)
+        self._open_width_m = 0.0
         self._dry_run = dry_run
         self._force_n = 0.0
         self._travel_mm = 0.0
@@ -223,6 +230,8 @@ class Executor:
             RobotError: A device failed.
         """
         started = self._clock()
+        if self._sense is not None:
+            self._open_width_m = self._gripper.state().width_m
         first = self._first(force_n)
         sent, notes = self._close(first, feel=force_n is None)
         return self._done(
@@ -287,7 +296,7 @@ class Executor:
         way_mm = distance_mm(here, self._start_pose)
         check_travel(self._travel_mm, way_mm, self._limits)
         if not self._dry_run:
-            self._gripper.open_by(self._clear_m)
+            self._gripper.open_by(self._reset_clear_m())
             self._go(here, self._start_pose)
         first = self._first(force_n)
         sent, notes = self._close(first, feel=force_n is None)
@@ -323,6 +332,12 @@ class Executor:
             started=started,
         )
 
+    def _reset_clear_m(self) -> float:
+        """Opening before a reset [m]: as before the first grasp where nothing is felt."""
+        if self._sense is None or self._sense.felt_force() is not None:
+            return self._clear_m
+        return max(self._clear_m, self._open_width_m - self._gripper.state().width_m)
+
     def _first(self, force_n: float | None) -> float:
         return self._first_force_n if force_n is None else force_n
 
@@ -341,14 +356,14 @@ class Executor:
         if self._dry_run:
             return "nothing", ()
         self._take_reference()
-        commanded = min(max(APPROACH_STEP_N, self._limits.min_force_n), force.value)
+        commanded = min(max(self._approach_step_n, self._limits.min_force_n), force.value)
         while True:
             width_m = self._grip(commanded).width_m
             if self._sense.in_contact():
                 return f"close to {commanded:.3g} N, where something was felt", (force.note,)
             if commanded >= force.value or width_m < CLOSED_WIDTH_M:
                 return f"close to {commanded:.3g} N; nothing was felt", (force.note,)
-            commanded = min(commanded + APPROACH_STEP_N, force.value)
+            commanded = min(commanded + self._approach_step_n, force.value)
 
     def _take_reference(self) -> None:
         if self._sense is not None:

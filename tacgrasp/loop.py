@@ -56,6 +56,8 @@ def run_episode(
     end = EndOfEpisode(EndReason.FAULT, "stopped by an unforeseen error; this is a bug")
     step: Step | None = None
     verification: Verification | None = None
+    if sense is not None:
+        sense.survive = steps.survive
     try:
         policy.start()
         executor.grasp()

@@ -111,15 +111,22 @@ class Photometer:
         self._background = check_frame(background, sensor, "the background")
         self._position_terms = position_inputs(sensor) @ net.w1[3:] + net.b1  # of every frame
 
-    def gradients(self, frame: Frame) -> tuple[FloatArray, FloatArray]:
-        """Slope of the gel in every pixel.
-
-        Returns:
-            dz/dx and dz/d(down), each (rows, columns), mm per mm: x to the right, down along the
-            rows (towards -y).
+    def with_background(self, background: Frame) -> Photometer:
+        """The photometer of the same unit against another frame of its untouched gel.
 
         Raises:
-            TouchError: Not a frame of this sensor, or the background doesn't belong to it.
+            TouchError: The background is not a frame of this sensor.
+        """
+        return Photometer(self._net, background, self.sensor)
+
+    def check_background(self, frame: Frame) -> FloatArray:
+        """Check that a frame belongs to the background.
+
+        Returns:
+            Its change of colour, (rows × columns, 3), in ``COLOUR_SCALE``.
+
+        Raises:
+            TouchError: Not a frame of this sensor, or half of it differs from the background.
         """
         frame = check_frame(frame, self.sensor)
         change = colour_change(frame, self._background)
@@ -130,6 +137,19 @@ class Photometer:
                 f"(expected below {STALE_LEVELS:.0f}): the background is another unit's, out of "
                 "date, or the light has changed; take a new one with nothing touching the gel"
             )
+        return change
+
+    def gradients(self, frame: Frame) -> tuple[FloatArray, FloatArray]:
+        """Slope of the gel in every pixel.
+
+        Returns:
+            dz/dx and dz/d(down), each (rows, columns), mm per mm: x to the right, down along the
+            rows (towards -y).
+
+        Raises:
+            TouchError: Not a frame of this sensor, or the background doesn't belong to it.
+        """
+        change = self.check_background(frame)
         net, slopes = self._net, np.empty((len(change), 2), dtype=np.float32)
         for start in range(0, len(change), _BLOCK):
             part = slice(start, start + _BLOCK)

@@ -53,10 +53,13 @@ class ContactEvidence:
     Attributes:
         in_contact: Whether something touches the gel.
         ratio: Largest response over the least response of a contact; 1 and more is a contact.
+        is_inverted: Whether the gel seems to rise where a contact would press it in: z has the
+            wrong sign.
     """
 
     in_contact: bool
     ratio: float
+    is_inverted: bool = False
 
 
 class UntouchedGel:
@@ -95,8 +98,7 @@ class UntouchedGel:
                 f"expected a cloud of {self._sensor.name}, got one of {cloud.sensor.name}"
             )
         responses = _responses(cell_means(cloud) - self._mean, self._sensor)
-        ratio = float((responses.max(axis=(1, 2)) / self._least_mm).max())
-        return ContactEvidence(in_contact=ratio >= 1, ratio=ratio)
+        return _evidence(responses, self._least_mm)
 
 
 def touches_alone(cloud: TactileCloud) -> ContactEvidence:
@@ -108,15 +110,28 @@ def touches_alone(cloud: TactileCloud) -> ContactEvidence:
     spread, sensor = spread_of(cloud.sensor), cloud.sensor
     cells = cell_means(cloud)
     cell_mm = math.sqrt(sensor.area_mm2 / cells.size)
-    ratio = 0.0
-    for scale_mm, response in zip(SCALES_MM, _responses(cells, sensor), strict=True):
+    least_mm = []
+    for scale_mm in SCALES_MM:
         drift = spread.drift_mm * _drift_gain(scale_mm, spread.drift_length_mm[0])
-        # White noise of one point a cell through a difference of Gaussians.
+        # White noise of one point a cell, through the difference of Gaussians.
         fine = spread.fine_mm * cell_mm / (2 * math.sqrt(math.pi) * scale_mm) * math.sqrt(0.45)
-        least = max(SINGLE_THRESHOLD * math.hypot(drift, fine), FLOOR_MM)
-        ratio = max(ratio, float(response.max()) / least)
-    return ContactEvidence(in_contact=ratio >= 1, ratio=ratio)
+        least_mm.append(max(SINGLE_THRESHOLD * math.hypot(drift, fine), FLOOR_MM))
+    return _evidence(_responses(cells, sensor), np.array(least_mm))
 
+
+def _evidence(responses: FloatArray, least_mm: FloatArray) -> ContactEvidence:
+    """Compare responses (scales, n, n) with the least ones of a contact (scales,)."""
+    pressed = float((responses.max(axis=(1, 2)) / least_mm).max())
+    raised = float((-responses.min(axis=(1, 2)) / least_mm).max())
+    is_inverted = raised >= 1 and pressed < MIN_PRESSED * raised
+    return ContactEvidence(
+        in_contact=pressed >= 1 and not is_inverted, ratio=pressed, is_inverted=is_inverted
+    )
+
+
+MIN_PRESSED = 0.5
+"""Response of what is pressed in over that of what rises, of a contact. A bump of the wrong sign has
+0.1 to 0.3; contacts, cavities among them, have 0.8 and more."""
 
 SINGLE_THRESHOLD = 4.0
 """As ``THRESHOLD``, of a single frame: drift has few independent places on a pad."""

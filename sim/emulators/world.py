@@ -47,10 +47,10 @@ class SharedWorld:
     def __init__(self, rig: SimRig, clock: Callable[[], float] = time.monotonic) -> None:
         """Take over a new simulated rig; its own devices must not be used any more."""
         self._rig, self._clock = rig, clock
-        self._solved_until_s = clock()
+        self._began_s = self._solved_until_s = clock()
         self._base_from_tcp = Rotation.from_rotvec(np.array(rig.start_pose.rotvec_rad))
         self._published = (0, 0.0)
-        self._height_mm = rig.sensor.height_mm()
+        self._surface_mm = rig.sensor.surface_mm()
         self._solver = ThreadPoolExecutor(1, thread_name_prefix="world")
         self._last: Future[Any] = self._solver.submit(lambda: None)
 
@@ -111,15 +111,15 @@ class SharedWorld:
         self._submit(open_)
 
     def height_mm(self) -> NDArray[np.float32]:
-        """Reconstructed heights of the gel now, shape (rows, columns) [mm].
+        """A new frame of the gel now, shape (rows, columns) [mm], for one thread at a time.
 
-        Never waits: while a contact is being solved, these are the heights before it.
+        Never waits: while a contact is being solved, the frame shows the gel before it.
         """
         now_s = self._clock()
         is_holding = self._rig.grasp.patch is not None
         if is_holding and self._last.done() and now_s - self._solved_until_s > SLIDE_PERIOD_S:
             self._submit(lambda: self._wait_until(now_s))
-        return self._height_mm
+        return self._rig.sensor.frame_mm(self._surface_mm, now_s - self._began_s)
 
     def inject(self, fault: str, **details: float | str) -> None:
         """Raise ``ValueError``: the world has no faults."""
@@ -158,7 +158,7 @@ class SharedWorld:
             result = change()
             version = (self._rig.grasp.contacts, self._rig.grasp.slip_mm)
             if version != self._published:
-                self._height_mm = self._rig.sensor.height_mm()
+                self._surface_mm = self._rig.sensor.surface_mm()
                 self._published = version
             return result
 

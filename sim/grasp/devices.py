@@ -227,7 +227,7 @@ class SimSensor(_Device):
         rng = np.random.default_rng([seed, 5])
         shape = (ROWS, COLUMNS)
         self._drift = SlowDrift.draw(rng, shape, spec, noise, drift_level)
-        self._error = drift_level * CONTACT_ERROR.quantile(rng.random())
+        self._contact_error = drift_level * CONTACT_ERROR.quantile(rng.random())
         self._reference = np.zeros(shape, np.float32)
 
     @property
@@ -237,6 +237,29 @@ class SimSensor(_Device):
     def height_mm(self) -> NDArray[np.float32]:
         """Current surface of the gel relative to the reference, shape (ROWS, COLUMNS) [mm]."""
         return self._absolute_mm() - self._reference
+
+    def surface_mm(self) -> NDArray[np.float32]:
+        """Surface with the reconstruction error of its contact alone, shape (ROWS, COLUMNS) [mm].
+
+        It changes with the contact only: no frame's noise and no drift is in it.
+        """
+        patch = self._grasp.patch
+        if patch is None:
+            return np.zeros((ROWS, COLUMNS), np.float32)
+        rng = np.random.default_rng([self._seed, 3, self._grasp.contacts])
+        length_mm = rng.uniform(*self._noise.drift_length_mm)
+        error = smooth_field((ROWS, COLUMNS), self._spec, length_mm, rng)
+        return patch.height_mm + self._contact_error * patch.height_mm.max() * error
+
+    def frame_mm(self, surface_mm: NDArray[np.float32], t_s: float) -> NDArray[np.float32]:
+        """A new frame of a surface [mm]: with the unit's errors, fine noise, and the drift at ``t_s``.
+
+        Args:
+            surface_mm: From ``surface_mm``, shape (ROWS, COLUMNS).
+            t_s: Time of the episode [s].
+        """
+        noisy = self._noise.apply(surface_mm, self._spec, self._frame_rng)
+        return noisy + self._drift.at(t_s)
 
     def take_reference(self) -> None:
         """Take the mean of some frames of the present gel as untouched."""
@@ -248,15 +271,7 @@ class SimSensor(_Device):
         self._reference = np.mean(frames, axis=0)
 
     def _absolute_mm(self) -> NDArray[np.float32]:
-        patch = self._grasp.patch
-        surface_mm = np.zeros((ROWS, COLUMNS), np.float32)
-        if patch is not None:
-            rng = np.random.default_rng([self._seed, 3, self._grasp.contacts])
-            length_mm = rng.uniform(*self._noise.drift_length_mm)
-            error = smooth_field((ROWS, COLUMNS), self._spec, length_mm, rng)
-            surface_mm += patch.height_mm + self._error * patch.height_mm.max() * error
-        noisy = self._noise.apply(surface_mm, self._spec, self._frame_rng)
-        return noisy + self._drift.at(self._clock.simulated_s)
+        return self.frame_mm(self.surface_mm(), self._clock.simulated_s)
 
     def read(self) -> TactileCloud:
         self._check_connected()

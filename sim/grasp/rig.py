@@ -85,6 +85,7 @@ class SimRig:
         grasp: The world behind them; for the oracle and the benchmark only.
         start_pose: Pose of the first grasp.
         first_force_n: Largest commanded force until something is felt [N].
+        force_step_n: Least change of the commanded force [N]; the simulated gripper makes any.
         pad_x_in_tcp, pad_y_in_tcp: The pad's axes in the TCP frame, unit vectors.
     """
 
@@ -95,6 +96,7 @@ class SimRig:
     grasp: Grasp
     start_pose: Pose
     first_force_n: float
+    force_step_n: float = 0.0
     pad_x_in_tcp: tuple[float, float, float] = PAD_X_IN_TCP
     pad_y_in_tcp: tuple[float, float, float] = PAD_Y_IN_TCP
 

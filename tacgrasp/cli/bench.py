@@ -10,11 +10,13 @@ from tacgrasp.cli.flags import run_subcommand
 
 BENCHMARKS: dict[str, tuple[type[Any], Callable[[Any], bool | None]]] = {
     "strawberry": (bench_loop.StrawberryBenchFlags, bench_loop.strawberry),
+    "missed": (bench_loop.MissedBenchFlags, bench_loop.missed),
     "latency": (bench_loop.LatencyBenchFlags, bench_loop.latency),
     "rigs": (bench_loop.RigsBenchFlags, bench_loop.rigs),
     "drivers": (bench_loop.DriversBenchFlags, bench_loop.drivers),
     "faults": (bench_loop.FaultsBenchFlags, bench_loop.faults),
     "gel": (bench_sensing.GelBenchFlags, bench_sensing.gel),
+    "contact": (bench_sensing.ContactBenchFlags, bench_sensing.contact),
     "touch": (bench_sensing.TouchBenchFlags, bench_sensing.touch),
     "balls": (bench_sensing.BallsBenchFlags, bench_sensing.balls),
     "ball-captions": (bench_sensing.BallCaptionsBenchFlags, bench_sensing.ball_captions),

@@ -1,4 +1,4 @@
-"""``tacgrasp bench strawberry|latency|rigs|drivers|faults``: the loop, and the rigs under it."""
+"""``tacgrasp bench strawberry|missed|latency|rigs|drivers|faults``: the loop, and the rigs under it."""
 
 from __future__ import annotations
 
@@ -41,6 +41,42 @@ def strawberry(flags: StrawberryBenchFlags) -> None:
     config, _ = load("strawberry")
     benchmark.run(
         config.model_copy(update={"weights": flags.weights}),
+        episodes=flags.episodes,
+        first_seed=flags.first_seed,
+        policies=tuple(name.strip() for name in flags.policies.split(",")),
+        json_path=writable(flags.json),
+    )
+
+
+@dataclass(frozen=True)
+class MissedBenchFlags:
+    """Close the fingers beside the berry, and count what follows; exit code 1 off the targets.
+
+    As many ordinary episodes of the same seeds show how often a berry that is touched is reset.
+
+    Attributes:
+        episodes: Number of missed and of ordinary episodes, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+        policies: Names of the policies, separated by commas.
+        weights: Folder of llm's weights. Default: TACGRASP_WEIGHTS, else the shipped weights.
+        json: File to write the figures to.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    policies: str = "llm,rules"
+    weights: Path | None = None
+    json: Path | None = None
+
+
+def missed(flags: MissedBenchFlags) -> bool:
+    """Run the benchmark of missed grasps."""
+    if flags.episodes < 1 or flags.first_seed < 0:
+        raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+    from tacgrasp.benchmarks.loop import missed as benchmark
+
+    return benchmark.run(
+        flags.weights,
         episodes=flags.episodes,
         first_seed=flags.first_seed,
         policies=tuple(name.strip() for name in flags.policies.split(",")),

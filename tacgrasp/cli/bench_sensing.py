@@ -1,4 +1,4 @@
-"""``tacgrasp bench gel|touch|balls|ball-captions``: the gel, and what is read from its shape."""
+"""``tacgrasp bench gel|contact|touch|balls|ball-captions``: the gel, and what is read from its shape."""
 
 from __future__ import annotations
 
@@ -28,6 +28,31 @@ def gel(flags: GelBenchFlags) -> None:
     from tacgrasp.benchmarks.sensing import gel as benchmark
 
     benchmark.run(_folder(flags.data), writable(flags.json))
+
+
+@dataclass(frozen=True)
+class ContactBenchFlags:
+    """Count false contacts in air and missed light contacts; exit code 1 with too many false ones.
+
+    Attributes:
+        closings: Number of closings in air, two seconds each.
+        bodies: Number of bodies of each kind, two positions each.
+        json: File to write the figures to.
+    """
+
+    closings: int = 1200
+    bodies: int = 150
+    json: Path | None = None
+
+
+def contact(flags: ContactBenchFlags) -> bool:
+    """Run the benchmark of the contact test."""
+    if min(flags.closings, flags.bodies) < 1:
+        raise UsageError("--closings and --bodies must be at least 1")
+    json_path = writable(flags.json)
+    from tacgrasp.benchmarks.sensing import contact as benchmark
+
+    return benchmark.run(flags.closings, flags.bodies, json_path)
 
 
 @dataclass(frozen=True)

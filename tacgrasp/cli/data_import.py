@@ -42,9 +42,7 @@ def import_table(flags: ImportFlags) -> None:
     from tacgrasp.datasets.import_touches import Source, import_touches
 
     if not flags.folder.is_dir():
-        raise UsageError(
-            f"{flags.folder} is not a folder; expected that of the measured files"
-        )
+        raise UsageError(f"{flags.folder} is not a folder; expected that of the measured files")
     source = Source(
         folder=flags.folder,
         labels=flags.labels,

@@ -90,5 +90,6 @@ def make_executor(rig: Rig, config: RunConfig, sense: GelSense | None = None) ->
         clock=rig.clock.monotonic,
         sense=None if sense is None else sense.for_executor(),
         goal_force_n=config.goal.force_n,
+        force_step_n=rig.force_step_n,
         dry_run=config.dry_run,
     )

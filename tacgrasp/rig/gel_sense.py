@@ -6,23 +6,40 @@ Not here: how contact is tested (``cltp.tactile.contact_test``).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from itertools import count
+from typing import TypeVar
 
+from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
 from cltp.tactile.measure import contact_state
 from primitives.sense import ContactSense, Interval
 from tacgrasp.rig.protocols import TactileSensor
 
+T = TypeVar("T")
+
 FELT_SPREAD = 0.5
 """Half width of the interval of a felt force, in ln F. Source: 1.6 times the residual of
 ``cltp.tactile.measure.force_from``, which is 0.15 to 0.32 above 0.4 N."""
+
+
+def _raise(error: TouchError, attempt: int) -> None:
+    raise error
 
 
 class GelSense:
     """Contact and felt force of one sensor, against its gel with open fingers."""
 
     def __init__(self, sensor: TactileSensor) -> None:
+        """Take a connected sensor.
+
+        Attributes:
+            survive: Called with each failure to read and its number, from 1; raises when it was one
+                too many. By default every failure is.
+        """
         self._sensor = sensor
+        self.survive: Callable[[TouchError, int], None] = _raise
         self._untouched: UntouchedGel | None = None
         self._cloud: TactileCloud | None = None
 
@@ -40,9 +57,9 @@ class GelSense:
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        self._sensor.take_reference()
-        self._untouched = UntouchedGel([self._sensor.read() for _ in range(NUM_FRAMES)])
-        self._cloud = None
+        self._repeated(self._sensor.take_reference)
+        frames = [self._repeated(self._sensor.read) for _ in range(NUM_FRAMES)]
+        self._untouched, self._cloud = UntouchedGel(frames), None
 
     def read_contact(self) -> bool:
         """Read a new frame and test it.
@@ -50,8 +67,15 @@ class GelSense:
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        self._cloud = self._sensor.read()
-        return bool(self.in_contact(self._cloud))
+        return bool(self.in_contact(self._repeated(self._sensor.read)))
+
+    def _repeated(self, call: Callable[[], T]) -> T:
+        for attempt in count(1):
+            try:
+                return call()
+            except TouchError as error:
+                self.survive(error, attempt)
+        raise AssertionError("unreachable")
 
     def in_contact(self, cloud: TactileCloud) -> bool | None:
         """Whether something touches the gel in a cloud; None before the first reference."""

@@ -64,7 +64,8 @@ class HardwareRig:
         gripper, sensor, clock: The other devices.
         command_log: Log of the commands to arm and gripper.
         start_pose: Pose of the first grasp.
-        first_force_n: Commanded force of the first grasp [N].
+        first_force_n: Largest commanded force of a first grasp until something is felt [N].
+        force_step_n: Least change of the commanded force that the gripper makes [N].
         fault_counts: Returns the counts of the transient faults of gripper and sensor, as text.
     """
 
@@ -76,6 +77,7 @@ class HardwareRig:
     start_pose: Pose
     first_force_n: float
     fault_counts: Callable[[], str]
+    force_step_n: float = 0.0
 
     def expect_untouched(self) -> None:
         try:
@@ -136,6 +138,7 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         command_log=log,
         start_pose=start,
         first_force_n=first_force_n,
+        force_step_n=gripper.force_step_n,
         fault_counts=lambda: f"gripper: {gripper.transients}; sensor: {sensor.counts()}",
     )
 

@@ -106,6 +106,10 @@ class Rig(Protocol):
     def first_force_n(self) -> float:
         """Largest commanded force of a first grasp until something is felt [N]."""
 
+    @property
+    def force_step_n(self) -> float:
+        """Least change of the commanded force that the gripper makes [N]; 0 for any."""
+
     def expect_untouched(self) -> None:
         """Check before the first grasp that nothing touches the gel; the gripper is open.
 

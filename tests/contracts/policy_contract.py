@@ -10,7 +10,7 @@ import pytest
 
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import sensor_named
-from policies import Decision, Policy
+from policies import Decision, Observation, Policy
 from policies.extraction import extract
 
 SENSOR = sensor_named("gelsight_mini")
@@ -41,7 +41,7 @@ class PolicyContract:
         return policy
 
     def decide_all(self, policy: Policy) -> list[Decision]:
-        return [policy.decide(cloud, INSTRUCTION) for cloud in CLOUDS]
+        return [policy.decide(Observation(cloud=cloud), INSTRUCTION) for cloud in CLOUDS]
 
     def test_it_has_a_name_that_fits_a_command_line(self, policy):
         assert policy.name
@@ -71,7 +71,7 @@ class PolicyContract:
 
     def test_a_cloud_is_left_as_it_was(self, policy):
         before = CLOUDS[0].points_mm.copy()
-        policy.decide(CLOUDS[0], INSTRUCTION)
+        policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION)
         assert np.array_equal(CLOUDS[0].points_mm, before)
 
     def test_start_can_be_called_at_any_time(self, policy):

@@ -6,6 +6,7 @@ import pytest
 
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
+from policies import Observation
 from policies.baselines import FixedForcePolicy, RandomPolicy
 from policies.goal import Band, Goal
 from policies.rules import RulesPolicy
@@ -56,13 +57,13 @@ class TestRules(PolicyContract):
         assert [d.success for d in self.decide_all(policy)] == [True] + 4 * [False]
 
     def test_every_stage_is_timed(self, policy):
-        decision = policy.decide(CLOUDS[0], INSTRUCTION)
+        decision = policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION)
         assert list(decision.stage_ms) == ["measure", "teacher", "speak", "extract"]
 
     def test_stages_are_the_differences_of_the_clock_in_ms(self):
         ticks = iter([0.0, 0.001, 0.003, 0.006, 0.010])
         policy = RulesPolicy(GOAL, move_step_mm=3.0, measure=by_eye, clock=lambda: next(ticks))
-        stages = policy.decide(CLOUDS[0], "").stage_ms
+        stages = policy.decide(Observation(cloud=CLOUDS[0]), "").stage_ms
         assert list(stages.values()) == pytest.approx([1, 2, 3, 4])
 
 
@@ -93,7 +94,7 @@ class TestRandom(PolicyContract):
         return RandomPolicy(seed=7)
 
     def test_each_of_the_eight_choices_comes_about_as_often(self, policy):
-        drawn = [policy.decide(CLOUDS[0], INSTRUCTION) for _ in range(1600)]
+        drawn = [policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION) for _ in range(1600)]
         counts = [sum(d.action is p for d in drawn) for p in Primitive]
         counts.append(sum(d.success for d in drawn))
         assert sum(counts) == 1600
@@ -101,5 +102,5 @@ class TestRandom(PolicyContract):
 
     def test_another_seed_draws_otherwise(self, policy):
         other = RandomPolicy(seed=8)
-        ours = [policy.decide(CLOUDS[0], "").text for _ in range(20)]
-        assert ours != [other.decide(CLOUDS[0], "").text for _ in range(20)]
+        ours = [policy.decide(Observation(cloud=CLOUDS[0]), "").text for _ in range(20)]
+        assert ours != [other.decide(Observation(cloud=CLOUDS[0]), "").text for _ in range(20)]

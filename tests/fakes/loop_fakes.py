@@ -8,7 +8,7 @@ import numpy as np
 
 from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from policies import Decision
+from policies import Decision, Observation
 from policies.extraction import extract
 from primitives.devices import GripperState, Pose
 from tacgrasp.config.layers import load
@@ -16,6 +16,7 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeEnd, EpisodeError, StepRecord
 from tacgrasp.loop import run_episode
 from tacgrasp.rig.factory import make_executor
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Observer, Outcome, Verification
 from tacgrasp.runtime.steps import Steps
@@ -67,9 +68,10 @@ class FakeRig:
         self.clock = FakeClock()
         self.start_pose = START
         self.first_force_n = 1.0
+        self.force_step_n = 0.0
         self.arm = FakeArm(self.log_call)
         self.gripper = FakeGripper(self.log_call)
-        self.sensor = FakeSensor(self.log_call)
+        self.sensor = FakeSensor(self.log_call, self.gripper)
 
     def log_call(self, name: str) -> None:
         self.calls.append(name)
@@ -119,6 +121,7 @@ class FakeGripper:
     def __init__(self, log_call: Callable[[str], None]) -> None:
         self._log_call = log_call
         self.current = GripperState(width_m=0.05, force_n=0.0, closed=False)
+        self.forces_n: list[float] = []
 
     def state(self) -> GripperState:
         self._log_call("gripper.state")
@@ -126,6 +129,7 @@ class FakeGripper:
 
     def grip(self, force_n: float) -> GripperState:
         self._log_call("gripper.grip")
+        self.forces_n.append(force_n)
         self.current = GripperState(width_m=0.02, force_n=force_n, closed=True)
         return self.current
 
@@ -142,8 +146,12 @@ class FakeGripper:
 
 
 class FakeSensor:
-    def __init__(self, log_call: Callable[[str], None]) -> None:
-        self._log_call = log_call
+    """Sees a firm contact under closed fingers, unless ``is_missed`` says that they miss."""
+
+    def __init__(self, log_call: Callable[[str], None], gripper: FakeGripper) -> None:
+        self._log_call, self._gripper = log_call, gripper
+        self.is_missed: Callable[[], bool] = lambda: False
+        self._rng = np.random.default_rng(0)
 
     @property
     def spec(self) -> SensorSpec:
@@ -151,7 +159,13 @@ class FakeSensor:
 
     def read(self) -> TactileCloud:
         self._log_call("sensor.read")
+        if not self._gripper.current.closed or self.is_missed():
+            heights = self._rng.normal(0, 0.01, (60, 80))
+            return cloud_from_heights(heights, SENSOR, rng=self._rng)
         return touch()
+
+    def take_reference(self) -> None:
+        self._log_call("sensor.take_reference")
 
     def disconnect(self) -> None:
         self._log_call("sensor.disconnect")
@@ -168,7 +182,7 @@ class Scripted:
     def start(self) -> None:
         self.num_asks = 0
 
-    def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+    def decide(self, observation: Observation, instruction: str) -> Decision:
         text = self._texts[min(self.num_asks, len(self._texts) - 1)]
         self.num_asks += 1
         if isinstance(text, Exception):
@@ -228,14 +242,16 @@ def play(
     rig = rig or FakeRig()
     recorder = recorder or ListRecorder()
     settings = settings or config()
+    sense = GelSense(rig.sensor)
     outcome = run_episode(
         rig,
-        make_executor(rig, settings),
+        make_executor(rig, settings, sense),
         policy,
         settings,
         verify=verify,
         recorder=recorder,
         observers=observers,
+        sense=sense,
     )
     return outcome, rig, recorder
 

@@ -15,6 +15,7 @@ from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.tokenizer import ACTIONS, Words
+from policies import Observation
 from policies.errors import PolicyError
 from policies.extraction import extract
 from policies.llm import (
@@ -101,7 +102,7 @@ def test_a_clear_reply_stands(action: str) -> None:
 def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) -> None:
     policy = LlmPolicy(untrained)
     policy.start()
-    decision = policy.decide(touch(), "Pick the strawberry gently.")
+    decision = policy.decide(Observation(cloud=touch()), "Pick the strawberry gently.")
     assert decision.action is None
     assert not decision.success
     assert decision.reason
@@ -113,7 +114,10 @@ def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) 
         "generate",
         "extract",
     }
-    assert policy.decide(touch(), "Pick the strawberry gently.").text == decision.text
+    assert (
+        policy.decide(Observation(cloud=touch()), "Pick the strawberry gently.").text
+        == decision.text
+    )
 
 
 @pytest.mark.parametrize(

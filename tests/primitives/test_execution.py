@@ -11,9 +11,10 @@ from hypothesis import strategies as st
 
 from primitives import LimitError, Primitive, RobotError
 from primitives.devices import GripperState, Pose
-from primitives.execution import Executor, PadAxes, rotate
+from primitives.execution import Executor, PadAxes, force_factor, rotate
 from primitives.limits import Limits
 from primitives.primitive import PAD_DIRECTION
+from primitives.sense import ContactSense, Interval
 
 LIMITS = Limits(
     max_step_mm=4.0,
@@ -74,8 +75,8 @@ class FakeGripper:
     def disconnect(self): ...
 
 
-def make(*, limits=LIMITS, refuse=None, **changes):
-    log: list = []
+def make(*, limits=LIMITS, refuse=None, log=None, **changes):
+    log = [] if log is None else log
     ticks = count(100)
     values = {
         "clear_mm": 5.0,
@@ -293,3 +294,84 @@ def test_a_start_outside_the_workspace_is_refused():
     far = Pose(position_m=np.array([2.0, 0, 0.2]), rotvec_rad=DOWNWARD)
     with pytest.raises(LimitError, match="workspace"):
         make(start_pose=far)
+
+
+def feeling(touched_at_n, first_force_n):
+    """An executor whose touch is felt from a commanded force on, and its log."""
+    log = []
+    sense = ContactSense(
+        take_reference=lambda: log.append(("reference",)),
+        in_contact=lambda: [e[1] for e in log if e[0] == "grip"][-1] >= touched_at_n - 1e-9,
+        felt_force=lambda: None,
+    )
+    executor, _, devices_log = make(sense=sense, first_force_n=first_force_n, log=log)
+    assert devices_log is log
+    return executor, log
+
+
+def test_an_approach_stops_at_the_first_force_that_is_felt():
+    executor, log = feeling(0.33, 0.6)
+    executed = executor.grasp()
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.2, 0.25, 0.3, 0.35])
+    assert log[0] == ("reference",)
+    assert executed.force_n == pytest.approx(0.35)
+    assert "felt" in executed.sent
+
+
+def test_an_approach_never_passes_the_first_force():
+    executor, log = feeling(99.0, 0.42)
+    executed = executor.grasp()
+    forces = [e[1] for e in log if e[0] == "grip"]
+    assert forces == pytest.approx([0.2, 0.25, 0.3, 0.35, 0.4, 0.42])
+    assert executed.force_n == pytest.approx(0.42)
+    assert "nothing was felt" in executed.sent
+
+
+def test_a_move_takes_a_new_reference_and_closes_to_the_last_force():
+    executor, log = feeling(0.3, 0.6)
+    executor.grasp()
+    del log[:]
+    executor.execute(Primitive.MOVE_UP)
+    names = [e[0] for e in log]
+    assert names.index("open_by") < names.index("move_to") < names.index("reference")
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.3])
+
+
+def test_a_replayed_force_is_commanded_as_recorded():
+    executor, log = feeling(0.3, 0.6)
+    executor.grasp(0.5)
+    executor.execute(Primitive.INCREASE_FORCE, 0.77)
+    executor.execute(Primitive.RESET, 0.31)
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.5, 0.77, 0.31])
+
+
+@given(
+    increase=st.booleans(),
+    felt_n=st.floats(0.01, 50),
+    low=st.floats(0.1, 10),
+    width=st.floats(0.05, 10),
+)
+def test_a_change_of_force_goes_towards_the_goal_and_never_leaves_it(increase, felt_n, low, width):
+    goal = (low, low + width)
+    felt = Interval(value=felt_n, low=felt_n / 2, high=felt_n * 2)
+    factor = force_factor(increase=increase, felt=felt, goal_n=goal)
+    assert 0.5 <= factor <= 2.0
+    assert factor >= 1 if increase else factor <= 1
+    if goal[0] <= felt_n <= goal[1]:
+        assert goal[0] * (1 - 1e-9) <= felt_n * factor <= goal[1] * (1 + 1e-9)
+    elif increase and felt_n < goal[0]:
+        assert felt_n * factor <= goal[1] * (1 + 1e-9)
+    elif not increase and felt_n > goal[1]:
+        assert felt_n * factor >= goal[0] * (1 - 1e-9)
+
+
+def test_without_a_felt_force_the_factors_are_the_plain_ones():
+    assert force_factor(increase=True, felt=None, goal_n=(1, 2)) == 1.5
+    assert force_factor(increase=False, felt=None, goal_n=(1, 2)) == 0.65
+
+
+@pytest.mark.parametrize("bounds", [(2, 1, 3), (1, 2, 1.5), (math.nan, 1, 2), (1, math.inf, 2)])
+def test_an_interval_in_no_order_is_refused(bounds):
+    low, value, high = bounds
+    with pytest.raises(LimitError):
+        Interval(value=value, low=low, high=high)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 from cltp import TouchError
+from cltp.tactile.measure import contact_state
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
 from tacgrasp.episodes import StepPhase, StepRecord
 from tacgrasp.runtime.outcome import EndReason
+from tacgrasp.runtime.steps import NOTHING_TOUCHES
 from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
 from tests.fakes.loop_fakes import (
     BOTH,
@@ -26,6 +29,7 @@ from tests.fakes.loop_fakes import (
     config,
     play,
     slips,
+    touch,
     with_end,
 )
 
@@ -83,17 +87,65 @@ def test_as_many_actions_as_the_task_allows_end_with_max_steps() -> None:
 
 
 def test_time_ends_with_timeout() -> None:
-    rig = FakeRig(lambda name, _: rig.clock.sleep(10) if name == "sensor.read" else None)
+    rig = FakeRig(lambda name, _: rig.clock.sleep(10) if name == "arm.move_to" else None)
     outcome, _, _ = play(Scripted(DOWN), rig=rig, settings=config(timeout_s=25))
     assert outcome.reason is EndReason.TIMEOUT
-    assert outcome.num_actions == 3  # felt at 10, 20 and 30 s
+    assert outcome.num_actions == 3  # over at 10, 20 and 30 s
 
 
-def test_the_second_reset_ends_with_contact_lost_and_is_not_carried_out() -> None:
-    outcome, _, recorder = play(Scripted(RESET, DOWN, RESET))
-    assert outcome.reason is EndReason.CONTACT_LOST
-    executed = [step.executed.primitive if step.executed else None for step in recorder.steps]
-    assert executed == [Primitive.RESET, Primitive.MOVE_DOWN, None]
+def executed_primitives(recorder: ListRecorder) -> list[Primitive | None]:
+    return [step.executed.primitive if step.executed else None for step in recorder.steps]
+
+
+def missing(*empty_closings: int) -> FakeRig:
+    """A rig whose closings with these numbers, from 0, are on nothing."""
+    rig = FakeRig()
+
+    def is_missed() -> bool:
+        return rig.calls.count("sensor.take_reference") - 1 in empty_closings
+
+    rig.sensor.is_missed = is_missed
+    return rig
+
+
+def test_a_closing_on_nothing_is_followed_by_the_runtimes_own_reset() -> None:
+    policy = Scripted(GOOD)
+    outcome, _, recorder = play(policy, rig=missing(0))
+    assert executed_primitives(recorder)[:2] == [Primitive.RESET, None]
+    assert recorder.steps[0].decision is NOTHING_TOUCHES
+    assert policy.num_asks == 1  # not about nothing
+    assert outcome.reason is EndReason.SUCCESS
+
+
+def test_without_contact_no_text_adds_force_moves_or_declares_success() -> None:
+    for text in (GOOD, DOWN, LIGHT):
+        policy = Scripted(text)
+        outcome, rig, recorder = play(policy, rig=missing(*range(9)))
+        assert outcome.reason is EndReason.CONTACT_LOST
+        assert executed_primitives(recorder) == [Primitive.RESET, None]
+        assert policy.num_asks == 0
+        assert rig.gripper.current.force_n <= rig.first_force_n
+
+
+def test_contact_in_between_lets_the_runtime_reset_again() -> None:
+    outcome, _, recorder = play(Scripted(DOWN, GOOD), rig=missing(0, 2))
+    reset, down = Primitive.RESET, Primitive.MOVE_DOWN
+    assert executed_primitives(recorder)[:4] == [reset, down, reset, None]
+    assert outcome.reason is EndReason.SUCCESS
+
+
+def test_a_policys_own_resets_do_not_count_and_are_bounded_like_all_actions() -> None:
+    outcome, _, recorder = play(Scripted(RESET), settings=config(max_steps=4))
+    assert outcome.reason is EndReason.MAX_STEPS
+    assert executed_primitives(recorder) == [*[Primitive.RESET] * 4, None]
+
+
+def test_the_first_grasp_rises_until_something_is_felt() -> None:
+    _, rig, _ = play(Scripted(GOOD))
+    assert rig.gripper.forces_n == [0.1]  # felt at the first step
+    _, rig, _ = play(Scripted(GOOD), rig=missing(*range(9)))
+    steps_n = [0.1, *np.arange(0.15, 1.0, 0.05), rig.first_force_n]
+    assert rig.gripper.forces_n == pytest.approx([*steps_n, *steps_n])  # and the runtime's reset
 
 
 def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> None:
@@ -107,11 +159,20 @@ def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> N
 def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
     settings = config(max_steps=100)
     gripper = settings.gripper.model_copy(update={"max_force_n": 2.0})
-    outcome, rig, _ = play(
-        Scripted(LIGHT), settings=settings.model_copy(update={"gripper": gripper})
-    )
+    goal = settings.goal.model_copy(update={"force_n": (50.0, 60.0)})
+    settings = settings.model_copy(update={"gripper": gripper, "goal": goal})
+    outcome, rig, _ = play(Scripted(LIGHT), settings=settings)
     assert outcome.reason is EndReason.LIMIT
-    assert rig.calls.count("gripper.grip") == 3  # 1.0, 1.5, 2.0; then nothing would be sent
+    assert rig.gripper.forces_n == pytest.approx([0.1, 0.2, 0.4, 0.8, 1.6, 2.0])
+
+
+def test_a_change_that_the_goal_leaves_no_room_for_is_no_action() -> None:
+    settings = config(max_asks=2)
+    felt_n = contact_state(touch()).force_n
+    goal = settings.goal.model_copy(update={"force_n": (felt_n / 2, felt_n * 1.0000001)})
+    outcome, rig, _ = play(Scripted(LIGHT), settings=settings.model_copy(update={"goal": goal}))
+    assert outcome.reason in (EndReason.NO_ACTION, EndReason.MAX_STEPS)
+    assert rig.gripper.forces_n[-1] == pytest.approx(rig.gripper.forces_n[0], rel=0.2)
 
 
 def failing(device_call: str, error: Exception, times: int) -> Callable[[str, int], None]:
@@ -187,7 +248,7 @@ def test_a_bug_makes_the_robot_safe_ends_the_record_and_is_raised() -> None:
     ("policy", "reason"),
     [
         (Scripted(NOTHING), EndReason.NO_ACTION),
-        (Scripted(RESET), EndReason.CONTACT_LOST),
+        (Scripted(RESET), EndReason.MAX_STEPS),
         (Scripted(PolicyError("broken")), EndReason.FAULT),
     ],
 )
@@ -269,12 +330,13 @@ def test_what_was_said_before_a_fault_is_recorded() -> None:
 
 def test_a_gripper_that_will_not_release_is_a_fault_even_after_ctrl_c() -> None:
     def before(name: str, number: int) -> None:
-        if name == "sensor.read":
+        if name == "sensor.read" and rig.gripper.current.closed:
             raise KeyboardInterrupt
         if name == "gripper.open_by":
             raise RobotError("bus dead")
 
-    outcome, _, _ = play(Scripted(DOWN), rig=FakeRig(before))
+    rig = FakeRig(before)
+    outcome, _, _ = play(Scripted(DOWN), rig=rig)
     assert outcome.reason is EndReason.FAULT
     assert "could not be opened: bus dead" in outcome.message
     assert "stopped by the operator" in outcome.message

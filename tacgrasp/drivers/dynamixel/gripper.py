@@ -51,6 +51,11 @@ class DynamixelGripper:
         return min(self._calibration.max_force_n, limit_n)
 
     @property
+    def force_step_n(self) -> float:
+        """Least change of the force [N]: that of one unit of current."""
+        return self._calibration.newtons_per_ma * self._fingers.unit_ma
+
+    @property
     def fault(self) -> str:
         return self._fingers.poller.fault
 

@@ -69,17 +69,26 @@ def average_frames(
     """
     if len(frames) < 2:
         raise TouchError(f"a background is averaged from 2 frames or more, got {len(frames)}")
-    stack = np.stack([check_frame(frame, sensor) for frame in frames]).astype(np.float32)
-    half = len(stack) // 2
-    change = pixel_change(stack[half:].mean(0), stack[:half].mean(0))
+    stack = [check_frame(frame, sensor) for frame in frames]
+    check_still(stack)
+    frame = np.rint(np.mean(stack, axis=0)).astype(np.uint8)
+    return Background(frame=frame, unit=unit, taken=taken, num_frames=len(frames))
+
+
+def check_still(frames: Sequence[Frame]) -> None:
+    """Compare the first half of two or more frames with the second.
+
+    Raises:
+        TouchError: They differ: something moves, or the light changes.
+    """
+    half = len(frames) // 2
+    change = pixel_change(np.mean(frames[half:], axis=0), np.mean(frames[:half], axis=0))
     fraction = float((change > UNTOUCHED_LEVELS / 2).mean())
     if fraction > UNTOUCHED_FRACTION:
         raise TouchError(
             f"{fraction:.0%} of the picture changed while the background was taken; expected a "
             "still one: let nothing touch the gel, and let the LEDs warm up for a minute"
         )
-    frame = np.rint(stack.mean(axis=0)).astype(np.uint8)
-    return Background(frame=frame, unit=unit, taken=taken, num_frames=len(frames))
 
 
 def pixel_change(frame: NDArray[np.number], other: NDArray[np.number]) -> NDArray[np.float32]:

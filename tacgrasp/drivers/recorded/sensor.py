@@ -77,6 +77,14 @@ class RecordedSensor:
         points = cloud.points_mm if len(cloud.points_mm) == NUM_POINTS else lattice_points(cloud)
         return TactileCloud(points_mm=points, sensor=self._spec, stamp=self._stamp())
 
+    def take_reference(self) -> None:
+        """Nothing to take: recorded clouds are played as they are.
+
+        Raises:
+            TouchError: Disconnected.
+        """
+        self.check_alive()
+
     def check_alive(self) -> None:
         if self._disconnected:
             raise TouchError(f"the recording {self._name} is disconnected; connect it again")

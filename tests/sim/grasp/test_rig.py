@@ -4,6 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter
 
 from cltp import TouchError
 from cltp.tactile.measure import contact_state
@@ -67,13 +68,39 @@ def test_a_perfect_sensor_feels_where_how_deep_and_how_firm():
     assert state.force_n == pytest.approx(1.0, rel=0.25)
 
 
-def test_frames_of_one_contact_share_their_drift_and_a_new_grip_draws_a_new_one():
-    rig = build("strawberry", 3, start_offset_mm=(0.0, 0.0))
+def broad_mm(rig):
+    """What is left of the gel after fine noise is averaged away [mm]."""
+    return gaussian_filter(rig.sensor.height_mm(), 4)
+
+
+def test_closing_on_nothing_does_not_draw_the_drift_anew():
+    rig = build("strawberry", 3, start_offset_mm=(45.0, 0.0))
+    before = broad_mm(rig)
     rig.gripper.grip(1.0)
-    first, second = (rig.sensor.read().points_mm[:, 2] for _ in range(2))
-    rig.gripper.grip(1.0)
-    other = rig.sensor.read().points_mm[:, 2]
-    assert np.std(first - second) < 0.5 * np.std(first - other)
+    after = broad_mm(rig)
+    assert before.std() > 0.02
+    assert (after - before).std() < 0.1 * before.std()
+
+
+def test_a_reference_takes_the_drift_away_until_minutes_have_passed():
+    rig = build("strawberry", 3, start_offset_mm=(45.0, 0.0))
+    drift_mm = broad_mm(rig).std()
+    rig.sensor.take_reference()
+    assert broad_mm(rig).std() < 0.1 * drift_mm
+    rig.clock.advance(600.0)
+    assert broad_mm(rig).std() > 0.3 * drift_mm
+
+
+def test_the_reconstruction_error_of_a_contact_grows_with_its_depth():
+    def error_mm(force_n):
+        rig = build("egg", 3, start_offset_mm=(0.0, 0.0), gripper_force_gain=1.0)
+        rig.sensor.take_reference()
+        rig.gripper.grip(force_n)
+        true_mm = rig.grasp.patch.height_mm
+        scaled = true_mm * rig.sensor._noise.depth_scale
+        return gaussian_filter(rig.sensor.height_mm() - (scaled - np.median(scaled)), 4).std()
+
+    assert error_mm(4.0) > 1.5 * error_mm(0.3)
 
 
 def test_a_mistyped_command_is_refused_and_nothing_moves():

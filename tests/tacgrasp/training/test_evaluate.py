@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from cltp.data.dataset import ContactDataset
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side
 from policies import Decision
@@ -218,7 +218,7 @@ def test_no_case_remembers_the_one_before() -> None:
         def start(self) -> None:
             self.asked = 0
 
-        def decide(self, cloud: TactileCloud, instruction: str) -> Decision:
+        def decide(self, observation: Observation, instruction: str) -> Decision:
             self.asked += 1
             text = f"<{Primitive.RESET}>"
             action = Primitive.RESET if self.asked == 1 else None

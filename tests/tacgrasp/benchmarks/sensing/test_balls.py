@@ -118,7 +118,9 @@ def test_a_profile_is_compared_as_it_is_and_scaled(tmp_path):
     r = np.hypot(column - 160, row - 120) * SENSOR.mm_per_px
     cap = np.maximum(np.sqrt(np.clip(9.0 - r**2, 0, None)) - 2.2, 0)
     held = [
-        bench_balls.HeldOutPress(name="a", ball=bench_balls.fit_ball(cap, SENSOR.mm_per_px), height_mm=cap)
+        bench_balls.HeldOutPress(
+            name="a", ball=bench_balls.fit_ball(cap, SENSOR.mm_per_px), height_mm=cap
+        )
     ]
     file = tmp_path / "profile.csv"
     at = np.array([0.3, 0.7, 1.1, 1.5])

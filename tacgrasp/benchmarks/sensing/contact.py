@@ -1,0 +1,215 @@
+"""``tacgrasp bench contact``: how often contact is falsely detected in air, and how light it may be.
+
+False alarms are counted by closing, two seconds in air against the gel of its open fingers, for the
+simulated sensor with its slow drift at noise levels 1, 2 and 3. Missed contacts are counted by true
+force, in one frame each, at the positions that episodes start from. Beside them stands an ideal
+detector, which knows the shape of each contact: no test of one frame can miss fewer.
+
+Not here: the test itself (``cltp.tactile.contact_test``).
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from statistics import NormalDist, median
+from typing import Any
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from cltp.tactile.cloud import cloud_from_heights
+from cltp.tactile.contact_test import NUM_FRAMES, THRESHOLD, UntouchedGel
+from cltp.tactile.measure import cell_means
+from cltp.tactile.sensor_noise import spread_of
+from sim.grasp.bodies import OBJECTS
+from sim.grasp.fingers import Patch
+from sim.grasp.rig import OFFSET_X_MM, OFFSET_Y_MM, SimRig, build
+from tacgrasp.benchmarks.loop.strawberry import wilson
+from tacgrasp.benchmarks.pool import map_seeds
+
+NOISE_LEVELS = (1.0, 2.0, 3.0)
+"""Levels of noise that closings in air take in turn; 1 is the measured sensor."""
+
+FRAMES_PER_CLOSING = 50
+"""Frames of a closing in air: two seconds at 25 Hz."""
+
+MAX_FALSE_PER_CLOSING = 0.005
+MAX_MISSED = 0.01
+"""Target rates; the least force is the lightest with at most ``MAX_MISSED`` from it on."""
+
+FORCES_N = (0.005, 0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.1, 0.15, 0.2, 0.3, 0.4, 0.6)
+"""True forces of the contacts [N]."""
+
+GRASPS_PER_BODY = 2
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GraspSample:
+    """One position of one body, pressed with each of ``FORCES_N``.
+
+    Attributes:
+        missed: By force: whether the test found no contact.
+        ideal_missed: By force: probability that an ideal detector finds none.
+    """
+
+    missed: tuple[bool, ...]
+    ideal_missed: tuple[float, ...]
+
+
+def run(closings: int, bodies: int, json_path: Path | None) -> bool:
+    """Measure, print and write the figures.
+
+    Args:
+        closings: Number of closings in air.
+        bodies: Number of bodies of each kind, ``GRASPS_PER_BODY`` positions each.
+        json_path: File to write the figures to.
+
+    Returns:
+        Whether at most ``MAX_FALSE_PER_CLOSING`` of the closings had a false alarm.
+    """
+    console = Console()
+    responses = map_seeds(console, "closings in air", largest_response, range(closings))
+    figures = false_alarms(responses)
+    figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
+    figures |= {key: {} for key in ("ideal_missed_by_force", "ideal_least_force_n")}
+    for name in OBJECTS:
+        of_bodies = map_seeds(console, name, partial(grasp_samples, name), range(bodies))
+        samples = [sample for of_body in of_bodies for sample in of_body]
+        for prefix in ("", "ideal_"):
+            missed = np.mean([getattr(s, f"{prefix}missed") for s in samples], axis=0).tolist()
+            by_force = {f"{f:g}": rate for f, rate in zip(FORCES_N, missed, strict=True)}
+            figures[f"{prefix}missed_by_force"][name] = by_force
+            figures[f"{prefix}least_force_n"][name] = least_force_n(missed)
+    _print(console, figures, bodies)
+    if json_path is not None:
+        json_path.write_text(json.dumps({"contact": figures}, indent=1), encoding="utf-8")
+    return bool(figures["false_per_closing"] <= MAX_FALSE_PER_CLOSING)
+
+
+def largest_response(seed: int) -> float:
+    """Largest response of a closing in air, over the standard deviation of the noise.
+
+    Each seed has a unit and a drift of its own; noise levels follow the seeds in turn.
+    """
+    level = NOISE_LEVELS[seed % len(NOISE_LEVELS)]
+    rig = build("strawberry", seed, noise_level=level)
+    gel = _untouched(rig)
+    frames = range(FRAMES_PER_CLOSING)
+    return THRESHOLD * max(gel.test(rig.sensor.read()).ratio for _ in frames)
+
+
+def _untouched(rig: SimRig) -> UntouchedGel:
+    rig.sensor.take_reference()
+    return UntouchedGel([rig.sensor.read() for _ in range(NUM_FRAMES)])
+
+
+def false_alarms(responses: Sequence[float]) -> dict[str, Any]:
+    """Rates of closings with a false alarm, from the largest response of each closing.
+
+    Args:
+        responses: By seed from 0 on.
+    """
+    alarms = [response >= THRESHOLD for response in responses]
+    of_level = {
+        f"{level:g}": alarms[i :: len(NOISE_LEVELS)] for i, level in enumerate(NOISE_LEVELS)
+    }
+    return {
+        "closings": len(alarms),
+        "false_per_closing": float(np.mean(alarms)),
+        "false_per_closing_interval": wilson(sum(alarms), len(alarms)),
+        "false_per_closing_by_noise_level": {
+            level: float(np.mean(values)) for level, values in of_level.items() if values
+        },
+        "median_response": median(responses),
+        "largest_response": max(responses),
+        "threshold": THRESHOLD,
+    }
+
+
+def grasp_samples(name: str, seed: int) -> list[GraspSample]:
+    """Press one body at some positions of the pad with each of ``FORCES_N``."""
+    rig = build(name, seed)
+    gel = _untouched(rig)
+    rng = np.random.default_rng([seed, 9])
+    samples = []
+    for _ in range(GRASPS_PER_BODY):
+        offset_mm = OFFSET_X_MM.quantile(rng.random()), OFFSET_Y_MM.quantile(rng.random())
+        patches = rig.grasp.fingers.press_many([offset_mm] * len(FORCES_N), list(FORCES_N))
+        samples.append(
+            GraspSample(
+                missed=tuple(not _is_felt(rig, gel, patch) for patch in patches),
+                ideal_missed=tuple(ideal_missed(rig, patch) for patch in patches),
+            )
+        )
+    return samples
+
+
+def _is_felt(rig: SimRig, gel: UntouchedGel, patch: Patch) -> bool:
+    rig.grasp.contacts += 1  # a reconstruction error of its own
+    rig.grasp.patch = patch
+    return gel.test(rig.sensor.read()).in_contact
+
+
+def ideal_missed(rig: SimRig, patch: Patch) -> float:
+    """Probability that a matched filter misses a contact in one frame.
+
+    It knows the heights of the contact and the fine noise, and meets no drift. Its response to
+    noise is normal; with the heights h of the cells the mean is z = ||h|| / sigma. ``sigma`` is the
+    noise of one point a cell less the mean of ``NUM_FRAMES`` frames. A point is interpolated
+    between four pixels, which leaves 2/3 of a pixel's standard deviation on average. The false
+    alarms of a closing are ``MAX_FALSE_PER_CLOSING``, divided among its frames (Bonferroni).
+    """
+    spec = rig.sensor.spec
+    heights = cell_means(cloud_from_heights(patch.height_mm, spec))
+    sigma_mm = 2 / 3 * spread_of(spec).fine_mm * math.sqrt(1 + 1 / NUM_FRAMES)
+    z = float(np.linalg.norm(heights)) / sigma_mm
+    limit = NormalDist().inv_cdf(1 - MAX_FALSE_PER_CLOSING / FRAMES_PER_CLOSING)
+    return NormalDist().cdf(limit - z)
+
+
+def least_force_n(missed: Sequence[float]) -> float | None:
+    """Lightest of ``FORCES_N`` from which on at most ``MAX_MISSED`` are missed [N]; None: none."""
+    least = None
+    for force_n, rate in zip(reversed(FORCES_N), reversed(missed), strict=True):
+        if rate > MAX_MISSED:
+            break
+        least = force_n
+    return least
+
+
+def _print(console: Console, figures: dict[str, Any], bodies: int) -> None:
+    low, high = figures["false_per_closing_interval"]
+    levels = ", ".join(
+        f"{100 * rate:.2f} % at level {level}"
+        for level, rate in figures["false_per_closing_by_noise_level"].items()
+    )
+    console.print(
+        f"false alarm in {100 * figures['false_per_closing']:.2f} % of {figures['closings']} "
+        f"closings of two seconds in air [{100 * low:.2f}, {100 * high:.2f}], target at most "
+        f"{100 * MAX_FALSE_PER_CLOSING:g} %: {levels}"
+    )
+    console.print(
+        f"largest response of a closing over the noise: {figures['median_response']:.1f} in the "
+        f"median, {figures['largest_response']:.1f} at most; the threshold is {THRESHOLD:g}"
+    )
+    table = Table(
+        title=f"Contacts missed in one frame, by true force; {GRASPS_PER_BODY * bodies} positions"
+    )
+    table.add_column("object")
+    for force_n in FORCES_N:
+        table.add_column(f"{force_n:g} N", justify="right")
+    table.add_column("least force", justify="right")
+    for name in figures["least_force_n"]:
+        for prefix, words in (("", name), ("ideal_", "  ideal detector")):
+            rates = figures[f"{prefix}missed_by_force"][name].values()
+            least = figures[f"{prefix}least_force_n"][name]
+            cells = [f"{100 * rate:.0f} %" for rate in rates]
+            table.add_row(words, *cells, "none" if least is None else f"{least:g} N")
+    console.print(table)
+    console.print(f"least force: at most {100 * MAX_MISSED:g} % are missed at it and above")
