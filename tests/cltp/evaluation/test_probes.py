@@ -11,7 +11,6 @@ import torch
 from cltp.checkpoints.frozen import frozen
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
@@ -36,7 +35,7 @@ from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
 from cltp.train.recipes import Schedule
 from cltp.train.text_targets import class_numbers
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 QUICK = Schedule(steps=150, batch_size=64, learning_rate=3e-3)
 SMALL = EncoderConfig(dim=24, depth=1, heads=2, stem_dim=8, feature_dim=32)
@@ -47,13 +46,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(10):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 107):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(10), Split.TEST: range(100, 107)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 def synthetic(size: int, seed: int, *, numbers_alone: bool = False) -> EncodedContacts:

@@ -11,7 +11,6 @@ from cltp.checkpoints.tac3d_llm import save_clip, save_encoder
 from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
@@ -31,7 +30,7 @@ from cltp.train.baselines import BASELINES, surface_texts, train_baseline
 from cltp.train.curves import read_curves
 from cltp.train.recipes import Schedule
 from cltp.train.stage import TrainingRun
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 MINI = SENSORS["gelsight_mini"]
 SIZES = {
@@ -56,11 +55,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-    return folder
+    seeds = {Split.TRAIN: range(12)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")

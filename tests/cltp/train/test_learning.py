@@ -18,7 +18,6 @@ from cltp.checkpoints.tac3d_llm import (
 from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.encoder.class_token import (
     HeightQuantiles,
@@ -51,7 +50,7 @@ from cltp.train.llm import train_llm, train_words
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 MINI = SENSORS["gelsight_mini"]
 TINY = PRESETS["tiny"]
@@ -88,13 +87,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 106):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(12), Split.TEST: range(100, 106)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")

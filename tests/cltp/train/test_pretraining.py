@@ -15,7 +15,6 @@ import torch
 from cltp.checkpoints.tac3d_llm import save_clip
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import PRESETS
@@ -30,7 +29,7 @@ from cltp.train.finite_check import check_batch
 from cltp.train.recipes import CltpRecipe, Schedule
 from cltp.train.stage import TrainingRun
 from tests.cltp.train.killed_training import train_a_little
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import write_contacts
 from tests.paths import ROOT
 
 HERE = Path(__file__).resolve().parent
@@ -42,13 +41,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 103):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(12), Split.TEST: range(100, 103)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")
