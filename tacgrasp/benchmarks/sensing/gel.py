@@ -6,14 +6,10 @@ Each error is measured when the benchmark runs. The tests hold the same figures 
 
 from __future__ import annotations
 
-import json
 import math
-import time
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import numpy as np
 import torch
 from rich.console import Console
 from rich.table import Table
@@ -21,6 +17,7 @@ from torch import Tensor
 
 from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
+from tacgrasp.benchmarks.figures import median_ms, write_figures
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     FIT_DIAMETER_MM,
     Profile,
@@ -32,6 +29,7 @@ from tacgrasp.benchmarks.sensing.radial_profiles import (
     tacto,
     taxim,
 )
+from tacgrasp.benchmarks.settings import GelSettings
 
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
 
@@ -245,16 +243,6 @@ def _mini(dtype: torch.dtype) -> ElasticLayer:
     )
 
 
-def _median_ms(call: Callable[[], object], repeats: int) -> float:
-    call()
-    times = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        call()
-        times.append(1e3 * (time.perf_counter() - begin))
-    return float(np.median(times))
-
-
 @torch_threads()
 def cost() -> list[Figure]:
     """Time per solve on one thread, alone and batched, and the time of its FFTs alone."""
@@ -262,16 +250,16 @@ def cost() -> list[Figure]:
     setting = f"{ROWS}×{COLUMNS} at {PITCH_MM} mm, soft ball R 15 mm, 1 N, one thread"
     force = torch.tensor(1.0)
     press = gel.press_to_force(gap, force)
-    single = _median_ms(lambda: gel.press_to_force(gap, force), 20)
-    loose = _median_ms(lambda: gel.press_to_force(gap, force, tol=1e-3), 20)
-    warm = _median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
+    single = median_ms(lambda: gel.press_to_force(gap, force), 20)
+    loose = median_ms(lambda: gel.press_to_force(gap, force, tol=1e-3), 20)
+    warm = median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
     many = gap.expand(32, -1, -1)
-    batched = _median_ms(lambda: gel.press_to_force(many, force), 5) / 32
+    batched = median_ms(lambda: gel.press_to_force(many, force), 5) / 32
     # Two convolutions an iteration, one for the last residual, one for the surface.
     convolutions = 2 * int(press.iterations.item()) + 2
     padded = (2 * ROWS, 2 * COLUMNS)
     waves = torch.fft.rfft2(gap.clamp(max=1.0), s=padded)
-    bare = _median_ms(
+    bare = median_ms(
         lambda: (torch.fft.rfft2(gap, s=padded), torch.fft.irfft2(waves, s=padded)), 20
     )
     floor = f"{convolutions} plain convolutions, padded to double; above 1: ours are faster"
@@ -298,24 +286,17 @@ def measure(data: Path | None) -> list[Figure]:
     return before + profiles(data) + discretisation() + cost()
 
 
-def run(data: Path | None, json_path: Path | None) -> None:
-    """Measure, print a table, and write the figures to ``json_path`` if given.
-
-    Args:
-        data: Folder with profiles of real presses; without it they are not compared.
-        json_path: File for the figures.
+def run(settings: GelSettings) -> None:
+    """Measure, print a table, and write the figures.
 
     Raises:
         OSError: The file cannot be written.
     """
-    figures = measure(data)
+    figures = measure(settings.data)
     table = Table("figure", "value", "unit", "note", title="Elastic-layer gel")
     for figure in figures:
         value = "not measured" if figure.value is None else f"{figure.value:.4g}"
         table.add_row(figure.what, value, figure.unit, figure.note)
     Console().print(table)
-    if json_path is not None:
-        report = {"figures": [asdict(figure) for figure in figures]} | {
-            figure.key: figure.value for figure in figures
-        }
-        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    report = {"figures": [asdict(figure) for figure in figures]}
+    write_figures(settings.json, report | {figure.key: figure.value for figure in figures})
