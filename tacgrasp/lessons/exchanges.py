@@ -79,7 +79,7 @@ def advice_reply(state: ContactState, goal: Goal, felt: ContactState | None = No
 def _why(advice: Advice) -> str:
     if advice.success:
         return SUCCESS_WORDINGS[0]
-    return REASON_WORDINGS[advice.why][0]
+    return REASON_WORDINGS[advice.reason][0]
 
 
 def advice_exchange(

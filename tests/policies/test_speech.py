@@ -15,15 +15,15 @@ from policies.speech import (
     describe,
     speak,
 )
-from policies.teacher import Advice, Why
+from policies.teacher import Advice, Reason
 from primitives import Primitive
 from tests.policies.test_teacher import GOAL, NOTHING, TOUCHES, advise, touch
 
 ADVICE = [
-    *((Advice(action=p, success=False, why=Why.TOO_FIRM), w) for p in Primitive
+    *((Advice(action=p, success=False, reason=Reason.TOO_FIRM), w) for p in Primitive
       for w in ACTION_WORDINGS[p]),
-    *((Advice(action=None, success=True, why=Why.GOOD), w) for w in SUCCESS_WORDINGS),
-    (Advice(action=None, success=False, why=Why.BAND_TOO_NARROW), ""),
+    *((Advice(action=None, success=True, reason=Reason.GOOD), w) for w in SUCCESS_WORDINGS),
+    (Advice(action=None, success=False, reason=Reason.BAND_TOO_NARROW), ""),
 ]  # fmt: skip
 
 
