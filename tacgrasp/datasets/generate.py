@@ -28,53 +28,27 @@ from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.card import write_card
 from tacgrasp.datasets.recipes import DatasetRecipe, recipe
+from tacgrasp.datasets.requests import GenerateRequest
 
 
-def generate(
-    out: Path,
-    *,
-    contacts: int | None = None,
-    seed: int = 0,
-    workers: int | None = None,
-    sensor_name: str = "gelsight_mini",
-    set_name: str = "starter",
-    meshes: Path | None = None,
-    shard: str | None = None,
-    device: str = "cpu",
-    console: Console | None = None,
-) -> None:
+def generate(request: GenerateRequest, console: Console | None = None) -> None:
     """Make a data set, or the missing shards of one; a complete one is left as it is.
 
     Args:
-        out: Folder; created when missing.
-        contacts: Number of contacts; by default as many as the set has.
-        seed: Random seed of the whole set, below ``sim.grasp.rig.BENCHMARK_SEED``.
-        workers: Number of processes; by default one for each core. Does not change the result.
-        sensor_name: Sensor whose gel is pressed; only for the set ``starter``.
-        set_name: One of ``tacgrasp.datasets.recipes.SETS``.
-        meshes: Folder of meshes whose contacts are added; only for the set ``tcl3d``.
-        shard: "i/n": only the i-th of n parts, 1 to n, for several machines.
-        device: Device for the computation; 'cuda' gives heights within 2 µm of 'cpu'.
+        request: The set; another number of workers does not change the result, and the device
+            'cuda' gives heights within 2 µm of 'cpu'.
         console: Console for the progress bar; by default standard error.
 
     Raises:
         UsageError: A value out of range, or a folder that holds the data of another command.
         TouchError: The folder is not a data set of this version, or can't be written.
     """
-    if workers is None:
-        workers = len(os.sched_getaffinity(0))
+    workers = len(os.sched_getaffinity(0)) if request.workers is None else request.workers
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
-    plan = recipe(
-        set_name,
-        contacts=contacts,
-        seed=seed,
-        sensor_name=sensor_name,
-        meshes=meshes,
-        device=device,
-    )
+    plan, out = recipe(request), request.out
     sizes = plan.shard_sizes()
-    numbers = _part_of(len(sizes), shard)
+    numbers = _part_of(len(sizes), request.shard)
     _open(out, plan.about())
     _clear(out, numbers)
     jobs = [

@@ -33,7 +33,7 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensing.touch_files import read_heights
 from cltp.tactile.measure import NO_CONTACT_MM, contact_state
-from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import (
     DIMENSIONS,
     MEASURABLE,
@@ -46,6 +46,7 @@ from cltp.tactile.states import (
     depth_word,
 )
 from tacgrasp.base.errors import UsageError
+from tacgrasp.datasets.requests import ImportRequest
 
 COLUMNS = ("file", *DIMENSIONS, "force_n", "object", "split", "series")
 MEASURED = frozenset({*MEASURABLE, "cut", *NUMBER_COLUMNS.values()})
@@ -81,38 +82,20 @@ class ImportCounts:
     unknown: Mapping[str, int]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
-    """Files of measured contacts and their table.
-
-    Attributes:
-        folder: Folder of the files.
-        labels: The table.
-        sensor: Sensor that measured them.
-        background: Frame with nothing touching (frames only).
-        calibration: Calibration of the unit (frames only); None for the shipped one.
-    """
-
-    folder: Path
-    labels: Path
-    sensor: SensorSpec
-    background: Path | None = None
-    calibration: Path | None = None
-
-
-def import_touches(source: Source, out: Path) -> ImportCounts:
+def import_touches(source: ImportRequest) -> ImportCounts:
     """Write a new data set of measured contacts.
 
     Raises:
         UsageError: The output exists or can't be written, the table does not have these columns, or
             rows are bad; each is named by the table's line and its file.
     """
+    sensor, out = sensor_named(source.sensor), source.out
     if out.exists():
         raise UsageError(f"--out {out} exists already; name a new folder, nothing is added to it")
     rows = _rows(source.labels)
     part = out.with_name(f".{out.name}.{os.getpid()}.part")
     try:
-        counts, bad = _write(source, rows, part)
+        counts, bad = _write(source, sensor, rows, part)
         if bad:
             more = f"; and {len(bad) - SHOWN_ROWS} more" if len(bad) > SHOWN_ROWS else ""
             raise UsageError(
@@ -168,7 +151,9 @@ def _check_header(labels: Path, header: list[str]) -> None:
         )
 
 
-def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts, list[str]]:
+def _write(
+    source: ImportRequest, sensor: SensorSpec, rows: list[_Row], folder: Path
+) -> tuple[ImportCounts, list[str]]:
     bad: list[str] = []
     counts = {
         kind: dict.fromkeys((*DIMENSIONS, "force_n"), 0) for kind in ("given", "measured", "no")
@@ -177,7 +162,7 @@ def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts
     about = {
         "made_by": "tacgrasp data import",
         "contacts": str(len(rows)),
-        "sensor": source.sensor.name,
+        "sensor": sensor.name,
         "labels": source.labels.name,
     }
     with DatasetWriter(folder, shard_size=SHARD_CONTACTS, about=about) as writer:
@@ -187,7 +172,7 @@ def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts
                 path = os.path.normpath(name)
                 if path in lines:
                     raise RowError(f"the same file as line {lines[path]}")
-                contact = _contact(source, row, number)
+                contact = _contact(source, sensor, row, number)
             except (RowError, TouchError) as error:
                 text = str(error).removeprefix(f"{source.folder / name}: ")
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
@@ -212,7 +197,7 @@ def _origin(contact: Contact, slot: str) -> str:
     return "no" if getattr(contact.state, slot) is None else "given"
 
 
-def _contact(source: Source, row: _Row, number: int) -> Contact:
+def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) -> Contact:
     cells = row.cells
     if row.has_extra_cells:
         raise RowError("more cells than the header has")
@@ -220,7 +205,7 @@ def _contact(source: Source, row: _Row, number: int) -> Contact:
         raise RowError("names no file")
     heights = read_heights(
         source.folder / cells["file"],
-        source.sensor,
+        sensor,
         background=source.background,
         calibration=source.calibration,
     )
@@ -233,10 +218,10 @@ def _contact(source: Source, row: _Row, number: int) -> Contact:
     series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
-    state, measured = _with_labels(_measured(heights, source.sensor), cells)
+    state, measured = _with_labels(_measured(heights, sensor), cells)
     return Contact(
         height_mm=heights,
-        sensor=source.sensor,
+        sensor=sensor,
         state=state,
         object=cells.get("object", "unknown"),
         series=int(series),

@@ -27,6 +27,7 @@ from sim.starter.contacts import GROUP_CONTACTS, make_group
 from sim.tcl3d.series import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
+from tacgrasp.datasets.requests import GenerateRequest
 
 SETS = ("tcl3d", "starter")
 STARTER_CONTACTS = 24_000
@@ -155,41 +156,34 @@ class Tcl3dRecipe:
         return _parts(series_numbers(self.contacts))
 
 
-def recipe(
-    set_name: str,
-    *,
-    contacts: int | None,
-    seed: int,
-    sensor_name: str,
-    meshes: Path | None,
-    device: str,
-) -> DatasetRecipe:
-    """Make the recipe that the flags of ``tacgrasp data generate`` name.
+def recipe(request: GenerateRequest) -> DatasetRecipe:
+    """Make the recipe that a request names.
 
     Raises:
         UsageError: An unknown set, a value that does not fit the set, or a device that
             can't be used here.
         TouchError: An unknown sensor, or a mesh that can't be used.
     """
-    if set_name not in SETS:
-        raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
+    contacts, seed, meshes = request.contacts, request.seed, request.meshes
+    if request.set not in SETS:
+        raise UsageError(f"unknown set {request.set!r}; known: {', '.join(SETS)}")
     if (contacts is not None and contacts < 1) or not 0 <= seed < BENCHMARK_SEED:
         raise UsageError(
             f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
             f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
         )
-    sensor_named(sensor_name)
-    if set_name == "starter":
-        if meshes is not None or device != "cpu":
+    sensor_named(request.sensor)
+    if request.set == "starter":
+        if meshes is not None or request.device != "cpu":
             raise UsageError("--meshes and --device belong to --set tcl3d")
         return StarterRecipe(
-            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name
+            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=request.sensor
         )
-    if sensor_name != "gelsight_mini":
+    if request.sensor != "gelsight_mini":
         raise UsageError(
-            f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
+            f"--sensor {request.sensor} belongs to --set starter: tcl3d has its own sensors"
         )
-    usable_device(device)
+    usable_device(request.device)
     paths = () if meshes is None else tuple(meshes_in(meshes))
     for path in paths:  # every fault shows before the first contact is made
         object_from_mesh(path)
@@ -198,7 +192,8 @@ def recipe(
         raise UsageError(
             f"{meshes} has two meshes of one name, or one named like an object of tcl3d; rename it"
         )
-    return Tcl3dRecipe(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=paths, device=device)
+    contacts = contacts or ALL_CONTACTS
+    return Tcl3dRecipe(contacts=contacts, seed=seed, meshes=paths, device=request.device)
 
 
 def _cut(contacts: int, size: int) -> list[int]:
