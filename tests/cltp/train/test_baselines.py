@@ -90,28 +90,28 @@ def test_as_many_patches_are_hidden_in_every_row() -> None:
 def test_hidden_patches_do_not_reach_the_encoder(tokenizer: str, points: torch.Tensor) -> None:
     torch.manual_seed(0)
     encoder = TactileEncoder(SIZES[tokenizer]).eval()
-    seen = patches(encoder, points)
+    cloud = patches(encoder, points)
     hidden = hide(38, 64, len(points), torch.Generator().manual_seed(2))
-    tokens, cls = visible_tokens(encoder, points, seen, hidden)
+    tokens, cls = visible_tokens(encoder, points, cloud, hidden)
     if tokenizer == "lattice":  # the hidden heights are all that changes
         cells = hidden.view(-1, 8, 1, 8, 1).expand(-1, 8, 4, 8, 4).reshape(len(points), -1)
         other = points.clone()
         other[..., 2] += cells * 0.3
         changed = patches(encoder, other)
     else:
-        other, changed = points, seen._replace(groups=seen.groups + hidden[..., None, None] * 0.3)
+        other, changed = points, cloud._replace(groups=cloud.groups + hidden[..., None, None] * 0.3)
     again, cls_again = visible_tokens(encoder, other, changed, hidden)
     torch.testing.assert_close(again, tokens, rtol=0, atol=0)
     torch.testing.assert_close(cls_again, cls, rtol=0, atol=0)
     assert tokens[hidden].abs().max() == 0
     shown, _ = visible_tokens(encoder, other, changed, ~hidden)
-    before, _ = visible_tokens(encoder, points, seen, ~hidden)
+    before, _ = visible_tokens(encoder, points, cloud, ~hidden)
     assert not torch.equal(shown, before)
 
 
 def test_patches_of_the_lattice_hold_every_point_once(points: torch.Tensor) -> None:
-    seen = patches(TactileEncoder(SIZES["lattice"]), points)
-    whole = (seen.groups / 8.0 + seen.centres[:, :, None]).flatten(1, 2)
+    cloud = patches(TactileEncoder(SIZES["lattice"]), points)
+    whole = (cloud.groups / 8.0 + cloud.centres[:, :, None]).flatten(1, 2)
     order = lambda p: p[0][p[0][:, :2].mul(torch.tensor([1e3, 1.0])).sum(1).argsort()]  # noqa: E731
     torch.testing.assert_close(order(whole), order(points), atol=1e-5, rtol=0)
     with pytest.raises(TouchError, match="not for 64 groups of image"):
@@ -123,23 +123,23 @@ def test_a_cloud_is_drawn_again_better_and_better(tokenizer: str, points: torch.
     torch.manual_seed(0)
     model = PointMae(TactileEncoder(SIZES[tokenizer]), 16)
     optimiser = torch.optim.AdamW(model.parameters(), lr=3e-3)
-    found = []
+    errors = []
     for step in range(25):
         loss = model.losses(points, torch.Generator().manual_seed(step))["chamfer"]
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
-        found.append(loss.item())
-    assert np.mean(found[-5:]) < 0.5 * found[0]
+        errors.append(loss.item())
+    assert np.mean(errors[-5:]) < 0.5 * errors[0]
 
 
 def test_patches_that_differ_get_words_that_differ(points: torch.Tensor) -> None:
     torch.manual_seed(0)
     words = ShapeWords(24, 16, vocabulary=8)
-    seen = patches(TactileEncoder(SIZES["fps"]), points)
-    terms = words.losses(seen, 1.0, torch.Generator().manual_seed(0))
+    cloud = patches(TactileEncoder(SIZES["fps"]), points)
+    terms = words.losses(cloud, 1.0, torch.Generator().manual_seed(0))
     assert terms["spread"].item() >= -1e-6  # a divergence
-    assert words.logits(seen).shape == (4, 64, 8)
+    assert words.logits(cloud).shape == (4, 64, 8)
 
 
 @pytest.mark.parametrize("method", BASELINES)

@@ -64,19 +64,19 @@ def run_in(folder: Path, seed: int = 0) -> TrainingRun:
     return TrainingRun(data=folder, out=folder, seed=seed)
 
 
-class Sayings:
+class FakeLessons:
     """Lessons for tests: the caption, and an action that the prompt and the depth decide."""
 
-    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        return [Exchange(prompt="Describe the contact.", reply=caption(felt))]
+    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="Describe the contact.", reply=caption(reading))]
 
     def mixed(
-        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+        self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
         hard = "<decrease_force>" if state.depth_mm > 0.3 else "<none>"
         soft = "<none>" if state.depth_mm > 0.3 else "<increase_force>"
         return [
-            *self.captions(felt, rng),
+            *self.captions(reading, rng),
             Exchange(prompt="Hold it gently.", reply=f"Action: {hard}."),
             Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
         ]
@@ -95,14 +95,14 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Tiny weights that have learned twelve clean contacts by heart."""
     folder = tmp_path_factory.mktemp("weights")
-    words = train_words(data_dir, Sayings(), num_contacts=60, size=400)
+    words = train_words(data_dir, FakeLessons(), num_contacts=60, size=400)
     run = TrainingRun(data=data_dir, out=folder)
     train_clip(run, words, schedule(6, 12), dim=32)
     train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
     train_llm(
         run,
         words,
-        Sayings(),
+        FakeLessons(),
         {
             "text": schedule(40, 12, 5e-3),
             "projector": schedule(30, 12, 5e-3),
@@ -226,9 +226,9 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
 
 
 def test_graded_heights_fill_steps_one_after_the_other() -> None:
-    found = piecewise_linear(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
+    encoded = piecewise_linear(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
     expected = [[1, 1, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0, 1, 1, 1, 0.5]]
-    torch.testing.assert_close(found, torch.tensor(expected, dtype=torch.float32))
+    torch.testing.assert_close(encoded, torch.tensor(expected, dtype=torch.float32))
     ranks = encoded_ranks(64)
     assert ranks == sorted(set(ranks))
     assert (ranks[0], ranks[-1]) == (0, 63)
@@ -238,9 +238,9 @@ def test_graded_heights_fill_steps_one_after_the_other() -> None:
 def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
     with pytest.raises(TouchError, match="60 grades need height quantiles"):
         EncoderConfig(grades=60)
-    plain, told = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
-    assert plain != told
-    assert plain.identity == str(plain) != told.identity
+    plain, graded = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
+    assert plain != graded
+    assert plain.identity == str(plain) != graded.identity
 
 
 def test_numbers_survive_their_transformation() -> None:
@@ -271,11 +271,11 @@ def test_mirroring_turns_positions_and_cut_sides() -> None:
             "cut": frozenset({Side.RIGHT}),
         }
     )
-    seen = mirrored(state, MINI, along_x=True, along_y=False)
-    assert (seen.x_mm, seen.y_mm) == (-8.0, 6.0)
-    assert seen.position is Position.TOP_LEFT
-    assert seen.cut == {Side.LEFT}
-    again = mirrored(seen, MINI, along_x=True, along_y=False)
+    image = mirrored(state, MINI, along_x=True, along_y=False)
+    assert (image.x_mm, image.y_mm) == (-8.0, 6.0)
+    assert image.position is Position.TOP_LEFT
+    assert image.cut == {Side.LEFT}
+    again = mirrored(image, MINI, along_x=True, along_y=False)
     assert again == state
 
 
@@ -332,8 +332,10 @@ def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path
     talker = Talker(load_tac3d_llm(trained))
     states = [s for batch in samples for s in batch.states]
     points = np.concatenate([batch.points for batch in samples])
-    said = [talker.reply(p, "Describe the contact.") for p in points]
-    assert np.mean([s.text == caption(state) for s, state in zip(said, states, strict=True)]) > 0.7
+    replies = [talker.reply(p, "Describe the contact.") for p in points]
+    assert (
+        np.mean([s.text == caption(state) for s, state in zip(replies, states, strict=True)]) > 0.7
+    )
     firm = [talker.reply(p, "Hold it firmly.").action for p in points]
     gentle = [talker.reply(p, "Hold it gently.").action for p in points]
     deep = [state.depth_mm > 0.3 for state in states]
