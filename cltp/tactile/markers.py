@@ -96,10 +96,7 @@ def marker_cloud(
 
 
 def densified(
-    cloud: TactileCloud,
-    *,
-    rng: np.random.Generator | None = None,
-    num_points: int = NUM_POINTS,
+    cloud: TactileCloud, *, rng: np.random.Generator | None = None, num_points: int = NUM_POINTS
 ) -> TactileCloud:
     """Points on the smooth surface through a sparse cloud, one in each cell of a lattice.
 

@@ -30,21 +30,9 @@ from cltp.tactile.states import (
 from cltp.texts.captions import Slots, alternatives
 
 PROMPTS: Mapping[str, tuple[str, ...]] = {
-    "shape": (
-        "This is {a}.",
-        "It is shaped like {a}.",
-        "The object that touches is {a}.",
-    ),
-    "texture": (
-        "The texture is {word}.",
-        "Its surface feels {word}.",
-        "The object is {word}.",
-    ),
-    "depth": (
-        "Contact is {word}.",
-        "The object is pressed {word}.",
-        "The indentation is {word}.",
-    ),
+    "shape": ("This is {a}.", "It is shaped like {a}.", "The object that touches is {a}."),
+    "texture": ("The texture is {word}.", "Its surface feels {word}.", "The object is {word}."),
+    "depth": ("Contact is {word}.", "The object is pressed {word}.", "The indentation is {word}."),
     "position": (
         "Contact at {word}.",
         "The object touches in {word}.",
