@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
@@ -34,9 +32,8 @@ class CalibrateBackgroundFlags:
     crop_share: float = 1 / 7
 
 
-def main(argv: Sequence[str]) -> None:
+def run(flags: CalibrateBackgroundFlags) -> None:
     """Take the picture of a GelSight Mini with nothing touching it."""
-    flags = parse(CalibrateBackgroundFlags, argv, prog="tacgrasp calibrate background")
     if not 2 <= flags.frames <= 1000:
         raise UsageError(f"--frames must be 2 to 1000, got {flags.frames}")
     if flags.out.suffix.lower() != ".png" or not flags.out.parent.is_dir():

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import datetime
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -46,9 +44,8 @@ class CalibrateGripperFlags:
     out: Path | None = None
 
 
-def main(argv: Sequence[str]) -> None:
+def run(flags: CalibrateGripperFlags) -> None:
     """Measure force over current of a gripper, with a scale or from a file of readings."""
-    flags = parse(CalibrateGripperFlags, argv, prog="tacgrasp calibrate gripper")
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
     from tacgrasp.drivers.dynamixel.calibration import save_calibration

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from primitives import execution
@@ -42,9 +40,8 @@ class CalibratePadAxesFlags:
     palm: str = ""
 
 
-def main(argv: Sequence[str]) -> None:
+def run(flags: CalibratePadAxesFlags) -> None:
     """Find the axes of the pad, from small moves with a contact or from your own look."""
-    flags = parse(CalibratePadAxesFlags, argv, prog="tacgrasp calibrate pad-axes")
     if flags.rig is not None and (flags.right or flags.palm):
         raise UsageError("give --rig to measure, or --right and --palm, not both")
     from tacgrasp.bringup.pad_axes import as_yaml

@@ -19,13 +19,13 @@ from pathlib import Path
 
 import torch
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
+from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
 from tacgrasp.datasets.recipes import DatasetRecipe, recipe
 from tacgrasp.datasets.requests import GenerateRequest
@@ -54,7 +54,7 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     jobs = [
         (out, number, sizes[number]) for number in numbers if not _index_of(out, number).exists()
     ]
-    with _progress(console) as progress:
+    with count_progress(console) as progress:
         bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
         progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
         for number in _make_shards(jobs, plan, min(workers, len(jobs))):
@@ -192,13 +192,3 @@ def _part(shard: int) -> str:
 
 def _index_of(out: Path, shard: int) -> Path:
     return out / f"shard-{_part(shard)}-00000.parquet"
-
-
-def _progress(console: Console | None) -> Progress:
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        console=console or Console(stderr=True),
-    )

@@ -34,7 +34,7 @@ from tacgrasp.benchmarks.settings import GelSettings
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Figure:
     """One line of the table.
 
@@ -76,23 +76,12 @@ def hertz() -> list[Figure]:
     gap = (_radius_mm(61, 61, 0.05) ** 2 / 20.0)[None]
     press = _square(material, 61, 0.05).press_to_depth(gap, torch.tensor(0.1))
     force = 4 / 3 * material.plane_strain_mpa * math.sqrt(10) * 0.1**1.5
+    force_error = 100 * (press.force_n.item() / force - 1)
     radius = math.sqrt((press.pressure_kpa > 0).sum().item() * 0.05**2 / math.pi)
     note = "Love half-space, 20 elements to the radius; limit 2 %"
     return [
-        Figure(
-            key="hertz_force_error_percent",
-            what="Force against Hertz",
-            value=100 * (press.force_n.item() / force - 1),
-            unit="%",
-            note=note,
-        ),
-        Figure(
-            key="hertz_radius_error_percent",
-            what="Radius against Hertz",
-            value=100 * (radius - 1),
-            unit="%",
-            note=note,
-        ),
+        Figure("hertz_force_error_percent", "Force against Hertz", force_error, "%", note),
+        Figure("hertz_radius_error_percent", "Radius against Hertz", 100 * (radius - 1), "%", note),
     ]
 
 
@@ -109,11 +98,11 @@ def dimitriadis() -> list[Figure]:
         series = 1 + 1.133 * chi + 1.283 * chi**2 + 0.769 * chi**3 + 0.0975 * chi**4
         figures.append(
             Figure(
-                key=f"dimitriadis_chi_{chi:.1f}_error_percent",
-                what=f"Force against Dimitriadis, chi {chi:.1f}",
-                value=100 * (press.force_n.item() / (force * series) - 1),
-                unit="%",
-                note="bonded, nu 0.4999; limit 3 %",
+                f"dimitriadis_chi_{chi:.1f}_error_percent",
+                f"Force against Dimitriadis, chi {chi:.1f}",
+                100 * (press.force_n.item() / (force * series) - 1),
+                "%",
+                "bonded, nu 0.4999; limit 3 %",
             )
         )
     return figures
@@ -123,16 +112,9 @@ def volume() -> list[Figure]:
     """Percentage of the sunk volume that does not rise again, nu = 0.4999."""
     material = GelMaterial(thickness_mm=2.0, young_mpa=0.145, poisson=0.4999)
     press = _square(material, 241, 0.4).press_to_force(_ball(4.0, 241, 241, 0.4), torch.tensor(1.0))
-    sunk = press.height_mm.clamp(min=0).sum().item()
-    return [
-        Figure(
-            key="volume_lost_percent",
-            what="Volume lost",
-            value=100 * press.height_mm.sum().item() / sunk,
-            unit="%",
-            note="nu 0.4999, sensing area 48 thicknesses wide",
-        )
-    ]
+    lost = 100 * press.height_mm.sum().item() / press.height_mm.clamp(min=0).sum().item()
+    note = "nu 0.4999, sensing area 48 thicknesses wide"
+    return [Figure("volume_lost_percent", "Volume lost", lost, "%", note)]
 
 
 def profiles(folder: Path | None) -> list[Figure]:
@@ -143,11 +125,7 @@ def profiles(folder: Path | None) -> list[Figure]:
     measured = [] if folder is None else read_profiles(folder)
     if not measured:
         note = "give --data DIR" if folder is None else f"no profile_*mm.csv in {folder}"
-        return [
-            Figure(
-                key="profile_rmse_mm", what="Real ball's profile", value=None, unit="mm", note=note
-            )
-        ]
+        return [Figure("profile_rmse_mm", "Real ball's profile", None, "mm", note)]
     preset = gel_of("gelsight_mini")
     figures = []
     for profile in measured:
@@ -164,11 +142,11 @@ def profiles(folder: Path | None) -> list[Figure]:
             best = match(simulator, profile, pitch)
             figures.append(
                 Figure(
-                    key=f"{name.split()[0].lower()}_rmse_mm_{profile.diameter_mm:g}mm_at_{pitch}",
-                    what=f"RMSE of {name}, ball {profile.diameter_mm:g} mm, {pitch} mm grid",
-                    value=best.rmse_mm,
-                    unit="mm",
-                    note=f"at {best.depth_mm:.2f} mm depth"
+                    f"{name.split()[0].lower()}_rmse_mm_{profile.diameter_mm:g}mm_at_{pitch}",
+                    f"RMSE of {name}, ball {profile.diameter_mm:g} mm, {pitch} mm grid",
+                    best.rmse_mm,
+                    "mm",
+                    f"at {best.depth_mm:.2f} mm depth"
                     + ("; limit 0.007" if name == "gel preset" and pitch < 0.2 else ""),
                 )
             )
@@ -179,21 +157,10 @@ def _fit(profile: Profile, preset: GelMaterial) -> list[Figure]:
     best, error = fit(profile)
     note = f"RMSE {error.rmse_mm:.5f} mm; the preset is "
     note += "the fit" if best == preset else "NOT the fit"
+    origin = f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid"
     return [
-        Figure(
-            key="fit_thickness_mm",
-            what="Fitted thickness",
-            value=best.thickness_mm,
-            unit="mm",
-            note=note,
-        ),
-        Figure(
-            key="fit_poisson",
-            what="Fitted Poisson's ratio",
-            value=best.poisson,
-            unit="",
-            note=f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid",
-        ),
+        Figure("fit_thickness_mm", "Fitted thickness", best.thickness_mm, "mm", note),
+        Figure("fit_poisson", "Fitted Poisson's ratio", best.poisson, "", origin),
     ]
 
 
@@ -206,11 +173,11 @@ def discretisation() -> list[Figure]:
         forces[pitch] = press.force_n.item()
     figures = [
         Figure(
-            key=f"grid_{pitch}_mm_force_error_percent",
-            what=f"Force at {pitch} mm grid",
-            value=100 * (forces[pitch] / forces[0.1] - 1),
-            unit="%",
-            note="ball R 5 mm at 0.6 mm, against 0.1 mm grid",
+            f"grid_{pitch}_mm_force_error_percent",
+            f"Force at {pitch} mm grid",
+            100 * (forces[pitch] / forces[0.1] - 1),
+            "%",
+            "ball R 5 mm at 0.6 mm, against 0.1 mm grid",
         )
         for pitch in (0.4, 0.2)
     ]
@@ -221,11 +188,11 @@ def discretisation() -> list[Figure]:
         error = (press.height_mm.double() - exact.height_mm).abs().max().item()
         figures.append(
             Figure(
-                key=f"tol_{tol:g}_height_error_um",
-                what=f"Worst height, float32 at tol {tol:g}",
-                value=1e3 * error,
-                unit="µm",
-                note=f"soft ball R 15 mm, 1 N; {press.iterations.item()} iterations; "
+                f"tol_{tol:g}_height_error_um",
+                f"Worst height, float32 at tol {tol:g}",
+                1e3 * error,
+                "µm",
+                f"soft ball R 15 mm, 1 N; {press.iterations.item()} iterations; "
                 "against float64 at 1e-8",
             )
         )
@@ -262,21 +229,14 @@ def cost() -> list[Figure]:
     bare = median_ms(
         lambda: (torch.fft.rfft2(gap, s=padded), torch.fft.irfft2(waves, s=padded)), 20
     )
+    fraction = bare * convolutions / single
     floor = f"{convolutions} plain convolutions, padded to double; above 1: ours are faster"
     return [
-        Figure(key="ms_single", what="One solve", value=single, unit="ms", note=setting),
-        Figure(key="ms_loose", what="One solve, tol 1e-3", value=loose, unit="ms", note=""),
-        Figure(
-            key="ms_warm", what="One solve, warm start", value=warm, unit="ms", note="+5 % force"
-        ),
-        Figure(key="ms_batched", what="Per solve, batch of 32", value=batched, unit="ms", note=""),
-        Figure(
-            key="fft_floor_share",
-            what="Bare FFTs / whole solve",
-            value=bare * convolutions / single,
-            unit="",
-            note=floor,
-        ),
+        Figure("ms_single", "One solve", single, "ms", setting),
+        Figure("ms_loose", "One solve, tol 1e-3", loose, "ms", ""),
+        Figure("ms_warm", "One solve, warm start", warm, "ms", "+5 % force"),
+        Figure("ms_batched", "Per solve, batch of 32", batched, "ms", ""),
+        Figure("fft_floor_share", "Bare FFTs / whole solve", fraction, "", floor),
     ]
 
 
