@@ -25,7 +25,7 @@ from primitives.primitive import PAD_DIRECTION, Primitive
 
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
-1,000,000: at 0.5 one episode in eight ended with ``no_action``, undecided between two good answers."""
+1,000,000: at 0.5 one episode in eight ended with ``no_action``, undecided between good answers."""
 
 ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
 """Penalties of actions [nats]: ``increase_force`` must be 3 times likelier than any other action.

@@ -39,7 +39,7 @@ from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Policy, PolicyError
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
+from tacgrasp.lessons.answer_scoring import is_right, read_numbers
 from tacgrasp.lessons.exchanges import BLIND
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instruction_pairs import (
@@ -49,7 +49,7 @@ from tacgrasp.lessons.instruction_pairs import (
     choose_pairs,
     choose_paraphrases,
     counts,
-    share,
+    fraction,
 )
 from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS
 from tacgrasp.policy_factory import load_llm
@@ -117,7 +117,7 @@ def evaluate(
         "llm": predict_by_captions(
             _ReportedTalker(policy.talker, "captions", len(encoded), report),
             described,
-            numbers_said,
+            read_numbers,
         ),
         "heads": predict_with_heads(heads.eval(), encoded),
         "geometric_baseline": predict_geometrically(data, described),
@@ -171,7 +171,7 @@ def _answers(
 ) -> dict[str, float | None]:
     total = sum(len(batch.states) for batch in samples) * len(wordings)
     reported = _ReportedTalker(talker, stage, total, report)
-    accuracy = dict(score_answers(reported, samples, wordings, answers_right))
+    accuracy = dict(score_answers(reported, samples, wordings, is_right))
     return _plain(accuracy | {"mean": float(np.mean(list(accuracy.values())))})
 
 
@@ -276,7 +276,7 @@ def _accuracy(predictions: Predictions, labels: Tensor, name: str) -> dict[str, 
 
 
 def _fractions(right: Mapping[str, NDArray[np.bool_]]) -> dict[str, float | None]:
-    return _plain({name: share(mask) for name, mask in right.items()})
+    return _plain({name: fraction(mask) for name, mask in right.items()})
 
 
 def _plain(values: Mapping[str, float]) -> dict[str, float | None]:

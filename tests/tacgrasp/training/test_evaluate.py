@@ -26,7 +26,7 @@ from tacgrasp.lessons.instruction_pairs import (
     choose_pairs,
     choose_paraphrases,
     counts,
-    share,
+    fraction,
 )
 from tacgrasp.lessons.instructions import LEVELS, task_goals
 from tacgrasp.lessons.questions import QUESTIONS, answer
@@ -149,8 +149,8 @@ def test_the_numbers_of_a_description_are_read_back() -> None:
 
 
 def test_nothing_has_no_share() -> None:
-    assert math.isnan(share(np.array([], dtype=bool)))
-    assert share(np.array([True, False])) == 0.5
+    assert math.isnan(fraction(np.array([], dtype=bool)))
+    assert fraction(np.array([True, False])) == 0.5
 
 
 def test_eval_prints_every_table_and_writes_json_and_card(
