@@ -12,14 +12,20 @@ import logging
 import math
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, load_calibration, refusal
+from tacgrasp.drivers.dynamixel.calibration import (
+    ADVICE,
+    GripperCalibration,
+    load_calibration,
+    refusal,
+)
 from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
 from tacgrasp.drivers.dynamixel.fingers import ServoFingers, connect_fingers
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
@@ -141,13 +147,7 @@ def connect_gripper(
     return DynamixelGripper(fingers, calibration)
 
 
-def check(
-    settings: DynamixelSettings,
-    *,
-    folder: Path = Path(),
-    clock: Callable[[], float] = time.perf_counter,
-    today: Callable[[], datetime.date] = datetime.date.today,
-) -> Sequence[Finding]:
+def check(settings: DynamixelSettings, *, folder: Path = Path()) -> Sequence[Finding]:
     """Check the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves."""
     bus, adapter = Bus(settings), ""
     findings = []
@@ -158,46 +158,40 @@ def check(
         servo_findings = startup_findings(bus, settings)
         findings += servo_findings
         if servo_findings[0].ok:
-            findings.append(_latency(bus, settings, clock))
+            findings.append(_latency(bus, settings))
     except RobotError as error:
         adapter = ""
         findings.append(_finding("port", False, settings.port, f"{error}"))
     finally:
         bus.close()
-    return [*findings, _calibration(settings, folder, adapter, today())]
+    return [*findings, _calibration(settings, folder, adapter)]
 
 
-def _finding(name: str, ok: bool, detail: str, advice: str = "") -> Finding:
-    return Finding(device="gripper", name=name, ok=ok, detail=detail, advice="" if ok else advice)
+_finding = partial(finding, "gripper")
 
 
-def _latency(bus: Bus, settings: DynamixelSettings, clock: Callable[[], float]) -> Finding:
-    durations_ms = []
-    for _ in range(LATENCY_READS):
-        start_s = clock()
-        bus.read(settings.servos[0].id, reg.PRESENT, reg.PRESENT_LENGTH)
-        durations_ms.append(1000 * (clock() - start_s))
-    durations_ms.sort()
-    p50, p99 = durations_ms[len(durations_ms) // 2], durations_ms[(99 * len(durations_ms)) // 100]
+def _latency(bus: Bus, settings: DynamixelSettings) -> Finding:
+    servo = settings.servos[0].id
+    p50, p99, longest = read_durations_ms(
+        lambda: bus.read(servo, reg.PRESENT, reg.PRESENT_LENGTH), LATENCY_READS
+    )
     return _finding(
         "latency",
         p99 <= SLOW_MS,
-        f"p50 {p50:.2f} ms, p99 {p99:.2f} ms, max {durations_ms[-1]:.2f} ms over "
-        f"{len(durations_ms)} reads; {bus.counts}",
+        f"p50 {p50:.2f} ms, p99 {p99:.2f} ms, max {longest:.2f} ms over {LATENCY_READS} reads; "
+        f"{bus.counts}",
         "set the USB adapter's latency timer to 1 ms (for ttyUSB0: echo 1 | sudo tee "
         "/sys/bus/usb-serial/devices/ttyUSB0/latency_timer), and end what else keeps this "
         "computer busy",
     )
 
 
-def _calibration(
-    settings: DynamixelSettings, folder: Path, adapter: str, today: datetime.date
-) -> Finding:
+def _calibration(settings: DynamixelSettings, folder: Path, adapter: str) -> Finding:
+    today = datetime.date.today()
     try:
         calibration = load_calibration(folder / settings.calibration)
     except RobotError as error:
-        advice = "make one with: tacgrasp calibrate gripper"
-        return _finding("calibration", False, f"{error}", advice)
+        return _finding("calibration", False, f"{error}", ADVICE)
     reason = refusal(calibration, settings, adapter=adapter, today=today)
     detail = (
         f"of {calibration.date}, {(today - calibration.date).days} days old, "

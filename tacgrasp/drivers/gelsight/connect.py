@@ -6,7 +6,6 @@ Not here: reading it (``sensor``), calibrating it (``tacgrasp calibrate gelsight
 from __future__ import annotations
 
 import datetime
-import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
@@ -18,7 +17,7 @@ from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.gelsight.background import Background, average_frames, load_background
 from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread
@@ -199,12 +198,9 @@ def _background_finding(background: Background, now: datetime.datetime) -> Findi
 
 
 def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
-    durations_ms, num_reads = [], _CHECKS if settings.is_camera or settings.repeat else 1
+    num_reads = _CHECKS if settings.is_camera or settings.repeat else 1
     try:
-        for _ in range(num_reads):
-            start = time.perf_counter()
-            sensor.read()
-            durations_ms.append(1e3 * (time.perf_counter() - start))
+        p50, p99, _ = read_durations_ms(sensor.read, num_reads)
         sensor.expect_untouched()
     except TouchError as error:
         return _finding("reads", False, str(error), "correct the error, then check again")
@@ -214,7 +210,6 @@ def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
         f"; {counts.frames} frames, {counts.dropped} dropped, {counts.repeated} repeated, every "
         f"{counts.interval_ms:.0f} ms"
     )  # fmt: skip
-    p50, p99 = np.percentile(durations_ms, [50, 99])
     detail = f"p50 {p50:.0f}, p99 {p99:.0f} ms{rate}"
     advice = "plug it into a USB port of its own"
     return _finding("fresh cloud", not too_many_dropped, detail, advice)

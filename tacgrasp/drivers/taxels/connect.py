@@ -16,7 +16,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.serial_ports import claim, find_port, in_use_message
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.drivers.taxels.sensor import TaxelArray
@@ -90,23 +90,19 @@ def check(settings: TaxelSettings) -> Sequence[Finding]:
 
 def _read_findings(array: TaxelArray, settings: TaxelSettings) -> list[Finding]:
     connection = _finding("connection", True, f"{settings.port}, sensor {array.spec.name}")
-    start_s, durations_ms, first = time.perf_counter(), [], array.counts().frames
+    start_s, first = time.perf_counter(), array.counts().frames
     try:
-        for _ in range(_CHECKS):
-            read_s = time.perf_counter()
-            array.read()
-            durations_ms.append(1e3 * (time.perf_counter() - read_s))
+        p50, p99, _ = read_durations_ms(array.read, _CHECKS)
     except TouchError as error:
         advice = "correct the error; docs/taxels.md has the format"
         return [connection, _finding("reads", False, str(error), advice)]
     counts = array.counts()
     rate = (counts.frames - first) / (time.perf_counter() - start_s)
-    p50, p99 = np.percentile(durations_ms, [50, 99])
     return [
         connection,
         _finding(
             "fresh frame",
-            bool(p99 <= 1e3 * settings.read_timeout_s / 2),
+            p99 <= 1e3 * settings.read_timeout_s / 2,
             f"p50 {p50:.0f}, p99 {p99:.0f} ms; {rate:.0f} frames/s",
             "raise the baud rate, or read_timeout_s to more than twice the p99",
         ),
