@@ -59,9 +59,10 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
         progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
         for number in _make_shards(jobs, plan, min(workers, len(jobs))):
             progress.advance(bar, sizes[number])
-    if plan.carded and is_complete(out):
+    command = plan.card_command()
+    if command is not None and is_complete(out):
         try:
-            write_card(out, plan.command())
+            write_card(out, command)
         except OSError as error:
             raise TouchError(f"can't write the card of {out}: {error}") from error
 

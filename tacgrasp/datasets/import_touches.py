@@ -32,6 +32,7 @@ from cltp.data.dataset import NUMBER_COLUMNS
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensing.touch_files import read_heights
+from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.measure import NO_CONTACT_MM, contact_state
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import (
@@ -155,9 +156,8 @@ def _write(
     source: ImportRequest, sensor: SensorSpec, rows: list[_Row], folder: Path
 ) -> tuple[ImportCounts, list[str]]:
     bad: list[str] = []
-    counts = {
-        kind: dict.fromkeys((*DIMENSIONS, "force_n"), 0) for kind in ("given", "measured", "no")
-    }
+    slots, origins = (*DIMENSIONS, "force_n"), ("given", "measured", "unknown")
+    counts = {origin: dict.fromkeys(slots, 0) for origin in origins}
     lines: dict[str, int] = {}
     about = {
         "made_by": "tacgrasp data import",
@@ -178,23 +178,17 @@ def _write(
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
                 continue
             lines[path] = row.line
-            for slot in counts["given"]:
+            for slot in slots:
                 counts[_origin(contact, slot)][slot] += 1
             if not bad:
                 writer.add(contact)
-    total = ImportCounts(
-        contacts=writer.num_written,
-        given=counts["given"],
-        measured=counts["measured"],
-        unknown=counts["no"],
-    )
-    return total, bad
+    return ImportCounts(contacts=writer.num_written, **counts), bad
 
 
 def _origin(contact: Contact, slot: str) -> str:
     if slot in contact.measured:
         return "measured"
-    return "no" if getattr(contact.state, slot) is None else "given"
+    return "unknown" if getattr(contact.state, slot) is None else "given"
 
 
 def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) -> Contact:
@@ -218,7 +212,7 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
     series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
-    state, measured = _with_labels(_measured(heights, sensor), cells)
+    state, measured = _with_labels(contact_state(cloud_from_heights(heights, sensor)), cells)
     return Contact(
         height_mm=heights,
         sensor=sensor,
@@ -228,12 +222,6 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
         split=_word(Split, "split", cells) or Split.TRAIN,
         measured=measured,
     )
-
-
-def _measured(heights: object, sensor: SensorSpec) -> ContactState:
-    from cltp.tactile.cloud import cloud_from_heights
-
-    return contact_state(cloud_from_heights(heights, sensor))  # type: ignore[arg-type]
 
 
 def _with_labels(

@@ -42,17 +42,12 @@ SHARD_SERIES = 50
 class DatasetRecipe(Protocol):
     """How a data set is made, shard by shard. Sent to worker processes."""
 
-    @property
-    def carded(self) -> bool:
-        """Whether its folder gets a data set card."""
-        ...
-
     def about(self) -> dict[str, str]:
         """The facts in ``dataset.json``, the same for every part of the set."""
         ...
 
-    def command(self) -> str:
-        """The command that makes the set again."""
+    def card_command(self) -> str | None:
+        """The command that makes the set again, for its card; None for a set without a card."""
         ...
 
     def shard_sizes(self) -> list[int]:
@@ -72,10 +67,6 @@ class StarterRecipe:
     seed: int
     sensor_name: str
 
-    @property
-    def carded(self) -> bool:
-        return False
-
     def about(self) -> dict[str, str]:
         return {
             "made_by": "tacgrasp data generate",
@@ -85,14 +76,12 @@ class StarterRecipe:
             "sensor": self.sensor_name,
         }
 
-    def command(self) -> str:
-        return (
-            f"tacgrasp data generate --set starter --contacts {self.contacts} --seed {self.seed}"
-            f" --sensor {self.sensor_name}"
-        )
+    def card_command(self) -> None:
+        return None
 
     def shard_sizes(self) -> list[int]:
-        return _cut(self.contacts, SHARD_GROUPS * GROUP_CONTACTS)
+        size = SHARD_GROUPS * GROUP_CONTACTS
+        return [min(size, self.contacts - first) for first in range(0, self.contacts, size)]
 
     def make(self, shard: int) -> list[Contact]:
         count = self.shard_sizes()[shard]
@@ -111,10 +100,6 @@ class Tcl3dRecipe:
     meshes: tuple[Path, ...] = ()
     device: str = "cpu"
 
-    @property
-    def carded(self) -> bool:
-        return True
-
     def about(self) -> dict[str, str]:
         return {  # the device belongs to them: it may change a height by 1 µm
             "made_by": "tacgrasp data generate",
@@ -127,7 +112,7 @@ class Tcl3dRecipe:
             "device": self.device.split(":")[0],
         }
 
-    def command(self) -> str:
+    def card_command(self) -> str:
         count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
         device = "" if self.device == "cpu" else f" --device {self.device}"
         meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
@@ -194,10 +179,6 @@ def recipe(request: GenerateRequest) -> DatasetRecipe:
         )
     contacts = contacts or ALL_CONTACTS
     return Tcl3dRecipe(contacts=contacts, seed=seed, meshes=paths, device=request.device)
-
-
-def _cut(contacts: int, size: int) -> list[int]:
-    return [min(size, contacts - first) for first in range(0, contacts, size)]
 
 
 def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:
