@@ -30,8 +30,8 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import TrainedMethod, external_checkpoint, find_method_of_data
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
-from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failures, save_failures
-from tacgrasp.pretraining.report.store import Result
+from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failures
+from tacgrasp.pretraining.report.store import Result, save
 
 
 def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, TrainedMethod]:
@@ -193,7 +193,7 @@ def _store_failures(
     """Store CLTP's wrong predictions, with pictures, in the splits of the paper's tables."""
     if result.method == "cltp" and split.name in FAILURE_SPLITS:
         data = ContactDataset(run.data, split=split.split)
-        save_failures(run.results, collect_failures(result, data, encoded, scores, measure))
+        save(run.results, collect_failures(result, data, encoded, scores, measure))
 
 
 def _aligned_methods(run: EvaluationRun, methods: Sequence[str]) -> Mapping[str, TrainedMethod]:

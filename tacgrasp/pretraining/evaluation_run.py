@@ -15,7 +15,7 @@ from cltp.evaluation.scores import ClassScores
 from cltp.evaluation.splits import LEARNING_NOISE, EvaluationSplit, evaluation_splits
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.report.store import Result, percent, read_result, save_result
+from tacgrasp.pretraining.report.store import Result, load, percent, save
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,7 +118,7 @@ class EvaluationRun:
 
     def store(self, result: Result) -> Result:
         """Write a result at once, so that an interruption loses nothing that was measured."""
-        save_result(self.results, result)
+        save(self.results, result)
         return result
 
     def stored(
@@ -133,7 +133,7 @@ class EvaluationRun:
         contacts = len(data) if self.limit is None else min(self.limit, len(data))
         expected = self.result(table, name, method, split.name, contacts, {})
         path = self.results / expected.file
-        result = read_result(path) if path.exists() else None
+        result = load(Result, path) if path.exists() else None
         if result is None or (result.data, result.contacts) != (expected.data, contacts):
             return None
         return result
