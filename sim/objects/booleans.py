@@ -49,6 +49,8 @@ class Blend:
         return total
 
     def cell(self, points: Tensor) -> Tensor:
+        if len(self.parts) == 1:
+            return self.parts[0].cell(points)
         distances = torch.stack([part.distance(points) for part in self.parts])
         cells = torch.stack([part.cell(points) for part in self.parts])
         counts = torch.tensor([0, *(len(part.cells) for part in self.parts[:-1])])

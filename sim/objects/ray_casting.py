@@ -22,6 +22,7 @@ from torch import Tensor
 
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
+from sim.objects.solids import Solid
 
 FINGER_RADIUS_MM = 10.0
 """Radius of the ball that finds random surface points. Our choice: about half a pad."""
@@ -35,17 +36,6 @@ BEYOND_MM = 4.0
 STEPS, NEAR_MM, ALONGSIDE_MM = 64, 2e-4, 0.01
 """Sphere tracing: largest number of steps; distance at which a ray has hit; distance at which a ray
 that is still under way, along a steep wall, counts as a hit."""
-
-
-class Marchable(Protocol):
-    """A solid for sphere tracing (``sim.objects.solids.Solid``)."""
-
-    @property
-    def max_slope(self) -> float:
-        """Largest slope of ``distance``."""
-
-    def distance(self, points: Tensor) -> Tensor:
-        """Signed distance [mm] of points (..., 3)."""
 
 
 class Castable(Protocol):
@@ -71,7 +61,7 @@ class Castable(Protocol):
         """Signed distance [mm] of points (..., 3)."""
 
 
-def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+def march(solid: Solid, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
     """Trace rays against a solid; arguments and result as ``Castable.surface``."""
     travelled = torch.zeros(origins.shape[0], dtype=origins.dtype, device=origins.device)
     hit = torch.full_like(travelled, torch.inf)
