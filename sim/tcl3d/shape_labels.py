@@ -17,6 +17,7 @@ import math
 from collections import Counter
 
 import numpy as np
+from scipy.ndimage import binary_dilation
 
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
@@ -32,7 +33,6 @@ from sim.tcl3d.masks import (
     count_pieces,
     covered_fraction,
     curvatures,
-    dilate,
     slopes,
 )
 
@@ -222,7 +222,7 @@ def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
 
 def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     """Edge, corner or peak: several cells touch, or one that ends."""
-    near = dilate(contact.touching, 2)
+    near = binary_dilation(contact.touching, iterations=2)
     nearby = np.flatnonzero(contact.count_cells(near)).tolist()
     rectangle = contact.rectangle(contact.touching)
     elongation = rectangle.length / rectangle.width
@@ -258,10 +258,10 @@ def _bend(contact: ContactGeometry, touching_cells: list[int]) -> float | None:
         return None
     first, second = sorted(touching_cells, key=lambda n: -contact.counts[n])[:2]
     normals: list[FloatArray] = []
-    near = dilate(contact.touching, 5) & (contact.gap_mm < NO_BODY_MM)
-    fillet = (
-        dilate(contact.touching) if np.count_nonzero(contact.touching) < 60 else contact.touching
-    )
+    near = binary_dilation(contact.touching, iterations=5) & (contact.gap_mm < NO_BODY_MM)
+    fillet = contact.touching
+    if np.count_nonzero(fillet) < 60:
+        fillet = binary_dilation(fillet)
     for number in (first, second):
         mask = (contact.cells == number) & near
         outside_fillet = mask & ~fillet
@@ -298,8 +298,8 @@ def _top(contact: ContactGeometry) -> Mask:
     """Foremost part of a contact; further out, a fitted quadric overstates the curvatures."""
     # All surface as near as the tops of a texture, not the tops alone.
     reach = float(np.percentile(contact.gap_mm[contact.touching], 90))
-    mask = dilate(contact.closed, 2) & (contact.gap_mm <= reach)
+    mask = binary_dilation(contact.closed, iterations=2) & (contact.gap_mm <= reach)
     if np.count_nonzero(mask) < 16:
-        mask = dilate(contact.touching, 2) & (contact.gap_mm < NO_BODY_MM)
+        mask = binary_dilation(contact.touching, iterations=2) & (contact.gap_mm < NO_BODY_MM)
     top = mask & (contact.gap_mm <= 0.6 * float(contact.gap_mm[mask].max()))
     return top if np.count_nonzero(top) >= 24 else mask
