@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
 from tacgrasp.benchmarks import settings
@@ -27,14 +28,11 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
 
 def main(argv: Sequence[str]) -> int:
     """Run one benchmark; 0 when what it measured keeps its limits."""
-    commands = {name: (kind, _runner(module)) for name, (kind, module) in BENCHMARKS.items()}
+    commands = {name: (kind, partial(_run, module)) for name, (kind, module) in BENCHMARKS.items()}
     return 1 if run_subcommand("bench", argv, commands) is False else 0
 
 
-def _runner(module: str) -> Callable[[Any], Any]:
-    def run(values: settings.BenchmarkSettings) -> Any:
-        writable(values.json)
-        writable(getattr(values, "markdown", None))
-        return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)
-
-    return run
+def _run(module: str, values: settings.BenchmarkSettings) -> Any:
+    writable(values.json)
+    writable(getattr(values, "markdown", None))
+    return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)
