@@ -133,7 +133,8 @@ class ContactDataset:
             self._index_files += files
             tables += shards
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
-        table = pa.concat_tables(tables)
+        no_rows = pa.schema([*SCHEMA, *OPTIONAL]).empty_table()
+        table = pa.concat_tables([no_rows, *tables], promote_options="default")
         if split is not None:
             keep = np.flatnonzero(np.array(table["split"].to_pylist()) == split.value)
             table, shard = table.take(pa.array(keep)), shard[keep]
@@ -257,10 +258,6 @@ def _read_index(path: Path) -> pa.Table:
     present = [column for column in OPTIONAL if column.name in table.column_names]
     if not table.schema.equals(pa.schema([*SCHEMA, *present]), check_metadata=False):
         raise TouchError(f"shard {path} has other columns than version {VERSION}; generate again")
-    for column in OPTIONAL:
-        if column not in present:
-            table = table.append_column(column, pa.nulls(len(table), column.type))
-    table = table.select([*SCHEMA.names, *OPTIONAL.names])
     ends = table["offset"].to_numpy() + table["size"].to_numpy()
     if len(table) and int(ends.max()) != size:
         raise TouchError(f"{heights} has {size} bytes where {int(ends.max())} were expected")

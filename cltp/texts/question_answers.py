@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DIMENSIONS, ContactState
-from cltp.texts.paraphrases import draw_index, with_article
+from cltp.texts.captions import with_article
+from cltp.texts.paraphrases import draw_index
 from cltp.texts.tolerances import Tolerances, tolerances
 
 

@@ -236,14 +236,9 @@ class RunConfig(SettingsBase):
 
     def limits(self) -> Limits:
         """Limits of every command of a run."""
+        gripper = self.gripper
         return Limits(
-            max_step_mm=self.arm.max_step_mm,
-            workspace_low_m=self.arm.workspace_low_m,
-            workspace_high_m=self.arm.workspace_high_m,
-            max_travel_mm=self.arm.max_travel_mm,
-            min_force_n=self.gripper.min_force_n,
-            max_force_n=self.gripper.max_force_n,
-            max_speed_m_s=self.arm.max_speed_m_s,
+            **dict(self.arm), min_force_n=gripper.min_force_n, max_force_n=gripper.max_force_n
         )
 
     @model_validator(mode="before")
@@ -268,8 +263,8 @@ class RunConfig(SettingsBase):
             )
         if self.hardware is not None:
             self._check_driver(self.hardware.arm)
-            if self.sensor != self.hardware.sensor_name:
-                name = self.hardware.sensor_name
+            name = self.hardware.sensor.sensor_name
+            if self.sensor != name:
                 raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 

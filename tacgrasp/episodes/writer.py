@@ -77,7 +77,8 @@ class EpisodeWriter:
             self._file = _create(self.path)
         except OSError as error:
             raise EpisodeError(refusal(self.path, "create", error)) from None
-        _lock(self._file)
+        with suppress(OSError):  # so that recover leaves it alone; some network disks have no locks
+            fcntl.flock(self._file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
         try:
             with self._durably("its header"):
                 self._mcap = start_mcap(self._file)
@@ -219,12 +220,6 @@ def start_mcap(file: BufferedWriter) -> Writer:
 
 def _create(path: Path) -> BufferedWriter:
     return path.open("xb")
-
-
-def _lock(file: BufferedWriter) -> None:
-    """Lock the file, so that ``recover`` leaves it alone; some network disks have no locks."""
-    with suppress(OSError):
-        fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _metadata(header: EpisodeHeader) -> dict[str, str]:
