@@ -19,8 +19,6 @@ from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.console import make_console
 
-log = logging.getLogger(__name__)
-
 
 def run(settings: FaultsSettings) -> bool:
     """Inject every fault several times, print and write the table.
