@@ -10,7 +10,6 @@ from __future__ import annotations
 import datetime
 import logging
 import math
-import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
@@ -124,7 +123,6 @@ def connect_gripper(
     settings: DynamixelSettings,
     *,
     folder: Path = Path(),
-    clock: Callable[[], float] = time.monotonic,
     today: Callable[[], datetime.date] = datetime.date.today,
 ) -> DynamixelGripper:
     """Check calibration and servos, and let the servos hold their positions; nothing moves.
@@ -132,14 +130,13 @@ def connect_gripper(
     Args:
         settings: The gripper's section of the rig's file.
         folder: Folder of the rig's file; the calibration's path is relative to it.
-        clock: Monotonic [s].
         today: Gives the date for the calibration's age.
 
     Raises:
         RobotError: The calibration does not fit, the port can't be opened, or a check fails.
     """
     calibration = load_calibration(folder / settings.calibration)
-    fingers = connect_fingers(settings, clock=clock)
+    fingers = connect_fingers(settings)
     reason = refusal(calibration, settings, adapter=fingers.adapter, today=today())
     if reason:
         fingers.disconnect()

@@ -8,6 +8,7 @@ Not here: opening and checking the sensor of a rig's file (``connect``), the sou
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
-from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.drivers.gelsight.background import mismatch
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
@@ -37,7 +38,6 @@ class GelSightMini:
         photometer: Photometer of the unit's calibration and background.
         background: The same background.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
-        stamp: Returns both clocks.
 
     Raises:
         TouchError: A recording can't be opened. A camera is opened in its thread, and
@@ -52,10 +52,9 @@ class GelSightMini:
         background: Frame,
         *,
         rng: np.random.Generator | None = None,
-        stamp: Callable[[], Stamp] = real_stamp,
     ) -> None:
         self._settings, self._photometer, self._background = settings, photometer, background
-        self._rng, self._stamp = rng, stamp
+        self._rng = rng
         self._disconnected = False
         self._source: FrameSource | None = None
         self._thread: CaptureThread | None = None
@@ -64,7 +63,6 @@ class GelSightMini:
                 opener,
                 age_s=settings.frame_age_s if settings.is_camera else 0.0,
                 pace_s=0.0 if settings.play_hz is None else 1 / settings.play_hz,
-                stamp=stamp,
             )
         else:
             self._source = opener()
@@ -133,7 +131,7 @@ class GelSightMini:
             self._source.close()
 
     def _fresh_frame(self) -> CapturedFrame:
-        called_s = self._stamp().monotonic_s
+        called_s = time.monotonic()
         if self._source is not None:
             self._check_connected()
             captured = self._next_recorded(self._source)
@@ -148,7 +146,7 @@ class GelSightMini:
         return captured
 
     def _next_recorded(self, source: FrameSource) -> CapturedFrame:
-        frame, stamp = source.next_frame(), self._stamp()
+        frame, stamp = source.next_frame(), real_stamp()
         return CapturedFrame(
             frame=frame, stamp=stamp, exposed_s=stamp.monotonic_s, problem=frame_problem(frame)
         )
@@ -162,7 +160,7 @@ class GelSightMini:
             raise TouchError(f"{self._settings.source}: disconnected; connect it again to read")
 
     def _age_s(self, captured: CapturedFrame) -> float:
-        return self._stamp().monotonic_s - captured.stamp.monotonic_s
+        return time.monotonic() - captured.stamp.monotonic_s
 
     def _no_frame_message(self, waited_s: float) -> str:
         thread, source = self._thread, self._settings.source

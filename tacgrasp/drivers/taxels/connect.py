@@ -6,19 +6,17 @@ Not here: reading it (``sensor``), its settings (``settings``).
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
 from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.serial_ports import claim, find_port, in_use_message
-from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.drivers.taxels.sensor import TaxelArray
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 
@@ -31,10 +29,7 @@ _CHECKS = 20
 
 
 def connect_taxels(
-    settings: TaxelSettings,
-    *,
-    rng: np.random.Generator | None = None,
-    stamp: Callable[[], Stamp] = real_stamp,
+    settings: TaxelSettings, *, rng: np.random.Generator | None = None
 ) -> TaxelArray:
     """Open the array of a rig's file and wait for its first frame.
 
@@ -43,7 +38,7 @@ def connect_taxels(
             another device sends on it; or the grid does not fit the sensor.
     """
     sensor_named(settings.sensor)
-    array = TaxelArray(_open(settings), settings, rng=rng, stamp=stamp)
+    array = TaxelArray(_open(settings), settings, rng=rng)
     try:
         array.wait_until_alive()
     except BaseException:

@@ -203,11 +203,8 @@ def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> Iterat
     yield _finding("speed slider", fraction >= least, f"{fraction:.0%}", advice)
     x, y, z = sample["actual_TCP_pose"][:3]
     position = f"at ({x:.3f}, {y:.3f}, {z:.3f}) m"
-    offset, configured = (
-        sample.get("tcp_offset"),
-        [*settings.tcp_offset_m, *settings.tcp_offset_rad],
-    )
-    if offset is not None and np.allclose(offset, configured, atol=1e-5):
+    configured = [*settings.tcp_offset_m, *settings.tcp_offset_rad]
+    if np.allclose(sample.get("tcp_offset", np.nan), configured, atol=1e-5):
         yield _finding("TCP", True, f"as set, {position}")
     else:
         detail = f"another one is set now, {position}; {configured} set when connected"
