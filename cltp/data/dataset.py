@@ -17,6 +17,7 @@ from __future__ import annotations
 import dataclasses
 import hashlib
 import json
+import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -26,7 +27,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from cltp.data.contact import Contact, Gel, Split, checksum, unpack_heights
+from cltp.data.contact import Contact, Gel, Split, unpack_heights
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import DIMENSIONS, NUMBERS, ContactState, Side
@@ -169,7 +170,7 @@ class ContactDataset:
         """
         shard, offset = int(self._shard[index]), int(self._columns["offset"][index])
         packed = self._map(shard)[offset : offset + int(self._columns["size"][index])]
-        if checksum(packed.data) != int(self._columns["crc32"][index]):
+        if zlib.crc32(packed.data) != int(self._columns["crc32"][index]):
             name = self._index_files[shard].with_suffix(".heights")
             raise TouchError(f"contact {index} in {name} is damaged; generate the data again")
         return unpack_heights(

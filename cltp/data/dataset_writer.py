@@ -6,6 +6,7 @@ import hashlib
 import io
 import json
 import re
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Self
@@ -15,7 +16,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from cltp.atomic_write import write_atomically
-from cltp.data.contact import Contact, checksum, pack_heights
+from cltp.data.contact import Contact, pack_heights
 from cltp.data.dataset import (
     FORMAT,
     GEL_COLUMNS,
@@ -122,7 +123,7 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
     return {
         "offset": offset,
         "size": len(packed),
-        "crc32": checksum(packed),
+        "crc32": zlib.crc32(packed),
         "rows": contact.height_mm.shape[0],
         "columns": contact.height_mm.shape[1],
         "sensor": contact.sensor.name,
