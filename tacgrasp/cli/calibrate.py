@@ -18,7 +18,7 @@ from tacgrasp.cli.flags import run_subcommand
 
 @dataclass(frozen=True)
 class CalibrateGelsightFlags:
-    """Learn a GelSight Mini's heights from presses of a ball of known diameter.
+    """Learn heights from colours, from presses of a ball of known diameter.
 
     Before: press a steel ball at 20 or more places all over the gel, take one frame of each press,
     and one frame with nothing touching the gel. Learning takes about 15 s.

@@ -19,10 +19,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CalibrateGripperFlags:
-    """Measure the gripper's force over its current, from which the driver sets newtons.
+    """Measure force over current of a gripper, with a scale or from a file of readings.
 
-    Put a scale between the open fingers. The gripper squeezes it with one current after another,
-    and you type the force that it shows. With --readings nothing moves: a file is fitted.
+    The driver sets newtons by it. Put a scale between the open fingers. The gripper squeezes it
+    with one current after another, and you type the force that it shows. With --readings nothing
+    moves: a file is fitted.
 
     Attributes:
         rig: Path of the rig's YAML file, whose section hardware.gripper names the gripper and the
@@ -45,7 +46,7 @@ class CalibrateGripperFlags:
 
 
 def run(flags: CalibrateGripperFlags) -> None:
-    """Measure force over current of a gripper, with a scale or from a file of readings."""
+    """Measure, or fit the file of readings, and save the calibration."""
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
     from tacgrasp.drivers.dynamixel.calibration import save_calibration
