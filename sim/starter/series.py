@@ -18,8 +18,7 @@ from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DEPTH_LIMITS_MM, Shape, Texture
 from sim.grasp.bodies import Body, Range, draw_body
-from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm
-from sim.starter.textures import relief_mm
+from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm, relief_mm
 
 ROWS, COLUMNS = 75, 100
 """Grid over the sensing area: 0.2 mm on a GelSight Mini."""
