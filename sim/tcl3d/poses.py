@@ -63,13 +63,11 @@ class PressPose:
         object_from_pad: Rotation (3, 3); the third column is z, into the gel.
         point: Point of the object over the pad's origin, object frame (3,) [mm].
         flat: The contact is a flat face.
-        wide: That face is larger than the pad.
     """
 
     object_from_pad: FloatArray
     point: FloatArray
     flat: bool
-    wide: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -216,21 +214,18 @@ def _pose_on_pad(
 ) -> PressPose:
     """Lean the object, turn it about the normal, and draw its position on the pad."""
     frame = frame_at(contact.normal)
-    point, wide = contact.point, False
+    point = contact.point
     spin = rng.uniform(0, 2 * math.pi)
     cos, sin = math.cos(spin), math.sin(spin)
     turned = frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
     position = _draw_position(rng, sensor, 0.0 if face is None else face.span_mm)
     if face is not None and face.end is not None:
-        wide = True
         position = _covering_position(face.end, spin, sensor, rng.uniform(*_COVERED_FRACTION))
     elif face is not None:
         point = point + frame[:, :2] @ face.centre
     if lean is not None:
         turned = _lean_rotation(frame, lean) @ turned
-    return PressPose(
-        object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat, wide=wide
-    )
+    return PressPose(object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat)
 
 
 def _covering_position(
