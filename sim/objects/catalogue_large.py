@@ -11,10 +11,9 @@ import math
 from dataclasses import replace
 
 from cltp.tactile.states import Shape
-from sim.objects.booleans import Around, Blend, Hollow
+from sim.objects.compounds import Around, Blend, Hollow, Placed, along, moved
 from sim.objects.faces import Form
 from sim.objects.object import Family, Mount, Part, SolidObject
-from sim.objects.placing import Placed, along, moved
 from sim.objects.primitives import (
     ball,
     block,

@@ -11,7 +11,7 @@ from functools import cached_property
 
 from torch import Tensor
 
-from sim.objects.booleans import Blend
+from sim.objects.compounds import Blend
 from sim.objects.faces import Cell, Vector
 from sim.objects.ray_casting import march
 from sim.objects.ray_tubes import march_over

@@ -4,7 +4,7 @@ The limits of each texture are those of the notes, beside each class of
 ``cltp.tactile.states.Texture``. A relief lies in the pad's plane and turns with the object. It
 fades where the surface is steep, since a finger feels no grain on a flank.
 
-Not here: textures drawn for every press (``sim.starter.textures``).
+Not here: textures drawn for every press (``sim.starter.shapes``).
 """
 
 from __future__ import annotations
