@@ -29,7 +29,7 @@ from cltp.evaluation.geometric_baseline import predict_geometrically, unscaled
 from cltp.evaluation.llm_scores import predict_by_captions, score_answers
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.retrieval import score_image_retrieval
-from cltp.evaluation.scores import Predictions, median_errors, score_classes
+from cltp.evaluation.scores import Predictions, best_classes, median_errors, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
@@ -123,7 +123,7 @@ def evaluate(
         "geometric_baseline": predict_geometrically(data, described),
     }
     states = [state for batch in described for state in batch.states]
-    zero_shot = score_classes(ClassPrompts(towers).classes(encoded.feature), encoded.classes)
+    prompted = best_classes(ClassPrompts(towers).cosines(encoded.feature))
     asked = random_batches(data, sizes.answers, NOISY, seed=seed + 1)
     return {
         "weights": str(weights),
@@ -143,7 +143,7 @@ def evaluate(
         },
         "instruction_pairs": {kind: cases.pairs(sizes.pairs, kind) for kind in KINDS},
         "paraphrases": {kind: cases.paraphrases(sizes.per_wording, kind) for kind in KINDS},
-        "zero_shot": _plain(zero_shot.accuracy),
+        "zero_shot": _plain(score_classes(prompted, encoded.classes).accuracy),
         "clip_retrieval": _plain(score_image_retrieval(towers, data, described)),
     }
 

@@ -33,7 +33,7 @@ from cltp.errors import TouchError
 from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.probes import predict_with_heads
-from cltp.evaluation.scores import score_classes
+from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import cloud_from_heights
@@ -364,7 +364,7 @@ def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> Non
     encoder, _ = load_encoder(trained / "encoder")
     encoded = encode_batches(frozen(encoder), samples)
     prompts = ClassPrompts(load_clip(trained / "clip"))
-    assert score_classes(prompts.classes(encoded.feature), encoded.classes).count == 6
+    assert score_classes(best_classes(prompts.cosines(encoded.feature)), encoded.classes).count == 6
     direct = score_classes(predict_geometrically(data, samples).classes, encoded.classes)
     assert direct.accuracy["depth"] >= 0.5
     assert direct.accuracy["shape"] == 0.0  # nothing computes a shape directly

@@ -20,13 +20,13 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
-from cltp.evaluation.probes import SCHEDULE, ClassProbes, NumberProbe
+from cltp.evaluation.probes import SCHEDULE, ProbeTraining
 from cltp.evaluation.scores import ClassScores
 from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining import evaluate, evaluate_real, geometric_baseline
+from tacgrasp.pretraining import evaluation_run, geometric_baseline
 from tacgrasp.pretraining import run_all as all_methods
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
@@ -89,9 +89,7 @@ def places(out: Path, data: Path, tmp_path: Path) -> list[str]:
 @pytest.fixture
 def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
     quick = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
-    for module in (evaluate, evaluate_real, geometric_baseline):
-        monkeypatch.setattr(module, "ClassProbes", partial(ClassProbes, schedule=quick))
-    monkeypatch.setattr(evaluate, "NumberProbe", partial(NumberProbe, schedule=quick))
+    monkeypatch.setattr(evaluation_run, "ProbeTraining", partial(ProbeTraining, schedule=quick))
 
 
 def real_touches(folder: Path, rows: str = "0.npy,sphere,,,,\n", count: int = 1) -> list[str]:
