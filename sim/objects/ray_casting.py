@@ -116,7 +116,9 @@ def random_surface_point(obj: Castable, rng: np.random.Generator) -> SurfacePoin
         centre = _first_point_within(obj, start, direction, FINGER_RADIUS_MM, 2.1 * radius)
         if centre is not None:
             normal = gradient(obj, centre)
-            return SurfacePoint(point=_project_to_surface(obj, centre, -normal), normal=normal)
+            hit = _first_point_within(obj, centre, -normal, 0.0, 4 * FINGER_RADIUS_MM)
+            point = centre - FINGER_RADIUS_MM * normal if hit is None else hit
+            return SurfacePoint(point=point, normal=normal)
     raise ValueError("a thousand random lines missed an object; is it where its reach says?")
 
 
@@ -161,11 +163,6 @@ def _first_point_within(
         if travelled > far_mm:
             return None
     return None
-
-
-def _project_to_surface(obj: Castable, point: FloatArray, direction: FloatArray) -> FloatArray:
-    hit = _first_point_within(obj, point, direction, 0.0, 4 * FINGER_RADIUS_MM)
-    return point + FINGER_RADIUS_MM * direction if hit is None else hit
 
 
 def unit_vector(rng: np.random.Generator) -> FloatArray:

@@ -79,12 +79,7 @@ def _points(origins: Tensor, travelled: Tensor, along: Tensor) -> Tensor:
 
 
 def _free(
-    solid: Solid,
-    middles: Tensor,
-    along: Tensor,
-    travelled: Tensor,
-    radius: float,
-    far_mm: float,
+    solid: Solid, middles: Tensor, along: Tensor, travelled: Tensor, radius: float, far_mm: float
 ) -> Tensor:
     """Free length of tubes about ``middles`` (3, N), (N,) [mm]."""
     free = travelled.clone()

@@ -129,11 +129,7 @@ def _press_members(
 
 
 def _press(
-    members: list[Series],
-    step: int,
-    gel: GelMaterial,
-    sensor: SensorSpec,
-    start: Tensor | None,
+    members: list[Series], step: int, gel: GelMaterial, sensor: SensorSpec, start: Tensor | None
 ) -> Press:
     gaps = torch.from_numpy(np.stack([member.gap_mm for member in members]).astype(np.float32))
     loads = torch.tensor([member.loads[step] for member in members], dtype=torch.float32)

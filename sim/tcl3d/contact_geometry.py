@@ -28,6 +28,10 @@ class ShapeLabel(NamedTuple):
     shape: Shape
     sure: bool
 
+    def sure_if(self, condition: bool) -> ShapeLabel:
+        """The same label, unsure unless ``condition`` holds as well."""
+        return ShapeLabel(self.shape, self.sure and condition)
+
 
 @dataclass(frozen=True, kw_only=True)
 class ContactGeometry:
