@@ -1,8 +1,8 @@
-"""From an observation and an instruction to a Decision.
+"""Policies: from a tactile cloud and an instruction to a decision in words.
 
-``rules`` (the teacher on the computed state), ``llm`` (Tac3D-LLM) and baselines; and ``extract``,
-which reads an action and a verdict out of a policy's text. Importing this package
-loads no torch.
+The rule-based teacher, Tac3D-LLM and baselines; ``policies.extraction`` reads the action out of the
+words. Importing this package loads no torch. Not here: the loop that carries decisions out
+(``tacgrasp.loop``), and the training of the model (``cltp.train``, ``tacgrasp.lessons``).
 """
 
 from policies.errors import PolicyError

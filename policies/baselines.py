@@ -1,4 +1,4 @@
-"""Policies that don't feel: what touch has to be better than."""
+"""Policies that ignore the sensor: baselines that a policy with touch must beat."""
 
 from __future__ import annotations
 
@@ -11,51 +11,50 @@ from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
 from primitives import Primitive
 
 
-def _said(text: str, confidence: float = 1.0) -> Decision:
-    found = extract(text)
+def _decision(text: str, confidence: float = 1.0) -> Decision:
+    extraction = extract(text)
     return Decision(
         text=text,
-        action=found.action,
-        success=found.success,
-        reason=found.reason,
+        action=extraction.action,
+        success=extraction.success,
+        reason=extraction.reason,
         confidence=confidence,
     )
 
 
 class FixedForcePolicy:
-    """Calls any grasp secure; the force is the first grasp's, which the caller sets."""
+    """Declares every grasp secure, so that the force of the first grasp is kept."""
 
     @property
     def name(self) -> str:
-        """'fixed_force'."""
         return "fixed_force"
 
     def start(self) -> None:
-        """Nothing to forget."""
+        pass
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Declare success, whatever was felt."""
-        return _said("The grasp is secure.")
+        return _decision("The grasp is secure.")
 
 
 class RandomPolicy:
-    """Draws one of the seven primitives or success, each with the same probability."""
+    """Draws one of the seven primitives or success with equal probability.
+
+    Args:
+        seed: Seed of one stream of draws, which continues over episodes.
+    """
 
     def __init__(self, seed: int) -> None:
-        """Seed the draws; episodes continue one stream, so that they differ."""
         self._rng = np.random.default_rng(seed)
 
     @property
     def name(self) -> str:
-        """'random'."""
         return "random"
 
     def start(self) -> None:
-        """The draws go on: the seed was given once."""
+        pass  # the stream of draws continues over episodes
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Draw, whatever was felt."""
         choices = list(Primitive)
-        drawn = int(self._rng.integers(len(choices) + 1))
-        text = ACTION_WORDINGS[choices[drawn]][-1] if drawn < len(choices) else SUCCESS_WORDINGS[0]
-        return _said(text, confidence=1 / (len(choices) + 1))
+        index = int(self._rng.integers(len(choices) + 1))
+        text = ACTION_WORDINGS[choices[index]][-1] if index < len(choices) else SUCCESS_WORDINGS[0]
+        return _decision(text, confidence=1 / (len(choices) + 1))

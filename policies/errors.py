@@ -2,4 +2,4 @@
 
 
 class PolicyError(Exception):
-    """A policy could not decide. The loop holds still and asks again a bounded number of times."""
+    """A policy could not decide. The loop moves nothing and asks again a few times."""

@@ -1,4 +1,4 @@
-"""What a good grasp is, in numbers; the teacher and the language model's advice data share it."""
+"""Numeric goal of a grasp, for the teacher and for the lessons of the language model."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Band:
-    """A closed interval; the unit is in the name of what it bounds.
+    """A closed interval; the unit is in the name of the bounded quantity.
 
     Raises:
-        ValueError: Not finite, or ``low`` above ``high``.
+        ValueError: A bound is not finite, or ``low`` is above ``high``.
     """
 
     low: float
@@ -27,14 +27,14 @@ class Band:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Goal:
-    """Bands that a contact must lie in to be called a good grasp.
+    """Bands of the contact state in a good grasp.
 
     Attributes:
-        force_n: Normal force that the touch suggests [N].
-        depth_mm: Largest indentation of the gel [mm]; its upper end guards against bruises.
-        area_fraction: Share of the field in contact, 0 to 1.
+        force_n: Normal force estimated from the indentation [N].
+        depth_mm: Largest indentation of the gel [mm]; the upper end guards against bruises.
+        area_fraction: Fraction of the sensing area in contact, 0 to 1.
         x_mm: Position of the contact along the pad's x [mm].
-        y_mm: Along the pad's y [mm].
+        y_mm: Position of the contact along the pad's y [mm].
     """
 
     force_n: Band

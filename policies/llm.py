@@ -1,8 +1,7 @@
-"""The policy of the paper: Tac3D-LLM feels, says D_t, and the action is read out of D_t.
+"""The policy of the paper: Tac3D-LLM generates D_t from a cloud, and the action is read out of D_t.
 
-Whatever goes wrong with the text ends in no action: a reply that never ends, names nothing or two
-things, or is chosen with too little confidence. Instructions that the model can't have understood
-are refused instead of answered.
+A faulty reply leads to no action: one that does not end, names no action or two, or has too low a
+confidence. An instruction in words that the model does not know is refused.
 """
 
 from __future__ import annotations
@@ -26,24 +25,24 @@ from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.primitive import PAD_DIRECTION, Primitive
 
 ABSTAIN_BELOW = 0.3
-"""Confidence under which the policy holds and asks again. Chosen on seeds below 1,000,000: at 0.5
-one episode in eight ended with ``no_action``, between two answers that were both good enough."""
+"""Confidence below which the policy does nothing and is asked again. Chosen on seeds below
+1,000,000: at 0.5 one episode in eight ended with ``no_action``, undecided between good answers."""
 
-RELUCTANCE = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
-"""Nats that speak against an action: it has to be so many times likelier than what else is said.
+ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
+"""Penalties of actions [nats]: ``increase_force`` must be 3 times likelier than any other action.
 
-A berry that is held too lightly can be pressed harder at the next touch, a bruise stays. Chosen on
-seeds below 1,000,000.
+A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
+1,000,000.
 """
 
-LONGEST_WORDS = 120
-"""Words of an instruction; longer ones are refused, since the model would see only their ends."""
+MAX_INSTRUCTION_WORDS = 120
+"""Longest instruction [words]. The model would read only the end of a longer one."""
 
-KNOWN_SHARE = 0.5
-"""Share of an instruction's words that the model must know as words. Our choice: hand-written
-English paraphrases have 0.8 and more, other languages below 0.3."""
+MIN_KNOWN_FRACTION = 0.5
+"""Smallest fraction of an instruction's words that the tokenizer must have as whole words. Our
+choice: hand-written English paraphrases have 0.8 and more, other languages below 0.3."""
 
-_SHORT = frozenset(
+_SHORT_WORDS = frozenset(
     "a i an as at be by do go in is it me my no of on or so to up us we".split(" ")  # noqa: SIM905
 )
 
@@ -52,13 +51,13 @@ class LlmPolicy:
     """Tac3D-LLM in the loop.
 
     Args:
-        folder: Weights, as ``cltp.checkpoints.tac3d_llm`` lays them out.
-        lm_folder: A Qwen2 or Qwen2.5-VL directory instead of the folder's own language model.
-        abstain_below: Confidence under which nothing is done.
-        clock: For the durations of the stages [s].
+        folder: Folder of weights in the layout of ``cltp.checkpoints.tac3d_llm``.
+        lm_folder: Folder of a Qwen2 or Qwen2.5-VL model; None takes the one in ``folder``.
+        abstain_below: Confidence below which no action is taken.
+        clock: Clock for the durations of the stages [s].
 
     Raises:
-        TouchError: Weights are missing, damaged, or don't fit together.
+        TouchError: Weights are missing or damaged, or belong to different models.
     """
 
     def __init__(
@@ -77,23 +76,21 @@ class LlmPolicy:
 
     @property
     def name(self) -> str:
-        """'llm'."""
         return "llm"
 
     @property
     def talker(self) -> Talker:
-        """The model itself, for measurements of it."""
+        """The model itself, for benchmarks and evaluation."""
         return self._talker
 
     def start(self) -> None:
-        """Forget the moves of the episode before."""
         self._moves = []
 
     def check_move_step(self, move_step_mm: float) -> None:
-        """Refuse moves of another length than those that the weights were trained with.
+        """Refuse moves of a length that the weights were not trained with.
 
         Raises:
-            PolicyError: It is another length.
+            PolicyError: The length [mm] differs; the message names both.
         """
         if not math.isclose(move_step_mm, LESSON_MOVE_STEP_MM, abs_tol=1e-6):
             raise PolicyError(
@@ -103,50 +100,50 @@ class LlmPolicy:
             )
 
     def check(self, text: str) -> None:
-        """Refuse an instruction or question that the model can't have understood.
+        """Refuse an instruction or question that the model can't understand.
 
         Raises:
-            PolicyError: As ``check_instruction``.
+            PolicyError: As for ``check_instruction``.
         """
         check_instruction(text, self._words)
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Feel, say, extract.
+        """Encode the cloud, generate D_t and read the action out of it.
 
         Raises:
-            PolicyError: The instruction is empty, too long, or in no language that it knows.
+            PolicyError: The instruction is empty, too long, or not in known words.
         """
         self.check(instruction)
         begin = self._clock()
         points = encoder_input(observation.cloud)
         sampled = self._clock()
-        against = RELUCTANCE | dict.fromkeys(going_in_circles(self._moves), math.inf)
-        reply = self._talker.reply(points, as_request(instruction), penalties=against)
+        penalties = ACTION_PENALTIES | dict.fromkeys(repeated_moves(self._moves), math.inf)
+        reply = self._talker.reply(points, as_request(instruction), penalties=penalties)
         replied = self._clock()
-        found = extract(reply.text)
+        extraction = extract(reply.text)
         stages = {
             "sample": 1e3 * (sampled - begin),
             **reply.stage_ms,
             "extract": 1e3 * (self._clock() - replied),
         }
-        held = held_because(reply, found, self._abstain_below)
-        if not held and found.action in PAD_DIRECTION:
-            self._moves.append(found.action)
+        hold = hold_reason(reply, extraction, self._abstain_below)
+        if not hold and extraction.action in PAD_DIRECTION:
+            self._moves.append(extraction.action)
         return Decision(
             text=reply.text,
-            action=None if held else found.action,
-            success=found.success and not held,
-            reason=held or found.reason,
+            action=None if hold else extraction.action,
+            success=extraction.success and not hold,
+            reason=hold or extraction.reason,
             confidence=reply.confidence,
             stage_ms=stages,
         )
 
     def ask(self, cloud: TactileCloud, question: str) -> str:
-        """What the model says to any question about a contact.
+        """The model's answer to a question about a contact.
 
         Raises:
-            PolicyError: The question is empty, too long, or in no language that it knows; or the
-                answer does not end.
+            PolicyError: The question is empty, too long, or not in known words; or the answer does
+                not end.
         """
         self.check(question)
         reply = self._talker.reply(encoder_input(cloud), question)
@@ -159,22 +156,21 @@ class LlmPolicy:
 
 
 def as_request(instruction: str) -> str:
-    """An instruction without the mark of a question: 'Could you pick it up?' asks for an action.
+    """The instruction with full stops for question marks: 'Could you pick it up?' is a request.
 
-    The model answers what is marked as a question; what comes here is never one (``ask`` is for
-    those).
+    The model answers a text with a question mark instead of naming an action.
     """
     return instruction.replace("?", ".")
 
 
-def going_in_circles(moves: Sequence[Primitive]) -> frozenset[str]:
-    """Moves that would only undo each other again: both of a pair, once there was one and back.
+def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:
+    """Action tokens of two opposite moves, if these were the last two of the episode.
 
-    A contact that is as long as the pad is cut at one end or the other wherever it lies. Every
-    touch is judged by itself, so without this the model can go to and fro for ever.
+    A contact as long as the pad is always cut by one of its edges. The model decides each step on
+    its own, so without this it could move to and fro for ever.
 
     Args:
-        moves: The moves of this episode so far.
+        moves: Moves of this episode so far.
     """
     if len(moves) < 2:
         return frozenset()
@@ -185,49 +181,50 @@ def going_in_circles(moves: Sequence[Primitive]) -> frozenset[str]:
 
 
 def check_instruction(text: str, words: Words | None) -> None:
-    """Refuse what the model can't have understood.
+    """Refuse a text that the model can't understand.
 
     Args:
-        text: What a person wrote.
-        words: The model's tokenizer; None for a stock checkpoint, which may know any language.
+        text: Instruction or question as a person wrote it.
+        words: Tokenizer of the model; None for a stock checkpoint, which may know any language.
 
     Raises:
-        PolicyError: Empty, too long, or made of words that the model does not know.
+        PolicyError: The text is empty, too long, or has too few words that the tokenizer knows.
     """
-    spoken = re.findall(r"[^\W\d_]+", text)
-    if not spoken:
+    text_words = re.findall(r"[^\W\d_]+", text)
+    if not text_words:
         raise PolicyError(
             f"an instruction in words is needed, got {text[:40]!r}; say what to grasp"
         )
-    if len(spoken) > LONGEST_WORDS:
+    if len(text_words) > MAX_INSTRUCTION_WORDS:
         raise PolicyError(
-            f"the instruction has {len(spoken)} words, at most {LONGEST_WORDS} are read; shorten it"
+            f"the instruction has {len(text_words)} words, at most {MAX_INSTRUCTION_WORDS} are "
+            "read; shorten it"
         )
     if words is None:
         return
-    known = sum(_known(word.lower(), words) for word in spoken)
-    if known < KNOWN_SHARE * len(spoken):
+    num_known = sum(_is_known(word.lower(), words) for word in text_words)
+    if num_known < MIN_KNOWN_FRACTION * len(text_words):
         raise PolicyError(
-            f"only {known} of {len(spoken)} words of {text[:60]!r} are known; say it in plain "
-            "English, for example 'Pick the strawberry gently.'"
+            f"only {num_known} of {len(text_words)} words of {text[:60]!r} are known; say it in "
+            "plain English, for example 'Pick the strawberry gently.'"
         )
 
 
-def _known(word: str, words: Words) -> bool:
+def _is_known(word: str, words: Words) -> bool:
     if len(word) <= 2:
-        return word in _SHORT  # pieces of longer words are tokens too
+        return word in _SHORT_WORDS  # pieces of longer words are tokens too
     return words.has_token(word) or words.has_token(word.capitalize())
 
 
-def held_because(reply: Reply, found: Extraction, abstain_below: float) -> str:
-    """Why nothing is done about a reply; empty when its action or verdict stands."""
+def hold_reason(reply: Reply, extraction: Extraction, abstain_below: float) -> str:
+    """The reason for doing nothing about a reply; '' when its action or verdict is taken."""
     if not reply.ended:
         return f"the reply did not end within {reply.num_tokens} tokens"
     if reply.action is None:
         return "the reply comes to no action and no <none>"
-    said = f"<{found.action}>" if found.action is not None else "<none>"
-    if said != reply.action:
-        return f"the text asks for {said} where {reply.action} was chosen ({found.reason})"
+    token = f"<{extraction.action}>" if extraction.action is not None else "<none>"
+    if token != reply.action:
+        return f"the text asks for {token} where {reply.action} was chosen ({extraction.reason})"
     if reply.confidence < abstain_below:
         return f"abstained: {reply.action} has a confidence of {reply.confidence:.2f} only"
     return ""

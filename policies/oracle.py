@@ -1,4 +1,4 @@
-"""The oracle: decides from a simulator's truth. An upper bound for benchmarks, never for a run."""
+"""Policy that decides from the simulator's truth: an upper bound, for benchmarks alone."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from primitives import Primitive
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GraspTruth:
-    """What the oracle is told.
+    """The true state of a grasp.
 
     Attributes:
-        x_mm, y_mm: Where the body's nearest point is on the pad [mm, gel frame].
-        force_n: True force now [N]; 0 when nothing is held.
-        slip_n: Smallest force that holds this body, centred, through the lift [N].
-        bruise_n: Force that bruises it, centred [N].
+        x_mm, y_mm: Position of the body's nearest point on the pad [mm, gel frame].
+        force_n: Present true force [N]; 0 when nothing is held.
+        slip_n: Smallest force that holds this body through the lift when centred [N].
+        bruise_n: Force that bruises the body when centred [N].
     """
 
     x_mm: float
@@ -33,10 +33,10 @@ _SLIP_RESERVE, _BRUISE_RESERVE = 1.15, 0.95
 
 
 class OraclePolicy:
-    """Centres within half a step, then brings the force between slip and bruise.
+    """Centres the contact within half a step, then brings the force between slip and bruise.
 
     Args:
-        truth: Tells the truth of the moment.
+        truth: Function that returns the present truth.
     """
 
     name = "oracle"
@@ -45,21 +45,20 @@ class OraclePolicy:
         self._truth = truth
 
     def start(self) -> None:
-        """Nothing to forget."""
+        pass
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Decide from the truth; observation and instruction are ignored."""
         action = self._action(self._truth())
         text = "The grasp is secure." if action is None else f"Do {action.value}."
         return Decision(text=text, action=action, success=action is None, reason="truth")
 
-    def _action(self, now: GraspTruth) -> Primitive | None:
-        if now.force_n > _BRUISE_RESERVE * now.bruise_n:
+    def _action(self, truth: GraspTruth) -> Primitive | None:
+        if truth.force_n > _BRUISE_RESERVE * truth.bruise_n:
             return Primitive.DECREASE_FORCE
-        if abs(now.x_mm) > _HALF_STEP_MM:
-            return Primitive.MOVE_RIGHT if now.x_mm > 0 else Primitive.MOVE_LEFT
-        if abs(now.y_mm) > _HALF_STEP_MM:
-            return Primitive.MOVE_UP if now.y_mm > 0 else Primitive.MOVE_DOWN
-        if now.force_n < _SLIP_RESERVE * now.slip_n:
+        if abs(truth.x_mm) > _HALF_STEP_MM:
+            return Primitive.MOVE_RIGHT if truth.x_mm > 0 else Primitive.MOVE_LEFT
+        if abs(truth.y_mm) > _HALF_STEP_MM:
+            return Primitive.MOVE_UP if truth.y_mm > 0 else Primitive.MOVE_DOWN
+        if truth.force_n < _SLIP_RESERVE * truth.slip_n:
             return Primitive.INCREASE_FORCE
         return None

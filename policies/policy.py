@@ -1,4 +1,4 @@
-"""The contract of a policy, and what it returns."""
+"""The contract of a policy and the decision that it returns."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from primitives import Primitive
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Decision:
-    """What a policy said about one touch, and what was read out of it.
+    """The text of a policy on one contact, and the action and verdict read out of it.
 
     Attributes:
-        text: D_t, the sentence that the policy said; extraction read only this.
-        action: The primitive that the text names, None when it names none.
-        success: True when the text declares the grasp stable, appropriate, secure or reliable.
-        reason: How extraction came to ``action`` and ``success``, for people.
-        confidence: Probability that the policy gave its choice, in [0, 1]; 1 for rules.
+        text: D_t, the text of the policy; action and success are read from it alone.
+        action: The primitive that the text asks for; None when it asks for none.
+        success: Whether the text declares the grasp good (``policies.extraction``).
+        reason: Explanation of ``action`` and ``success`` for people.
+        confidence: Probability that the policy gave its choice, 0 to 1; 1 for rules.
         stage_ms: Measured durations of the stages of the decision [ms], by name.
     """
 
@@ -32,25 +32,25 @@ class Decision:
 
 
 class Policy(Protocol):
-    """Decides from touch and a person's instruction alone; it never sees a simulator's truth."""
+    """Decides from a cloud and a person's instruction alone, never from a simulator's truth."""
 
     @property
     def name(self) -> str:
-        """What the command line and the episodes call it."""
+        """Name on the command line and in episodes."""
         ...
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Say what the contact is and what to do.
+        """Describe the contact and decide what to do.
 
-        Deterministic: the same observation and instruction after the same ``start`` give the same
+        Deterministic: the same cloud and instruction after the same ``start`` give the same
         Decision (a random policy draws from the seed given at its construction).
 
         Raises:
-            PolicyError: It can't decide (an unusable instruction, a broken model).
+            PolicyError: No decision is possible (an unusable instruction, a broken model).
             TouchError: The cloud can't be used.
         """
         ...
 
     def start(self) -> None:
-        """Forget earlier touches: an episode begins."""
+        """Begin an episode: forget earlier contacts."""
         ...

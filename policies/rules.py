@@ -1,7 +1,6 @@
-"""The policy of rules: measure the contact, ask the teacher, say it, read what was said.
+"""The rule-based policy: measures the contact, takes the teacher's advice and puts it into words.
 
-Its words go through the same extraction as a language model's, so the loop can't tell them apart.
-Loads no torch.
+The action is then extracted from the words, as for the language model. Loads no torch.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from policies.teacher import teacher
 
 
 class RulesPolicy:
-    """The teacher on the computed contact state; the instruction is not read, its goal is."""
+    """The teacher's advice on the measured contact, for a fixed goal; ignores the instruction."""
 
     def __init__(
         self,
@@ -34,48 +33,48 @@ class RulesPolicy:
         """Take a goal.
 
         Args:
-            goal: What a good grasp is.
+            goal: Goal bands of a good grasp.
             move_step_mm: Length of a move that the rig carries out [mm].
-            measure: From a cloud to a state; None takes ``cltp.tactile.measure.contact_state``.
-            clock: For the durations of the stages [s].
+            measure: Function from a cloud to its contact state; None takes
+                ``cltp.tactile.measure.contact_state``.
+            clock: Clock for the durations of the stages [s].
         """
         self._goal, self._move_step_mm = goal, move_step_mm
         self._measure, self._clock = measure, clock
 
     @property
     def name(self) -> str:
-        """'rules'."""
         return "rules"
 
     def start(self) -> None:
-        """Nothing to forget: every touch is judged by itself."""
+        pass  # each step is decided on its own
 
     def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Say what the contact is and what to do.
+        """Describe the contact and advise on it.
 
         Raises:
             TouchError: The cloud can't be measured.
         """
-        marks = [self._clock()]
+        times_s = [self._clock()]
         if self._measure is not None:
             state = self._measure(observation.cloud)
         else:
             state = contact_state(observation.cloud, in_contact=observation.in_contact)
-        marks.append(self._clock())
+        times_s.append(self._clock())
         advice = teacher(state, self._goal, move_step_mm=self._move_step_mm)
-        marks.append(self._clock())
+        times_s.append(self._clock())
         text = speak(state, advice)
-        marks.append(self._clock())
-        found = extract(text)
-        marks.append(self._clock())
+        times_s.append(self._clock())
+        extraction = extract(text)
+        times_s.append(self._clock())
         stages = ("measure", "teacher", "speak", "extract")
         return Decision(
             text=text,
-            action=found.action,
-            success=found.success,
-            reason=f"{found.reason} ({advice.why})",
+            action=extraction.action,
+            success=extraction.success,
+            reason=f"{extraction.reason} ({advice.reason})",
             stage_ms={
                 stage: 1e3 * (end - begin)
-                for stage, begin, end in zip(stages, marks, marks[1:], strict=False)
+                for stage, begin, end in zip(stages, times_s, times_s[1:], strict=False)
             },
         )

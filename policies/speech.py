@@ -1,8 +1,8 @@
-"""Words for a contact and for the advice on it: the teacher's D_t.
+"""Words for a contact and for the advice on it: D_t of the teacher.
 
-What ``speak`` says, ``policies.extraction`` reads back to the same action and verdict,
-whatever the wording (tested over all of them). With a random generator the wording varies: this is
-what the language model learns from. Not here: what to advise (``policies.teacher``).
+``policies.extraction`` reads every wording back to the same action and verdict (tested over all of
+them). Not here: what to advise (``policies.teacher``), and the short D_t that the language model
+learns (``tacgrasp.lessons.exchanges``).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cltp.tactile.states import ContactState
-from policies.teacher import Advice, Why
+from policies.teacher import Advice, Reason
 from primitives import Primitive
 
 CONTACT_WORDINGS: tuple[str, ...] = (
@@ -36,28 +36,48 @@ NO_CONTACT_WORDINGS: tuple[str, ...] = (
     "I feel no contact.",
     "The pad is empty.",
 )
-REASON_WORDINGS: dict[Why, tuple[str, ...]] = {
-    Why.NO_CONTACT: ("The object was missed.", "The fingers closed on air.", "The grasp missed."),
-    Why.OVER_THE_EDGE: (
+REASON_WORDINGS: dict[Reason, tuple[str, ...]] = {
+    Reason.NO_CONTACT: (
+        "The object was missed.",
+        "The fingers closed on air.",
+        "The grasp missed.",
+    ),
+    Reason.OVER_THE_EDGE: (
         "Only a sliver of the contact is on the pad.",
         "The contact lies over the edge, beyond one step.",
         "Most of it is beyond the pad.",
     ),
-    Why.TOO_FIRM: ("That is too firm.", "It is pressed too firmly.", "This is more than the goal."),
-    Why.OFF_CENTER: ("It is off centre.", "The contact is too far out.", "It is badly centred."),
-    Why.CUT: (
+    Reason.TOO_FIRM: (
+        "That is too firm.",
+        "It is pressed too firmly.",
+        "This is more than the goal.",
+    ),
+    Reason.OFF_CENTER: (
+        "It is off centre.",
+        "The contact is too far out.",
+        "It is badly centred.",
+    ),
+    Reason.CUT: (
         "The edge cuts it off.",
         "Part of it lies beyond the edge.",
         "The pad ends inside it.",
     ),
-    Why.TOO_LIGHT: ("That is too light.", "It is held too loosely.", "This is less than the goal."),
-    Why.BAND_TOO_NARROW: (
+    Reason.TOO_LIGHT: (
+        "That is too light.",
+        "It is held too loosely.",
+        "This is less than the goal.",
+    ),
+    Reason.BAND_TOO_NARROW: (
         "No step fits between the limits of the goal: hold and ask for a wider goal.",
         "Every step would overshoot, so hold still.",
         "The goal is narrower than a step, holding.",
         "It is outside the goal and any step would pass beyond it.",
     ),
-    Why.GOOD: ("It lies within the goal.", "All is within the limits.", "It is well centred."),
+    Reason.GOOD: (
+        "It lies within the goal.",
+        "All is within the limits.",
+        "It is well centred.",
+    ),
 }
 
 
@@ -141,17 +161,17 @@ SUCCESS_WORDINGS: tuple[str, ...] = (
 
 
 def speak(state: ContactState, advice: Advice, rng: np.random.Generator | None = None) -> str:
-    """Say what the contact is, and what to do about it.
+    """Describe the contact and word the advice on it.
 
     Args:
-        state: The contact.
-        advice: What the teacher advises on it.
-        rng: Draws the wording; None takes the first of each.
+        state: State of the contact.
+        advice: The teacher's advice.
+        rng: Generator that draws the wordings; None takes the first of each.
 
     Returns:
         Two or three sentences; ``extract`` reads ``advice.action`` and ``advice.success`` in them.
     """
-    parts = [describe(state, rng), _pick(REASON_WORDINGS[advice.why], rng)]
+    parts = [describe(state, rng), _pick(REASON_WORDINGS[advice.reason], rng)]
     if advice.success:
         parts.append(_pick(SUCCESS_WORDINGS, rng))
     elif advice.action is not None:
@@ -160,7 +180,7 @@ def speak(state: ContactState, advice: Advice, rng: np.random.Generator | None =
 
 
 def describe(state: ContactState, rng: np.random.Generator | None = None) -> str:
-    """The contact alone, in words and numbers (mm, %, N)."""
+    """Describe the contact alone, in words and numbers [mm, %, N]."""
     if state.depth is None or state.position is None or state.area is None:
         return _pick(NO_CONTACT_WORDINGS, rng)
     return _pick(CONTACT_WORDINGS, rng).format(

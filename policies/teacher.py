@@ -1,8 +1,8 @@
-"""What to do about a contact, given a goal in numbers: the rule that all advice comes from.
+"""Advice on a contact, given a numeric goal: the one rule behind all decisions.
 
-``rules`` asks it in the loop; the language model's advice data are its answers in many wordings.
-Pure functions of ``ContactState`` and ``Goal``; no torch. Not here: how the advice is worded
-(``policies.speech``).
+The policy ``rules`` follows it in the loop, and the lessons of the language model put it into many
+wordings. Pure functions of ``ContactState`` and ``Goal``; no torch. Not here: how the advice is
+worded (``policies.speech``).
 """
 
 from __future__ import annotations
@@ -20,18 +20,18 @@ LESSON_MOVE_STEP_MM = 3.0
 Source: the design."""
 
 DEPTH_EXPONENT = 2.0 / 3.0
-"""Indentation grows as force to this power. Source: Hertz; a bonded gel grows less."""
+"""Indentation grows with the force to this power. Source: Hertz; in a bonded gel it grows less."""
 
-SLIVER_SHARE = 0.004
-"""A contact that the edge cuts and that shows less of the field than this lies beyond one step.
+SLIVER_FRACTION = 0.004
+"""Fraction of the sensing area below which a contact cut by the edge is out of reach of one step.
 
-Our choice: 0.4 % of a GelSight Mini is 1.2 mm², four of 1024 points. A berry whose centre is one
-step outside the pad and that is pressed lightly shows about that much.
+Our choice: 0.4 % of a GelSight Mini is 1.2 mm², four of 1024 points. A lightly pressed berry whose
+centre is one step outside the pad covers about that much.
 """
 
 
-class Why(StrEnum):
-    """The reason behind an advice."""
+class Reason(StrEnum):
+    """The rule that decided an advice."""
 
     NO_CONTACT = "no contact"
     OVER_THE_EDGE = "the contact lies over the pad's edge, beyond one step"
@@ -48,25 +48,25 @@ class Advice:
     """What to do about one contact.
 
     Attributes:
-        action: The primitive to carry out; None for success, and when nothing would help.
-        success: The contact lies within the goal.
-        why: The reason.
+        action: Primitive to carry out; None on success, and when no primitive would help.
+        success: Whether the contact lies within the goal.
+        reason: The rule that decided.
     """
 
     action: Primitive | None
     success: bool
-    why: Why
+    reason: Reason
 
 
 def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     """Advise on one contact.
 
-    The first that applies decides, in this order:
+    The first rule that applies decides:
 
     1. No contact: ``reset``.
-    2. A sliver at the edge (``SLIVER_SHARE``): ``reset``; a step would not bring it back.
-    3. Too firm (force, depth or area above its band): ``decrease_force``. Before any move, since a
-       move grasps again with the same force and would bruise again.
+    2. A sliver at the edge (``SLIVER_FRACTION``): ``reset``; a step would not bring it back.
+    3. Too firm (force, depth or area above its band): ``decrease_force``. This comes before
+       any move, since a move grasps again with the same force and would bruise again.
     4. Off centre: a move towards the contact, along the axis whose excess is the larger part of
        its band; or towards the one side that cuts the contact off. Only where a step of
        ``move_step_mm`` brings it nearer, so that two moves never undo each other.
@@ -85,32 +85,32 @@ def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     centred but too firm: reduce); the order and the limits are ours.
     """
     if not state.in_contact:
-        return _advise(Primitive.RESET, Why.NO_CONTACT)
-    if state.cut and state.area_fraction < SLIVER_SHARE:
-        return _advise(Primitive.RESET, Why.OVER_THE_EDGE)
+        return _advise(Primitive.RESET, Reason.NO_CONTACT)
+    if state.cut and state.area_fraction < SLIVER_FRACTION:
+        return _advise(Primitive.RESET, Reason.OVER_THE_EDGE)
     quantities = (
         (state.force_n, goal.force_n),
         (state.depth_mm, goal.depth_mm),
         (state.area_fraction, goal.area_fraction),
     )
     if any(value > band.high for value, band in quantities):
-        return _advise(Primitive.DECREASE_FORCE, Why.TOO_FIRM)
+        return _advise(Primitive.DECREASE_FORCE, Reason.TOO_FIRM)
     move = _move_to_center(state, goal, move_step_mm)
     if move is not None:
         return move
     if any(value < band.low for value, band in quantities):
-        force_then = state.force_n * INCREASE_FACTOR
-        depth_then = state.depth_mm * INCREASE_FACTOR**DEPTH_EXPONENT
-        if force_then <= goal.force_n.high and depth_then <= goal.depth_mm.high:
-            return _advise(Primitive.INCREASE_FORCE, Why.TOO_LIGHT)
-        return _advise(None, Why.BAND_TOO_NARROW)
+        next_force_n = state.force_n * INCREASE_FACTOR
+        next_depth_mm = state.depth_mm * INCREASE_FACTOR**DEPTH_EXPONENT
+        if next_force_n <= goal.force_n.high and next_depth_mm <= goal.depth_mm.high:
+            return _advise(Primitive.INCREASE_FORCE, Reason.TOO_LIGHT)
+        return _advise(None, Reason.BAND_TOO_NARROW)
     if state.x_mm not in goal.x_mm or state.y_mm not in goal.y_mm:
-        return _advise(None, Why.BAND_TOO_NARROW)
-    return Advice(action=None, success=True, why=Why.GOOD)
+        return _advise(None, Reason.BAND_TOO_NARROW)
+    return Advice(action=None, success=True, reason=Reason.GOOD)
 
 
-def _advise(action: Primitive | None, why: Why) -> Advice:
-    return Advice(action=action, success=False, why=why)
+def _advise(action: Primitive | None, reason: Reason) -> Advice:
+    return Advice(action=action, success=False, reason=reason)
 
 
 def _move_to_center(state: ContactState, goal: Goal, move_step_mm: float) -> Advice | None:
@@ -122,11 +122,11 @@ def _move_to_center(state: ContactState, goal: Goal, move_step_mm: float) -> Adv
     for value, band, lower, higher, _, _ in axes:
         excess = _excess(value, band)
         step = move_step_mm if value > band.high else -move_step_mm
-        if excess > 0 and _excess(value - step, band) < excess:  # the contact comes to meet us
+        if excess > 0 and _excess(value - step, band) < excess:  # the contact moves the other way
             half_width = max((band.high - band.low) / 2, 1e-6)
             outside.append((excess / half_width, higher if value > band.high else lower))
     if outside:
-        return _advise(max(outside, key=lambda item: item[0])[1], Why.OFF_CENTER)
+        return _advise(max(outside, key=lambda item: item[0])[1], Reason.OFF_CENTER)
     for value, band, lower, higher, low_side, high_side in axes:
         if len({low_side, high_side} & state.cut) != 1:
             continue  # whole along this axis, or too large for the pad
@@ -134,12 +134,12 @@ def _move_to_center(state: ContactState, goal: Goal, move_step_mm: float) -> Adv
             (low_side, lower, -1) if low_side in state.cut else (high_side, higher, 1)
         )
         middle = (band.low + band.high) / 2
-        then = value - sign * move_step_mm
-        if side in state.cut and then in band and abs(then - middle) < abs(value - middle):
-            return _advise(action, Why.CUT)
+        moved = value - sign * move_step_mm
+        if side in state.cut and moved in band and abs(moved - middle) < abs(value - middle):
+            return _advise(action, Reason.CUT)
     return None
 
 
 def _excess(value: float, band: Band) -> float:
-    """How far outside the band, in its unit; 0 inside."""
+    """Distance from the band, in its unit; 0 inside."""
     return max(band.low - value, value - band.high, 0.0)

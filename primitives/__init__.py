@@ -1,6 +1,6 @@
-"""What a robot can be asked to do: seven primitives, the devices that do them, and their limits.
+"""The seven action primitives, their execution on an arm and a gripper, and all limits.
 
-Imports none of the other four packages.
+Not here: drivers of devices (``tacgrasp.drivers``), and the choice of a primitive (``policies``).
 """
 
 from primitives.errors import LimitError, RobotError

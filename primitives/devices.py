@@ -1,8 +1,7 @@
 """Contracts of the two devices that carry out primitives: an arm and a gripper.
 
-Implementations: ``sim.grasp.rig`` (simulated), the drivers. One contract suite,
-    ``tests/contracts``, runs
-over all of them. Devices know nothing of primitives or of touch.
+Implementations are in ``sim.grasp`` (simulated) and in the drivers. One suite of contract tests,
+``tests/contracts``, runs on all of them. Devices know neither primitives nor sensors.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ class Pose:
         rotvec_rad: Shape (3,), rotation vector [rad].
 
     Raises:
-        LimitError: A component is missing or not finite (a controller may accept such a pose).
+        LimitError: A component is missing or not finite; a controller might accept such a pose.
     """
 
     position_m: NDArray[np.float64]
@@ -42,12 +41,12 @@ class Pose:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GripperState:
-    """What a gripper reports.
+    """State that a gripper reports.
 
     Attributes:
         width_m: Opening between the fingers [m].
-        force_n: Force last commanded, 0 when open [N]; not a measurement of the true force.
-        closed: True when the fingers were last closed on something by ``grip``.
+        force_n: Last commanded force, 0 when open [N]; the true force is not measured.
+        closed: Whether the last command was ``grip``.
     """
 
     width_m: float
@@ -59,8 +58,8 @@ class Arm(Protocol):
     """An arm that moves its tool centre point (TCP) on straight lines.
 
     Every method raises ``RobotError`` when the device is lost, stopped by a safety function, or did
-    not do what it was asked; after that only ``stop`` and ``disconnect`` are of use. No method
-    answers with a stale or invented value.
+    not carry out a command; after that only ``stop`` and ``disconnect`` may be called. No method
+    returns a stale or invented value.
     """
 
     def pose(self) -> Pose:
@@ -70,14 +69,14 @@ class Arm(Protocol):
     def move_to(
         self, pose: Pose, *, speed_m_s: float = 0.05, acceleration_m_s2: float = 0.5
     ) -> Pose:
-        """Move on a straight line, return when there with the pose that was reached.
+        """Move on a straight line and return the reached pose.
 
-        Refuses (``LimitError``) a pose outside what the device itself allows, without moving.
+        Refuses a pose outside the device's own limits (``LimitError``) without moving.
         """
         ...
 
     def stop(self) -> None:
-        """Bring the arm to rest at once. Idempotent, never raises, safe after any error."""
+        """Bring the arm to rest at once. Idempotent, never raises, works after any error."""
         ...
 
     def disconnect(self) -> None:
@@ -89,19 +88,19 @@ class Gripper(Protocol):
     """A parallel gripper under force control. Errors as for ``Arm``."""
 
     def state(self) -> GripperState:
-        """Opening and last commanded force."""
+        """The opening and the last commanded force."""
         ...
 
     def grip(self, force_n: float) -> GripperState:
         """Close until the fingers press with ``force_n`` [N], or adjust a grip to that force.
 
         Returns when settled. Closing on nothing is not an error: the width is then the minimum.
-        Refuses (``LimitError``) a force that is not finite, not positive or beyond the device.
+        Refuses a force that is not finite, not positive or beyond the device (``LimitError``).
         """
         ...
 
     def open_by(self, clear_m: float) -> GripperState:
-        """Open by ``clear_m`` [m] from the present width, so that the object is free."""
+        """Open by ``clear_m`` [m] from the present width, so that the object is released."""
         ...
 
     def stop(self) -> None:

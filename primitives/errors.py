@@ -1,8 +1,8 @@
-"""Errors of the robot: stop, make safe, end the episode."""
+"""Errors of the robot. The loop stops, makes the robot safe and ends the episode."""
 
 
 class RobotError(Exception):
-    """A device failed or refused. The loop stops the arm, leaves the task's safe state and ends."""
+    """A device failed or refused a command. The loop stops the arm and makes the robot safe."""
 
 
 class LimitError(RobotError):

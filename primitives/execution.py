@@ -1,17 +1,18 @@
-"""Carries out a primitive on an arm and a gripper, inside the limits.
+"""Carries out primitives on an arm and a gripper, inside the limits.
 
-What each primitive does, on every rig alike (our choice, since the paper leaves it open): a move
-opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes to the last
-commanded force, since a closed gripper would carry the object along. ``increase_force`` and
-``decrease_force`` multiply the last force by 1.5 and 0.65, or, where the force is felt and the goal
-is known, bring the felt force towards the goal (``force_factor``). ``reset`` opens, goes back to
-the start pose and grasps again. After a closing on nothing it opens as wide as before the first
-grasp, since the object stands where the fingers have to go back to.
+The paper leaves the execution open; on every rig it is the same (our choice):
 
-A first grasp and a reset are an approach where touch is given: the force rises in small steps from
-almost nothing until something is felt, at most to ``first_force_n``, so that no object is pressed
-harder than it takes to find it. Without touch they close with ``first_force_n`` at once. Not here:
-how many resets an episode may have, or what to do after an error (the loop).
+* A move opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes to the
+  last commanded force. A closed gripper would drag the object along.
+* ``increase_force`` and ``decrease_force`` multiply the last force by 1.5 and 0.65, or, where the
+  force is felt and the goal is known, bring the felt force towards the goal (``force_factor``).
+* ``reset`` opens, returns to the start pose and grasps again. After a closing on nothing it opens
+  as wide as before the first grasp, since the object stands where the fingers go back to.
+* A first grasp and the grasp of a reset are an approach where touch is given: the force rises in
+  small steps from almost nothing until something is felt, at most to ``first_force_n``, so that no
+  object is pressed harder than it takes to find it. Without touch they close with that force.
+
+Not here: the number of resets in an episode and the reaction to errors (``tacgrasp.loop``).
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from primitives.sense import ContactSense, Interval
 
 INCREASE_FACTOR = 1.5
 DECREASE_FACTOR = 0.65
-"""Our choice: 1.5 × 0.65 is just below 1, so that one of each ends a little gentler."""
+"""Our choice: 1.5 × 0.65 is just below 1, so that one of each leaves a slightly lower force."""
 
 MAX_INCREASE, MIN_DECREASE = 2.0, 0.5
 """Largest changes of the force towards a goal, as factors. Our choice: a felt force is off by up to
@@ -55,8 +56,8 @@ APPROACH_STEP_N = 0.05
 """Least step of the commanded force during the approach [N]."""
 
 CLOSED_WIDTH_M = 0.001
-"""Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin, and
-a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap when
+"""Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin,
+and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap when
 closed are closed by the approach up to its limit of force, and no further."""
 
 
@@ -85,14 +86,15 @@ def force_factor(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PadAxes:
-    """The pad's axes in the frame of the tool centre point (TCP); the rig's configuration.
+    """The pad's axes in the frame of the tool centre point (TCP), from the rig's configuration.
 
     Attributes:
         x_tcp: Unit vector of the pad's +x (right), three numbers, TCP frame.
         y_tcp: Unit vector of the pad's +y (towards the palm), TCP frame.
 
     Raises:
-        LimitError: Not finite, not of unit length or not perpendicular (within 1e-6).
+        LimitError: An axis is not finite or not of unit length, or the axes are not perpendicular
+            (within 1e-6).
     """
 
     x_tcp: tuple[float, float, float]
@@ -112,20 +114,20 @@ class PadAxes:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Executed:
-    """What became of one primitive, or of the first grasp.
+    """Result of one primitive, or of the first grasp.
 
     Attributes:
-        primitive: What was carried out; None for the first grasp.
-        asked: In words and numbers, before the limits.
-        sent: In words and numbers, after the limits; 'nothing' when nothing was sent.
-        reached: Pose of the TCP afterwards, measured [base frame].
-        force_n: Force last commanded, afterwards [N]; 0 before any grip.
-        width_m: Opening afterwards, as the gripper reports it [m].
-        clamped: What the limits changed, one note each.
-        opened: The gripper was opened on the way, so that the next contact is a new one.
-        travel_mm: Way of the TCP over the episode so far, measured [mm].
-        dry_run: Nothing was sent; everything but ``sent`` describes the robot as it stands.
-        started_s, ended_s: On the clock given to the executor, monotonic [s].
+        primitive: The primitive; None for the first grasp.
+        asked: The command before the limits, in words and numbers.
+        sent: The command after the limits, in words and numbers; 'nothing' when none was sent.
+        reached: Measured pose of the TCP afterwards [base frame].
+        force_n: Last commanded force afterwards [N]; 0 before any grip.
+        width_m: Opening afterwards, as reported by the gripper [m].
+        clamped: Changes by the limits, one note each.
+        opened: Whether the gripper was opened on the way, so that the next contact is a new one.
+        travel_mm: Measured path of the TCP over the episode so far [mm].
+        dry_run: Whether sending was off; all but ``sent`` then describes the robot as it stands.
+        started_s, ended_s: Begin and end on the executor's monotonic clock [s].
     """
 
     primitive: Primitive | None
@@ -146,12 +148,14 @@ def rotate(rotvec_rad: NDArray[np.float64], vector: NDArray[np.float64]) -> NDAr
     """Turn a vector, shape (3,) in any unit, by a rotation vector, shape (3,) [rad]."""
     from scipy.spatial.transform import Rotation  # slow to import, and needed by moves alone
 
-    turned = Rotation.from_rotvec(np.array(rotvec_rad)).apply(np.array(vector))  # no read-only ones
+    turned = Rotation.from_rotvec(np.array(rotvec_rad)).apply(
+        np.array(vector)
+    )  # scipy takes no read-only arrays
     return np.asarray(turned, dtype=np.float64)
 
 
 class Executor:
-    """Carries out primitives for one episode; counts travel and remembers the force."""
+    """Carries out the primitives of one episode; keeps the travel and the last force."""
 
     def __init__(
         self,
@@ -175,21 +179,22 @@ class Executor:
         Args:
             arm: Connected arm.
             gripper: Connected gripper.
-            limits: Bounds of everything that will be sent.
+            limits: Bounds of all commands.
             clear_mm: Opening before a move [mm].
-            move_step_mm: Length of a move [mm]; clamped like every step.
+            move_step_mm: Length of a move [mm]; clamped by the limits.
             first_force_n: Force of the first grasp and of a reset [N]; with ``sense`` the largest
-                force until something is felt. Clamped likewise.
-            start_pose: Where ``reset`` goes [base frame].
+                force until something is felt. Clamped by the limits.
+            start_pose: Target of ``reset`` [base frame].
             pad_axes: The pad's axes in the TCP frame.
-            clock: Monotonic [s].
+            clock: Monotonic clock [s].
             sense: Touch during a closing; None closes without feeling.
             goal_force_n: Band of the felt force that changes of the force go towards [N].
             force_step_n: Least change of the force that the gripper makes [N].
-            dry_run: Read the devices, send them nothing.
+            dry_run: Whether to read the devices and send them nothing.
 
         Raises:
-            LimitError: A size is not finite and positive, or the start is outside the workspace.
+            LimitError: A size is not finite and positive, or ``start_pose`` is outside the
+                workspace.
         """
         for name, value in (("clear_mm", clear_mm), ("move_step_mm", move_step_mm)):
             if not (math.isfinite(value) and value > 0):
@@ -212,16 +217,16 @@ class Executor:
 
     @property
     def force_n(self) -> float:
-        """Force last commanded [N]; 0 before the first grasp."""
+        """Last commanded force [N]; 0 before the first grasp."""
         return self._force_n
 
     @property
     def travel_mm(self) -> float:
-        """Way of the TCP over the episode so far, measured [mm]."""
+        """Measured path of the TCP over the episode so far [mm]."""
         return self._travel_mm
 
     def grasp(self, force_n: float | None = None) -> Executed:
-        """Approach, or close with the first force, where the arm stands.
+        """Approach, or close with the first force, at the present pose.
 
         Args:
             force_n: Close with this force at once instead (a replay) [N].
@@ -251,8 +256,8 @@ class Executor:
             force_n: Commanded force after it instead of the executor's own choice (a replay) [N].
 
         Raises:
-            LimitError: It would leave the workspace or the allowed travel, or there was no grasp
-                yet. Nothing was sent.
+            LimitError: The primitive would leave the workspace or exceed the travel, or comes
+                before the first grasp. Nothing was sent.
             RobotError: A device failed; the loop stops it.
         """
         if not self._dry_run and self._force_n <= 0:
@@ -293,8 +298,8 @@ class Executor:
 
     def _reset(self, started: float, force_n: float | None) -> Executed:
         here = self._arm.pose()
-        way_mm = distance_mm(here, self._start_pose)
-        check_travel(self._travel_mm, way_mm, self._limits)
+        path_mm = distance_mm(here, self._start_pose)
+        check_travel(self._travel_mm, path_mm, self._limits)
         if not self._dry_run:
             self._gripper.open_by(self._reset_clear_m())
             self._go(here, self._start_pose)
@@ -303,7 +308,7 @@ class Executor:
         return self._done(
             Primitive.RESET,
             asked=f"start pose, {self._first_words(first, feel=force_n is None)}",
-            sent=f"{way_mm:.3g} mm to the start pose, {sent}",
+            sent=f"{path_mm:.3g} mm to the start pose, {sent}",
             notes=notes,
             opened=not self._dry_run,
             started=started,
@@ -316,8 +321,8 @@ class Executor:
         before = self._force_n or clamp_force(self._first_force_n, self._limits).value
         felt = None if self._sense is None else self._sense.felt_force()
         factor = force_factor(increase=increase, felt=felt, goal_n=self._goal_force_n)
-        asked = force_n or before * factor
-        force = clamp_force(asked, self._limits)
+        request_n = force_n or before * factor
+        force = clamp_force(request_n, self._limits)
         unchanged = math.isclose(force.value, before, rel_tol=1e-9)
         reason = AT_LIMIT if force.note else "the goal leaves no room for a change"
         notes = (force.note, reason if unchanged else "")
@@ -325,7 +330,7 @@ class Executor:
             self._grip(force.value)
         return self._done(
             primitive,
-            asked=f"{asked:.3g} N",
+            asked=f"{request_n:.3g} N",
             sent="nothing" if unchanged else f"{force.value:.3g} N",
             notes=notes,
             opened=False,
@@ -378,7 +383,7 @@ class Executor:
         try:
             reached = self._arm.move_to(target, speed_m_s=self._limits.max_speed_m_s)
         except LimitError:
-            self._grip(self._force_n)  # refused by the device, which did not move: hold again
+            self._grip(self._force_n)  # the device refused and did not move: hold the object again
             raise
         self._travel_mm += distance_mm(here, reached)
 

@@ -1,9 +1,8 @@
-"""What may be sent to an arm and a gripper: clamp a step or a force, refuse the rest.
+"""Limits of all commands: a step or a force is clamped, everything else is refused.
 
-Pure functions of numbers. A step and a force are clamped, and the clamp is reported, since less of
-the same is still what was asked; a pose outside the workspace or a journey beyond the allowed
-travel is refused, since there is no harmless 'less' of it. Not here: carrying anything out
-(``primitives.execution``).
+Pure functions of numbers. A step and a force are clamped and the clamp is reported, since a smaller
+one still serves the request. A pose outside the workspace, or travel beyond the limit, is refused:
+no smaller one is known to be harmless. Not here: the execution (``primitives.execution``).
 """
 
 from __future__ import annotations
@@ -20,18 +19,19 @@ from primitives.errors import LimitError
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Limits:
-    """Bounds of everything that is sent during one episode.
+    """Bounds of all commands of one episode.
 
     Attributes:
         max_step_mm: Longest single move [mm].
-        workspace_low_m, workspace_high_m: Opposite corners of the box that the tool centre point
-            must stay in [m, base frame]; three numbers each.
-        max_travel_mm: Longest way of the tool centre point over an episode [mm].
+        workspace_low_m, workspace_high_m: Opposite corners of the box around all positions of the
+            tool centre point [m, base frame]; three numbers each.
+        max_travel_mm: Longest path of the tool centre point over an episode [mm].
         min_force_n, max_force_n: Range of commanded forces [N].
         max_speed_m_s: Speed of every move [m/s].
 
     Raises:
-        LimitError: A bound is not finite, not positive, or a range is empty; the message names it.
+        LimitError: A bound is not finite or not positive, or a range is empty; the message names
+            it.
     """
 
     max_step_mm: float
@@ -65,54 +65,54 @@ class Limits:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Sent:
+class LimitedValue:
     """A number after the limits.
 
     Attributes:
-        value: What may be sent, in the unit of what was asked.
-        note: What the limits changed; '' when nothing.
+        value: The value that may be sent, in the unit of the request.
+        note: Description of the change by the limits; '' without a change.
     """
 
     value: float
     note: str = ""
 
 
-def clamp_step(step_mm: float, limits: Limits) -> Sent:
-    """Length of a step, shortened to ``max_step_mm``.
+def clamp_step(step_mm: float, limits: Limits) -> LimitedValue:
+    """Clamp the length of a step to ``max_step_mm``.
 
     Raises:
-        LimitError: Not finite or negative (a direction is not a length).
+        LimitError: The length is not finite or negative.
     """
     if not (math.isfinite(step_mm) and step_mm >= 0):
         raise LimitError(f"a step needs a finite length of at least 0 mm, got {step_mm}")
     if step_mm > limits.max_step_mm:
         note = f"step {step_mm:.3g} mm shortened to max_step_mm {limits.max_step_mm:.3g}"
-        return Sent(value=limits.max_step_mm, note=note)
-    return Sent(value=step_mm)
+        return LimitedValue(value=limits.max_step_mm, note=note)
+    return LimitedValue(value=step_mm)
 
 
-def clamp_force(force_n: float, limits: Limits) -> Sent:
-    """Force brought into [``min_force_n``, ``max_force_n``].
+def clamp_force(force_n: float, limits: Limits) -> LimitedValue:
+    """Clamp a force to ``min_force_n`` and ``max_force_n``.
 
     Raises:
-        LimitError: Not finite or not positive.
+        LimitError: The force is not finite or not positive.
     """
     if not (math.isfinite(force_n) and force_n > 0):
         raise LimitError(f"a grip needs a finite force above 0 N, got {force_n}")
     if force_n > limits.max_force_n:
         note = f"force {force_n:.3g} N lowered to max_force_n {limits.max_force_n:.3g}"
-        return Sent(value=limits.max_force_n, note=note)
+        return LimitedValue(value=limits.max_force_n, note=note)
     if force_n < limits.min_force_n:
         note = f"force {force_n:.3g} N raised to min_force_n {limits.min_force_n:.3g}"
-        return Sent(value=limits.min_force_n, note=note)
-    return Sent(value=force_n)
+        return LimitedValue(value=limits.min_force_n, note=note)
+    return LimitedValue(value=force_n)
 
 
 def check_workspace(pose: Pose, limits: Limits) -> None:
     """Refuse a pose whose position lies outside the workspace.
 
     Raises:
-        LimitError: Outside; the message names axis, value and bound.
+        LimitError: It is outside; the message names axis, value and bound.
     """
     bounds = zip(
         "xyz", pose.position_m, limits.workspace_low_m, limits.workspace_high_m, strict=True
@@ -129,7 +129,7 @@ def check_travel(travelled_mm: float, step_mm: float, limits: Limits) -> None:
     """Refuse a move that would exceed the travel allowed over an episode.
 
     Raises:
-        LimitError: Beyond it, or not finite.
+        LimitError: The travel would exceed the limit, or is not finite.
     """
     total = travelled_mm + step_mm
     if not (math.isfinite(total) and travelled_mm >= 0 and step_mm >= 0):

@@ -6,10 +6,10 @@ from enum import StrEnum
 
 
 class Primitive(StrEnum):
-    """What the policy can ask for; the value is the identifier that appears in D_t.
+    """The actions that a policy can ask for; the value is the identifier in D_t.
 
-    A move names the direction in the gel frame towards which the gripper goes: towards the contact,
-    so that the contact comes to the pad's centre ('down' is towards the fingertip).
+    A move names the direction of the gripper in the gel frame. It goes towards the contact, which
+    brings the contact to the pad's centre; 'down' is towards the fingertip.
     """
 
     MOVE_UP = "move_up"

@@ -6,6 +6,7 @@ Not here: measuring the contact (``cltp.tactile.measure``), deciding (``policies
 from __future__ import annotations
 
 from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
 from cltp.tactile.measure import contact_state
@@ -20,6 +21,12 @@ COMPLETED = "Grasp completed successfully"
 def make_console() -> Console:
     """A console that never wraps a line."""
     return Console(soft_wrap=True, highlight=False, markup=False)
+
+
+def count_progress(console: Console | None = None) -> Progress:
+    """A progress bar with counts; by default on standard error."""
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    return Progress(*columns, TimeRemainingColumn(), console=console or Console(stderr=True))
 
 
 class StepPrinter:

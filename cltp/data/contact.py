@@ -7,7 +7,6 @@ heights are clean.
 from __future__ import annotations
 
 import math
-import zlib
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -139,8 +138,3 @@ def unpack_heights(packed: bytes | memoryview, rows: int, columns: int) -> NDArr
     steps = np.cumsum(steps, axis=0, dtype=np.int16)
     steps = np.cumsum(steps, axis=1, dtype=np.int16)
     return steps.astype(np.float32) * np.float32(UNIT_MM)
-
-
-def checksum(packed: bytes | memoryview) -> int:
-    """CRC-32 of packed heights."""
-    return zlib.crc32(packed)

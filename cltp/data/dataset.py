@@ -14,8 +14,10 @@ Not here: writing (``cltp.data.dataset_writer``).
 
 from __future__ import annotations
 
+import dataclasses
 import hashlib
 import json
+import zlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -25,7 +27,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
-from cltp.data.contact import Contact, Gel, Split, checksum, unpack_heights
+from cltp.data.contact import Contact, Gel, Split, unpack_heights
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import DIMENSIONS, NUMBERS, ContactState, Side
@@ -33,33 +35,28 @@ from cltp.tactile.states import DIMENSIONS, NUMBERS, ContactState, Side
 FORMAT = "tacgrasp-contacts"
 VERSION = 1
 
+NUMBER_COLUMNS = {name: "area_share" if name == "area_fraction" else name for name in NUMBERS}
+"""The column of each of ``NUMBERS``."""
+
+GEL_COLUMNS = {field.name: f"gel_{field.name}" for field in dataclasses.fields(Gel)}
+"""The column of each property of a gel."""
+
 SCHEMA = pa.schema(
-    [
-        ("offset", pa.int64()),
-        ("size", pa.int32()),
-        ("crc32", pa.uint32()),
-        ("rows", pa.int32()),
-        ("columns", pa.int32()),
-        ("sensor", pa.string()),
-        ("object", pa.string()),
-        ("series", pa.int64()),
-        ("split", pa.string()),
-        ("seed", pa.int64()),
-        ("depth_mm", pa.float32()),
-        ("x_mm", pa.float32()),
-        ("y_mm", pa.float32()),
-        ("area_share", pa.float32()),
-        ("force_n", pa.float32()),
-        ("depth", pa.string()),
-        ("position", pa.string()),
-        ("area", pa.string()),
-        ("cut", pa.string()),
-        ("shape", pa.string()),
-        ("texture", pa.string()),
-        ("gel_thickness_mm", pa.float32()),
-        ("gel_young_mpa", pa.float32()),
-        ("gel_poisson", pa.float32()),
-    ]
+    (name, kind)
+    for kind, names in (
+        (pa.int64(), ("offset",)),
+        (pa.int32(), ("size",)),
+        (pa.uint32(), ("crc32",)),
+        (pa.int32(), ("rows", "columns")),
+        (pa.string(), ("sensor", "object")),
+        (pa.int64(), ("series",)),
+        (pa.string(), ("split",)),
+        (pa.int64(), ("seed",)),
+        (pa.float32(), NUMBER_COLUMNS.values()),
+        (pa.string(), ("depth", "position", "area", "cut", "shape", "texture")),
+        (pa.float32(), GEL_COLUMNS.values()),
+    )
+    for name in names
 )
 """Columns of every data set of this version."""
 
@@ -72,9 +69,6 @@ IMPORTED = pa.schema([("measured", pa.string())])
 """Further column of shards with measured labels; in others it reads as null."""
 
 OPTIONAL = pa.unify_schemas([SIMULATED, IMPORTED])
-
-NUMBER_COLUMNS = {name: "area_share" if name == "area_fraction" else name for name in NUMBERS}
-"""The column of each of ``NUMBERS``."""
 
 
 def read_header(folder: Path) -> dict[str, Any]:
@@ -140,7 +134,8 @@ class ContactDataset:
             self._index_files += files
             tables += shards
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
-        table = pa.concat_tables(tables)
+        no_rows = pa.schema([*SCHEMA, *OPTIONAL]).empty_table()
+        table = pa.concat_tables([no_rows, *tables], promote_options="default")
         if split is not None:
             keep = np.flatnonzero(np.array(table["split"].to_pylist()) == split.value)
             table, shard = table.take(pa.array(keep)), shard[keep]
@@ -175,7 +170,7 @@ class ContactDataset:
         """
         shard, offset = int(self._shard[index]), int(self._columns["offset"][index])
         packed = self._map(shard)[offset : offset + int(self._columns["size"][index])]
-        if checksum(packed.data) != int(self._columns["crc32"][index]):
+        if zlib.crc32(packed.data) != int(self._columns["crc32"][index]):
             name = self._index_files[shard].with_suffix(".heights")
             raise TouchError(f"contact {index} in {name} is damaged; generate the data again")
         return unpack_heights(
@@ -184,30 +179,18 @@ class ContactDataset:
 
     def state(self, index: int) -> ContactState:
         """The labels of a contact."""
-        row = {name: values[index] for name, values in self._columns.items()}
-        numbers: dict[str, Any] = {
-            name: float(row[column]) for name, column in NUMBER_COLUMNS.items()
-        }
+        row = self._row(index)
         words: dict[str, Any] = {
             name: None if row[name] is None else classes(row[name])
             for name, classes in DIMENSIONS.items()
         }
-        return ContactState(
-            **numbers,
-            **words,
-            cut=frozenset(Side(side) for side in row["cut"].split()),
-        )
+        cut = frozenset(Side(side) for side in row["cut"].split())
+        return ContactState(**_numbers(row, NUMBER_COLUMNS), **words, cut=cut)
 
     def contact(self, index: int) -> Contact:
         """The whole record of a contact."""
-        row = {name: values[index] for name, values in self._columns.items()}
-        gel = None
-        if row["gel_young_mpa"] is not None and not np.isnan(row["gel_young_mpa"]):
-            gel = Gel(
-                thickness_mm=float(row["gel_thickness_mm"]),
-                young_mpa=float(row["gel_young_mpa"]),
-                poisson=float(row["gel_poisson"]),
-            )
+        row = self._row(index)
+        has_gel = _optional(row["gel_young_mpa"]) is not None
         return Contact(
             height_mm=self.height_mm(index),
             sensor=sensor_named(row["sensor"]),
@@ -215,7 +198,7 @@ class ContactDataset:
             object=row["object"],
             series=int(row["series"]),
             split=Split(row["split"]),
-            gel=gel,
+            gel=Gel(**_numbers(row, GEL_COLUMNS)) if has_gel else None,
             seed=int(row["seed"]),
             unsure=None if row["unsure"] is None else frozenset(row["unsure"].split()),
             approach_mm=_optional(row["approach_mm"]),
@@ -230,11 +213,18 @@ class ContactDataset:
             total.update(hashlib.sha256(path.read_bytes()).digest())
         return total.hexdigest()
 
+    def _row(self, index: int) -> dict[str, Any]:
+        return {name: values[index] for name, values in self._columns.items()}
+
     def _map(self, shard: int) -> NDArray[np.uint8]:
         if shard not in self._maps:
             path = self._index_files[shard].with_suffix(".heights")
             self._maps[shard] = np.memmap(path, dtype=np.uint8, mode="r")
         return self._maps[shard]
+
+
+def _numbers(row: Mapping[str, Any], columns: Mapping[str, str]) -> dict[str, Any]:
+    return {name: float(row[column]) for name, column in columns.items()}
 
 
 def _optional(value: Any) -> float | None:
@@ -269,10 +259,6 @@ def _read_index(path: Path) -> pa.Table:
     present = [column for column in OPTIONAL if column.name in table.column_names]
     if not table.schema.equals(pa.schema([*SCHEMA, *present]), check_metadata=False):
         raise TouchError(f"shard {path} has other columns than version {VERSION}; generate again")
-    for column in OPTIONAL:
-        if column not in present:
-            table = table.append_column(column, pa.nulls(len(table), column.type))
-    table = table.select([*SCHEMA.names, *OPTIONAL.names])
     ends = table["offset"].to_numpy() + table["size"].to_numpy()
     if len(table) and int(ends.max()) != size:
         raise TouchError(f"{heights} has {size} bytes where {int(ends.max())} were expected")

@@ -6,9 +6,9 @@ import hashlib
 import io
 import json
 import re
+import zlib
 from collections.abc import Mapping
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 import numpy as np
@@ -16,9 +16,10 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from cltp.atomic_write import write_atomically
-from cltp.data.contact import Contact, checksum, pack_heights
+from cltp.data.contact import Contact, pack_heights
 from cltp.data.dataset import (
     FORMAT,
+    GEL_COLUMNS,
     IMPORTED,
     NUMBER_COLUMNS,
     SCHEMA,
@@ -103,12 +104,7 @@ class DatasetWriter:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is None:
             self.flush()
 
@@ -127,7 +123,7 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
     return {
         "offset": offset,
         "size": len(packed),
-        "crc32": checksum(packed),
+        "crc32": zlib.crc32(packed),
         "rows": contact.height_mm.shape[0],
         "columns": contact.height_mm.shape[1],
         "sensor": contact.sensor.name,
@@ -138,9 +134,7 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         **{column: getattr(state, name) for name, column in NUMBER_COLUMNS.items()},
         **{name: getattr(state, name) for name in DIMENSIONS},
         "cut": " ".join(sorted(state.cut)),
-        "gel_thickness_mm": gel and gel.thickness_mm,
-        "gel_young_mpa": gel and gel.young_mpa,
-        "gel_poisson": gel and gel.poisson,
+        **{column: gel and getattr(gel, name) for name, column in GEL_COLUMNS.items()},
         "unsure": None if contact.unsure is None else " ".join(sorted(contact.unsure)),
         "approach_mm": contact.approach_mm,
         "peak_kpa": contact.peak_kpa,

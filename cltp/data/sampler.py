@@ -181,10 +181,7 @@ def mirrored(
 
 
 def sampled(
-    height_mm: NDArray[np.float32],
-    sensor: SensorSpec,
-    sampling: Sampling,
-    rng: np.random.Generator,
+    height_mm: NDArray[np.float32], sensor: SensorSpec, sampling: Sampling, rng: np.random.Generator
 ) -> NDArray[np.float32]:
     """Points of a height map of the whole sensing area, shape (side², 3) [mm], in lattice order.
 

@@ -16,7 +16,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import torch
 import torch.nn.functional as F
@@ -25,7 +26,7 @@ from torch import Tensor, nn
 from cltp.encoder.heads import StateHeads, restored, transformed
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
-from cltp.evaluation.scores import Predictions
+from cltp.evaluation.scores import Predictions, best_classes
 from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.train.recipes import Schedule
 from cltp.train.stage import ProgressReport, silent
@@ -42,8 +43,7 @@ _DEPTH = list(CLASSES).index("depth")
 def predict_with_heads(heads: StateHeads, encoded: EncodedContacts) -> Predictions:
     """What state heads that were trained with the encoder predict."""
     logits, numbers, _, _ = heads(encoded.pooled)
-    classes = torch.stack([of_dimension.argmax(1) for of_dimension in logits], dim=1)
-    return Predictions(classes, restored(numbers).numpy())
+    return Predictions(best_classes(logits), restored(numbers).numpy())
 
 
 class _ScaledMlp(nn.Module):
@@ -62,31 +62,43 @@ class _ScaledMlp(nn.Module):
         return outputs
 
 
-def _fit(
-    model: nn.Module,
-    count: int,
-    loss: Callable[[Tensor], Tensor],
-    schedule: Schedule,
-    name: str,
-    seed: int,
-    report: ProgressReport,
-) -> None:
-    """Train by AdamW on random rows out of ``count``; ``loss`` takes the numbers of rows."""
-    rng = torch.Generator().manual_seed(seed)
-    optimiser = torch.optim.AdamW(
-        model.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
-    )
-    for step in range(schedule.steps):
-        value = loss(torch.randint(count, (schedule.batch_size,), generator=rng))
-        if not torch.isfinite(value):
-            raise TouchError(f"{name}: the loss became {float(value.detach())} in step {step}")
-        for group in optimiser.param_groups:
-            group["lr"] = schedule.rate(step)
-        optimiser.zero_grad()
-        value.backward()
-        optimiser.step()
-        if step % 100 == 99 or step + 1 == schedule.steps:
-            report(name, step + 1, schedule.steps, {"loss": float(value.detach())})
+@dataclass(frozen=True, slots=True)
+class ProbeTraining:
+    """How each network of a probe learns.
+
+    Attributes:
+        seed: Random seed of the weights, of the order of contacts and of the objects left out.
+        report: Receives the progress.
+        schedule: Length and learning rate.
+    """
+
+    seed: int = 0
+    report: ProgressReport = silent
+    schedule: Schedule = SCHEDULE
+
+    def fit(
+        self, model: nn.Module, count: int, loss: Callable[[Tensor], Tensor], name: str
+    ) -> None:
+        """Train by AdamW on random rows out of ``count``; ``loss`` takes the numbers of rows.
+
+        Raises:
+            TouchError: The loss became infinite.
+        """
+        rng, schedule = torch.Generator().manual_seed(self.seed), self.schedule
+        optimiser = torch.optim.AdamW(
+            model.parameters(), lr=schedule.learning_rate, weight_decay=schedule.weight_decay
+        )
+        for step in range(schedule.steps):
+            value = loss(torch.randint(count, (schedule.batch_size,), generator=rng))
+            if not torch.isfinite(value):
+                raise TouchError(f"{name}: the loss became {float(value.detach())} in step {step}")
+            for group in optimiser.param_groups:
+                group["lr"] = schedule.rate(step)
+            optimiser.zero_grad()
+            value.backward()
+            optimiser.step()
+            if step % 100 == 99 or step + 1 == schedule.steps:
+                self.report(name, step + 1, schedule.steps, {"loss": float(value.detach())})
 
 
 class ClassProbes:
@@ -94,28 +106,19 @@ class ClassProbes:
 
     Args:
         encoded: Contacts to learn from.
-        schedule: Length and learning rate of the training of each.
-        seed: Random seed of the weights and of the order of contacts.
-        report: Receives the progress.
+        training: How each of them learns.
 
     Raises:
         TouchError: A feature is not finite.
     """
 
-    def __init__(
-        self,
-        encoded: EncodedContacts,
-        *,
-        schedule: Schedule = SCHEDULE,
-        seed: int = 0,
-        report: ProgressReport = silent,
-    ) -> None:
+    def __init__(self, encoded: EncodedContacts, training: ProbeTraining) -> None:
         if not encoded.pooled.isfinite().all():
             rows = (~encoded.pooled.isfinite().all(dim=1)).nonzero()[:8, 0]
             raise TouchError(f"features of contacts {encoded.index[rows].tolist()} are not finite")
         self._probes: list[nn.Module] = []
         for column, (dimension, names) in enumerate(CLASSES.items()):
-            torch.manual_seed(1000 * seed + column)
+            torch.manual_seed(1000 * training.seed + column)
             labelled = (encoded.classes[:, column] >= 0).nonzero()[:, 0]
             pooled, labels = encoded.pooled[labelled], encoded.classes[labelled, column]
             probe = _ScaledMlp(encoded.pooled, len(names))
@@ -126,13 +129,8 @@ class ClassProbes:
                 return F.cross_entropy(probe(x[rows]), y[rows])
 
             if len(labelled):
-                _fit(probe, len(labelled), loss, schedule, f"probe {dimension}", seed, report)
+                training.fit(probe, len(labelled), loss, f"probe {dimension}")
             self._probes.append(probe.eval())
-
-    @torch.no_grad()
-    def classes(self, encoded: EncodedContacts) -> Tensor:
-        """Classes, shape (N, 5)."""
-        return torch.stack([probe(encoded.pooled).argmax(1) for probe in self._probes], dim=1)
 
     @torch.no_grad()
     def probabilities(self, encoded: EncodedContacts) -> list[Tensor]:
@@ -140,14 +138,11 @@ class ClassProbes:
         return [probe(encoded.pooled).softmax(dim=1) for probe in self._probes]
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
+class Interval(NamedTuple):
     """Numbers with their intervals, in the units of ``NUMBERS``.
 
     Attributes:
-        value: Shape (N, 5).
-        low: Shape (N, 5).
-        high: Shape (N, 5).
+        value, low, high: Shape (N, 5).
         position_mm: Shape (N,), radius about the position of the value [mm].
     """
 
@@ -157,8 +152,7 @@ class Interval:
     position_mm: Tensor
 
 
-@dataclass(frozen=True, slots=True)
-class IntervalScale:
+class IntervalScale(NamedTuple):
     """Half widths of intervals, in predicted spreads.
 
     Attributes:
@@ -184,23 +178,13 @@ class NumberProbe:
     Args:
         encoded: Contacts to learn from.
         objects: Shape (N,), number of the object of each contact.
-        schedule: Length and learning rate of the training of each member.
-        seed: Random seed of the weights, of the order and of which objects are left out.
-        report: Receives the progress.
+        training: How each member learns.
     """
 
-    def __init__(
-        self,
-        encoded: EncodedContacts,
-        objects: Tensor,
-        *,
-        schedule: Schedule = SCHEDULE,
-        seed: int = 0,
-        report: ProgressReport = silent,
-    ) -> None:
+    def __init__(self, encoded: EncodedContacts, objects: Tensor, training: ProbeTraining) -> None:
         touching = encoded.classes[:, _DEPTH] >= 0
         every = objects.unique()
-        rng = torch.Generator().manual_seed(seed)
+        rng = torch.Generator().manual_seed(training.seed)
         part = torch.randperm(len(every), generator=rng) % MEMBERS
         part_of = part[torch.searchsorted(every, objects)]
         self._members = []
@@ -209,8 +193,8 @@ class NumberProbe:
             # A single object can't be left out.
             rows = (learned if learned.any() else touching).nonzero()[:, 0]
             name = f"probe numbers {member + 1} of {MEMBERS}"
-            member_seed = MEMBERS * seed + member
-            self._members.append(_train_member(encoded, rows, schedule, member_seed, name, report))
+            of_member = replace(training, seed=MEMBERS * training.seed + member)
+            self._members.append(_train_member(encoded, rows, of_member, name))
 
     def _mean_and_spread(self, pooled: Tensor) -> tuple[Tensor, Tensor]:
         """Of all members together, transformed, (N, 5) each."""
@@ -221,11 +205,7 @@ class NumberProbe:
 
     @torch.no_grad()
     def calibrate(self, encoded: EncodedContacts) -> IntervalScale:
-        """Scale intervals on contacts that were not learned from.
-
-        Args:
-            encoded: Contacts with the noise that the intervals shall hold for.
-        """
+        """Scale intervals on contacts that were not learned from, with the noise of their use."""
         touching = encoded.classes[:, _DEPTH] >= 0
         mean, spread = self._mean_and_spread(encoded.pooled[touching])
         numbers = encoded.numbers[touching]
@@ -246,14 +226,9 @@ class NumberProbe:
 
 
 def _train_member(
-    encoded: EncodedContacts,
-    rows: Tensor,
-    schedule: Schedule,
-    seed: int,
-    name: str,
-    report: ProgressReport,
+    encoded: EncodedContacts, rows: Tensor, training: ProbeTraining, name: str
 ) -> _ScaledMlp:
-    torch.manual_seed(seed)
+    torch.manual_seed(training.seed)
     pooled, truth = encoded.pooled[rows], transformed(encoded.numbers[rows])
     model = _ScaledMlp(encoded.pooled, 2 * len(NUMBERS))
 
@@ -264,7 +239,7 @@ def _train_member(
         pull = F.smooth_l1_loss(mean, truth[chosen], beta=0.02, reduction="none")
         return (likelihood + pull).mean()
 
-    _fit(model, len(rows), loss, schedule, name, seed, report)
+    training.fit(model, len(rows), loss, name)
     return model.eval()
 
 
@@ -282,10 +257,7 @@ def score_intervals(intervals: Interval, encoded: EncodedContacts) -> dict[str, 
     """
     touching = encoded.classes[:, _DEPTH] >= 0
     truth = encoded.numbers[touching]
-    value, low, high, radius = (
-        part[touching]
-        for part in (intervals.value, intervals.low, intervals.high, intervals.position_mm)
-    )
+    value, low, high, radius = (part[touching] for part in intervals)
     error = (value - truth).abs()
     distance = error[:, 1:3].norm(dim=1)
     inside = ((low <= truth) & (truth <= high)).float().mean(0)

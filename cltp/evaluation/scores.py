@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from torch import Tensor, bincount
+from torch import Tensor, bincount, stack
 
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 
@@ -48,6 +48,11 @@ class ClassScores:
         }
         confusion = {name: self.confusion[name] for name in dimensions}
         return ClassScores(accuracy, confusion, self.count)
+
+
+def best_classes(scores: Sequence[Tensor]) -> Tensor:
+    """Classes (N, 5) with the highest scores, which are (N, classes) for each dimension."""
+    return stack([of_dimension.argmax(1) for of_dimension in scores], dim=1)
 
 
 def score_classes(predicted: Tensor, labels: Tensor) -> ClassScores:

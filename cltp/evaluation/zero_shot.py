@@ -39,7 +39,3 @@ class ClassPrompts:
         """Cosines of contacts with aligned features (N, F) and every prompt: (N, classes) each."""
         unit = F.normalize(feature, dim=1)
         return [unit @ rows.T for rows in self._features]
-
-    def classes(self, feature: Tensor) -> Tensor:
-        """Classes (N, 5) of contacts with aligned features (N, F)."""
-        return torch.stack([(feature @ rows.T).argmax(1) for rows in self._features], dim=1)

@@ -13,7 +13,6 @@ Not here: the network that learns from them (``cltp.train.photometric``).
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,14 +48,6 @@ class BallPress:
     depth_mm: float
 
 
-class PressShape(Protocol):
-    """The gel around a ball of one diameter."""
-
-    def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """Slope towards the ball's centre at distance ``r_mm``, mm per mm; NaN where unknown."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SphericalCap:
     """Bare geometry: the sphere where the gel certainly follows it, flat far off, NaN between.
@@ -68,7 +59,7 @@ class SphericalCap:
     diameter_mm: float
 
     def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """R / √(R² - r²) inside."""
+        """Slope towards the centre, mm per mm: R / √(R² - r²) inside; NaN where unknown."""
         radius = self.diameter_mm / 2
         circle = np.sqrt(max(depth_mm * (2 * radius - depth_mm), 0.0))
         inside = r_mm < _FOLLOWS * circle
@@ -105,13 +96,17 @@ class ProfileTable:
             raise ValueError("a profile table needs (D, K) heights, depths ascending, r from 0")
 
     def inward_slope(self, r_mm: FloatArray, depth_mm: float) -> FloatArray:
-        """Linear in depth (clamped to the table) and in r."""
+        """Slope towards the centre, mm per mm: linear in depth (clamped to the table) and in r."""
         slopes = -np.gradient(self.height_mm, self.r_mm, axis=1)
         slopes[:, 0] = 0
         index = np.interp(depth_mm, self.depths_mm, np.arange(len(self.depths_mm)))
         low = min(int(index), len(self.depths_mm) - 2)
         slope = slopes[low] + (index - low) * (slopes[low + 1] - slopes[low])
         return np.interp(r_mm, self.r_mm, slope, right=0.0)
+
+
+PressShape = SphericalCap | ProfileTable
+"""The gel around a ball of one diameter."""
 
 
 def slopes_of(

@@ -14,16 +14,10 @@ from numpy.typing import NDArray
 
 from cltp.errors import TouchError
 
-_PLY_TYPES = {
-    "char": "i1",
-    "uchar": "u1",
-    "short": "i2",
-    "ushort": "u2",
-    "int": "i4",
-    "uint": "u4",
-    "float": "f4",
-    "double": "f8",
-} | {np.dtype(code).name: code for code in ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")}
+_NAMES = ("char", "uchar", "short", "ushort", "int", "uint", "float", "double")
+_CODES = ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")
+_PLY_TYPES = dict(zip(_NAMES, _CODES, strict=True)) | {np.dtype(code).name: code for code in _CODES}
+_PCD_TYPES = {kind + size for kind in "FIU" for size in "1248"} - {"F1"}
 _PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
@@ -84,12 +78,16 @@ def read_pcd(path: Path) -> NDArray[np.float64]:
         if words and not words[0].startswith("#"):
             header[words[0]] = words[1:]
         offset = end + 1
-    names = header.get("FIELDS", [])
-    kinds, sizes = header.get("TYPE", []), header.get("SIZE", [])
-    counts = header.get("COUNT", ["1"] * len(names))
-    if not len(names) == len(kinds) == len(sizes) == len(counts) or "POINTS" not in header:
+    header.setdefault("COUNT", ["1"] * len(header.get("FIELDS", [])))
+    columns = [header.get(key, []) for key in ("FIELDS", "TYPE", "SIZE", "COUNT")]
+    if len(set(map(len, columns))) > 1 or "POINTS" not in header:
         raise TouchError("the PCD header's FIELDS, SIZE, TYPE, COUNT and POINTS don't fit together")
-    fields = _pcd_fields(names, kinds, sizes, counts)
+    fields: list[tuple[str, str]] = []
+    for name, kind, size, count in zip(*columns, strict=True):
+        if kind + size not in _PCD_TYPES or len(count) > 4:
+            raise TouchError(f"can't read the PCD field {name!r} of type {kind} and size {size}")
+        dtype = f"<{kind.lower()}{size}"
+        fields += [(f"{name}[{n}]" if n else name, dtype) for n in range(_count(count))]
     num_points = _count(" ".join(header["POINTS"]))
     coding = " ".join(header["DATA"])
     if coding == "ascii":
@@ -97,19 +95,6 @@ def read_pcd(path: Path) -> NDArray[np.float64]:
     if coding == "binary":
         return _binary_columns(data[offset:], fields, num_points)
     raise TouchError(f"PCD with DATA {coding} is not read; save it as binary or ascii")
-
-
-def _pcd_fields(
-    names: list[str], kinds: list[str], sizes: list[str], counts: list[str]
-) -> list[tuple[str, str]]:
-    fields: list[tuple[str, str]] = []
-    for name, kind, size, count in zip(names, kinds, sizes, counts, strict=True):
-        dtype = f"<{kind.lower()}{size}"
-        if kind not in ("F", "I", "U") or size not in ("1", "2", "4", "8"):
-            raise TouchError(f"can't read the PCD field {name!r} of type {kind} and size {size}")
-        repeated = _count(count)
-        fields += [(name if n == 0 else f"{name}[{n}]", dtype) for n in range(repeated)]
-    return fields
 
 
 def read_xyz(path: Path) -> NDArray[np.float64]:
@@ -133,7 +118,7 @@ def read_xyz(path: Path) -> NDArray[np.float64]:
 
 
 def _count(text: str) -> int:
-    if not text.isdigit():
+    if not (text.isdecimal() and len(text) < 19):
         raise TouchError(f"expected a number of points in the header, got {text!r}")
     return int(text)
 

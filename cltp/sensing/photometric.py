@@ -27,7 +27,6 @@ from scipy import fft
 
 from cltp.errors import TouchError
 from cltp.sensing.frames import Frame, check_frame
-from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SensorSpec
 
 FloatArray = NDArray[np.float32]
@@ -177,14 +176,6 @@ class Photometer:
         """
         height = integrate(*self.gradients(frame), self.sensor.mm_per_px)
         return height - np.median(height)
-
-    def cloud(self, frame: Frame, stamp: Stamp | None = None) -> TactileCloud:
-        """The frame as a cloud of 1024 points.
-
-        Raises:
-            TouchError: As ``gradients``, or heights outside the gel.
-        """
-        return cloud_from_heights(self.heights(frame), self.sensor, stamp=stamp)
 
 
 def integrate(slope_x: FloatArray, slope_down: FloatArray, mm_per_px: float) -> FloatArray:

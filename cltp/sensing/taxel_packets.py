@@ -63,9 +63,8 @@ class TaxelFrame:
                 f"a taxel frame needs (rows, columns) of int16, at most {MAX_TAXELS} taxels; got "
                 f"{counts.shape} of {counts.dtype}"
             )
-        if not (
-            0 <= self.sequence < _WRAP and 0 <= self.mark < _WRAP and 0 <= self.clock_us < 2**64
-        ):
+        is_32_bits = 0 <= self.sequence < _WRAP and 0 <= self.mark < _WRAP
+        if not (is_32_bits and 0 <= self.clock_us < 2**64):
             raise TouchError("sequence and mark of a taxel frame are 32 bits, its clock 64")
         counts.setflags(write=False)
         object.__setattr__(self, "counts_um", counts)

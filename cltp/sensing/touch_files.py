@@ -9,10 +9,11 @@ Not here: data sets of many contacts (``cltp.data.dataset``), episodes (``tacgra
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tokenize import TokenError
+from zipfile import BadZipFile
 
 import numpy as np
 from numpy.typing import NDArray
@@ -112,8 +113,8 @@ def _read_array(path: Path) -> NDArray[np.float64]:
         ".ply": read_ply,
         ".pcd": read_pcd,
         ".xyz": read_xyz,
-        ".npy": _read_npy,
-        ".npz": _read_npz,
+        ".npy": _read_numpy,
+        ".npz": _read_numpy,
     }
     reader = readers.get(path.suffix.lower())
     if reader is None:
@@ -178,16 +179,13 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
     return cloud_from_heights(array, sensor)
 
 
-def _read_npy(path: Path) -> NDArray[np.float64]:
+def _read_numpy(path: Path) -> NDArray[np.float64]:
+    expected = {".npy": ".npy array", ".npz": ".npz of arrays"}[path.suffix.lower()]
     try:
-        return _numbers(np.load(path, allow_pickle=False), path.name)
-    except (ValueError, EOFError) as error:
-        raise TouchError(f"not a whole .npy array of numbers: {error}") from None
-
-
-def _read_npz(path: Path) -> NDArray[np.float64]:
-    try:
-        with np.load(path, allow_pickle=False) as archive:
+        content = np.load(path, allow_pickle=False)
+        if not isinstance(content, np.lib.npyio.NpzFile) or expected == ".npy array":
+            return _numbers(content, path.name)
+        with content as archive:
             names = list(archive.files)
             candidates = [n for n in ("points_mm", "height_mm") if n in names] or names
             if len(candidates) != 1:
@@ -196,8 +194,8 @@ def _read_npz(path: Path) -> NDArray[np.float64]:
                     f"{', '.join(names) or 'none'}"
                 )
             return _numbers(archive[candidates[0]], candidates[0])
-    except (ValueError, EOFError, KeyError, zipfile.BadZipFile) as error:
-        raise TouchError(f"not a whole .npz of arrays of numbers: {error}") from None
+    except (ValueError, EOFError, KeyError, MemoryError, TokenError, BadZipFile) as error:
+        raise TouchError(f"not a whole {expected} of numbers: {error}") from None
 
 
 def _numbers(array: object, name: str) -> NDArray[np.float64]:

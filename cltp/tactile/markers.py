@@ -77,29 +77,25 @@ def marker_cloud(
     """
     heights = checked_heights(height_mm)
     positions = marker_positions_mm(sensor)
-    if unit is None:
-        depths = heights_at(heights, positions[:, 0], positions[:, 1], sensor)
-        depths -= np.median(depths)
-    elif rng is None:
-        raise TouchError("a noisy unit needs a generator to draw its frame from")
-    else:
+    depth_errors: FloatArray | float = 0.0
+    position_errors: FloatArray | float = 0.0
+    if unit is not None:
+        if rng is None:
+            raise TouchError("a noisy unit needs a generator to draw its frame from")
         # Per-pixel errors and dead borders are the camera's; markers have errors of their own.
         surface = dataclasses.replace(unit, gain_x=1.0, gain_y=1.0, fine_mm=0.0, border_mm=0.0)
         heights = surface.apply(heights, sensor, rng).astype(np.float64)
         positions = positions[rng.random(len(positions)) >= unit.marker_loss]
-        depths = heights_at(heights, positions[:, 0], positions[:, 1], sensor)
-        depths += rng.normal(0.0, unit.fine_mm, len(positions))
-        depths -= np.median(depths) if len(depths) else 0.0
-        positions = positions + rng.normal(0.0, unit.marker_mm, positions.shape)
-    points = np.concatenate([positions, depths[:, None]], axis=1)
+        depth_errors = rng.normal(0.0, unit.fine_mm, len(positions))
+        position_errors = rng.normal(0.0, unit.marker_mm, positions.shape)
+    depths = heights_at(heights, positions[:, 0], positions[:, 1], sensor) + depth_errors
+    depths -= np.median(depths) if len(depths) else 0.0
+    points = np.concatenate([positions + position_errors, depths[:, None]], axis=1)
     return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
 
 
 def densified(
-    cloud: TactileCloud,
-    *,
-    rng: np.random.Generator | None = None,
-    num_points: int = NUM_POINTS,
+    cloud: TactileCloud, *, rng: np.random.Generator | None = None, num_points: int = NUM_POINTS
 ) -> TactileCloud:
     """Points on the smooth surface through a sparse cloud, one in each cell of a lattice.
 

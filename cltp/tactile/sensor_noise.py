@@ -209,8 +209,8 @@ class SlowDrift:
         rates: Shape (K,): their angular frequencies [rad/s].
         phases: Shape (K,): their phases [rad].
 
-    Source: sizes of ``NoiseSpread`` for the part of 3 to 8 mm; a broad part of 10 to 20 mm and up to
-    0.3 mm, as seen on a GelSight Mini that was left nearly alone for minutes (two to three grey
+    Source: sizes of ``NoiseSpread`` for the part of 3 to 8 mm; a broad part of 10 to 20 mm and up
+    to 0.3 mm, as seen on a GelSight Mini that was left nearly alone for minutes (two to three grey
     levels, integrated by another unit's calibration). Times of one to several minutes are our
     reading of the same observation.
     """

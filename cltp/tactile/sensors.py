@@ -10,7 +10,8 @@ capture (drivers).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from typing import Any
 
 from cltp.errors import TouchError
 
@@ -60,31 +61,13 @@ class SensorSpec:
 # 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers, github.com/Zhang-Chaofan);
 # that the points are 23 × 23 in equal cells, and the gel's thickness, are assumed. Rows, columns
 # and mm_per_px are those of the grid that we simulate it on.
-SENSORS: dict[str, SensorSpec] = {
-    spec.name: spec
-    for spec in (
-        SensorSpec(
-            name="gelsight_mini",
-            columns=320,
-            rows=240,
-            mm_per_px=0.0634,
-            gel_mm=3.6,
-            max_depth_mm=1.5,
-        ),
-        SensorSpec(
-            name="digit", columns=320, rows=240, mm_per_px=0.0405, gel_mm=3.6, max_depth_mm=1.5
-        ),
-        SensorSpec(
-            name="gelstereo",
-            columns=240,
-            rows=240,
-            mm_per_px=0.1092,
-            gel_mm=4.0,
-            max_depth_mm=1.5,
-            markers=(23, 23),
-        ),
-    )
-}
+_TABLE: tuple[tuple[Any, ...], ...] = (
+    ("gelsight_mini", 320, 240, 0.0634, 3.6, 1.5, None),
+    ("digit", 320, 240, 0.0405, 3.6, 1.5, None),
+    ("gelstereo", 240, 240, 0.1092, 4.0, 1.5, (23, 23)),
+)
+_FIELDS = [field.name for field in fields(SensorSpec)]
+SENSORS = {row[0]: SensorSpec(**dict(zip(_FIELDS, row, strict=True))) for row in _TABLE}
 
 
 def sensor_named(name: str) -> SensorSpec:

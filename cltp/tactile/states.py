@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
+from typing import Any
 
 from cltp.tactile.sensors import SensorSpec
 
@@ -96,12 +97,7 @@ class Side(StrEnum):
         return _OPPOSITE[self]
 
 
-_OPPOSITE = {
-    Side.TOP: Side.BOTTOM,
-    Side.BOTTOM: Side.TOP,
-    Side.LEFT: Side.RIGHT,
-    Side.RIGHT: Side.LEFT,
-}
+_OPPOSITE = dict(zip(Side, (Side.BOTTOM, Side.TOP, Side.RIGHT, Side.LEFT), strict=True))
 
 
 DIMENSIONS: Mapping[str, type[StrEnum]] = {
@@ -180,13 +176,5 @@ class ContactState:
         return self.depth is not None
 
 
-NO_CONTACT_STATE = ContactState(
-    depth_mm=0.0,
-    x_mm=0.0,
-    y_mm=0.0,
-    area_fraction=0.0,
-    force_n=0.0,
-    depth=None,
-    position=None,
-    area=None,
-)
+_NOTHING: Mapping[str, Any] = dict.fromkeys(NUMBERS, 0.0) | dict.fromkeys(MEASURABLE)
+NO_CONTACT_STATE = ContactState(**_NOTHING)

@@ -49,12 +49,13 @@ def caption(state: ContactState) -> str:
     if state.position is None or state.area is None:
         raise TouchError("a contact with a depth needs a position and an area to be worded")
     words = [str(word) for word in (state.texture, state.shape) if word is not None]
-    noun = " ".join([*words, "object"])
-    article = "an" if noun[0] in "aeiou" else "a"
-    return (
-        f"{article} {noun}, pressed {state.depth} in {state.position} "
-        f"with {state.area} contact area."
-    )
+    noun = with_article(" ".join([*words, "object"]))
+    return f"{noun}, pressed {state.depth} in {state.position} with {state.area} contact area."
+
+
+def with_article(noun: str) -> str:
+    """'an edge', 'a sphere'."""
+    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 def numeric_caption(state: ContactState, sensor: SensorSpec) -> str:

@@ -42,11 +42,8 @@ def texts_of(data: ContactDataset, index: int) -> ContactTexts:
     """
     state = data.state(index)
     sensor = sensor_named(data.column("sensor")[index])
-    seed = text_seed(
-        seed=int(data.column("seed")[index]),
-        series=int(data.column("series")[index]),
-        depth_mm=float(np.float32(state.depth_mm)),
-    )
+    numbers = {name: int(data.column(name)[index]) for name in ("seed", "series")}
+    seed = text_seed(**numbers, depth_mm=float(np.float32(state.depth_mm)))
     words = {slot: getattr(state, slot) for slot in PROMPTS}
     return ContactTexts(
         caption=caption(state),

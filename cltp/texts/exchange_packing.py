@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import torch
 from torch import Tensor
+from torch.nn.utils.rnn import pad_sequence
 
 from cltp.texts.tokenizer import Words
 
@@ -78,45 +79,34 @@ def pack(
         action_weight: Weight of a label that is an action; others weigh 1.
     """
     rows = [_sequence(words, group, num_touch) for group in groups]
-    longest = max(len(row.ids) for row in rows)
-    total = num_touch + longest
-    ids = torch.full((len(rows), longest), words.pad)
-    labels = torch.full((len(rows), longest), NOT_LEARNED)
-    positions = torch.zeros(len(rows), total, dtype=torch.long)
-    positions[:, :num_touch] = torch.arange(num_touch)
-    segments = torch.full((len(rows), total), -1)
-    segments[:, :num_touch] = 0
-    for number, row in enumerate(rows):
-        length = len(row.ids)
-        ids[number, :length] = torch.tensor(row.ids)
-        labels[number, :length] = torch.tensor(row.labels)
-        positions[number, num_touch : num_touch + length] = torch.tensor(row.positions)
-        segments[number, num_touch : num_touch + length] = torch.tensor(row.segments)
+    ids, labels, positions, segments = (
+        pad_sequence([torch.tensor(one) for one in column], batch_first=True, padding_value=padding)
+        for column, padding in zip(
+            zip(*rows, strict=True), (words.pad, NOT_LEARNED, 0, -1), strict=True
+        )
+    )
+    total = positions.shape[1]
     own = segments[:, :, None] == segments[:, None, :]
     touch = (segments[:, None, :] == 0) & (segments[:, :, None] > 0)
     causal = torch.ones(total, total, dtype=torch.bool).tril()
-    mask = torch.zeros(len(rows), 1, total, total)
+    mask = torch.zeros(len(ids), 1, total, total)
     mask[:, 0].masked_fill_(~((own | touch) & causal), float("-inf"))
     is_action = torch.isin(labels, torch.tensor(words.actions))
     weights = torch.where(is_action, action_weight, 1.0) * (labels != NOT_LEARNED)
     return Packed(ids=ids, labels=labels, weights=weights, positions=positions, mask=mask)
 
 
-class _Row(NamedTuple):
-    ids: list[int]
-    labels: list[int]
-    positions: list[int]
-    segments: list[int]
-
-
-def _sequence(words: Words, group: Sequence[Exchange], num_touch: int) -> _Row:
-    row = _Row([], [], [], [])
+def _sequence(words: Words, group: Sequence[Exchange], num_touch: int) -> tuple[list[int], ...]:
+    """Tokens and labels of some exchanges, then positions and segments behind the touch tokens."""
+    all_ids: list[int] = []
+    labels: list[int] = []
+    positions, segments = list(range(num_touch)), [0] * num_touch
     for segment, exchange in enumerate(group, start=1):
         before = prompt_ids(words, exchange.prompt)
         reply = [*words.encode(exchange.reply), words.eos]
         ids = before + reply[:-1]
-        row.ids.extend(ids)
-        row.labels.extend([NOT_LEARNED] * (len(before) - 1) + reply)
-        row.positions.extend(range(num_touch, num_touch + len(ids)))
-        row.segments.extend([segment] * len(ids))
-    return row
+        all_ids += ids
+        labels += [NOT_LEARNED] * (len(before) - 1) + reply
+        positions += range(num_touch, num_touch + len(ids))
+        segments += [segment] * len(ids)
+    return all_ids, labels, positions, segments

@@ -27,24 +27,12 @@ from cltp.tactile.states import (
     Shape,
     Texture,
 )
-from cltp.texts.captions import Slots, alternatives
+from cltp.texts.captions import Slots, alternatives, with_article
 
 PROMPTS: Mapping[str, tuple[str, ...]] = {
-    "shape": (
-        "This is {a}.",
-        "It is shaped like {a}.",
-        "The object that touches is {a}.",
-    ),
-    "texture": (
-        "The texture is {word}.",
-        "Its surface feels {word}.",
-        "The object is {word}.",
-    ),
-    "depth": (
-        "Contact is {word}.",
-        "The object is pressed {word}.",
-        "The indentation is {word}.",
-    ),
+    "shape": ("This is {a}.", "It is shaped like {a}.", "The object that touches is {a}."),
+    "texture": ("The texture is {word}.", "Its surface feels {word}.", "The object is {word}."),
+    "depth": ("Contact is {word}.", "The object is pressed {word}.", "The indentation is {word}."),
     "position": (
         "Contact at {word}.",
         "The object touches in {word}.",
@@ -75,11 +63,6 @@ def prompts(slot: str, word: str) -> list[str]:
     noun = with_article(word)
     capital = noun[0].upper() + noun[1:]
     return [text.format(word=word, a=noun, A=capital) for text in PROMPTS[slot]]
-
-
-def with_article(noun: str) -> str:
-    """'an edge', 'a sphere'."""
-    return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"
 
 
 _WORDINGS: Mapping[str, Mapping[Any, tuple[str, ...]]] = {

@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DIMENSIONS, ContactState
-from cltp.texts.paraphrases import draw_index, with_article
+from cltp.texts.captions import with_article
+from cltp.texts.paraphrases import draw_index
 from cltp.texts.tolerances import Tolerances, tolerances
 
 
@@ -95,8 +96,5 @@ def _yes_or_no(slot: str, word: str, seed: int) -> QuestionAnswer:
         others = [other for other in DIMENSIONS[slot] if other != word]
         suggested = others[draw_index(seed, f"{slot} other", len(others))]
     truth = with_article(word) if slot == "shape" else word
-    return QuestionAnswer(
-        about=slot,
-        question=_CLOSED[slot].format(word=suggested, a=with_article(suggested)),
-        answer="Yes." if suggested == word else f"No, it is {truth}.",
-    )
+    question = _CLOSED[slot].format(word=suggested, a=with_article(suggested))
+    return QuestionAnswer(slot, question, "Yes." if suggested == word else f"No, it is {truth}.")

@@ -1,1 +1,6 @@
-"""Training in stages, from files: CLIP, CLTP, the language model. It never calls ``sim``."""
+"""Training of CLIP, the tactile encoder, its baselines, the language model and the calibration.
+
+Every stage can be stopped at any time and continues at its checkpoint. Not here: the data
+(``cltp.data``), measuring (``cltp.evaluation``) and the order of stages (``tacgrasp.pretraining``,
+``tacgrasp.training``).
+"""

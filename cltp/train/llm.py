@@ -52,18 +52,18 @@ ACTION_WEIGHT = 4.0
 class Lessons(Protocol):
     """The exchanges that a language model learns about a contact."""
 
-    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """Descriptions of a contact, in one or more wordings; ``felt`` as in ``mixed``."""
+    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Descriptions of a contact, in one or more wordings; ``reading`` as in ``mixed``."""
         ...
 
     def mixed(
-        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+        self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
         """Captions, questions and advice on a contact.
 
         Args:
             state: The truth, from which advice comes.
-            felt: The same words with the numbers as the encoder's heads read them.
+            reading: The same words with the numbers as the encoder's heads read them.
             rng: Draws wordings.
         """
         ...

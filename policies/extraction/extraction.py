@@ -99,14 +99,14 @@ class _Statements:
     def add(self, sentence: Sentence) -> None:
         words = sentence.text.split()
         self.has_none |= NONE_TOKEN in words
-        readings = {clause.text or clause.lead: read(clause) for clause in sentence.clauses}
-        unknown = [text for text, reading in readings.items() if reading.kind is Kind.UNKNOWN]
+        readings = [(clause.text or clause.lead, read(clause)) for clause in sentence.clauses]
+        unknown = [text for text, reading in readings if reading.kind is Kind.UNKNOWN]
         if not (sentence.question or unknown):
             self._take(sentence)
             return
         text = sentence.text
         note = f"'{text}' is a question" if sentence.question else f"'{unknown[0]}' is not read"
-        self.forbidden.update(*(r.actions for r in readings.values() if r.kind is Kind.FORBIDS))
+        self.forbidden.update(*(r.actions for _, r in readings if r.kind is Kind.FORBIDS))
         self.unread.update(IDENTIFIERS[word] for word in words if word in IDENTIFIERS)
         if denies_verdict(text):
             self.denied = f"'{text}' denies it"

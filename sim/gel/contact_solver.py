@@ -13,13 +13,17 @@ the change of pressure (our choice: it bounds the error of the surface).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import TYPE_CHECKING, TypeVar
 
 import torch
 from torch import Tensor
 
 from sim.gel.compliance import Spectrum
 from sim.gel.gap import NO_BODY_MM
+
+if TYPE_CHECKING:
+    from _typeshed import DataclassInstance
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +65,7 @@ class _Active:
 
     def displacement(self, pressure: Tensor) -> Tensor:
         """Displacement under ``pressure``, both flat."""
-        grid = pressure.unflatten(1, (self.compliance.rows, self.compliance.columns))
+        grid = pressure.unflatten(1, self.compliance.size)
         return self.compliance.apply(grid).flatten(1)
 
 
@@ -88,6 +92,20 @@ class _Residual:
     def retain(self, mask: Tensor) -> _Residual:
         """Residual of the contacts whose ``mask`` is True."""
         return _Residual(**{each.name: getattr(self, each.name)[mask] for each in fields(self)})
+
+
+Batch = TypeVar("Batch", bound="DataclassInstance")
+
+
+def chosen(mask: Tensor, batch: Batch, other: Batch) -> Batch:
+    """Contacts of ``batch`` where ``mask`` (B,), else of ``other``; fields are tensors (B, ...)."""
+
+    def choose(first: Tensor, second: Tensor) -> Tensor:
+        return torch.where(mask.view(-1, *[1] * (first.ndim - 1)), first, second)
+
+    names = [each.name for each in fields(other)]
+    pairs = {name: choose(getattr(batch, name), getattr(other, name)) for name in names}
+    return replace(other, **pairs)
 
 
 def _dot(a: Tensor, b: Tensor) -> Tensor:

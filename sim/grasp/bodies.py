@@ -24,7 +24,7 @@ PITCH_MM = 0.15
 HALF_SPAN_MM = 24.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Range:
     """Interval that a quantity is drawn from, uniformly or log-uniformly."""
 
@@ -106,44 +106,39 @@ class PropertyRanges:
     first_force_n: Range
 
 
+Limits = tuple[float, float]
+
+
+def _ranges(
+    mass_g: Limits,
+    young_mpa: Limits,
+    poisson: float,
+    friction: Limits,
+    bruise_n: Limits,
+    first_force_n: Limits,
+) -> PropertyRanges:
+    return PropertyRanges(
+        mass_g=Range(*mass_g),
+        young_mpa=Range(*young_mpa, log=True),
+        poisson=poisson,
+        friction=Range(*friction),
+        bruise_n=Range(*bruise_n),
+        first_force_n=Range(*first_force_n, log=True),
+    )
+
+
 # Strawberry. Mass 7-40 g (cultivars 11-40 g, classes from 7 g: weak web sources); E 0.20 MPa
 # (GelSight-lab/TactileEstimateModulus, citing a paper) within a factor of 1.5; friction with
 # silicone was found nowhere: an assumption. Bruise force 2.0-3.2 N: an assumption of the order of
 # the 1.1-2.7 N that punctures (by cultivar).
 # Tomato, egg, peg: assumptions of the same kind, chosen to need rising force.
+# Columns: mass [g], Young's modulus [MPa], Poisson's ratio, friction, bruise force [N] and first
+# force of a grasp [N]; moduli and first forces are drawn log-uniformly.
 OBJECTS: dict[str, PropertyRanges] = {
-    "strawberry": PropertyRanges(
-        mass_g=Range(low=7, high=40),
-        young_mpa=Range(low=0.133, high=0.30, log=True),
-        poisson=0.35,
-        friction=Range(low=0.3, high=0.8),
-        bruise_n=Range(low=2.0, high=3.2),
-        first_force_n=Range(low=0.3, high=3.0, log=True),
-    ),
-    "cherry_tomato": PropertyRanges(
-        mass_g=Range(low=8, high=18),
-        young_mpa=Range(low=0.25, high=0.6, log=True),
-        poisson=0.45,
-        friction=Range(low=0.4, high=0.9),
-        bruise_n=Range(low=1.4, high=2.4),
-        first_force_n=Range(low=0.2, high=1.5, log=True),
-    ),
-    "egg": PropertyRanges(
-        mass_g=Range(low=45, high=65),
-        young_mpa=Range(low=50, high=100, log=True),
-        poisson=0.3,
-        friction=Range(low=0.3, high=0.6),
-        bruise_n=Range(low=7, high=12),
-        first_force_n=Range(low=0.8, high=5.0, log=True),
-    ),
-    "peg": PropertyRanges(
-        mass_g=Range(low=60, high=140),
-        young_mpa=Range(low=2e4, high=2e5, log=True),
-        poisson=0.3,
-        friction=Range(low=0.4, high=0.8),
-        bruise_n=Range(low=200, high=400),
-        first_force_n=Range(low=1.5, high=9.0, log=True),
-    ),
+    "strawberry": _ranges((7, 40), (0.133, 0.30), 0.35, (0.3, 0.8), (2.0, 3.2), (0.3, 3.0)),
+    "cherry_tomato": _ranges((8, 18), (0.25, 0.6), 0.45, (0.4, 0.9), (1.4, 2.4), (0.2, 1.5)),
+    "egg": _ranges((45, 65), (50, 100), 0.3, (0.3, 0.6), (7, 12), (0.8, 5.0)),
+    "peg": _ranges((60, 140), (2e4, 2e5), 0.3, (0.4, 0.8), (200, 400), (1.5, 9.0)),
 }
 
 GRID_MM = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
@@ -210,41 +205,41 @@ def _strawberry(mass_g: float, rng: np.random.Generator) -> BodyShape:
     return _revolved(radius, length, roll, _achenes(rng, length))
 
 
+def _oval(diameter: float, taper: float = 0.0) -> Callable[[FloatArray], FloatArray]:
+    """Radius [mm] of an ellipsoid, narrower by ``taper`` towards its upper end."""
+
+    def radius(s: FloatArray) -> FloatArray:
+        u = 2 * np.clip(s, 0, 1) - 1
+        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None)) / (1 + taper * u)
+
+    return radius
+
+
 def _egg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Egg standing on its blunt end; a 60 g egg is about 43 mm wide and 56 mm long."""
     diameter = 43.0 * (mass_g / 60.0) ** (1 / 3)
     length = diameter * rng.uniform(1.22, 1.38)
 
-    def radius(s: FloatArray) -> FloatArray:
-        u = 2 * np.clip(s, 0, 1) - 1
-        taper = 1 + 0.1 * u  # a little wider below
-        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None)) / taper
-
-    return _revolved(radius, length, rng.normal(0, math.radians(4)))
+    # a little wider below
+    return _revolved(_oval(diameter, taper=0.1), length, rng.normal(0, math.radians(4)))
 
 
 def _tomato(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Cherry tomato: a slightly oval ball, density 1 g/cm³."""
     oval = rng.uniform(0.95, 1.25)
     diameter = (6 * mass_g * 1000 / (math.pi * oval)) ** (1 / 3)
-
-    def radius(s: FloatArray) -> FloatArray:
-        u = 2 * np.clip(s, 0, 1) - 1
-        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None))
-
-    return _revolved(radius, diameter * oval, rng.normal(0, math.radians(20)))
+    return _revolved(_oval(diameter), diameter * oval, rng.normal(0, math.radians(20)))
 
 
 def _peg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Upright steel peg, 12-20 mm across, its length (from the mass at 7.8 g/cm³) 25-80 mm."""
     diameter = rng.uniform(12, 20)
     length = float(np.clip(mass_g * 1000 / 7.8 / (math.pi * diameter**2 / 4), 25, 80))
-
-    def radius(s: FloatArray) -> FloatArray:
-        inside = (s >= 0) & (s <= 1)
-        return np.where(inside, diameter / 2, 0.0)
-
-    return _revolved(radius, length, rng.normal(0, math.radians(2)))
+    return _revolved(
+        lambda s: np.where((s >= 0) & (s <= 1), diameter / 2, 0.0),
+        length,
+        rng.normal(0, math.radians(2)),
+    )
 
 
 _SHAPES: dict[str, Callable[[float, np.random.Generator], BodyShape]] = {

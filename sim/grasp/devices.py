@@ -252,7 +252,7 @@ class SimSensor(_Device):
         return patch.height_mm + self._contact_error * patch.height_mm.max() * error
 
     def frame_mm(self, surface_mm: NDArray[np.float32], t_s: float) -> NDArray[np.float32]:
-        """A new frame of a surface [mm]: with the unit's errors, fine noise, and the drift at ``t_s``.
+        """A new frame of a surface [mm]: with the unit's errors, noise, and the drift at ``t_s``.
 
         Args:
             surface_mm: From ``surface_mm``, shape (ROWS, COLUMNS).

@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import torch
@@ -136,23 +135,16 @@ class _Friction:
         )
 
 
-class _Worst(NamedTuple):
-    margin: float
-    motion: FloatArray
-    excess_n: float
-
-
-def _find_worst(motions: FloatArray, dissipated: FloatArray, load: FloatArray) -> _Worst:
-    """The motion, of either sign, with the smallest margin against the load."""
+def _find_worst(
+    motions: FloatArray, dissipated: FloatArray, load: FloatArray
+) -> tuple[float, FloatArray, float]:
+    """Margin, motion and excess [N] of the motion, of either sign, with the smallest margin."""
     power = motions @ load
     margins = dissipated / np.maximum(np.abs(power), 1e-12)
     index = int(np.argmin(margins))
     forwards = 1.0 if power[index] >= 0 else -1.0
-    return _Worst(
-        margin=float(margins[index]),
-        motion=forwards * motions[index],
-        excess_n=float(abs(power[index]) - dissipated[index]),
-    )
+    excess_n = float(abs(power[index]) - dissipated[index])
+    return float(margins[index]), forwards * motions[index], excess_n
 
 
 class FlatFingers:
@@ -253,16 +245,13 @@ class FlatFingers:
         load = friction.push.copy()
         load[0] -= half_mass * acceleration_m_s2[0]
         load[1] -= half_mass * (GRAVITY_M_S2 + acceleration_m_s2[1])
-        worst = _find_worst(_MOTIONS, friction.dissipated, load)
+        margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
-            neighbours = _neighbours(worst.motion, spread)
-            worst = _find_worst(neighbours, self.body.friction * friction.slide(neighbours), load)
-        return Resistance(
-            margin=worst.margin,
-            motion=worst.motion,
-            excess_n=worst.excess_n,
-            patch_speed=friction.patch_speed(worst.motion),
-        )
+            near = _neighbours(motion, spread)
+            dissipated = self.body.friction * friction.slide(near)
+            margin, motion, excess_n = _find_worst(near, dissipated, load)
+        speed = friction.patch_speed(motion)
+        return Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
 
     def _friction_of(self, patch: Patch) -> _Friction:
         """Dissipation of a patch in every motion; cached for the last patch."""

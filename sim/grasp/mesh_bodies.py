@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -18,7 +17,7 @@ from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
 from sim.grasp.bodies import GRID_MM, HALF_SPAN_MM, Body
 from sim.grasp.devices import MAX_WIDTH_M
-from sim.objects.meshes import IntArray, checked_mesh, volume_and_centre
+from sim.objects.meshes import IntArray, checked_mesh, ray_scene, volume_and_centre
 
 DENSITY_G_PER_MM3 = 0.3e-3
 """Density of a mesh without a given mass. Our assumption: household objects are hollow or light."""
@@ -88,11 +87,7 @@ def _turn(extents: FloatArray, closing: int) -> FloatArray:
 
 def _gap(vertices: FloatArray, faces: IntArray) -> FloatArray:
     """Height field of the side towards the sensor's finger (+z), as ``Body.gap_mm``."""
-    import open3d
-
-    scene: Any = open3d.t.geometry.RaycastingScene()
-    tensor: Any = open3d.core.Tensor
-    scene.add_triangles(tensor(vertices.astype(np.float32)), tensor(faces.astype(np.uint32)))
+    scene, tensor = ray_scene(vertices, faces)
     x, y = np.meshgrid(GRID_MM, -GRID_MM)
     top = float(vertices[:, 2].max()) + 1.0
     origins = np.stack([x, y, np.full_like(x, top)], axis=-1)

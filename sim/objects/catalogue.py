@@ -1,6 +1,6 @@
 """The objects of TCL3D by name, 55 small and 62 large ones, and the ones that are held out.
 
-Not here: their solids (``sim.objects.primitives``, ``sim.objects.assemblies``).
+Not here: their solids (``sim.objects.primitives``).
 """
 
 from __future__ import annotations

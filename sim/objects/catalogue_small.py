@@ -6,8 +6,8 @@ occurs as an end, in more than one size, and every texture on several.
 
 from __future__ import annotations
 
+from sim.objects.compounds import moved
 from sim.objects.object import Family, Mount, Part, SolidObject
-from sim.objects.placing import moved
 from sim.objects.primitives import (
     bars,
     block,

@@ -22,7 +22,7 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell, Form
-from sim.objects.meshes import SUFFIXES, IntArray, checked_mesh
+from sim.objects.meshes import SUFFIXES, IntArray, checked_mesh, connected_parts, ray_scene
 from sim.objects.object import Family, Part, SolidObject
 
 CREASE_DEG = 25.0
@@ -75,15 +75,7 @@ class _MeshSolid:
     """A closed mesh as a ``sim.objects.solids.Solid``."""
 
     def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
-        import open3d
-
-        core: Any = open3d.core
-        self._tensor = core.Tensor
-        self._scene: Any = open3d.t.geometry.RaycastingScene()
-        self._scene.add_triangles(
-            self._tensor(vertices.astype(np.float32)),
-            self._tensor(np.asarray(faces, dtype=np.uint32)),
-        )
+        self._scene, self._tensor = ray_scene(vertices, faces)
         self._region, self.cells = _regions(vertices, faces)
         self.reach_mm = float(np.linalg.norm(vertices, axis=1).max())
         self.max_slope = 1.0
@@ -134,15 +126,10 @@ class MeshObject(SolidObject):
 def _regions(vertices: FloatArray, faces: IntArray) -> tuple[IntArray, tuple[Cell, ...]]:
     """Region of every face, and the cell of every region."""
     import trimesh
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
 
     mesh: Any = trimesh.Trimesh(vertices, faces, process=False)
     pairs = mesh.face_adjacency[mesh.face_adjacency_angles < np.radians(CREASE_DEG)]
-    ones = np.ones(len(pairs))
-    graph = coo_matrix((ones, (pairs[:, 0], pairs[:, 1])), shape=(len(faces), len(faces)))
-    count, region = connected_components(graph, directed=False)
-    region = region.astype(np.int64)
+    count, region = connected_parts(pairs, len(faces))
     normals, areas = np.asarray(mesh.face_normals), np.asarray(mesh.area_faces)
     cells: list[Cell] = []
     in_order = np.argsort(region, kind="stable")
@@ -180,7 +167,8 @@ def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape
     edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
     rim, counts = np.unique(edges, axis=0, return_counts=True)
     rim = rim[counts == 1]
-    if _num_loops(rim) > 1:
+    names, ends = np.unique(rim, return_inverse=True)
+    if connected_parts(ends.reshape(-1, 2), len(names))[0] > 1:  # loops
         return Shape.HOLE
     edges = vertices[rim[:, 1]] - vertices[rim[:, 0]]
     lengths = np.linalg.norm(edges, axis=1)
@@ -196,16 +184,6 @@ def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape
         opposite = len(rim) % 2 == 0 and _is_symmetric(vertices, rim)
         return Shape.HEXAGON if opposite else Shape.TRIANGLE
     return None
-
-
-def _num_loops(rim: IntArray) -> int:
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    names, ends = np.unique(rim, return_inverse=True)
-    ends = ends.reshape(-1, 2)
-    graph = coo_matrix((np.ones(len(ends)), (ends[:, 0], ends[:, 1])), shape=(len(names),) * 2)
-    return int(connected_components(graph, directed=False)[0])
 
 
 def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:

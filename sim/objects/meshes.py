@@ -73,6 +73,26 @@ def volume_and_centre(vertices: FloatArray, faces: IntArray) -> tuple[float, Flo
     return total, np.asarray(volumes @ centres / total)
 
 
+def connected_parts(links: IntArray, num: int) -> tuple[int, IntArray]:
+    """Number of connected parts of ``num`` nodes by links (L, 2), and the part of each node."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(num, num))
+    number, part = connected_components(graph, directed=False)
+    return int(number), part.astype(np.int64)
+
+
+def ray_scene(vertices: FloatArray, faces: IntArray) -> tuple[Any, Any]:
+    """An open3d scene of a mesh that rays can be cast against, and the class of its tensors."""
+    import open3d
+
+    scene: Any = open3d.t.geometry.RaycastingScene()
+    tensor: Any = open3d.core.Tensor
+    scene.add_triangles(tensor(vertices.astype(np.float32)), tensor(faces.astype(np.uint32)))
+    return scene, tensor
+
+
 def _check_file(path: Path) -> None:
     if path.suffix.lower() not in SUFFIXES:
         raise TouchError(
@@ -214,12 +234,8 @@ def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
 
 def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
     """Check that normals of every part point outwards, those of a cavity in a part inwards."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     links = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
-    graph = coo_matrix((np.ones(len(links), bool), links.T), shape=(len(vertices),) * 2)
-    number, part = connected_components(graph, directed=False)
+    number, part = connected_parts(links, len(vertices))
     volumes = np.bincount(part[faces[:, 0]], weights=_face_volumes(vertices, faces))
     if np.abs(volumes).sum() < 1e-9 * float(np.prod(np.ptp(vertices, axis=0) + 1e-9)):
         raise TouchError("the mesh encloses no volume; expected a body, not a sheet")

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import cached_property
 
-import torch
 from torch import Tensor
 
+from sim.objects.compounds import Blend
 from sim.objects.faces import Cell, Vector
 from sim.objects.ray_casting import march
 from sim.objects.ray_tubes import march_over
@@ -83,8 +83,12 @@ class SolidObject:
         return self.family in (Family.PEG, Family.INDENTER)
 
     @cached_property
+    def _whole(self) -> Blend:
+        return Blend(tuple(part.solid for part in self.parts))
+
+    @cached_property
     def cells(self) -> tuple[Cell, ...]:
-        return tuple(cell for part in self.parts for cell in part.solid.cells)
+        return self._whole.cells
 
     @cached_property
     def part_of_cell(self) -> tuple[int, ...]:
@@ -92,31 +96,18 @@ class SolidObject:
 
     @cached_property
     def reach_mm(self) -> float:
-        return max(part.solid.reach_mm for part in self.parts)
+        return self._whole.reach_mm
 
     @cached_property
     def max_slope(self) -> float:
-        return max(part.solid.max_slope for part in self.parts)
+        return self._whole.max_slope
 
     def distance(self, points: Tensor) -> Tensor:
-        total = self.parts[0].solid.distance(points)
-        for part in self.parts[1:]:
-            total = torch.minimum(total, part.solid.distance(points))
-        return total
+        return self._whole.distance(points)
 
     def cell(self, points: Tensor) -> Tensor:
         """Index of the nearest cell for points (..., 3) near the surface, int64 (...)."""
-        index = self.parts[0].solid.cell(points)
-        if len(self.parts) == 1:
-            return index
-        best = self.parts[0].solid.distance(points)
-        first = len(self.parts[0].solid.cells)
-        for part in self.parts[1:]:
-            distance = part.solid.distance(points)
-            index = torch.where(distance < best, part.solid.cell(points) + first, index)
-            best = torch.minimum(best, distance)
-            first += len(part.solid.cells)
-        return index
+        return self._whole.cell(points)
 
     def surface(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
         return march(self, origins, along, far_mm)

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from cltp.tactile.states import Shape
-from sim.objects.booleans import Blend, Hollow
+from sim.objects.compounds import Blend, Hollow, Placed, moved
 from sim.objects.faces import Barrel, Bore, Cell, Dome, Face, Flat, Form, Ripple
-from sim.objects.placing import Placed, moved
 from sim.objects.solids import Cut, Oval, Rods, Solid, dots
 
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)

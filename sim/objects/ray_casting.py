@@ -22,6 +22,7 @@ from torch import Tensor
 
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
+from sim.objects.solids import Solid
 
 FINGER_RADIUS_MM = 10.0
 """Radius of the ball that finds random surface points. Our choice: about half a pad."""
@@ -35,17 +36,6 @@ BEYOND_MM = 4.0
 STEPS, NEAR_MM, ALONGSIDE_MM = 64, 2e-4, 0.01
 """Sphere tracing: largest number of steps; distance at which a ray has hit; distance at which a ray
 that is still under way, along a steep wall, counts as a hit."""
-
-
-class Marchable(Protocol):
-    """A solid for sphere tracing (``sim.objects.solids.Solid``)."""
-
-    @property
-    def max_slope(self) -> float:
-        """Largest slope of ``distance``."""
-
-    def distance(self, points: Tensor) -> Tensor:
-        """Signed distance [mm] of points (..., 3)."""
 
 
 class Castable(Protocol):
@@ -71,7 +61,7 @@ class Castable(Protocol):
         """Signed distance [mm] of points (..., 3)."""
 
 
-def march(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+def march(solid: Solid, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
     """Trace rays against a solid; arguments and result as ``Castable.surface``."""
     travelled = torch.zeros(origins.shape[0], dtype=origins.dtype, device=origins.device)
     hit = torch.full_like(travelled, torch.inf)
@@ -126,7 +116,9 @@ def random_surface_point(obj: Castable, rng: np.random.Generator) -> SurfacePoin
         centre = _first_point_within(obj, start, direction, FINGER_RADIUS_MM, 2.1 * radius)
         if centre is not None:
             normal = gradient(obj, centre)
-            return SurfacePoint(point=_project_to_surface(obj, centre, -normal), normal=normal)
+            hit = _first_point_within(obj, centre, -normal, 0.0, 4 * FINGER_RADIUS_MM)
+            point = centre - FINGER_RADIUS_MM * normal if hit is None else hit
+            return SurfacePoint(point=point, normal=normal)
     raise ValueError("a thousand random lines missed an object; is it where its reach says?")
 
 
@@ -171,11 +163,6 @@ def _first_point_within(
         if travelled > far_mm:
             return None
     return None
-
-
-def _project_to_surface(obj: Castable, point: FloatArray, direction: FloatArray) -> FloatArray:
-    hit = _first_point_within(obj, point, direction, 0.0, 4 * FINGER_RADIUS_MM)
-    return point + FINGER_RADIUS_MM * direction if hit is None else hit
 
 
 def unit_vector(rng: np.random.Generator) -> FloatArray:

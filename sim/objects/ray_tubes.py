@@ -15,7 +15,8 @@ from __future__ import annotations
 import torch
 from torch import Tensor
 
-from sim.objects.ray_casting import ALONGSIDE_MM, BEYOND_MM, NEAR_MM, STEPS, Marchable
+from sim.objects.ray_casting import ALONGSIDE_MM, BEYOND_MM, NEAR_MM, STEPS
+from sim.objects.solids import Solid
 
 _FINER = 4  # rays along the side of a narrow tube, and narrow tubes along that of a wide one
 _WIDE = _FINER * _FINER  # rays along the side of a wide tube
@@ -24,7 +25,7 @@ _FEW_RAYS, _TOGETHER = 300, 4  # so few rays are sorted out every fourth step on
 _WORTHWHILE = 0.5  # of the radius: a tube with shorter steps ends
 
 
-def march_over(solid: Marchable, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
+def march_over(solid: Solid, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
     """Trace rays whose origins form a grid of equal squares.
 
     Args:
@@ -78,12 +79,7 @@ def _points(origins: Tensor, travelled: Tensor, along: Tensor) -> Tensor:
 
 
 def _free(
-    solid: Marchable,
-    middles: Tensor,
-    along: Tensor,
-    travelled: Tensor,
-    radius: float,
-    far_mm: float,
+    solid: Solid, middles: Tensor, along: Tensor, travelled: Tensor, radius: float, far_mm: float
 ) -> Tensor:
     """Free length of tubes about ``middles`` (3, N), (N,) [mm]."""
     free = travelled.clone()
@@ -102,7 +98,7 @@ def _free(
 
 
 def _march(
-    solid: Marchable, origins: Tensor, along: Tensor, first: Tensor, far_mm: float, steps: int
+    solid: Solid, origins: Tensor, along: Tensor, first: Tensor, far_mm: float, steps: int
 ) -> Tensor:
     """Trace rays (3, N), each from its own free length ``first``, (N,) [mm]."""
     hit = torch.full_like(first, torch.inf)

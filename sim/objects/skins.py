@@ -4,13 +4,14 @@ The limits of each texture are those of the notes, beside each class of
 ``cltp.tactile.states.Texture``. A relief lies in the pad's plane and turns with the object. It
 fades where the surface is steep, since a finger feels no grain on a flank.
 
-Not here: textures drawn for every press (``sim.starter.textures``).
+Not here: textures drawn for every press (``sim.starter.shapes``).
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -60,26 +61,14 @@ class Skin:
 
 
 SMOOTH = Skin(Texture.SMOOTH)
-
-
-def rough(height_mm: float, length_mm: float) -> Skin:
-    """Isotropic grain: standard deviation and correlation length [mm]."""
-    return Skin(Texture.ROUGH, height_mm, length_mm)
-
-
-def ridged(height_mm: float, pitch_mm: float) -> Skin:
-    """Parallel ridges across the object's axis [mm]."""
-    return Skin(Texture.RIDGED, height_mm, pitch_mm)
-
-
-def bumpy(height_mm: float, pitch_mm: float) -> Skin:
-    """Caps on a hexagonal lattice [mm]."""
-    return Skin(Texture.BUMPY, height_mm, pitch_mm)
-
-
-def woven(height_mm: float, pitch_mm: float) -> Skin:
-    """Threads along and across the object's axis [mm]."""
-    return Skin(Texture.WOVEN, height_mm, pitch_mm)
+rough = partial(Skin, Texture.ROUGH)
+"""Isotropic grain: standard deviation and correlation length [mm]."""
+ridged = partial(Skin, Texture.RIDGED)
+"""Parallel ridges across the object's axis: height and distance [mm]."""
+bumpy = partial(Skin, Texture.BUMPY)
+"""Caps on a hexagonal lattice: height and distance [mm]."""
+woven = partial(Skin, Texture.WOVEN)
+"""Threads along and across the object's axis: height and distance [mm]."""
 
 
 def relief_of(

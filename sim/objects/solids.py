@@ -10,8 +10,8 @@ Points are tensors (..., 3) [mm], on any device. On the same kind of device the 
 does not depend on the other points.
 
 Not here: the faces that solids are cut from (``sim.objects.faces``), solids of solids
-(``sim.objects.booleans``), turning and moving (``sim.objects.placing``), objects
-(``sim.objects.catalogue``), rays (``sim.objects.ray_casting``), textures (``sim.objects.skins``).
+(``sim.objects.compounds``), objects (``sim.objects.catalogue``), rays
+(``sim.objects.ray_casting``), textures (``sim.objects.skins``).
 """
 
 from __future__ import annotations

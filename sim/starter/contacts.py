@@ -10,7 +10,7 @@ Not here: files and processes (``tacgrasp.datasets.generate``), noise
 
 from __future__ import annotations
 
-from dataclasses import asdict, replace
+from dataclasses import asdict
 
 import numpy as np
 import torch
@@ -18,6 +18,7 @@ from torch import Tensor
 
 from cltp.data.contact import Contact, Gel, Split
 from cltp.tactile.sensors import SensorSpec
+from sim.gel.contact_solver import chosen
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.starter.series import COLUMNS, ROWS, Series, draw_series, num_loads
@@ -128,11 +129,7 @@ def _press_members(
 
 
 def _press(
-    members: list[Series],
-    step: int,
-    gel: GelMaterial,
-    sensor: SensorSpec,
-    start: Tensor | None,
+    members: list[Series], step: int, gel: GelMaterial, sensor: SensorSpec, start: Tensor | None
 ) -> Press:
     gaps = torch.from_numpy(np.stack([member.gap_mm for member in members]).astype(np.float32))
     loads = torch.tensor([member.loads[step] for member in members], dtype=torch.float32)
@@ -153,19 +150,8 @@ def _press(
             break
         loads = torch.where(excess > 1, loads * excess**-1.5, loads)  # Hertz
         lighter = layer.press_to_force(gaps, loads, start=press, tol=_TOLERANCE)
-        press = _merge(excess > 1, lighter, press)
+        press = chosen(excess > 1, lighter, press)
     return press
-
-
-def _merge(mask: Tensor, press: Press, other: Press) -> Press:
-    """Contacts of ``press`` where ``mask`` (B,), else those of ``other``."""
-    grid = mask[:, None, None]
-    return replace(
-        other,
-        pressure_kpa=torch.where(grid, press.pressure_kpa, other.pressure_kpa),
-        height_mm=torch.where(grid, press.height_mm, other.height_mm),
-        force_n=torch.where(mask, press.force_n, other.force_n),
-    )
 
 
 def split_of(seed: int, number: int) -> Split:

@@ -71,23 +71,14 @@ def _cap(r: FloatArray, radius_mm: float) -> FloatArray:
     return np.where(inside, r**2 / (radius_mm + root), np.inf)
 
 
-def _ball(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
-    return _cap(np.hypot(x, y), 0.5 * diameter)
-
-
-def _cylinder(x: FloatArray, y: FloatArray, diameter: float) -> FloatArray:
-    """Side of a rod along x, longer than any sensing area."""
-    return _cap(np.abs(y), 0.5 * diameter) + 0.0 * x
-
-
-def _flat(x: FloatArray, y: FloatArray, edge: float) -> FloatArray:
-    covered = np.maximum(np.abs(x), np.abs(y)) <= 0.5 * edge
-    return np.where(covered, 0.0, np.inf)
-
-
 KINDS: dict[str, tuple[str, Shape, Callable[[FloatArray, FloatArray, float], FloatArray]]] = {
-    "ball": ("DIAMETER", Shape.SPHERE, _ball),
-    "cylinder": ("DIAMETER", Shape.CYLINDER, _cylinder),
-    "flat": ("EDGE", Shape.CUBOID, _flat),
+    "ball": ("DIAMETER", Shape.SPHERE, lambda x, y, d: _cap(np.hypot(x, y), 0.5 * d)),
+    # the side of a rod along x, longer than any sensing area
+    "cylinder": ("DIAMETER", Shape.CYLINDER, lambda x, y, d: _cap(np.abs(y), 0.5 * d) + 0.0 * x),
+    "flat": (
+        "EDGE",
+        Shape.CUBOID,
+        lambda x, y, edge: np.where(np.fmax(abs(x), abs(y)) <= 0.5 * edge, 0.0, np.inf),
+    ),
 }
 """Of each kind: the meaning of its size, the shape label of its contact, and its surface."""

@@ -18,8 +18,8 @@ from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DEPTH_LIMITS_MM, Shape, Texture
 from sim.grasp.bodies import Body, Range, draw_body
-from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm
-from sim.starter.textures import relief_mm
+from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm, relief_mm
+from sim.tcl3d.poses import position_within
 
 ROWS, COLUMNS = 75, 100
 """Grid over the sensing area: 0.2 mm on a GelSight Mini."""
@@ -38,8 +38,7 @@ BODY_FORCE_N: dict[str, Range] = {
 
 _BODY_CHANCE = {"strawberry": 0.5, "cherry_tomato": 0.17, "egg": 0.16, "peg": 0.17}
 _BODY_TEXTURE = {"strawberry": Texture.BUMPY}  # achenes; the others are smooth
-_BODY_X_MM, _BODY_Y_MM = 12.0, 9.5
-_CENTRED, _CENTRED_MM = 0.3, 2.5  # fraction of series near the centre, and their spread
+_BODY_REACH_MM = np.array([12.0, 9.5])
 
 _TEXTURE_CHANCE = {
     Texture.SMOOTH: 0.16,
@@ -97,7 +96,7 @@ def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> S
     body = draw_body(name, rng, TAILS)
     x, y = grid_axes_mm(sensor, ROWS, COLUMNS)
     while True:
-        x_mm, y_mm = _draw_position(rng, _BODY_X_MM, _BODY_Y_MM)
+        x_mm, y_mm = position_within(rng, _BODY_REACH_MM).tolist()
         gap = body.gap_on(x - x_mm, y - y_mm)
         if gap.min() < body.thickness_mm / 2:  # else the fingers miss it
             break
@@ -111,17 +110,6 @@ def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> S
         shape=_body_shape(body),
         texture=_BODY_TEXTURE.get(name, Texture.SMOOTH),
     )
-
-
-def _draw_position(rng: np.random.Generator, reach_x: float, reach_y: float) -> tuple[float, float]:
-    """Draw a position [mm]: uniform within ± reach, or sometimes near the centre."""
-    if rng.random() < _CENTRED:
-        spread = rng.normal(0, _CENTRED_MM, 2)
-        return (
-            float(np.clip(spread[0], -reach_x, reach_x)),
-            float(np.clip(spread[1], -reach_y, reach_y)),
-        )
-    return float(rng.uniform(-reach_x, reach_x)), float(rng.uniform(-reach_y, reach_y))
 
 
 def _body_shape(body: Body) -> Shape:
@@ -166,7 +154,9 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     if shape is Shape.PLANE:
         x_mm, y_mm = _edge_of_plane(rng, turn, x, y)
     else:
-        x_mm, y_mm = _draw_position(rng, sensor.width_mm / 2, sensor.height_mm / 2)
+        x_mm, y_mm = position_within(
+            rng, np.array([sensor.width_mm, sensor.height_mm]) / 2
+        ).tolist()
     # A tilt must leave the whole face in reach of the lightest press, or the contact is an edge.
     slope = math.tan(indenter.max_tilt_rad * rng.random())
     if indenter.max_tilt_rad < math.radians(10):

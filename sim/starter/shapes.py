@@ -1,4 +1,4 @@
-"""Indenters: rigid shapes, posed on the pad as height fields.
+"""Indenters: rigid shapes, posed on the pad as height fields, and the fine relief of a texture.
 
 ``gap_mm`` turns an indenter in the plane, shifts, tilts and textures it.
 
@@ -14,8 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from cltp.tactile.cloud import FloatArray
-from cltp.tactile.states import Shape
+from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.states import Shape, Texture
 from sim.gel.gap import NO_BODY_MM
+from sim.objects.skins import caps, grain, valley
 from sim.starter.surfaces import SURFACES, Surface
 
 
@@ -56,13 +58,9 @@ class IndenterPose:
 
 def draw_indenter(shape: Shape, rng: np.random.Generator) -> Indenter:
     """Draw an indenter of a shape."""
-    degrees, textured = _TRAITS[shape]
-    return Indenter(
-        shape=shape,
-        behind_mm=SURFACES[shape](rng),
-        max_tilt_rad=math.radians(degrees),
-        textured=textured,
-    )
+    draw, degrees, textured = SURFACES[shape]
+    tilt_rad = math.radians(degrees)
+    return Indenter(shape=shape, behind_mm=draw(rng), max_tilt_rad=tilt_rad, textured=textured)
 
 
 def gap_mm(
@@ -100,26 +98,42 @@ def gap_mm(
     return np.where(covered, gap - gap[covered].min(), NO_BODY_MM)
 
 
-# Largest tilt [°], and whether the surface can carry a texture. A flat face tilted by more than a
-# few degrees touches as an edge; a plane must still touch with 80 % of the sensing area.
-_TRAITS: dict[Shape, tuple[float, bool]] = {
-    Shape.SPHERE: (0, True),  # a tilted ball is a ball elsewhere
-    Shape.ELLIPSOID: (0, True),
-    Shape.CUBOID: (2, True),
-    Shape.TRIANGLE: (2, True),
-    Shape.HEXAGON: (2, True),
-    Shape.DISC: (2, True),
-    Shape.PEAK: (15, False),
-    Shape.PLANE: (0.25, True),
-    Shape.CYLINDER: (2, True),
-    Shape.RING: (2, False),
-    Shape.CRESCENT: (2, False),
-    Shape.EDGE: (3, False),
-    Shape.CORNER: (15, False),
-    Shape.LINE: (2, False),
-    Shape.CROSS: (2, False),
-    Shape.STRIPES: (2, False),
-    Shape.DOTS: (1, False),
-    Shape.WAVE: (1, True),
-    Shape.HOLE: (1.5, True),
-}
+def relief_mm(
+    texture: Texture,
+    rng: np.random.Generator,
+    x_mm: FloatArray,
+    y_mm: FloatArray,
+    sensor: SensorSpec,
+) -> FloatArray:
+    """Depth of a textured surface behind a smooth one.
+
+    Limits are those of the notes, beside each class of ``cltp.tactile.states.Texture``. A relief
+    lies in the pad's plane; on a curved body it is projected, not wrapped, which stretches it by
+    less than a tenth within a contact.
+
+    Args:
+        texture: Class of the texture.
+        rng: Random generator of its parameters.
+        x_mm: Shape (H, W), over the whole sensing area [mm].
+        y_mm: Same shape [mm].
+        sensor: The sensor whose area it is.
+
+    Returns:
+        Shape (H, W) [mm]: 0 at the tops, except ``rough``, whose mean is 0.
+    """
+    if texture is Texture.SMOOTH:
+        return np.zeros(np.shape(x_mm))
+    if texture is Texture.ROUGH:
+        spread, length_mm = rng.uniform(0.03, 0.08), rng.uniform(0.3, 0.6)
+        return spread * grain(x_mm.shape, sensor, length_mm, rng)
+    angle = rng.uniform(0, math.pi)
+    u = x_mm * math.cos(angle) + y_mm * math.sin(angle) + rng.uniform(0, 3)
+    v = y_mm * math.cos(angle) - x_mm * math.sin(angle) + rng.uniform(0, 3)
+    height = rng.uniform(0.05, 0.2)
+    if texture is Texture.BUMPY:
+        pitch = rng.uniform(1, 3)
+        return height * caps(u, v, pitch, pitch * rng.uniform(0.35, 0.48))  # not quite touching
+    period = rng.uniform(0.6, 1.5)
+    if texture is Texture.RIDGED:
+        return height * valley(u, period)
+    return height * np.minimum(valley(u, period), valley(v, period * rng.uniform(0.85, 1.2)))

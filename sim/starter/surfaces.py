@@ -238,25 +238,29 @@ def _hole(rng: np.random.Generator) -> Surface:
     return behind
 
 
-SURFACES: dict[Shape, Callable[[np.random.Generator], Surface]] = {
-    Shape.SPHERE: _sphere,
-    Shape.ELLIPSOID: _ellipsoid,
-    Shape.CUBOID: _cuboid,
-    Shape.TRIANGLE: _triangle,
-    Shape.HEXAGON: _hexagon,
-    Shape.DISC: _disc,
-    Shape.PEAK: _peak,
-    Shape.PLANE: _plane,
-    Shape.CYLINDER: _cylinder,
-    Shape.RING: _ring,
-    Shape.CRESCENT: _crescent,
-    Shape.EDGE: _edge,
-    Shape.CORNER: _corner,
-    Shape.LINE: _line,
-    Shape.CROSS: _cross,
-    Shape.STRIPES: _stripes,
-    Shape.DOTS: _dots,
-    Shape.WAVE: _wave,
-    Shape.HOLE: _hole,
+SURFACES: dict[Shape, tuple[Callable[[np.random.Generator], Surface], float, bool]] = {
+    Shape.SPHERE: (_sphere, 0, True),  # a tilted ball is a ball elsewhere
+    Shape.ELLIPSOID: (_ellipsoid, 0, True),
+    Shape.CUBOID: (_cuboid, 2, True),
+    Shape.TRIANGLE: (_triangle, 2, True),
+    Shape.HEXAGON: (_hexagon, 2, True),
+    Shape.DISC: (_disc, 2, True),
+    Shape.PEAK: (_peak, 15, False),
+    Shape.PLANE: (_plane, 0.25, True),
+    Shape.CYLINDER: (_cylinder, 2, True),
+    Shape.RING: (_ring, 2, False),
+    Shape.CRESCENT: (_crescent, 2, False),
+    Shape.EDGE: (_edge, 3, False),
+    Shape.CORNER: (_corner, 15, False),
+    Shape.LINE: (_line, 2, False),
+    Shape.CROSS: (_cross, 2, False),
+    Shape.STRIPES: (_stripes, 2, False),
+    Shape.DOTS: (_dots, 1, False),
+    Shape.WAVE: (_wave, 1, True),
+    Shape.HOLE: (_hole, 1.5, True),
 }
-"""Draws a surface of each shape."""
+"""Of each shape: what draws its surface, the largest tilt [°], and whether it can carry a texture.
+
+A flat face tilted by more than a few degrees touches as an edge; a plane must still touch with 80 %
+of the sensing area.
+"""

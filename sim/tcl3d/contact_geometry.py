@@ -12,11 +12,12 @@ from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import binary_dilation
 
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell
-from sim.tcl3d.masks import BoundingRectangle, Mask, bounding_rectangle, dilate
+from sim.tcl3d.masks import BoundingRectangle, Mask, bounding_rectangle
 
 _NEARBY_MM = 0.3  # largest gap of surface that is about to touch
 
@@ -26,6 +27,10 @@ class ShapeLabel(NamedTuple):
 
     shape: Shape
     sure: bool
+
+    def sure_if(self, condition: bool) -> ShapeLabel:
+        """The same label, unsure unless ``condition`` holds as well."""
+        return ShapeLabel(self.shape, self.sure and condition)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,7 +71,7 @@ class ContactGeometry:
 
 def with_nearby_surface(contact: ContactGeometry) -> ContactGeometry:
     """Add the surface just behind a contact that is no larger than the fillet of an edge."""
-    nearby = dilate(contact.touching, 4)
+    nearby = binary_dilation(contact.touching, iterations=4)
     touching = contact.touching | (nearby & (contact.gap_mm < _NEARBY_MM))
     closed = contact.closed | touching
     depth_mm = max(contact.depth_mm, 1.5 * _NEARBY_MM)

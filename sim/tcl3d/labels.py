@@ -18,6 +18,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import grey_closing
 from torch import Tensor
 
 from cltp.tactile.cloud import grid_axes_mm
@@ -47,28 +48,11 @@ def in_contact(pressure: Tensor, pitch_mm: float) -> NDArray[np.bool_]:
         pitch_mm: Pitch of the grid [mm].
     """
     radius = max(1, round(CLOSING_MM / pitch_mm / 2))
-    size = 2 * radius + 1
     # The border is continued outwards: a contact that is cut does not end there.
-    padding = ((2 * radius,) * 2,) * 2
-    masks = (np.pad(one, padding, mode="edge") for one in (pressure > 0).numpy())
-    return np.stack([_all_in(_any_in(mask, size), size) for mask in masks])
-
-
-def _any_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
-    """Whether any point of each square of ``size`` is set; axis by axis, by doubling."""
-    for _ in range(2):
-        reached = 1
-        while reached < size:
-            step = min(reached, size - reached)
-            mask = mask[:-step] | mask[step:]
-            reached += step
-        mask = mask.T
-    return mask
-
-
-def _all_in(mask: NDArray[np.bool_], size: int) -> NDArray[np.bool_]:
-    """Whether all points of each square of ``size`` are set."""
-    return ~_any_in(~mask, size)
+    margin = 2 * radius
+    padded = np.pad((pressure > 0).numpy(), ((0, 0), (margin,) * 2, (margin,) * 2), mode="edge")
+    closed = grey_closing(padded.view(np.uint8), (1, 2 * radius + 1, 2 * radius + 1))
+    return closed[:, margin:-margin, margin:-margin].view(np.bool_)
 
 
 def label(

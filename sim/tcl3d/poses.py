@@ -52,7 +52,7 @@ _MOUNT_LEVEL_DEG = 2.0  # mounts that tilt no more than this press a level face
 _FLAT_PER_MM = 1 / 150  # curvature below which a surface is flat
 _SMALL_MM, _FURTHEST_MM = (18.0, 60.0)
 _COVERED_FRACTION = (0.87, 0.97)  # of the sensing area, under a large face
-_CENTRED, _CENTRED_MM = 0.3, 2.5
+_CENTRED, _CENTRED_MM = 0.3, 2.5  # fraction of series near the centre, and their spread
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,13 +63,11 @@ class PressPose:
         object_from_pad: Rotation (3, 3); the third column is z, into the gel.
         point: Point of the object over the pad's origin, object frame (3,) [mm].
         flat: The contact is a flat face.
-        wide: That face is larger than the pad.
     """
 
     object_from_pad: FloatArray
     point: FloatArray
     flat: bool
-    wide: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -149,11 +147,7 @@ def _random_lean(slope: float, rng: np.random.Generator) -> FloatArray:
 
 
 def _mounted_pose(
-    obj: SolidObject,
-    mount: Mount,
-    rng: np.random.Generator,
-    sensor: SensorSpec,
-    lightest_mm: float,
+    obj: SolidObject, mount: Mount, rng: np.random.Generator, sensor: SensorSpec, lightest_mm: float
 ) -> PressPose:
     contact = SurfacePoint(point=np.array(mount.point), normal=np.array(mount.direction))
     limit = math.tan(math.radians(mount.most_tilt_deg))
@@ -216,21 +210,18 @@ def _pose_on_pad(
 ) -> PressPose:
     """Lean the object, turn it about the normal, and draw its position on the pad."""
     frame = frame_at(contact.normal)
-    point, wide = contact.point, False
+    point = contact.point
     spin = rng.uniform(0, 2 * math.pi)
     cos, sin = math.cos(spin), math.sin(spin)
     turned = frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
     position = _draw_position(rng, sensor, 0.0 if face is None else face.span_mm)
     if face is not None and face.end is not None:
-        wide = True
         position = _covering_position(face.end, spin, sensor, rng.uniform(*_COVERED_FRACTION))
     elif face is not None:
         point = point + frame[:, :2] @ face.centre
     if lean is not None:
         turned = _lean_rotation(frame, lean) @ turned
-    return PressPose(
-        object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat, wide=wide
-    )
+    return PressPose(object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat)
 
 
 def _covering_position(
@@ -249,7 +240,11 @@ def _covering_position(
 def _draw_position(rng: np.random.Generator, sensor: SensorSpec, span_mm: float) -> FloatArray:
     """Position on the pad (2,) [mm]; wide faces stay mostly inside."""
     reach = np.array([sensor.width_mm, sensor.height_mm]) / 2 - max(0.36 * span_mm, 0.6)
-    reach = reach.clip(min=0.5)
+    return position_within(rng, reach.clip(min=0.5))
+
+
+def position_within(rng: np.random.Generator, reach: FloatArray) -> FloatArray:
+    """Draw a position (2,) [mm]: uniform within ± reach (2,), or sometimes near the centre."""
     if rng.random() < _CENTRED:
         return np.asarray(np.clip(rng.normal(0, _CENTRED_MM, 2), -reach, reach))
     return np.asarray(rng.uniform(-reach, reach))

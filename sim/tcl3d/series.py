@@ -104,18 +104,18 @@ class SeriesRequest:
     Attributes:
         number: Number of the series.
         obj: The pressed object.
-        sensor: The sensor.
-        gel: Its gel.
+        gel: Gel of the sensor.
         split: The split of its contacts.
-        loads: Number of contacts.
     """
 
     number: int
     obj: SolidObject
-    sensor: SensorSpec
     gel: GelMaterial
     split: Split
-    loads: int
+
+    @property
+    def sensor(self) -> SensorSpec:
+        return sensor_named("gelstereo" if self.split is Split.GELSTEREO else "gelsight_mini")
 
 
 def grid_over(sensor: SensorSpec) -> tuple[int, int]:
@@ -162,19 +162,12 @@ def series_request(seed: int, number: int) -> SeriesRequest:
     if number < GELSTEREO_FIRST:
         return _main_request(seed, number, CATALOGUE[number % len(CATALOGUE)])
     if number < GELSIGHT_FIRST:
-        obj, sensor, split = SMALL[number % len(SMALL)], sensor_named("gelstereo"), Split.GELSTEREO
+        obj, gel, split = SMALL[number % len(SMALL)], gel_of("gelstereo"), Split.GELSTEREO
     else:
         rng = np.random.default_rng([seed, number, 3])
         obj = LARGE[int(rng.integers(len(LARGE)))]
-        sensor, split = sensor_named("gelsight_mini"), Split.GELSIGHT
-    return SeriesRequest(
-        number=number,
-        obj=obj,
-        sensor=sensor,
-        gel=gel_of(sensor.name),
-        split=split,
-        loads=DOMAIN_LOADS,
-    )
+        gel, split = gel_of("gelsight_mini"), Split.GELSIGHT
+    return SeriesRequest(number=number, obj=obj, gel=gel, split=split)
 
 
 def _main_request(seed: int, number: int, obj: SolidObject) -> SeriesRequest:
@@ -190,14 +183,7 @@ def _main_request(seed: int, number: int, obj: SolidObject) -> SeriesRequest:
     elif u < TEST_FRACTION + VALIDATION_FRACTION + PHYSICS_FRACTION:
         split = Split.PHYSICS
     gels = OTHER_GELS if split is Split.PHYSICS else GELS
-    return SeriesRequest(
-        number=number,
-        obj=obj,
-        sensor=sensor_named("gelsight_mini"),
-        gel=gels[index % len(gels)],
-        split=split,
-        loads=LOADS,
-    )
+    return SeriesRequest(number=number, obj=obj, gel=gels[index % len(gels)], split=split)
 
 
 def make_series(
@@ -213,20 +199,17 @@ def make_series(
     """
     request = series_request(seed, number) if obj is None else _main_request(seed, number, obj)
     rng = np.random.default_rng([seed, number, 1])
-    scene, depths = draw_scene(request, rng, device)
-    soft = request.obj.modulus_mpa
+    scene, approach = draw_scene(request, rng, device)
     rows, columns = grid_over(request.sensor)
     layer = ElasticLayer(
         request.gel,
         rows=rows,
         columns=columns,
         pitch_mm=request.sensor.width_mm / columns,
-        body_modulus_mpa=soft,
+        body_modulus_mpa=request.obj.modulus_mpa,
         device=device,
     )
-    # A soft body flattens as well; 0.35 MPa is roughly the stiffness of a gel on its back.
-    approach = [depth * (1 + (0.35 / soft if soft else 0.0)) for depth in depths]
-    gaps = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(depths), -1, -1)
+    gaps = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(approach), -1, -1)
     with torch.inference_mode():
         press = layer.press_to_depth(
             gaps.to(device), torch.tensor(approach, device=device), tol=_TOLERANCE
@@ -238,7 +221,7 @@ def make_series(
 def draw_scene(
     request: SeriesRequest, rng: np.random.Generator, device: torch.device | str = "cpu"
 ) -> tuple[Scene, list[float]]:
-    """Draw the pose of the object, cast its surface, and draw the depths of the presses [mm].
+    """Draw the pose of the object, cast its surface, and draw the approaches of the presses [mm].
 
     Raises:
         ValueError: No pose of the object on the pad was found.
@@ -247,7 +230,7 @@ def draw_scene(
     x, y = np.meshgrid(*grid_axes_mm(sensor, *grid_over(sensor)))
     textured = any(part.skin is not SMOOTH for part in obj.parts)
     shallowest_mm = _SHALLOWEST_FINE_MM if textured else _SHALLOWEST_MM
-    fractions = rng.random(request.loads)
+    fractions = rng.random(num_loads(request.number))
     lightest = _depths(request, fractions, shallowest_mm, gentle=False)[0]
     mounted = request.split is Split.GELSTEREO
     for attempt in range(_MAX_ATTEMPTS):
@@ -260,7 +243,10 @@ def draw_scene(
         raise ValueError(f"{obj.name} could not be brought to the pad in {_MAX_ATTEMPTS} attempts")
     scene = _scene(obj, pose, view, rng, x, y, sensor)
     is_gentle = float((view.gap_mm < _NEAR_MM).mean()) > _GENTLE_FRACTION
-    return scene, _depths(request, fractions, shallowest_mm, gentle=is_gentle)
+    # A soft body flattens as well; 0.35 MPa is roughly the stiffness of a gel on its back.
+    factor = 1 + (0.35 / obj.modulus_mpa if obj.modulus_mpa else 0.0)
+    depths = _depths(request, fractions, shallowest_mm, gentle=is_gentle)
+    return scene, [depth * factor for depth in depths]
 
 
 def _depths(

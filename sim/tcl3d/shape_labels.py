@@ -17,6 +17,7 @@ import math
 from collections import Counter
 
 import numpy as np
+from scipy.ndimage import binary_dilation
 
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
@@ -32,7 +33,6 @@ from sim.tcl3d.masks import (
     count_pieces,
     covered_fraction,
     curvatures,
-    dilate,
     slopes,
 )
 
@@ -85,7 +85,7 @@ def name_shape(contact: ContactGeometry) -> ShapeLabel:
             label = _several(contact, of_form, Shape.WAVE, enough=2)
         case _:
             return _plain(contact, touching_cells or [int(contact.counts.argmax())])
-    return ShapeLabel(label.shape, label.sure and pure)
+    return label.sure_if(pure)
 
 
 def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
@@ -109,7 +109,7 @@ def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
 def _one_bar(contact: ContactGeometry) -> ShapeLabel:
     rectangle = contact.rectangle(contact.touching)
     if rectangle.length < 1.8 * rectangle.width:
-        return ShapeLabel(_cap(contact).shape, False)
+        return _cap(contact).sure_if(False)
     return ShapeLabel(Shape.LINE, rectangle.length > 2.2 * rectangle.width)
 
 
@@ -130,8 +130,7 @@ def _loop(contact: ContactGeometry, mask: Mask) -> ShapeLabel:
         return ShapeLabel(Shape.RING, fraction >= 0.82)
     if fraction >= 0.14:  # about 50°
         return ShapeLabel(Shape.CRESCENT, 0.17 <= fraction < 0.76)
-    label = _cap(contact)
-    return ShapeLabel(label.shape, label.sure and fraction < 0.11)
+    return _cap(contact).sure_if(fraction < 0.11)
 
 
 def _plain(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
@@ -152,19 +151,16 @@ def _plain(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
         is_whole_in_view = border_fraction(contact.closed) < _ENDS_SEEN
         is_whole = touched > 0.9 and is_whole_in_view and _slope(contact, mask) < _ASLANT
         if runs_out < _RUNS_OUT or is_whole:
-            label = _outline(contact, cell, mask)
             level = runs_out < _RUNS_OUT - _RUNS_OUT_UNSURE or is_whole
-            sure = label.sure and level and fraction >= 0.6
-            return ShapeLabel(label.shape, sure and is_one_piece)
+            sure = level and fraction >= 0.6 and is_one_piece
+            return _outline(contact, cell, mask).sure_if(sure)
     elif (
         cell.form is Form.CURVED
         and fraction >= 0.85
         and (_rounds_off(contact) or _lies_level(contact))
     ):
-        label = _cap(contact)
-        return ShapeLabel(label.shape, label.sure and is_one_piece)
-    label = _sharp(contact, touching_cells)
-    return ShapeLabel(label.shape, label.sure and is_one_piece)
+        return _cap(contact).sure_if(is_one_piece)
+    return _sharp(contact, touching_cells).sure_if(is_one_piece)
 
 
 def _rounds_off(contact: ContactGeometry) -> bool:
@@ -222,7 +218,7 @@ def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
 
 def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     """Edge, corner or peak: several cells touch, or one that ends."""
-    near = dilate(contact.touching, 2)
+    near = binary_dilation(contact.touching, iterations=2)
     nearby = np.flatnonzero(contact.count_cells(near)).tolist()
     rectangle = contact.rectangle(contact.touching)
     elongation = rectangle.length / rectangle.width
@@ -236,8 +232,7 @@ def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     level = _rounds_off(contact)
     radius = 1 / max(curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)[1], 1e-3)
     if level and radius > _SHARP_MM:
-        label = _cap(contact)
-        return ShapeLabel(label.shape, label.sure and radius > 1.9)
+        return _cap(contact).sure_if(radius > 1.9)
     faces = [n for n in nearby if n not in touching_cells or contact.counts[n] >= _FEW]
     cliffs = bool((contact.gap_mm[near] >= NO_BODY_MM).any())
     sides = len(faces) + cliffs
@@ -258,10 +253,10 @@ def _bend(contact: ContactGeometry, touching_cells: list[int]) -> float | None:
         return None
     first, second = sorted(touching_cells, key=lambda n: -contact.counts[n])[:2]
     normals: list[FloatArray] = []
-    near = dilate(contact.touching, 5) & (contact.gap_mm < NO_BODY_MM)
-    fillet = (
-        dilate(contact.touching) if np.count_nonzero(contact.touching) < 60 else contact.touching
-    )
+    near = binary_dilation(contact.touching, iterations=5) & (contact.gap_mm < NO_BODY_MM)
+    fillet = contact.touching
+    if np.count_nonzero(fillet) < 60:
+        fillet = binary_dilation(fillet)
     for number in (first, second):
         mask = (contact.cells == number) & near
         outside_fillet = mask & ~fillet
@@ -298,8 +293,8 @@ def _top(contact: ContactGeometry) -> Mask:
     """Foremost part of a contact; further out, a fitted quadric overstates the curvatures."""
     # All surface as near as the tops of a texture, not the tops alone.
     reach = float(np.percentile(contact.gap_mm[contact.touching], 90))
-    mask = dilate(contact.closed, 2) & (contact.gap_mm <= reach)
+    mask = binary_dilation(contact.closed, iterations=2) & (contact.gap_mm <= reach)
     if np.count_nonzero(mask) < 16:
-        mask = dilate(contact.touching, 2) & (contact.gap_mm < NO_BODY_MM)
+        mask = binary_dilation(contact.touching, iterations=2) & (contact.gap_mm < NO_BODY_MM)
     top = mask & (contact.gap_mm <= 0.6 * float(contact.gap_mm[mask].max()))
     return top if np.count_nonzero(top) >= 24 else mask

@@ -9,14 +9,14 @@ from __future__ import annotations
 
 from functools import cache
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
+from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
 
 
 @cache
 def _environment() -> Environment:
     return Environment(
         loader=PackageLoader("tacgrasp", ""),
-        autoescape=True,
+        autoescape=select_autoescape(["html"]),
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
@@ -25,7 +25,7 @@ def _environment() -> Environment:
 
 
 def render_page(template: str, *, title: str, **values: object) -> str:
-    """Fill a template; text in ``values`` is escaped.
+    """Fill a template; text in ``values`` is escaped where it is HTML.
 
     Args:
         template: Path in this package, such as ``pretraining/templates/report.html``.

@@ -14,6 +14,8 @@ from typing import TypeVar
 from rich.console import Console
 from rich.progress import Progress
 
+from tacgrasp.benchmarks.figures import one_thread
+
 T = TypeVar("T")
 
 
@@ -31,7 +33,7 @@ def map_seeds(
     results: list[T] = []
     # spawned, not forked: torch's threads don't survive a fork
     with (
-        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=_one_thread) as pool,
+        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=one_thread) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task(name, total=len(seeds))
@@ -39,9 +41,3 @@ def map_seeds(
             results.append(result)
             progress.advance(task)
     return results
-
-
-def _one_thread() -> None:
-    import torch
-
-    torch.set_num_threads(1)

@@ -37,7 +37,7 @@ def rig_findings(config: RunConfig) -> Sequence[Finding]:
         return [*findings, finding("rig", "devices", True, detail)]
     findings += _library_findings()
     if config.devices == "hardware":
-        return [*findings, *device_findings(config.hardware)]
+        return [*findings, *device_findings(config.hardware, config.gripper.first_force_n)]
     return [*findings, *_emulated_findings(config, config.hardware)]
 
 
@@ -80,7 +80,11 @@ def _emulated_findings(config: RunConfig, hardware: HardwareConfig) -> list[Find
         ):
             ready = ", ".join(f"{name} {value}" for name, value in emulators.ready.items())
             settings = settings_for(hardware, emulators, Path(folder))
-            return [finding("rig", "emulators", True, ready), *device_findings(settings)]
+            first_force_n = config.gripper.first_force_n
+            if first_force_n is None:
+                first_force_n = float(str(emulators.ready["first_force_n"]))
+            devices = device_findings(settings, first_force_n)
+            return [finding("rig", "emulators", True, ready), *devices]
     except RobotError as error:
         advice = "see the message; python -m sim.emulators rig shows all of it"
         return [finding("rig", "emulators", False, str(error), advice)]

@@ -2,30 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import importlib
+from collections.abc import Sequence
+from functools import partial
 from typing import Any
 
-from tacgrasp.cli import bench_learning, bench_loop, bench_sensing
-from tacgrasp.cli.flags import run_subcommand
+from tacgrasp.benchmarks import settings
+from tacgrasp.cli.flags import run_subcommand, writable
 
-BENCHMARKS: dict[str, tuple[type[Any], Callable[[Any], bool | None]]] = {
-    "strawberry": (bench_loop.StrawberryBenchFlags, bench_loop.strawberry),
-    "missed": (bench_loop.MissedBenchFlags, bench_loop.missed),
-    "latency": (bench_loop.LatencyBenchFlags, bench_loop.latency),
-    "rigs": (bench_loop.RigsBenchFlags, bench_loop.rigs),
-    "drivers": (bench_loop.DriversBenchFlags, bench_loop.drivers),
-    "faults": (bench_loop.FaultsBenchFlags, bench_loop.faults),
-    "gel": (bench_sensing.GelBenchFlags, bench_sensing.gel),
-    "contact": (bench_sensing.ContactBenchFlags, bench_sensing.contact),
-    "touch": (bench_sensing.TouchBenchFlags, bench_sensing.touch),
-    "balls": (bench_sensing.BallsBenchFlags, bench_sensing.balls),
-    "ball-captions": (bench_sensing.BallCaptionsBenchFlags, bench_sensing.ball_captions),
-    "encoder": (bench_learning.EncoderBenchFlags, bench_learning.encoder),
-    "tcl3d": (bench_learning.Tcl3dBenchFlags, bench_learning.tcl3d),
+BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
+    "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
+    "missed": (settings.MissedSettings, "loop.missed"),
+    "latency": (settings.LatencySettings, "learning.latency"),
+    "rigs": (settings.RigsSettings, "loop.rigs"),
+    "drivers": (settings.DriversSettings, "loop.drivers"),
+    "faults": (settings.FaultsSettings, "faults.run"),
+    "gel": (settings.GelSettings, "sensing.gel"),
+    "contact": (settings.ContactSettings, "sensing.contact"),
+    "touch": (settings.TouchSettings, "sensing.touch"),
+    "balls": (settings.BallsSettings, "sensing.balls"),
+    "ball-captions": (settings.BallCaptionsSettings, "sensing.ball_captions"),
+    "encoder": (settings.EncoderSettings, "learning.encoder"),
+    "tcl3d": (settings.Tcl3dSettings, "learning.tcl3d"),
 }
-"""Flags and function of each benchmark; the function returns False when a limit is not kept."""
+"""Settings and module of each benchmark; its ``run`` returns False when a limit is not kept."""
 
 
 def main(argv: Sequence[str]) -> int:
     """Run one benchmark; 0 when what it measured keeps its limits."""
-    return 1 if run_subcommand("bench", argv, BENCHMARKS) is False else 0
+    commands = {name: (kind, partial(_run, module)) for name, (kind, module) in BENCHMARKS.items()}
+    return 1 if run_subcommand("bench", argv, commands) is False else 0
+
+
+def _run(module: str, values: settings.BenchmarkSettings) -> Any:
+    writable(values.json)
+    writable(getattr(values, "markdown", None))
+    return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)

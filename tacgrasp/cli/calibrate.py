@@ -6,16 +6,19 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli import calibrate_background, calibrate_gripper, calibrate_pad_axes
-from tacgrasp.cli.calibrate_gripper import parse_date
-from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.cli.calibrate_background import CalibrateBackgroundFlags
+from tacgrasp.cli.calibrate_gripper import CalibrateGripperFlags, parse_date
+from tacgrasp.cli.calibrate_pad_axes import CalibratePadAxesFlags
+from tacgrasp.cli.flags import run_subcommand
 
 
 @dataclass(frozen=True)
 class CalibrateGelsightFlags:
-    """Learn a GelSight Mini's heights from presses of a ball of known diameter.
+    """Learn heights from colours, from presses of a ball of known diameter.
 
     Before: press a steel ball at 20 or more places all over the gel, take one frame of each press,
     and one frame with nothing touching the gel. Learning takes about 15 s.
@@ -43,23 +46,17 @@ class CalibrateGelsightFlags:
 
 def main(argv: Sequence[str]) -> int:
     """Run the calibration named by the first argument."""
-    commands: dict[str, Callable[[Sequence[str]], None]] = {
-        "gelsight-mini": _gelsight_mini,
-        "background": calibrate_background.main,
-        "gripper": calibrate_gripper.main,
-        "pad-axes": calibrate_pad_axes.main,
+    commands: dict[str, tuple[type[Any], Callable[[Any], None]]] = {
+        "gelsight-mini": (CalibrateGelsightFlags, _gelsight_mini),
+        "background": (CalibrateBackgroundFlags, calibrate_background.run),
+        "gripper": (CalibrateGripperFlags, calibrate_gripper.run),
+        "pad-axes": (CalibratePadAxesFlags, calibrate_pad_axes.run),
     }
-    name, rest = subcommand(
-        "calibrate", argv, {name: command.__doc__ or "" for name, command in commands.items()}
-    )
-    if name is not None:
-        commands[name](rest)
+    run_subcommand("calibrate", argv, commands)
     return 0
 
 
-def _gelsight_mini(argv: Sequence[str]) -> None:
-    """Learn heights from colours, from presses of a ball of known diameter."""
-    flags = parse(CalibrateGelsightFlags, argv, prog="tacgrasp calibrate gelsight-mini")
+def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:
     if not 1.0 <= flags.diameter_mm <= 100.0:
         raise UsageError(f"--diameter-mm must be 1 to 100, got {flags.diameter_mm}")
     if not flags.out.parent.is_dir():

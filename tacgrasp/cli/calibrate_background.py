@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 
 @dataclass(frozen=True)
 class CalibrateBackgroundFlags:
-    """Average frames of the untouched gel into the background named in a rig's file.
+    """Take the picture of a GelSight Mini with nothing touching it.
 
-    Free the gel, let its LEDs warm up for a minute, and use the rig's light and crop. Heights are
-    computed from the difference to the background.
+    Frames of the untouched gel are averaged into the background named in a rig's file. Free the
+    gel, let its LEDs warm up for a minute, and use the rig's light and crop. Heights are computed
+    from the difference to the background.
 
     Attributes:
         unit: Name of this unit in the rig's file.
@@ -34,9 +33,8 @@ class CalibrateBackgroundFlags:
     crop_share: float = 1 / 7
 
 
-def main(argv: Sequence[str]) -> None:
-    """Take the picture of a GelSight Mini with nothing touching it."""
-    flags = parse(CalibrateBackgroundFlags, argv, prog="tacgrasp calibrate background")
+def run(flags: CalibrateBackgroundFlags) -> None:
+    """Average the frames and save them."""
     if not 2 <= flags.frames <= 1000:
         raise UsageError(f"--frames must be 2 to 1000, got {flags.frames}")
     if flags.out.suffix.lower() != ".png" or not flags.out.parent.is_dir():

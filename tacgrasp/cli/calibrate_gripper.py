@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import datetime
 import os
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -21,10 +19,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CalibrateGripperFlags:
-    """Measure the gripper's force over its current, from which the driver sets newtons.
+    """Measure force over current of a gripper, with a scale or from a file of readings.
 
-    Put a scale between the open fingers. The gripper squeezes it with one current after another,
-    and you type the force that it shows. With --readings nothing moves: a file is fitted.
+    The driver sets newtons by it. Put a scale between the open fingers. The gripper squeezes it
+    with one current after another, and you type the force that it shows. With --readings nothing
+    moves: a file is fitted.
 
     Attributes:
         rig: Path of the rig's YAML file, whose section hardware.gripper names the gripper and the
@@ -46,9 +45,8 @@ class CalibrateGripperFlags:
     out: Path | None = None
 
 
-def main(argv: Sequence[str]) -> None:
-    """Measure force over current of a gripper, with a scale or from a file of readings."""
-    flags = parse(CalibrateGripperFlags, argv, prog="tacgrasp calibrate gripper")
+def run(flags: CalibrateGripperFlags) -> None:
+    """Measure, or fit the file of readings, and save the calibration."""
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
     from tacgrasp.drivers.dynamixel.calibration import save_calibration

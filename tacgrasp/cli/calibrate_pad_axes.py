@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from primitives import execution
@@ -17,7 +15,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CalibratePadAxesFlags:
-    """Find the axes of the pad in the frame of the tool centre point (TCP), for a rig's file.
+    """Find the axes of the pad, from small moves with a contact or from your own look.
+
+    They are axes in the frame of the tool centre point (TCP), for a rig's file.
 
     With --rig: from its present pose the arm goes 2 mm to both sides along every axis of the TCP,
     and the gripper closes on a fixed object at the middle of the pad. Without it: name the axes of
@@ -42,9 +42,8 @@ class CalibratePadAxesFlags:
     palm: str = ""
 
 
-def main(argv: Sequence[str]) -> None:
-    """Find the axes of the pad, from small moves with a contact or from your own look."""
-    flags = parse(CalibratePadAxesFlags, argv, prog="tacgrasp calibrate pad-axes")
+def run(flags: CalibratePadAxesFlags) -> None:
+    """Find the axes and print the lines of the rig's file."""
     if flags.rig is not None and (flags.right or flags.palm):
         raise UsageError("give --rig to measure, or --right and --palm, not both")
     from tacgrasp.bringup.pad_axes import as_yaml

@@ -6,12 +6,19 @@ import json
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import tyro
 
 from cltp.atomic_write import replacing
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import writable
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    from cltp.data.dataset import ContactDataset
 
 SHOWN_PROBLEMS = 50
 
@@ -94,18 +101,17 @@ def verify(flags: VerifyFlags) -> int:
     """Run ``data verify``."""
     from cltp.data.dataset import ContactDataset
     from cltp.errors import TouchError
-    from tacgrasp.console import make_console
-    from tacgrasp.datasets.verify import bar, problems
+    from tacgrasp.console import count_progress, make_console
+    from tacgrasp.datasets.verify import problems
 
     out, num_wrong = make_console(), 0
     if not (flags.folder / "dataset.json").is_file():
         ContactDataset(flags.folder, partial=True)  # says that it is none
     checked = 0
     try:
-        with bar() as progress:
-            task = progress.add_task(
-                "contacts", total=len(ContactDataset(flags.folder, partial=True))
-            )
+        with count_progress() as progress:
+            total = len(ContactDataset(flags.folder, partial=True))
+            task = progress.add_task("contacts", total=total)
             for checked, problem in problems(flags.folder):
                 progress.update(task, completed=checked)
                 if problem is not None:
@@ -117,83 +123,85 @@ def verify(flags: VerifyFlags) -> int:
         num_wrong += 1
     if num_wrong > SHOWN_PROBLEMS:
         out.print(f"... and {num_wrong - SHOWN_PROBLEMS} more")
-    verdict = (
-        "nothing wrong" if not num_wrong else f"{num_wrong} problem{'s' if num_wrong > 1 else ''}"
-    )
+    verdict = f"{num_wrong} problem{'s' if num_wrong > 1 else ''}" if num_wrong else "nothing wrong"
     out.print(f"{flags.folder}: {checked:,} contacts checked, {verdict}")
     return 1 if num_wrong else 0
 
 
-@dataclass(frozen=True)
-class GalleryFlags:
-    """Write contacts into one self-contained HTML page: pictures, captions, class counts.
+@dataclass(frozen=True, kw_only=True)
+class DrawFlags:
+    """Flags of a command that draws contacts at random.
 
     Attributes:
         folder: Folder of the data set.
-        out: HTML file to write.
         contacts: Number of contacts to draw at random; all if the set has fewer.
-        seed: Random seed of the drawing.
+        seed: Random seed of the drawing; data gallery and data sheet draw the same contacts from
+            it.
     """
 
     folder: tyro.conf.Positional[Path]
-    out: Path = Path("gallery.html")
     contacts: int = 200
     seed: int = 0
+
+    def draw(self) -> tuple[ContactDataset, NDArray[np.int64]]:
+        """The data set, and the indices of the drawn contacts."""
+        from cltp.data.dataset import ContactDataset
+        from tacgrasp.datasets.contact_sheet import draw_contacts
+
+        if self.contacts < 1 or self.seed < 0:
+            raise UsageError(
+                "expected at least 1 contact and a seed from 0, "
+                f"got {self.contacts} contacts, seed {self.seed}"
+            )
+        data = ContactDataset(self.folder, partial=True)
+        return data, draw_contacts(len(data), self.contacts, self.seed)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GalleryFlags(DrawFlags):
+    """Write contacts into one self-contained HTML page: pictures, captions, class counts.
+
+    Attributes:
+        out: HTML file to write.
+    """
+
+    out: Path = Path("gallery.html")
 
 
 def gallery(flags: GalleryFlags) -> None:
     """Run ``data gallery``."""
-    from cltp.data.dataset import ContactDataset
     from tacgrasp.console import make_console
-    from tacgrasp.datasets.contact_sheet import draw_contacts
     from tacgrasp.datasets.gallery import write_gallery
 
-    _check_draw(flags.contacts, flags.seed)
-    data = ContactDataset(flags.folder, partial=True)
-    indices = draw_contacts(len(data), flags.contacts, flags.seed)
+    _, indices = flags.draw()
     _save(lambda path: write_gallery(flags.folder, indices, path, seed=flags.seed), flags.out)
     size = flags.out.stat().st_size / 1e6
     make_console().print(f"written   {flags.out}: {len(indices)} contacts, {size:.1f} MB")
 
 
-@dataclass(frozen=True)
-class SheetFlags:
+@dataclass(frozen=True, kw_only=True)
+class SheetFlags(DrawFlags):
     """Write contacts with their captions as PNG pages, to be read one by one.
 
     Attributes:
-        folder: Folder of the data set.
         out: Folder to write sheet-01.png, sheet-02.png, ... to.
-        contacts: Number of contacts to draw at random; all if the set has fewer.
-        seed: Random seed of the drawing; data gallery draws the same contacts from it.
     """
 
-    folder: tyro.conf.Positional[Path]
     out: Path = Path("sheets")
     contacts: int = 50
-    seed: int = 0
 
 
 def sheet(flags: SheetFlags) -> None:
     """Run ``data sheet``."""
-    from cltp.data.dataset import ContactDataset
     from tacgrasp.console import make_console
-    from tacgrasp.datasets.contact_sheet import draw_contacts, write_pages
+    from tacgrasp.datasets.contact_sheet import write_pages
 
-    _check_draw(flags.contacts, flags.seed)
-    data = ContactDataset(flags.folder, partial=True)
-    indices = [int(index) for index in draw_contacts(len(data), flags.contacts, flags.seed)]
+    data, indices = flags.draw()
     try:
-        written = write_pages(data, indices, flags.out)
+        written = write_pages(data, indices.tolist(), flags.out)
     except OSError as error:
         raise UsageError(f"--out {flags.out} can't be written: {error.strerror}") from None
     make_console().print(f"written   {len(written)} pages in {flags.out}")
-
-
-def _check_draw(contacts: int, seed: int) -> None:
-    if contacts < 1 or seed < 0:
-        raise UsageError(
-            f"expected at least 1 contact and a seed from 0, got {contacts} contacts, seed {seed}"
-        )
 
 
 def _save(write: Callable[[Path], object], path: Path) -> None:

@@ -91,7 +91,7 @@ def _recover(flags: RecoverFlags) -> None:
     from tacgrasp.console import make_console
     from tacgrasp.episodes.recover import recover
 
-    make_console().print(recover(flags.episode, flags.out).message)
+    make_console().print(recover(flags.episode, flags.out))
 
 
 def _plot(flags: PlotFlags) -> None:

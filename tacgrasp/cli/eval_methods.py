@@ -11,8 +11,8 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, writable
 
 if TYPE_CHECKING:
-    from tacgrasp.pretraining.evaluate_real import RealSet
     from tacgrasp.pretraining.evaluation_run import EvaluationRun
+    from tacgrasp.pretraining.real_touches import RealTouches
     from tacgrasp.pretraining.report.store import Result
 
 METHODS_DIR = Path("runs/methods")
@@ -134,19 +134,19 @@ def zero_shot(argv: Sequence[str]) -> None:
     """Classify by the nearest prompt (table 1); --real DIR --labels CSV for real touches."""
     flags = parse(ZeroShotFlags, argv, prog="tacgrasp eval zero-shot")
     json_path = _checked(flags)
+    from cltp.evaluation.zero_shot import PROMPTINGS
     from tacgrasp.pretraining import evaluate
-    from tacgrasp.pretraining.evaluate_real import zero_shot_real
     from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
-    run = _evaluation_run(flags, "zero-shot", argv)
-    real = _real_set(flags)
-    if real is None:
-        print_results(evaluate.zero_shot(run, _names(flags.methods)), json_path)
-        return
-    prompting = "ensemble" if flags.ensemble else "single"
-    results = zero_shot_real(run, _names(flags.methods), real, prompting=prompting)
+    run, real = _evaluation_run(flags, "zero-shot", argv), _real_touches(flags)
+    promptings = PROMPTINGS if real is None else PROMPTINGS[flags.ensemble :][:1]
+    methods = _names(flags.methods)
+    results = evaluate.zero_shot(
+        run, methods, real=real, promptings=promptings, predictions=flags.out
+    )
     print_results(results, json_path)
-    print_real_results(results, flags.out)
+    if real is not None:
+        print_real_results(results, flags.out)
 
 
 def probe(argv: Sequence[str]) -> None:
@@ -156,18 +156,15 @@ def probe(argv: Sequence[str]) -> None:
     if min(flags.seeds, flags.views) < 1:
         raise UsageError("--seeds and --views must be at least 1")
     from tacgrasp.pretraining import evaluate
-    from tacgrasp.pretraining.evaluate_real import probe_real
     from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
-    real = _real_set(flags)
-    methods = _names(flags.methods)
+    real = _real_touches(flags)
     results: list[Result] = []
     for number in range(flags.seeds):
         run = _evaluation_run(replace(flags, seed=flags.seed + number), "probe", argv)
-        if real is None:
-            results += evaluate.probe(run, methods, views=flags.views)
-        else:
-            results += probe_real(run, methods, real, views=flags.views)
+        results += evaluate.probe(
+            run, _names(flags.methods), views=flags.views, real=real, predictions=flags.out
+        )
     print_results(results, json_path)
     if real is not None:
         print_real_results(results, flags.out)
@@ -260,20 +257,13 @@ def _evaluation_run(flags: EvaluationFlags, command: str, argv: Sequence[str]) -
     )
 
 
-def _real_set(flags: RealTouchFlags) -> RealSet | None:
+def _real_touches(flags: RealTouchFlags) -> RealTouches | None:
     """The real touches; None where the contacts of the data set are evaluated."""
     if flags.real is None and flags.labels is None:
         return None
     from cltp.tactile.sensors import sensor_named
-    from tacgrasp.pretraining.evaluate_real import RealSet
-    from tacgrasp.pretraining.real_touches import BACKGROUND, read_labels
+    from tacgrasp.pretraining.real_touches import read_touches
 
     if flags.real is None or flags.labels is None:
         raise UsageError("--real and --labels belong together: a folder, and what is in it")
-    background = flags.background or flags.real / BACKGROUND
-    return RealSet(
-        rows=read_labels(flags.real, flags.labels),
-        sensor=sensor_named(flags.sensor),
-        background=background if flags.background or background.exists() else None,
-        predictions=flags.out,
-    )
+    return read_touches(flags.real, flags.labels, sensor_named(flags.sensor), flags.background)

@@ -80,7 +80,7 @@ def _run(config: RunConfig) -> Outcome:
     from tacgrasp.rig.factory import make_rig
     from tacgrasp.run import run_recorded
 
-    if config.hardware is not None and not config.hardware.is_sensor_live and not config.dry_run:
+    if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
         raise UsageError(
             f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
             "nothing may be grasped; give --dry-run to see what would be decided"

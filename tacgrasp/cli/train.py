@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal, Protocol
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
@@ -169,7 +169,6 @@ class TrainProbeFlags(MethodsFlags):
     seeds: int = 1
 
     def train(self, stage: str, command: str) -> None:
-        _require_seeds(self.seeds)
         from tacgrasp.pretraining.run_all import run_probes
 
         with self.run(command) as run:
@@ -195,7 +194,6 @@ class TrainAllMethodsFlags(TrainMethodFlags):
     seeds: int = 1
 
     def train(self, stage: str, command: str) -> None:
-        _require_seeds(self.seeds)
         from tacgrasp.pretraining.run_all import run_all_methods
 
         with self.training_run(command) as run:
@@ -232,7 +230,7 @@ class TrainAllFlags:
     def train(self, stage: str, command: str) -> None:
         from tacgrasp.training.train import train_all
 
-        train_all(self.out, self.data, contacts=self.contacts, seed=self.seed, threads=self.threads)
+        train_all(**vars(self))
 
 
 @dataclass(frozen=True)
@@ -251,29 +249,10 @@ class TrainLlmFlags(TrainAllFlags):
     def train(self, stage: str, command: str) -> None:
         from tacgrasp.training.train import train_language_model
 
-        train_language_model(
-            self.out,
-            self.data,
-            contacts=self.contacts,
-            seed=self.seed,
-            threads=self.threads,
-            methods=self.methods,
-            blind_of=self.blind_of,
-        )
+        train_language_model(**vars(self))
 
 
-class StageFlags(Protocol):
-    """Flags of one stage of ``tacgrasp train``."""
-
-    @property
-    def threads(self) -> int | None: ...
-
-    def train(self, stage: str, command: str) -> None:
-        """Run the stage; the same command continues where it was stopped."""
-        ...
-
-
-STAGES: dict[str, tuple[type[StageFlags], str]] = {
+STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
     "llm": (TrainLlmFlags, "Train the language model: text, projector, both together."),
@@ -295,12 +274,9 @@ def main(argv: Sequence[str]) -> int:
     if stage is None:
         return 0
     flags = parse(STAGES[stage][0], rest, prog=f"tacgrasp train {stage}")
-    if flags.threads is not None and flags.threads < 1:
-        raise UsageError(f"--threads must be at least 1, got {flags.threads}")
+    for name in ("threads", "seeds"):
+        count = getattr(flags, name, None)
+        if count is not None and count < 1:
+            raise UsageError(f"--{name} must be at least 1, got {count}")
     flags.train(stage, " ".join(["tacgrasp train", stage, *rest]))
     return 0
-
-
-def _require_seeds(seeds: int) -> None:
-    if seeds < 1:
-        raise UsageError(f"--seeds must be at least 1, got {seeds}")

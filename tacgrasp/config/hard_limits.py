@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 from tacgrasp.base.errors import UsageError
@@ -29,11 +30,12 @@ LIMITS: Mapping[str, tuple[_Comparison, str]] = {
 """Every limit, with the allowed side of the file's value."""
 
 
+@dataclass(frozen=True, slots=True)
 class HardLimits:
     """Limits of a rig's file, or the model's defaults where the file has none."""
 
-    def __init__(self, arm: ArmConfig, gripper: GripperConfig) -> None:
-        self._sections: Mapping[str, ArmConfig | GripperConfig] = {"arm": arm, "gripper": gripper}
+    arm: ArmConfig
+    gripper: GripperConfig
 
     def check(self, config: RunConfig, source_of: Callable[[str], str]) -> None:
         """Refuse a configuration that is wider than the rig's file.
@@ -47,7 +49,7 @@ class HardLimits:
         """
         for path, (is_within, side) in LIMITS.items():
             section, field = path.split(".")
-            hard = getattr(self._sections[section], field)
+            hard = getattr(getattr(self, section), field)
             value = getattr(getattr(config, section), field)
             pairs = zip(_numbers(value), _numbers(hard), strict=True)
             if not all(is_within(a, b) for a, b in pairs):

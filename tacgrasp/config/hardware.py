@@ -67,16 +67,6 @@ class HardwareConfig(SettingsBase):
     sensor: SensorSettings
     start: StartConfig = StartConfig()
 
-    @property
-    def sensor_name(self) -> str:
-        """Name of the sensor (``cltp.tactile.sensors``) that the driver's clouds belong to."""
-        return self.sensor.sensor_name
-
-    @property
-    def is_sensor_live(self) -> bool:
-        """Whether the sensor measures the present contact; a recording never does."""
-        return self.sensor.is_live
-
     def without_start_pose(self) -> HardwareConfig:
         """The same devices, but the arm does not move when it is connected.
 

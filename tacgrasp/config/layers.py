@@ -31,19 +31,14 @@ Sources = dict[str, str]
 
 
 def load(
-    task: str | None = None,
-    rig: str | None = None,
-    environment: Mapping[str, str] | None = None,
+    task: str | None = None, rig: str | None = None, environment: Mapping[str, str] | None = None
 ) -> tuple[RunConfig, Sources]:
     """Configuration and sources of ``load_with_limits``, for callers without flags."""
-    config, sources, _ = load_with_limits(task, rig, environment)
-    return config, sources
+    return load_with_limits(task, rig, environment)[:2]
 
 
 def load_with_limits(
-    task: str | None = None,
-    rig: str | None = None,
-    environment: Mapping[str, str] | None = None,
+    task: str | None = None, rig: str | None = None, environment: Mapping[str, str] | None = None
 ) -> tuple[RunConfig, Sources, HardLimits]:
     """Fill the model from the task's file, the rig's file and the environment, in this order.
 

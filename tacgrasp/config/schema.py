@@ -143,7 +143,9 @@ class GripperConfig(SettingsBase):
     Attributes:
         min_force_n: Smallest commanded force [N].
         max_force_n: Largest commanded force [N].
-        first_force_n: Commanded force of the first grasp [N]; none: drawn by the simulated world.
+        first_force_n: Largest commanded force of an approach until something is felt [N]: 0.3 N
+            times the largest factor by which the true force may differ from it. None: 0.6 N in a
+            simulated world, whose factor is up to 2; real devices need a value.
     """
 
     min_force_n: Number = Field(default=0.1, gt=0, le=100)
@@ -160,7 +162,8 @@ class GripperConfig(SettingsBase):
         if first_n is not None and not self.min_force_n <= first_n <= self.max_force_n:
             raise ValueError(
                 f"first_force_n {first_n:g} must lie in min_force_n {self.min_force_n:g} to "
-                f"max_force_n {self.max_force_n:g} [N]"
+                f"max_force_n {self.max_force_n:g} [N]; it is the largest commanded force until "
+                "something is felt"
             )
         return self
 
@@ -236,14 +239,9 @@ class RunConfig(SettingsBase):
 
     def limits(self) -> Limits:
         """Limits of every command of a run."""
+        gripper = self.gripper
         return Limits(
-            max_step_mm=self.arm.max_step_mm,
-            workspace_low_m=self.arm.workspace_low_m,
-            workspace_high_m=self.arm.workspace_high_m,
-            max_travel_mm=self.arm.max_travel_mm,
-            min_force_n=self.gripper.min_force_n,
-            max_force_n=self.gripper.max_force_n,
-            max_speed_m_s=self.arm.max_speed_m_s,
+            **dict(self.arm), min_force_n=gripper.min_force_n, max_force_n=gripper.max_force_n
         )
 
     @model_validator(mode="before")
@@ -260,7 +258,10 @@ class RunConfig(SettingsBase):
                 "hardware"
             )
         if self.devices == "hardware" and self.gripper.first_force_n is None:
-            raise ValueError("devices: hardware needs gripper.first_force_n; nothing draws it")
+            raise ValueError(
+                "devices: hardware needs gripper.first_force_n, the largest commanded force until "
+                "something is felt [N]"
+            )
         if self.verify.speed_m_s > self.arm.max_speed_m_s:
             raise ValueError(
                 f"verify.speed_m_s {self.verify.speed_m_s} is above arm.max_speed_m_s "
@@ -268,8 +269,8 @@ class RunConfig(SettingsBase):
             )
         if self.hardware is not None:
             self._check_driver(self.hardware.arm)
-            if self.sensor != self.hardware.sensor_name:
-                name = self.hardware.sensor_name
+            name = self.hardware.sensor.sensor_name
+            if self.sensor != name:
                 raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 

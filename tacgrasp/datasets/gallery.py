@@ -20,7 +20,7 @@ from cltp.data.dataset import ContactDataset
 from cltp.tactile.picture import depth_picture, picture
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import DIMENSIONS, ContactState
-from cltp.texts.contact_texts import ContactTexts, texts_of
+from cltp.texts.contact_texts import texts_of
 from tacgrasp.base.html_page import render_page
 from tacgrasp.datasets.contact_sheet import ambiguous_dimensions
 from tacgrasp.datasets.stats import MIN_CLASS_FRACTION, UNKNOWN, DataStats, stats
@@ -95,6 +95,8 @@ def _card(data: ContactDataset, index: int) -> dict[str, Any]:
     sensor = sensor_named(data.column("sensor")[index])
     heights = data.height_mm(index)
     texts = texts_of(data, index)
+    questions = [[pair.question, pair.answer] for pair in texts.questions]
+    prompts = [[name, " ".join(wordings)] for name, wordings in texts.prompts.items()]
     name = f"{data.column('object')[index]} · series {data.column('series')[index]}"
     return {
         "index": index,
@@ -103,17 +105,9 @@ def _card(data: ContactDataset, index: int) -> dict[str, Any]:
         "cut": " ".join(sorted(state.cut)),
         "ambiguous": ambiguous_dimensions(data, index),
         "texts": texts,
-        "details": json.dumps(_details(texts)),
+        "details": json.dumps({"questions": questions, "prompts": prompts}),
         "picture": _image(picture(heights, sensor)),
         "depth_picture": _image(depth_picture(heights, sensor)),
-    }
-
-
-def _details(texts: ContactTexts) -> dict[str, list[list[str]]]:
-    """What the page shows of a contact when it is opened."""
-    return {
-        "questions": [[pair.question, pair.answer] for pair in texts.questions],
-        "prompts": [[name, " ".join(wordings)] for name, wordings in texts.prompts.items()],
     }
 
 

@@ -19,75 +19,50 @@ from pathlib import Path
 
 import torch
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
+from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
 from tacgrasp.datasets.recipes import DatasetRecipe, recipe
+from tacgrasp.datasets.requests import GenerateRequest
 
 
-def generate(
-    out: Path,
-    *,
-    contacts: int | None = None,
-    seed: int = 0,
-    workers: int | None = None,
-    sensor_name: str = "gelsight_mini",
-    set_name: str = "starter",
-    meshes: Path | None = None,
-    shard: str | None = None,
-    device: str = "cpu",
-    console: Console | None = None,
-) -> None:
+def generate(request: GenerateRequest, console: Console | None = None) -> None:
     """Make a data set, or the missing shards of one; a complete one is left as it is.
 
     Args:
-        out: Folder; created when missing.
-        contacts: Number of contacts; by default as many as the set has.
-        seed: Random seed of the whole set, below ``sim.grasp.rig.BENCHMARK_SEED``.
-        workers: Number of processes; by default one for each core. Does not change the result.
-        sensor_name: Sensor whose gel is pressed; only for the set ``starter``.
-        set_name: One of ``tacgrasp.datasets.recipes.SETS``.
-        meshes: Folder of meshes whose contacts are added; only for the set ``tcl3d``.
-        shard: "i/n": only the i-th of n parts, 1 to n, for several machines.
-        device: Device for the computation; 'cuda' gives heights within 2 µm of 'cpu'.
+        request: The set; another number of workers does not change the result, and the device
+            'cuda' gives heights within 2 µm of 'cpu'.
         console: Console for the progress bar; by default standard error.
 
     Raises:
         UsageError: A value out of range, or a folder that holds the data of another command.
         TouchError: The folder is not a data set of this version, or can't be written.
     """
-    if workers is None:
-        workers = len(os.sched_getaffinity(0))
+    workers = len(os.sched_getaffinity(0)) if request.workers is None else request.workers
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
-    plan = recipe(
-        set_name,
-        contacts=contacts,
-        seed=seed,
-        sensor_name=sensor_name,
-        meshes=meshes,
-        device=device,
-    )
+    plan, out = recipe(request), request.out
     sizes = plan.shard_sizes()
-    numbers = _part_of(len(sizes), shard)
+    numbers = _part_of(len(sizes), request.shard)
     _open(out, plan.about())
     _clear(out, numbers)
     jobs = [
         (out, number, sizes[number]) for number in numbers if not _index_of(out, number).exists()
     ]
-    with _progress(console) as progress:
+    with count_progress(console) as progress:
         bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
         progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
         for number in _make_shards(jobs, plan, min(workers, len(jobs))):
             progress.advance(bar, sizes[number])
-    if plan.carded and is_complete(out):
+    command = plan.card_command()
+    if command is not None and is_complete(out):
         try:
-            write_card(out, plan.command())
+            write_card(out, command)
         except OSError as error:
             raise TouchError(f"can't write the card of {out}: {error}") from error
 
@@ -218,13 +193,3 @@ def _part(shard: int) -> str:
 
 def _index_of(out: Path, shard: int) -> Path:
     return out / f"shard-{_part(shard)}-00000.parquet"
-
-
-def _progress(console: Console | None) -> Progress:
-    return Progress(
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeRemainingColumn(),
-        console=console or Console(stderr=True),
-    )

@@ -32,8 +32,9 @@ from cltp.data.dataset import NUMBER_COLUMNS
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.sensing.touch_files import read_heights
+from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.measure import NO_CONTACT_MM, contact_state
-from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import (
     DIMENSIONS,
     MEASURABLE,
@@ -46,6 +47,7 @@ from cltp.tactile.states import (
     depth_word,
 )
 from tacgrasp.base.errors import UsageError
+from tacgrasp.datasets.requests import ImportRequest
 
 COLUMNS = ("file", *DIMENSIONS, "force_n", "object", "split", "series")
 MEASURED = frozenset({*MEASURABLE, "cut", *NUMBER_COLUMNS.values()})
@@ -81,38 +83,20 @@ class ImportCounts:
     unknown: Mapping[str, int]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Source:
-    """Files of measured contacts and their table.
-
-    Attributes:
-        folder: Folder of the files.
-        labels: The table.
-        sensor: Sensor that measured them.
-        background: Frame with nothing touching (frames only).
-        calibration: Calibration of the unit (frames only); None for the shipped one.
-    """
-
-    folder: Path
-    labels: Path
-    sensor: SensorSpec
-    background: Path | None = None
-    calibration: Path | None = None
-
-
-def import_touches(source: Source, out: Path) -> ImportCounts:
+def import_touches(source: ImportRequest) -> ImportCounts:
     """Write a new data set of measured contacts.
 
     Raises:
         UsageError: The output exists or can't be written, the table does not have these columns, or
             rows are bad; each is named by the table's line and its file.
     """
+    sensor, out = sensor_named(source.sensor), source.out
     if out.exists():
         raise UsageError(f"--out {out} exists already; name a new folder, nothing is added to it")
     rows = _rows(source.labels)
     part = out.with_name(f".{out.name}.{os.getpid()}.part")
     try:
-        counts, bad = _write(source, rows, part)
+        counts, bad = _write(source, sensor, rows, part)
         if bad:
             more = f"; and {len(bad) - SHOWN_ROWS} more" if len(bad) > SHOWN_ROWS else ""
             raise UsageError(
@@ -168,16 +152,17 @@ def _check_header(labels: Path, header: list[str]) -> None:
         )
 
 
-def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts, list[str]]:
+def _write(
+    source: ImportRequest, sensor: SensorSpec, rows: list[_Row], folder: Path
+) -> tuple[ImportCounts, list[str]]:
     bad: list[str] = []
-    counts = {
-        kind: dict.fromkeys((*DIMENSIONS, "force_n"), 0) for kind in ("given", "measured", "no")
-    }
+    slots, origins = (*DIMENSIONS, "force_n"), ("given", "measured", "unknown")
+    counts = {origin: dict.fromkeys(slots, 0) for origin in origins}
     lines: dict[str, int] = {}
     about = {
         "made_by": "tacgrasp data import",
         "contacts": str(len(rows)),
-        "sensor": source.sensor.name,
+        "sensor": sensor.name,
         "labels": source.labels.name,
     }
     with DatasetWriter(folder, shard_size=SHARD_CONTACTS, about=about) as writer:
@@ -187,32 +172,26 @@ def _write(source: Source, rows: list[_Row], folder: Path) -> tuple[ImportCounts
                 path = os.path.normpath(name)
                 if path in lines:
                     raise RowError(f"the same file as line {lines[path]}")
-                contact = _contact(source, row, number)
+                contact = _contact(source, sensor, row, number)
             except (RowError, TouchError) as error:
                 text = str(error).removeprefix(f"{source.folder / name}: ")
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
                 continue
             lines[path] = row.line
-            for slot in counts["given"]:
+            for slot in slots:
                 counts[_origin(contact, slot)][slot] += 1
             if not bad:
                 writer.add(contact)
-    total = ImportCounts(
-        contacts=writer.num_written,
-        given=counts["given"],
-        measured=counts["measured"],
-        unknown=counts["no"],
-    )
-    return total, bad
+    return ImportCounts(contacts=writer.num_written, **counts), bad
 
 
 def _origin(contact: Contact, slot: str) -> str:
     if slot in contact.measured:
         return "measured"
-    return "no" if getattr(contact.state, slot) is None else "given"
+    return "unknown" if getattr(contact.state, slot) is None else "given"
 
 
-def _contact(source: Source, row: _Row, number: int) -> Contact:
+def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) -> Contact:
     cells = row.cells
     if row.has_extra_cells:
         raise RowError("more cells than the header has")
@@ -220,7 +199,7 @@ def _contact(source: Source, row: _Row, number: int) -> Contact:
         raise RowError("names no file")
     heights = read_heights(
         source.folder / cells["file"],
-        source.sensor,
+        sensor,
         background=source.background,
         calibration=source.calibration,
     )
@@ -233,22 +212,16 @@ def _contact(source: Source, row: _Row, number: int) -> Contact:
     series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
-    state, measured = _with_labels(_measured(heights, source.sensor), cells)
+    state, measured = _with_labels(contact_state(cloud_from_heights(heights, sensor)), cells)
     return Contact(
         height_mm=heights,
-        sensor=source.sensor,
+        sensor=sensor,
         state=state,
         object=cells.get("object", "unknown"),
         series=int(series),
         split=_word(Split, "split", cells) or Split.TRAIN,
         measured=measured,
     )
-
-
-def _measured(heights: object, sensor: SensorSpec) -> ContactState:
-    from cltp.tactile.cloud import cloud_from_heights
-
-    return contact_state(cloud_from_heights(heights, sensor))  # type: ignore[arg-type]
 
 
 def _with_labels(

@@ -29,8 +29,7 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
     yield f"contact   {index} of {len(data):,} in {data.folder}"
     yield f"object    {contact.object}, series {contact.series}, split {contact.split}"
     yield f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm"
-    if contact.gel is not None:
-        gel = contact.gel
+    if (gel := contact.gel) is not None:
         yield (
             f"gel       {gel.thickness_mm:.2f} mm thick, E {gel.young_mpa:.3f} MPa, "
             f"ν {gel.poisson:.3f}; seed {contact.seed}"

@@ -32,6 +32,7 @@ from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
+from tacgrasp.datasets.requests import PressRequest
 
 NOISES = ("none", "unit", "uncalibrated")
 """No noise; a random calibrated unit; a random unit with uncalibrated gradients."""
@@ -66,34 +67,6 @@ class PressResult:
     cloud: TactileCloud
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PressRequest:
-    """An object, its pose and its depth; the sensor and its noise.
-
-    Attributes:
-        object: A probe such as ball:9.5, or the name of an object of the catalogue.
-        depth_mm: Depth of its tip below the undeformed surface [mm].
-        sensor: Name of the sensor.
-        x_mm, y_mm: Position of its tip [mm, gel frame].
-        turn_deg: Its rotation in the plane [deg].
-        grid: Columns and rows; None for the sensor's own.
-        noise: One of ``NOISES``.
-        seed: Random seed of the noise, and of the pose of a catalogue object.
-        device: Device that torch computes on.
-    """
-
-    object: str
-    depth_mm: float
-    sensor: str = "gelsight_mini"
-    x_mm: float = 0.0
-    y_mm: float = 0.0
-    turn_deg: float = 0.0
-    grid: tuple[int, int] | None = None
-    noise: str = "none"
-    seed: int = 0
-    device: str = "cpu"
-
-
 @torch_threads()
 def press(request: PressRequest) -> PressResult:
     """Press an object to a depth.
@@ -104,7 +77,7 @@ def press(request: PressRequest) -> PressResult:
     """
     sensor = _sensor(request)
     surface = _surface(request, sensor)
-    columns, rows = request.grid or (sensor.columns, sensor.rows)
+    columns, rows = request.columns_rows or (sensor.columns, sensor.rows)
     layer = ElasticLayer(
         gel_of(sensor.name),
         rows=rows,
@@ -114,7 +87,9 @@ def press(request: PressRequest) -> PressResult:
         device=usable_device(request.device),
     )
     with torch.inference_mode():
-        solved = FineLayer(layer).press_to_depth(torch.from_numpy(surface.gap_mm)[None], request.depth_mm)
+        solved = FineLayer(layer).press_to_depth(
+            torch.from_numpy(surface.gap_mm)[None], request.depth_mm
+        )
     if not bool(solved.converged.all()):
         raise TouchError(f"the press of {request.object} did not converge; try another --grid")
     return _read(solved, request, sensor, surface)
@@ -184,8 +159,8 @@ def _sensor(request: PressRequest) -> SensorSpec:
         )
     if request.noise not in NOISES:
         raise UsageError(f"--noise must be one of {', '.join(NOISES)}, got {request.noise!r}")
-    if request.grid is not None:
-        columns, rows = request.grid
+    if request.columns_rows is not None:
+        columns, rows = request.columns_rows
         square = abs(columns * sensor.rows - rows * sensor.columns) < sensor.columns
         if not (min(columns, rows) >= _LEAST_GRID and max(columns, rows) <= _MOST_GRID and square):
             raise UsageError(
@@ -213,7 +188,7 @@ class _Surface:
 
 
 def _surface(request: PressRequest, sensor: SensorSpec) -> _Surface:
-    columns, rows = request.grid or (sensor.columns, sensor.rows)
+    columns, rows = request.columns_rows or (sensor.columns, sensor.rows)
     x, y = np.meshgrid(*grid_axes_mm(sensor, rows, columns))
     x, y, turn = x - request.x_mm, y - request.y_mm, np.radians(request.turn_deg)
     u, v = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
@@ -271,11 +246,11 @@ def _unit(noise: str, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit
     return NoiseUnit.draw(rng, gain_log_ratio=ratio, spread=spread)
 
 
-def run(request: PressRequest, out: Path | None) -> None:
-    """Press an object, print the figures, and write them to ``out`` (.npz) if given.
+def run(request: PressRequest) -> None:
+    """Press an object, print the figures, and write them to the request's file, if any.
 
     Raises:
-        UsageError: As ``press``, or ``out`` can't be written.
+        UsageError: As ``press``, or the file can't be written.
     """
     result = press(request)
     area_mm2 = result.state.area_fraction * result.sensor.area_mm2
@@ -297,9 +272,9 @@ def run(request: PressRequest, out: Path | None) -> None:
         console.print(
             f"note      only {pixels} pixels touch: force and area are rough; a finer --grid helps"
         )
-    if out is not None:
-        _write(out, request, result)
-        console.print(f"written   {out}")
+    if request.out is not None:
+        _write(request.out, request, result)
+        console.print(f"written   {request.out}")
 
 
 def _write(out: Path, request: PressRequest, result: PressResult) -> None:

@@ -27,6 +27,7 @@ from sim.starter.contacts import GROUP_CONTACTS, make_group
 from sim.tcl3d.series import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
+from tacgrasp.datasets.requests import GenerateRequest
 
 SETS = ("tcl3d", "starter")
 STARTER_CONTACTS = 24_000
@@ -41,17 +42,12 @@ SHARD_SERIES = 50
 class DatasetRecipe(Protocol):
     """How a data set is made, shard by shard. Sent to worker processes."""
 
-    @property
-    def carded(self) -> bool:
-        """Whether its folder gets a data set card."""
-        ...
-
     def about(self) -> dict[str, str]:
         """The facts in ``dataset.json``, the same for every part of the set."""
         ...
 
-    def command(self) -> str:
-        """The command that makes the set again."""
+    def card_command(self) -> str | None:
+        """The command that makes the set again, for its card; None for a set without a card."""
         ...
 
     def shard_sizes(self) -> list[int]:
@@ -71,10 +67,6 @@ class StarterRecipe:
     seed: int
     sensor_name: str
 
-    @property
-    def carded(self) -> bool:
-        return False
-
     def about(self) -> dict[str, str]:
         return {
             "made_by": "tacgrasp data generate",
@@ -84,14 +76,12 @@ class StarterRecipe:
             "sensor": self.sensor_name,
         }
 
-    def command(self) -> str:
-        return (
-            f"tacgrasp data generate --set starter --contacts {self.contacts} --seed {self.seed}"
-            f" --sensor {self.sensor_name}"
-        )
+    def card_command(self) -> None:
+        return None
 
     def shard_sizes(self) -> list[int]:
-        return _cut(self.contacts, SHARD_GROUPS * GROUP_CONTACTS)
+        size = SHARD_GROUPS * GROUP_CONTACTS
+        return [min(size, self.contacts - first) for first in range(0, self.contacts, size)]
 
     def make(self, shard: int) -> list[Contact]:
         count = self.shard_sizes()[shard]
@@ -110,10 +100,6 @@ class Tcl3dRecipe:
     meshes: tuple[Path, ...] = ()
     device: str = "cpu"
 
-    @property
-    def carded(self) -> bool:
-        return True
-
     def about(self) -> dict[str, str]:
         return {  # the device belongs to them: it may change a height by 1 µm
             "made_by": "tacgrasp data generate",
@@ -126,7 +112,7 @@ class Tcl3dRecipe:
             "device": self.device.split(":")[0],
         }
 
-    def command(self) -> str:
+    def card_command(self) -> str:
         count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
         device = "" if self.device == "cpu" else f" --device {self.device}"
         meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
@@ -155,41 +141,34 @@ class Tcl3dRecipe:
         return _parts(series_numbers(self.contacts))
 
 
-def recipe(
-    set_name: str,
-    *,
-    contacts: int | None,
-    seed: int,
-    sensor_name: str,
-    meshes: Path | None,
-    device: str,
-) -> DatasetRecipe:
-    """Make the recipe that the flags of ``tacgrasp data generate`` name.
+def recipe(request: GenerateRequest) -> DatasetRecipe:
+    """Make the recipe that a request names.
 
     Raises:
         UsageError: An unknown set, a value that does not fit the set, or a device that
             can't be used here.
         TouchError: An unknown sensor, or a mesh that can't be used.
     """
-    if set_name not in SETS:
-        raise UsageError(f"unknown set {set_name!r}; known: {', '.join(SETS)}")
+    contacts, seed, meshes = request.contacts, request.seed, request.meshes
+    if request.set not in SETS:
+        raise UsageError(f"unknown set {request.set!r}; known: {', '.join(SETS)}")
     if (contacts is not None and contacts < 1) or not 0 <= seed < BENCHMARK_SEED:
         raise UsageError(
             f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
             f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
         )
-    sensor_named(sensor_name)
-    if set_name == "starter":
-        if meshes is not None or device != "cpu":
+    sensor_named(request.sensor)
+    if request.set == "starter":
+        if meshes is not None or request.device != "cpu":
             raise UsageError("--meshes and --device belong to --set tcl3d")
         return StarterRecipe(
-            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=sensor_name
+            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=request.sensor
         )
-    if sensor_name != "gelsight_mini":
+    if request.sensor != "gelsight_mini":
         raise UsageError(
-            f"--sensor {sensor_name} belongs to --set starter: tcl3d has its own sensors"
+            f"--sensor {request.sensor} belongs to --set starter: tcl3d has its own sensors"
         )
-    usable_device(device)
+    usable_device(request.device)
     paths = () if meshes is None else tuple(meshes_in(meshes))
     for path in paths:  # every fault shows before the first contact is made
         object_from_mesh(path)
@@ -198,11 +177,8 @@ def recipe(
         raise UsageError(
             f"{meshes} has two meshes of one name, or one named like an object of tcl3d; rename it"
         )
-    return Tcl3dRecipe(contacts=contacts or ALL_CONTACTS, seed=seed, meshes=paths, device=device)
-
-
-def _cut(contacts: int, size: int) -> list[int]:
-    return [min(size, contacts - first) for first in range(0, contacts, size)]
+    contacts = contacts or ALL_CONTACTS
+    return Tcl3dRecipe(contacts=contacts, seed=seed, meshes=paths, device=request.device)
 
 
 def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -125,28 +126,19 @@ def show(counts: DataStats, console: Console) -> None:
         )
     console.print(f"ambiguous {ambiguous}; cut by the edge {counts.cut / counts.contacts:.1%}")
     slot, name, fraction = counts.smallest_class()
-    verdict = (
-        ""
-        if fraction >= MIN_CLASS_FRACTION
-        else f", below the {MIN_CLASS_FRACTION:.0%} that a class needs"
-    )
+    warning = f", below the {MIN_CLASS_FRACTION:.0%} that a class needs"
+    verdict = warning if fraction < MIN_CLASS_FRACTION else ""
     console.print(f"smallest class: {slot} {name}, {fraction:.2%}{verdict}")
     console.print(f"checksum {counts.checksum}")
 
 
 def _classes(values: NDArray[Any], kind: type) -> dict[str, int]:
-    counts = {str(word): 0 for word in kind}  # type: ignore[attr-defined]
-    for name, count in _counts(values).items():
-        counts[name] = count
-    return counts
+    return {str(word): 0 for word in kind} | _counts(values)  # type: ignore[attr-defined]
 
 
 def _counts(values: NDArray[Any]) -> dict[str, int]:
-    names, counts = np.unique(
-        np.array([UNKNOWN if value is None else str(value) for value in values]),
-        return_counts=True,
-    )
-    return {str(name): int(count) for name, count in zip(names, counts, strict=True)}
+    counts = Counter(UNKNOWN if value is None else str(value) for value in values)
+    return dict(sorted(counts.items()))
 
 
 def _ambiguous(data: ContactDataset) -> dict[str, int] | None:

@@ -15,8 +15,6 @@ from typing import Any
 import numpy as np
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
-from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
@@ -54,12 +52,6 @@ class Problem:
     def __str__(self) -> str:
         location = self.file if self.row is None else f"{self.file} row {self.row}"
         return f"{location}: {self.text}"
-
-
-def bar() -> Progress:
-    """A progress bar on standard error."""
-    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
-    return Progress(*columns, TimeRemainingColumn(), console=Console(stderr=True))
 
 
 def problems(folder: Path) -> Iterator[tuple[int, Problem | None]]:

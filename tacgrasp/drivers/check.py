@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
+
+import numpy as np
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -34,3 +38,14 @@ class Finding:
 def finding(device: str, name: str, ok: bool, detail: str, advice: str = "") -> Finding:
     """A finding; its advice is dropped when the check has passed."""
     return Finding(device=device, name=name, ok=ok, detail=detail, advice="" if ok else advice)
+
+
+def read_durations_ms(read: Callable[[], object], count: int) -> tuple[float, float, float]:
+    """Median, 99 % quantile and maximum of the durations of ``count`` reads [ms]."""
+    durations_ms = []
+    for _ in range(count):
+        start_s = time.perf_counter()
+        read()
+        durations_ms.append(1e3 * (time.perf_counter() - start_s))
+    p50, p99, longest = np.percentile(durations_ms, [50, 99, 100])
+    return float(p50), float(p99), float(longest)

@@ -49,16 +49,16 @@ def serial_ports(by_id: Path = BY_ID) -> Sequence[SerialPort]:
 
     links = {}
     if by_id.is_dir():
-        links = {str(link.resolve()): link.name for link in sorted(by_id.iterdir())}
+        links = {link.resolve(): link.name for link in sorted(by_id.iterdir())}
     ports = [
         SerialPort(
             device=port.device,
-            stable_id=links.get(str(Path(port.device).resolve()), ""),
+            stable_id=links.get(Path(port.device).resolve(), ""),
             serial_number=port.serial_number or "",
             description=port.description or "no description",
         )
         for port in list_ports.comports()
-        if port.vid is not None or str(Path(port.device).resolve()) in links
+        if port.vid is not None or Path(port.device).resolve() in links
     ]
     return sorted(ports, key=lambda port: port.device)
 
@@ -78,34 +78,32 @@ def find_port(
     Raises:
         RobotError: No port, or more than one, has the name; the message lists the present ports.
     """
-    if os.sep in name:
-        if Path(name).exists():
-            return name
-        raise RobotError(f"no serial port {name} for {device}; {_listed(ports, by_id)}")
+    if os.sep in name and Path(name).exists():
+        return name
     present = serial_ports(by_id) if ports is None else ports
+    if os.sep in name:
+        raise RobotError(f"no serial port {name} for {device}; {_listed(present)}")
     exact = [port for port in present if name in (port.stable_id, port.serial_number)]
     matches = exact or [port for port in present if name and name in port.stable_id]
     if len(matches) == 1:
         return matches[0].device
     problem = f"{len(matches)} serial ports match" if matches else "no serial port matches"
-    raise RobotError(f"{problem} {name!r} for {device}; {_listed(present, by_id)}")
+    raise RobotError(f"{problem} {name!r} for {device}; {_listed(present)}")
 
 
-def adapter_serial(path: str, ports: Sequence[SerialPort] | None = None) -> str:
+def adapter_serial(path: str) -> str:
     """Serial number of the USB adapter at a path; empty for none."""
-    real = str(Path(path).resolve())
-    present = serial_ports() if ports is None else ports
-    return next((p.serial_number for p in present if str(Path(p.device).resolve()) == real), "")
+    real, ports = Path(path).resolve(), serial_ports()
+    return next((p.serial_number for p in ports if Path(p.device).resolve() == real), "")
 
 
-def _listed(ports: Sequence[SerialPort] | None, by_id: Path) -> str:
-    present = serial_ports(by_id) if ports is None else ports
-    if not present:
+def _listed(ports: Sequence[SerialPort]) -> str:
+    if not ports:
         return (
             "this computer has no USB serial adapter now: check the cable, and that you may read "
             "the port (group dialout)"
         )
-    return "there are: " + "; ".join(str(port) for port in present)
+    return "there are: " + "; ".join(map(str, ports))
 
 
 def claim(descriptor: int, path: str, device: str) -> None:

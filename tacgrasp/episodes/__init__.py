@@ -6,13 +6,7 @@ Not here: replaying an episode (``tacgrasp.playback``), the loop itself (``tacgr
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import episode_path, make_record_directory
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import (
-    Episode,
-    EpisodeEnd,
-    EpisodeHeader,
-    StepPhase,
-    StepRecord,
-)
+from tacgrasp.episodes.record import Episode, EpisodeEnd, EpisodeHeader, StepPhase, StepRecord
 from tacgrasp.episodes.writer import EpisodeWriter
 
 __all__ = [

@@ -87,13 +87,7 @@ class CommandLog:
 
 
 class LoggedArm:
-    """An arm whose commands are logged; a ``primitives.devices.Arm``.
-
-    Args:
-        arm: The arm.
-        log: Log of its commands.
-        sent: Returns its driver's last message on the wire.
-    """
+    """An arm whose commands are logged; ``sent`` returns its driver's last message on the wire."""
 
     def __init__(self, arm: Arm, log: CommandLog, sent: Callable[[], str]) -> None:
         self._arm, self._log, self._sent = arm, log, sent

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -21,24 +20,7 @@ from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase
 _YES_NO = {True: "yes", False: "no", None: "not tried"}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class EpisodeSummary:
-    """One row of the list.
-
-    Attributes:
-        path: The file.
-        size_bytes: Its size.
-        episode: Its content; None when it can't be read.
-        problem: Error of reading it, or damage of an incomplete file; empty otherwise.
-    """
-
-    path: Path
-    size_bytes: int
-    episode: Episode | None
-    problem: str
-
-
-def list_episodes(directory: Path) -> list[EpisodeSummary]:
+def list_episodes(directory: Path) -> list[Path]:
     """All ``.mcap`` files of a directory by name, and so by task and time.
 
     Raises:
@@ -48,16 +30,7 @@ def list_episodes(directory: Path) -> list[EpisodeSummary]:
         raise EpisodeError(
             f"{directory} is not a directory; name the one that episodes were recorded to"
         )
-    return [_summary(path) for path in sorted(directory.glob("*.mcap"))]
-
-
-def _summary(path: Path) -> EpisodeSummary:
-    size = path.stat().st_size if path.is_file() else 0
-    try:
-        episode = read_episode(path)
-    except EpisodeError as error:
-        return EpisodeSummary(path=path, size_bytes=size, episode=None, problem=str(error))
-    return EpisodeSummary(path=path, size_bytes=size, episode=episode, problem=episode.problem)
+    return sorted(directory.glob("*.mcap"))
 
 
 def duration_s(episode: Episode) -> float:
@@ -66,16 +39,16 @@ def duration_s(episode: Episode) -> float:
     return last.stamp.monotonic_s - episode.header.stamp.monotonic_s
 
 
-def table(summaries: Sequence[EpisodeSummary]) -> Table:
-    """One row per episode."""
+def table(paths: Sequence[Path]) -> Table:
+    """One row per episode, also for a file that can't be read."""
     grid = Table(header_style="bold", expand=False)
     grid.add_column("episode", no_wrap=True)
     for column in ("task", "policy", "steps", "end", "declared", "verified", "truth"):
         grid.add_column(column, overflow="fold", justify="right" if column == "steps" else "left")
     for column in ("time", "size"):
         grid.add_column(column, justify="right")
-    for summary in summaries:
-        grid.add_row(*_row(summary))
+    for path in paths:
+        grid.add_row(*_row(path))
     return grid
 
 
@@ -119,18 +92,20 @@ def info(path: Path) -> Table:
     return grid
 
 
-def _row(summary: EpisodeSummary) -> list[str]:
-    name, size, episode = summary.path.name, _size(summary.size_bytes), summary.episode
-    if episode is None:
-        reason = summary.problem.removeprefix(f"{summary.path} ")
-        return [escape(name), "", "", "", f"[red]{escape(reason)}[/red]", "", "", "", "", size]
+def _row(path: Path) -> list[str]:
+    name, size = escape(path.name), _size(path.stat().st_size if path.is_file() else 0)
+    try:
+        episode = read_episode(path)
+    except EpisodeError as error:
+        reason = escape(str(error).removeprefix(f"{path} "))
+        return [name, "", "", "", f"[red]{reason}[/red]", "", "", "", "", size]
     end = episode.end
     outcome = end.reason if end else "no end recorded"
     if not episode.complete:
         outcome += ", unfinished: recover it"
     colour = "green" if end and end.verified_success else "yellow"
     return [
-        escape(name),
+        name,
         escape(episode.header.task),
         escape(episode.header.policy),
         str(_num_loop_steps(episode)),

@@ -5,20 +5,18 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.patches import Rectangle
 
-from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.cloud import FloatArray, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import refusal
@@ -34,15 +32,6 @@ SCALE_TOP_MM = 0.9
 _COLUMNS = 6
 _HEAT = "magma_r"  # the untouched gel is light
 _FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Contact:
-    """Largest indentation of a cloud and the position of its pressed part [mm]."""
-
-    depth_mm: float
-    x_mm: float
-    y_mm: float
 
 
 def plot_episode(path: Path, png_path: Path) -> None:
@@ -67,7 +56,6 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     rows = math.ceil(len(drawn) / _COLUMNS)
     height_in = 1.0 + 1.75 * rows + 4.2
     figure = Figure(figsize=(13, height_in))
-    FigureCanvasAgg(figure)
     top, bottom = 1 - 0.95 / height_in, 4.5 / height_in
     curves_box = (0.07, 0.6 / height_in, 0.97, 3.85 / height_in)
     pictures = GridSpec(rows, _COLUMNS, figure, 0.04, bottom, 0.93, top, wspace=0.08, hspace=0.32)
@@ -78,7 +66,7 @@ def draw_episode(episode: Episode, name: str) -> Figure:
         _draw_cloud(figure.add_subplot(pictures[divmod(index, _COLUMNS)]), step, scale)
     bar = figure.add_axes((0.945, bottom, 0.012, top - bottom))
     figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, extend="max", label="indentation [mm]")
-    contacts = [_contact(step.cloud) for step in episode.steps]
+    contacts = np.array([_contact(step.cloud) for step in episode.steps])
     _draw_curves(figure, curves, episode, contacts)
     _draw_path(figure.add_subplot(curves[:, 1]), episode, contacts)
     return figure
@@ -90,13 +78,12 @@ def _thinned(steps: Sequence[StepRecord]) -> list[StepRecord]:
     return [steps[i] for i in np.linspace(0, len(steps) - 1, MAX_PICTURES).round().astype(int)]
 
 
-def _contact(cloud: TactileCloud) -> _Contact:
-    """Centre of the points pressed at least half as deep as the deepest one."""
+def _contact(cloud: TactileCloud) -> FloatArray:
+    """Centre of the points pressed at least half as deep as the deepest one, and its depth [mm]."""
     points = cloud.points_mm
-    depth = float(points[:, 2].max())
+    depth = points[:, 2].max()
     pressed = points[points[:, 2] >= depth / 2]
-    x, y = pressed[:, :2].mean(axis=0)
-    return _Contact(depth_mm=max(depth, 0.0), x_mm=float(x), y_mm=float(y))
+    return np.array([*pressed[:, :2].mean(axis=0), max(depth, 0.0)])
 
 
 def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> None:
@@ -147,9 +134,7 @@ def _outline_pad(axes: Axes, sensor: SensorSpec) -> None:
         side.set_visible(False)
 
 
-def _draw_curves(
-    figure: Figure, grid: GridSpec, episode: Episode, contacts: Sequence[_Contact]
-) -> None:
+def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: FloatArray) -> None:
     """Commanded force and felt depth over time, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
     time_s = [step.stamp.monotonic_s - start_s for step in episode.steps]
@@ -160,9 +145,9 @@ def _draw_curves(
     force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
     force.set_ylabel("commanded\nforce [N]")
     force.set_ylim(0, 1.35 * max(*commanded, 0.1))
-    depth.plot(time_s, [contact.depth_mm for contact in contacts], "o-", color=_DEPTH, lw=2, ms=5)
+    depth.plot(time_s, contacts[:, 2], "o-", color=_DEPTH, lw=2, ms=5)
     depth.set_ylabel("largest\nindentation [mm]")
-    depth.set_ylim(0, 1.3 * max(*(contact.depth_mm for contact in contacts), 0.1))
+    depth.set_ylim(0, 1.3 * max(contacts[:, 2].max(), 0.1))
     depth.set_xlabel("time since start [s]")
     force.tick_params(labelbottom=False)
     for axes in (force, depth):
@@ -194,40 +179,34 @@ def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord
         )
 
 
-def _draw_path(axes: Axes, episode: Episode, contacts: Sequence[_Contact]) -> None:
+def _draw_path(axes: Axes, episode: Episode, contacts: FloatArray) -> None:
     """Path of the contact on the pad."""
     _outline_pad(axes, episode.header.sensor)
     sensor = episode.header.sensor
     for third in (-1, 1):  # the nine cells of the position words
         axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
         axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
-    path = [(c, s) for c, s in zip(contacts, episode.steps, strict=True) if c.depth_mm > 0.05]
-    x, y = [contact.x_mm for contact, _ in path], [contact.y_mm for contact, _ in path]
+    felt = contacts[:, 2] > 0.05
+    x, y = contacts[felt, :2].T
     axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
-    axes.scatter(x, y, c=range(len(path)), cmap="viridis", s=60, zorder=3, ec="white")
-    for label, at in _labels(path):
-        point = (at.x_mm, at.y_mm)
+    axes.scatter(x, y, c=range(len(x)), cmap="viridis", s=60, zorder=3, ec="white")
+    numbers = [step.index for step, is_felt in zip(episode.steps, felt, strict=True) if is_felt]
+    for label, point in _labels(contacts[felt, :2], numbers):
         axes.annotate(label, point, xytext=(6, 5), textcoords="offset points", fontsize=9)
     axes.set_title("contact on the pad [mm], +y towards the palm", fontsize=10)
     axes.tick_params(labelsize=8)
 
 
-def _labels(path: Sequence[tuple[_Contact, StepRecord]]) -> list[tuple[str, _Contact]]:
+def _labels(path_mm: FloatArray, numbers: Sequence[int]) -> list[tuple[str, tuple[float, float]]]:
     """Numbers of the steps; those at one position share a label, and none covers another."""
-    runs: list[list[tuple[_Contact, StepRecord]]] = []
-    for contact, step in path:
-        if runs and _distance_mm(runs[-1][0][0], contact) < 0.6:
-            runs[-1].append((contact, step))
+    runs: list[tuple[tuple[float, float], list[int]]] = []
+    for (x, y), number in zip(path_mm, numbers, strict=True):
+        if runs and math.dist(runs[-1][0], (x, y)) < 0.6:
+            runs[-1][1].append(number)
         else:
-            runs.append([(contact, step)])
-    labels: list[tuple[str, _Contact]] = []
-    for run in runs:
-        (contact, first), (_, last) = run[0], run[-1]
-        if all(_distance_mm(contact, other) > 1.2 for _, other in labels):
-            text = str(first.index) if first is last else f"{first.index}–{last.index}"
-            labels.append((text, contact))
+            runs.append(((x, y), [number]))
+    labels: list[tuple[str, tuple[float, float]]] = []
+    for point, run in runs:
+        if all(math.dist(point, other) > 1.2 for _, other in labels):
+            labels.append((str(run[0]) if len(run) == 1 else f"{run[0]}–{run[-1]}", point))
     return labels
-
-
-def _distance_mm(a: _Contact, b: _Contact) -> float:
-    return math.hypot(a.x_mm - b.x_mm, a.y_mm - b.y_mm)

@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import fcntl
 import os
-from collections.abc import Iterable
-from dataclasses import dataclass
 from pathlib import Path
 
 from mcap.records import Channel, McapRecord, Message, Metadata, Schema
@@ -29,25 +27,8 @@ from tacgrasp.episodes.writer import start_mcap
 METADATA_RECOVERED = "tacgrasp_recovered"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Recovery:
-    """Result of ``recover``.
-
-    Attributes:
-        path: The finished file.
-        num_steps: Steps in it.
-        original: Path of the unfinished file now; None when nothing had to be done.
-        message: Summary for people.
-    """
-
-    path: Path
-    num_steps: int
-    original: Path | None
-    message: str
-
-
-def recover(path: Path, out: Path | None = None) -> Recovery:
-    """Make a finished file of an unfinished one.
+def recover(path: Path, out: Path | None = None) -> str:
+    """Make a finished file of an unfinished one; returns a summary for people.
 
     Without ``out`` the new file replaces the unfinished one atomically, which is kept beside it as
     ``<name>.broken``. With ``out`` the original stays unchanged. A finished file is left alone.
@@ -60,8 +41,7 @@ def recover(path: Path, out: Path | None = None) -> Recovery:
     check_format(path, scan)
     num_steps = _num_steps(scan)
     if scan.finished:
-        message = f"{path} is finished already ({num_steps} steps); left as it is"
-        return Recovery(path=path, num_steps=num_steps, original=None, message=message)
+        return f"{path} is finished already ({num_steps} steps); left as it is"
     _refuse_while_recording(path)
     target = path if out is None else out
     if out is not None and out.exists():
@@ -73,10 +53,7 @@ def recover(path: Path, out: Path | None = None) -> Recovery:
         sync_directory(target.parent)
     except OSError as error:
         raise EpisodeError(refusal(target, "write", error)) from None
-    message = (
-        f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
-    )
-    return Recovery(path=target, num_steps=num_steps, original=original, message=message)
+    return f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
 
 
 def _num_steps(scan: Scan) -> int:
@@ -103,36 +80,27 @@ def _write(path: Path, scan: Scan, name: str) -> None:
         schemas: dict[int, int] = {0: 0}  # 0 means 'no schema' in MCAP
         channels: dict[int, int] = {}
         for group in scan.groups:
-            _copy(writer, group, schemas, channels)
+            for record in group:
+                _copy(writer, record, schemas, channels)
             writer.flush()
         writer.add_metadata(METADATA_RECOVERED, {"from": name, "problem": scan.problem})
         writer.finish()
 
 
 def _copy(
-    writer: Writer,
-    group: Iterable[McapRecord],
-    schemas: dict[int, int],
-    channels: dict[int, int],
+    writer: Writer, record: McapRecord, schemas: dict[int, int], channels: dict[int, int]
 ) -> None:
-    """Copy records; ``schemas`` and ``channels`` map their old numbers to those of the new file."""
-    for record in group:
-        if isinstance(record, Schema) and record.id not in schemas:
-            schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
-        elif isinstance(record, Channel) and record.id not in channels:
-            channels[record.id] = writer.register_channel(
-                record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
-            )
-        elif isinstance(record, Message):
-            writer.add_message(
-                channels[record.channel_id],
-                record.log_time,
-                record.data,
-                record.publish_time,
-                record.sequence,
-            )
-        elif isinstance(record, Metadata):
-            writer.add_metadata(record.name, record.metadata)
+    """Copy a record; ``schemas`` and ``channels`` map old numbers to those of the new file."""
+    if isinstance(record, Schema) and record.id not in schemas:
+        schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
+    elif isinstance(record, Channel) and record.id not in channels:
+        channels[record.id] = writer.register_channel(
+            record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
+        )
+    elif isinstance(record, Message):
+        writer.add_message(**vars(record) | {"channel_id": channels[record.channel_id]})
+    elif isinstance(record, Metadata):
+        writer.add_metadata(record.name, record.metadata)
 
 
 def _set_aside(path: Path) -> Path:

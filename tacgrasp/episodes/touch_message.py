@@ -11,7 +11,7 @@ from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 
 FRAME_ID = "gel"
-_FIELDS = ("x", "y", "z")
+_LAYOUT = [(name, 4 * i, PackedElementField.FLOAT32) for i, name in enumerate("xyz")]
 _LITTLE = np.dtype("<f4")
 
 
@@ -26,8 +26,8 @@ def encode_cloud(cloud: TactileCloud, stamp: Stamp) -> bytes:
     message = PointCloud(frame_id=FRAME_ID, point_stride=3 * _LITTLE.itemsize)
     message.timestamp.FromNanoseconds(wall_ns(cloud.stamp or stamp))
     message.pose.orientation.w = 1.0  # identity: the points are in the gel frame already
-    for i, name in enumerate(_FIELDS):
-        message.fields.add(name=name, offset=i * 4, type=PackedElementField.FLOAT32)
+    for name, offset, kind in _LAYOUT:
+        message.fields.add(name=name, offset=offset, type=kind)
     message.data = points.tobytes()
     return message.SerializeToString()
 
@@ -45,8 +45,7 @@ def decode_cloud(data: bytes, sensor: SensorSpec, stamp: Stamp | None) -> Tactil
     except DecodeError as error:
         raise ValueError(f"not a foxglove.PointCloud: {error}") from None
     layout = [(f.name, f.offset, f.type) for f in message.fields]
-    expected = [(n, 4 * i, PackedElementField.FLOAT32) for i, n in enumerate(_FIELDS)]
-    if layout != expected or message.point_stride != 12 or len(message.data) % 12:
+    if layout != _LAYOUT or message.point_stride != 12 or len(message.data) % 12:
         raise ValueError(f"the cloud's fields are {layout}; expected x, y, z as float32 [mm]")
     points = np.frombuffer(message.data, dtype=_LITTLE).reshape(-1, 3)
     return TactileCloud(points_mm=points.astype(np.float32, copy=False), sensor=sensor, stamp=stamp)

@@ -17,7 +17,6 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from io import BufferedWriter
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self
 
 from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
@@ -25,7 +24,7 @@ from mcap.writer import CompressionType, Writer
 from mcap_protobuf.schema import build_file_descriptor_set
 
 from cltp.tactile.cloud import Stamp
-from tacgrasp.episodes.codec import json_schema, non_finite_number, to_json
+from tacgrasp.episodes.codec import json_schema, to_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.interrupts import delayed_interrupts
 from tacgrasp.episodes.paths import refusal, sync_directory
@@ -78,7 +77,8 @@ class EpisodeWriter:
             self._file = _create(self.path)
         except OSError as error:
             raise EpisodeError(refusal(self.path, "create", error)) from None
-        _lock(self._file)
+        with suppress(OSError):  # so that recover leaves it alone; some network disks have no locks
+            fcntl.flock(self._file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
         try:
             with self._durably("its header"):
                 self._mcap = start_mcap(self._file)
@@ -100,15 +100,13 @@ class EpisodeWriter:
                 nothing more can be written. Or a number in it is not finite; then nothing was
                 written, and the next step can be.
         """
-        index, stamp = record.index, record.stamp
-        decision, executed = record.decision, record.executed
-        messages: dict[str, bytes] = {Topic.CLOUD: encode_cloud(record.cloud, stamp)}
-        if decision is not None:
-            message = DecisionMessage(index=index, stamp=stamp, decision=decision)
-            messages[Topic.DECISION] = self._json(message)
-        if executed is not None:
-            action = ActionMessage(index=index, stamp=stamp, executed=executed)
-            messages[Topic.ACTION] = self._json(action)
+        common: dict[str, Any] = {"index": record.index, "stamp": record.stamp}
+        messages = {Topic.CLOUD: encode_cloud(record.cloud, record.stamp)}
+        if record.decision is not None:
+            decision = DecisionMessage(**common, decision=record.decision)
+            messages[Topic.DECISION] = self._json(decision)
+        if record.executed is not None:
+            messages[Topic.ACTION] = self._json(ActionMessage(**common, executed=record.executed))
         messages[Topic.STATE] = self._json(
             StepState(**record.shared(), cloud_stamp=record.cloud.stamp, tick_ms=record.step_ms)
         )
@@ -128,12 +126,7 @@ class EpisodeWriter:
             self._add(end.stamp, {Topic.END: message})
             self._finished = True
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         """Write the summary and close the file.
 
         Raises:
@@ -146,7 +139,7 @@ class EpisodeWriter:
             with self._durably("its summary"):
                 self._mcap.finish()
         except EpisodeError:
-            if error is None:
+            if kind is None:
                 raise
         finally:
             self._drop()
@@ -173,11 +166,9 @@ class EpisodeWriter:
                 raise
 
     def _register(self) -> None:
-        cloud_schema = self._mcap.register_schema(
-            name=PointCloud.DESCRIPTOR.full_name,
-            encoding="protobuf",
-            data=build_file_descriptor_set(PointCloud).SerializeToString(),
-        )
+        data = build_file_descriptor_set(PointCloud).SerializeToString()
+        name = PointCloud.DESCRIPTOR.full_name
+        cloud_schema = self._mcap.register_schema(name, "protobuf", data)
         units = {"units": "mm", "frame": "gel: +x right, +y palm, z indentation into the gel"}
         self._channels[Topic.CLOUD] = self._mcap.register_channel(
             Topic.CLOUD, "protobuf", cloud_schema, units
@@ -191,14 +182,13 @@ class EpisodeWriter:
         """Encode a message before anything is added; one that can't be stored changes no file."""
         kind = type(message).__name__
         try:
-            data = to_json(message)
+            return json.dumps(to_json(message, kind), ensure_ascii=False, allow_nan=False).encode()
         except TypeError as error:
             raise EpisodeError(f"{self.path}: {kind} can't be recorded: {error}") from error
-        if problem := non_finite_number(data, kind):
-            raise EpisodeError(f"{self.path}: {problem}; expected a finite number")
-        return json.dumps(data, ensure_ascii=False, allow_nan=False).encode()
+        except ValueError as error:
+            raise EpisodeError(f"{self.path}: {error}") from None
 
-    def _add(self, stamp: Stamp, messages: Mapping[str, bytes]) -> None:
+    def _add(self, stamp: Stamp, messages: Mapping[Topic, bytes]) -> None:
         """Add the messages of one record, which share its sequence number."""
         time_ns = wall_ns(stamp)
         for topic, data in messages.items():
@@ -230,12 +220,6 @@ def start_mcap(file: BufferedWriter) -> Writer:
 
 def _create(path: Path) -> BufferedWriter:
     return path.open("xb")
-
-
-def _lock(file: BufferedWriter) -> None:
-    """Lock the file, so that ``recover`` leaves it alone; some network disks have no locks."""
-    with suppress(OSError):
-        fcntl.flock(file.fileno(), fcntl.LOCK_EX | fcntl.LOCK_NB)
 
 
 def _metadata(header: EpisodeHeader) -> dict[str, str]:

@@ -1,1 +1,5 @@
-"""TODO: what this folder is for, what it may import."""
+"""Texts that teach and test the language model: instructions, questions, answers and advice.
+
+Not here: captions (``cltp.texts``), training (``cltp.train``, ``tacgrasp.training``), and the rule
+behind the advice (``policies.teacher``).
+"""

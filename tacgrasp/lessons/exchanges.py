@@ -1,15 +1,16 @@
-"""What the language model is taught about contacts: captions, questions, and advice on goals.
+"""Exchanges that teach the language model: captions, questions, and advice on goals.
 
-A person's instruction stands for a goal in numbers; ``policies.teacher`` says what the goal asks of
-a contact; the reply is the model's D_t. ``cltp.train`` receives the texts and knows no goals.
+An instruction stands for a numeric goal, ``policies.teacher`` advises on a contact for that goal,
+and the reply is the D_t that the model learns. ``cltp.train`` receives texts and knows no goals.
 
-D_t, in this order: the contact in words and numbers; the force that the instruction asks for;
-``Action:`` and one of eight tokens; the reason. It is short, since every token costs time in the
-loop; the paper's caption is said when somebody asks for a description. The action comes before the
-reason so that the softmax at its place is the model's own doubt, not an echo of a given reason.
+D_t consists of the contact in words and numbers, the force that the instruction asks for,
+``Action:`` with one of eight tokens, and the reason, in this order. It is short, since every token
+costs time in the loop; the paper's caption is the reply to a request for a description. The action
+comes before the reason, so that the softmax of its token is the model's own confidence and not an
+echo of the reason.
 
-Where a state is ``felt``, its words are the truth and its numbers are as the encoder's heads read
-them (``cltp.train.llm`` says why); advice always comes from the truth.
+A ``reading`` is a state whose words are the truth and whose numbers are as the encoder's heads read
+them (the reason is in ``cltp.train.llm``); advice always comes from the truth.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ from tacgrasp.lessons.instructions import Instruction, draw_instruction, draw_in
 from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
 
 ADVICE_PER_CONTACT = 3
-"""Advice for goals that differ, on the same touch. Our choice: the touch tokens cost most."""
+"""Number of goals, and so of pieces of advice, for one contact. Our choice: the tactile tokens,
+which they share, cost the most."""
 
 GOAL_QUESTIONS = (
     "What force is meant by: {}",
@@ -37,11 +39,12 @@ GOAL_QUESTIONS = (
     "How many newtons are wanted here? {}",
 )
 MEANINGS_PER_CONTACT = 2
-"""Instructions read for their force alone: more wordings for fewer tokens than whole advice."""
+"""Number of instructions that are read for their force alone: more wordings in fewer tokens than
+with whole advice."""
 
 
 def numbers(state: ContactState) -> str:
-    """The numbers of a contact, short: depth [mm], force [N], area [%], x and y [mm], sides cut."""
+    """Numbers of a contact as text: depth [mm], force [N], area [%], x and y [mm], cut sides."""
     if not state.in_contact:
         return "0.00 mm, 0.00 N."
     cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
@@ -51,83 +54,86 @@ def numbers(state: ContactState) -> str:
     )
 
 
-def described(state: ContactState) -> str:
-    """The contact as D_t begins: the five slots, each beside its number, force, and sides cut."""
+def contact_text(state: ContactState) -> str:
+    """First part of D_t: the five slots, each beside its number, the force, and the cut sides."""
     if not state.in_contact:
         return "Nothing touches."
-    named = " ".join(str(word) for word in (state.texture, state.shape) if word is not None)
+    nouns = " ".join(str(word) for word in (state.texture, state.shape) if word is not None)
     cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
     return (
-        f"{named or 'object'}, {state.depth} {state.depth_mm:.2f} mm, {state.position} "
+        f"{nouns or 'object'}, {state.depth} {state.depth_mm:.2f} mm, {state.position} "
         f"x {state.x_mm:+.1f} y {state.y_mm:+.1f}, {state.area} {percent(state)} %, "
         f"{state.force_n:.2f} N{cut}."
     )
 
 
-def wanted(goal: Goal) -> str:
-    """The goal's force, as D_t names it: as many digits as the contact's, to compare one by one."""
+def goal_text(goal: Goal) -> str:
+    """Force of the goal in D_t, with as many digits as that of the contact, to compare the two."""
     return f"Goal {goal.force_n.low:.2f} - {goal.force_n.high:.2f} N."
 
 
-def advice_reply(state: ContactState, goal: Goal, felt: ContactState | None = None) -> str:
-    """D_t for a contact and a goal; ``policies.extraction`` reads the advice in it."""
+def advice_reply(state: ContactState, goal: Goal, reading: ContactState | None = None) -> str:
+    """D_t for a contact and a goal; ``policies.extraction`` reads the advice back from it."""
     advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
     action = f"<{advice.action}>" if advice.action is not None else "<none>"
-    return f"{described(felt or state)} {wanted(goal)} Action: {action}. {_why(advice)}"
+    contact = contact_text(reading or state)
+    return f"{contact} {goal_text(goal)} Action: {action}. {_reason_text(advice)}"
 
 
-def _why(advice: Advice) -> str:
+def _reason_text(advice: Advice) -> str:
     if advice.success:
         return SUCCESS_WORDINGS[0]
-    return REASON_WORDINGS[advice.why][0]
+    return REASON_WORDINGS[advice.reason][0]
 
 
 def advice_exchange(
-    state: ContactState, instruction: Instruction, felt: ContactState | None = None
+    state: ContactState, instruction: Instruction, reading: ContactState | None = None
 ) -> Exchange:
     """An instruction and D_t."""
-    return Exchange(prompt=instruction.text, reply=advice_reply(state, instruction.goal, felt))
+    return Exchange(prompt=instruction.text, reply=advice_reply(state, instruction.goal, reading))
 
 
 def meaning_exchange(rng: np.random.Generator) -> Exchange:
-    """A question what force an instruction means, and the force as D_t names it."""
+    """A question about the force that an instruction means, and that force as in D_t."""
     instruction = draw_instruction(rng)
     question = GOAL_QUESTIONS[rng.integers(len(GOAL_QUESTIONS))]
-    return Exchange(prompt=question.format(instruction.text), reply=wanted(instruction.goal))
+    return Exchange(prompt=question.format(instruction.text), reply=goal_text(instruction.goal))
 
 
 def caption_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
-    """A request to describe, and the caption with its numbers."""
+    """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
     text = NO_CONTACT if not state.in_contact else caption(state)
     return Exchange(prompt=request, reply=f"{text} {numbers(state)}")
 
 
 class TouchLessons:
-    """``cltp.train.llm.Lessons``: all that is taught. Deterministic in the generator given.
+    """All exchanges about a contact, as ``cltp.train.llm.Lessons``; deterministic in the generator.
 
     Args:
-        blind: Replaces every instruction by the same few words: the control that can't know what
-            is wanted.
+        blind: Whether every instruction is replaced by ``BLIND``: the control, whose model can't
+            know the goal.
     """
 
     def __init__(self, *, blind: bool = False) -> None:
         self._blind = blind
 
-    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
         """One description."""
-        return [caption_exchange(felt, rng)]
+        return [caption_exchange(reading, rng)]
 
     def mixed(
-        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+        self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
-        """A caption or a question, advice for several goals, and instructions to be understood."""
-        first = caption_exchange(felt, rng) if rng.random() < 0.3 else draw_question(felt, rng)
-        drawn = [
+        """A caption or a question, advice for several goals, and meanings of instructions."""
+        first = (
+            caption_exchange(reading, rng) if rng.random() < 0.3 else draw_question(reading, rng)
+        )
+        instructions = [
             draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
             for _ in range(ADVICE_PER_CONTACT)
         ]
-        exchanges = [advice_exchange(state, instruction, felt) for instruction in drawn]
+        exchanges = [advice_exchange(state, instruction, reading) for instruction in instructions]
         if self._blind:
             exchanges = [Exchange(prompt=BLIND, reply=e.reply) for e in exchanges]
             return [first, *exchanges]

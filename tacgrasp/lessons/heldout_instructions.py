@@ -1,7 +1,7 @@
-"""Instructions written by hand and never trained on, half of them naming no object.
+"""Hand-written instructions that are never trained on; half of them name no object.
 
-Each stands for the goal of a task. Written before the first training; a wording that the model gets
-wrong stays.
+Each stands for the goal of a task. They were written before the first training, and wordings that
+the model gets wrong stay.
 """
 
 PARAPHRASES: dict[str, tuple[str, ...]] = {
@@ -46,4 +46,4 @@ PARAPHRASES: dict[str, tuple[str, ...]] = {
         "Grip tight and hard, it must not slip.",
     ),
 }
-"""By task: the first four of each name an object, the last four do not."""
+"""Instructions by task: the first four of each name an object, the last four do not."""

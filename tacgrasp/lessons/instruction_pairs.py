@@ -1,19 +1,19 @@
-"""Contacts whose right action hangs on the instruction: pairs of goals, and paraphrases.
+"""Test cases whose right action depends on the instruction: pairs of goals, and paraphrases.
 
-A pair is one unseen contact under two instructions whose goals disagree on it: the teacher's
-answers, on the true state, differ. Whoever does not read the instruction is right on at most one
-of the two.
+A pair is one contact of the test split under two instructions with different answers: the teacher,
+on the true state, advises differently for their goals. A model that ignores the instruction is
+right on at most one of the two.
 
-How pairs are chosen: contacts of the test split are gone through in an order drawn from the seed.
-For each, instructions are drawn as for training (words of a task's level, or newtons) near the
-contact's force, until two of them disagree in a way of ``QUOTAS`` that has room. Goals differ in
-how firm the grip may be, not in where the contact should be: so ``reset`` is never one of two
-answers, and a move only ever disagrees with ``decrease_force``, which comes before it. The quotas
-therefore balance four kinds of answer, a fifth to 30 % each: moves (the four directions alike),
-``increase_force``, ``decrease_force`` and none.
+Contacts are visited in an order drawn from the seed. For each, instructions are drawn as in
+training (words of a task's level, or newtons) near the contact's force, until two of them disagree
+in a way of ``QUOTAS`` that is not yet full. Goals differ in the firmness of the grip, not in the
+position of the contact. So ``reset`` is never one of the two answers, and a move can disagree with
+``decrease_force`` alone, which comes before it. The quotas therefore balance four kinds of answer,
+a fifth to 30 % each: moves (equally in the four directions), ``increase_force``,
+``decrease_force`` and none.
 
-*Clear* contacts have answers that hold when the contact is a little otherwise (``MARGIN``): there
-the sensor's noise does not decide. All of them (*any*) are scored, too, beside direct measurement.
+The answers of *clear* contacts stay the same when the contact changes a little (``MARGIN``), so
+that sensor noise does not decide them. *Any* contacts are scored too, beside direct measurement.
 """
 
 from __future__ import annotations
@@ -46,19 +46,20 @@ QUOTAS: dict[frozenset[str], float] = {
     frozenset({DECREASE, NONE}): 0.1,
     frozenset({DECREASE, INCREASE}): 0.1,
 }
-"""Share of the pairs by their two answers."""
+"""Fraction of the pairs by their two answers."""
 
 MARGIN = 1.25
-"""Answers of clear contacts hold when force, depth and area are this much larger or smaller."""
+"""Factor of the force by which the answer of a clear contact stays the same; its root for depth and
+area."""
 
 MARGIN_MM = 0.7
-"""... and when the contact lies so much further along x or y [mm]."""
+"""Shift along x or y [mm] by which the answer of a clear contact stays the same."""
 
 DRAWS = 40
-"""Instructions drawn for a contact before the next one is tried."""
+"""Number of instructions drawn for one contact."""
 
 NUM_OBJECTS = 4
-"""The first paraphrases of each level name an object, the others do not."""
+"""Number of paraphrases of each level that name an object; they come first."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,9 +67,9 @@ class Case:
     """One contact under one instruction.
 
     Attributes:
-        index: The contact in its data set.
-        instruction: What is asked, with its goal.
-        answer: What is right: a primitive's name, or ``NONE`` for success.
+        index: Index of the contact in its data set.
+        instruction: The instruction with its goal.
+        answer: The right answer: a primitive's name, or ``NONE`` for success.
     """
 
     index: int
@@ -77,7 +78,7 @@ class Case:
 
 
 def answer_of(advice: Advice) -> str | None:
-    """A primitive's name, ``NONE`` for success, None where the teacher knows no way."""
+    """A primitive's name, ``NONE`` for success, None without either."""
     if advice.action is not None:
         return advice.action.value
     return NONE if advice.success else None
@@ -86,23 +87,23 @@ def answer_of(advice: Advice) -> str | None:
 def choose_pairs(
     data: ContactDataset, num: int, *, clear: bool, seed: int = 0
 ) -> list[tuple[Case, Case]]:
-    """Up to ``num`` pairs; fewer only when the data set has no more.
+    """Choose up to ``num`` pairs; fewer only when the data set has no more.
 
     Args:
         data: The test split.
-        num: How many.
-        clear: Only contacts whose answers hold within the margin.
-        seed: Of contacts and wordings.
+        num: Number of pairs.
+        clear: Whether to take clear contacts alone.
+        seed: Random seed of the contacts and wordings.
     """
     rng = np.random.default_rng([seed, 2025])
-    room = {kind: round(share * num) for kind, share in QUOTAS.items()}
+    quotas = {kind: round(fraction * num) for kind, fraction in QUOTAS.items()}
     pairs: list[tuple[Case, Case]] = []
     for index in rng.permutation(len(data)).tolist():
-        if not any(room.values()):
+        if not any(quotas.values()):
             break
-        pair = _pair(data.state(index), index, room, clear, rng)
+        pair = _pair(data.state(index), index, quotas, clear, rng)
         if pair is not None:
-            room[frozenset({pair[0].answer, pair[1].answer})] -= 1
+            quotas[frozenset({pair[0].answer, pair[1].answer})] -= 1
             pairs.append(pair)
     return pairs
 
@@ -110,33 +111,33 @@ def choose_pairs(
 def _pair(
     state: ContactState,
     index: int,
-    room: dict[frozenset[str], int],
+    quotas: dict[frozenset[str], int],
     clear: bool,
     rng: np.random.Generator,
 ) -> tuple[Case, Case] | None:
     if not state.in_contact:
         return None
-    seen: dict[str, Case] = {}
+    cases: dict[str, Case] = {}
     for _ in range(DRAWS):
-        drawn = draw_instruction_near(state, rng)
-        answer = answer_for(state, drawn.goal, clear=clear)
-        if answer is None or answer in seen:
+        instruction = draw_instruction_near(state, rng)
+        answer = answer_for(state, instruction.goal, clear=clear)
+        if answer is None or answer in cases:
             continue
-        case = Case(index=index, instruction=drawn, answer=answer)
-        for other in seen.values():
-            if room.get(frozenset({answer, other.answer}), 0) > 0:
+        case = Case(index=index, instruction=instruction, answer=answer)
+        for other in cases.values():
+            if quotas.get(frozenset({answer, other.answer}), 0) > 0:
                 return (case, other) if rng.random() < 0.5 else (other, case)
-        seen[answer] = case
+        cases[answer] = case
     return None
 
 
 def choose_paraphrases(
     data: ContactDataset, per_wording: int, *, clear: bool, seed: int = 0
 ) -> list[tuple[Case, bool]]:
-    """Every paraphrase on contacts whose right action depends on the level.
+    """Choose contacts for every paraphrase, whose right action depends on the level.
 
-    The answers that a level can have take turns, so that one answer to everything is not right
-    often; contacts come again, under other wordings, only when there are no more.
+    The possible answers of a level take turns, so that no single answer is right often. A contact
+    is used again, under another wording, only when there are no more.
 
     Returns:
         Cases, each with whether its wording names an object.
@@ -154,7 +155,7 @@ def choose_paraphrases(
                 by_answer[level].setdefault(answer, []).append(index)
     cases = []
     for level, wordings in PARAPHRASES.items():
-        contacts = itertools.cycle(_in_turns(by_answer[level]))
+        contacts = itertools.cycle(_interleave(by_answer[level]))
         for number, text in enumerate(wordings):
             for answer, index in itertools.islice(contacts, per_wording):
                 instruction = Instruction(text=text, goal=goals[level])
@@ -163,37 +164,31 @@ def choose_paraphrases(
     return cases
 
 
-def _in_turns(by_answer: dict[str, list[int]]) -> Iterator[tuple[str, int]]:
-    """Contacts of each answer in turn, moves taking turns of their own; each contact once."""
-    moves = [by_answer[move] for move in MOVES if move in by_answer]
-    kinds: list[list[tuple[str, int]]] = [
-        [(answer, index) for index in found]
-        for answer, found in sorted(by_answer.items())
-        if answer not in MOVES
-    ]
-    names = [move for move in MOVES if move in by_answer]
-    longest = max((len(found) for found in moves), default=0)
-    kinds.append(
-        [(n, f[k]) for k in range(longest) for n, f in zip(names, moves, strict=True) if k < len(f)]
-    )
-    for turn in range(max(map(len, kinds), default=0)):
-        for kind in kinds:
-            if turn < len(kind):
-                yield kind[turn]
+def _interleave(by_answer: dict[str, list[int]]) -> list[tuple[str, int]]:
+    """Contacts of each answer in turn, where all moves count as one answer; each contact once."""
+    rows = {name: [(name, index) for index in indices] for name, indices in by_answer.items()}
+    others = [row for name, row in sorted(rows.items()) if name not in MOVES]
+    return _alternate([*others, _alternate([rows[name] for name in MOVES if name in rows])])
+
+
+def _alternate(rows: Sequence[Sequence[tuple[str, int]]]) -> list[tuple[str, int]]:
+    """One item of each row, then the next of each, until all are used up."""
+    return [item for items in itertools.zip_longest(*rows) for item in items if item is not None]
 
 
 def answer_for(state: ContactState, goal: Goal, *, clear: bool) -> str | None:
-    """The teacher's answer; None where it knows no way or, if ``clear``, where noise decides."""
+    """The teacher's answer; None without one or, if ``clear``, where noise could change it."""
     answer = answer_of(teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM))
     if answer is None or not clear or not state.in_contact:
         return answer
-    around = {
-        answer_of(teacher(near, goal, move_step_mm=LESSON_MOVE_STEP_MM)) for near in _around(state)
+    nearby = {
+        answer_of(teacher(near, goal, move_step_mm=LESSON_MOVE_STEP_MM))
+        for near in _neighbours(state)
     }
-    return answer if around == {answer} else None
+    return answer if nearby == {answer} else None
 
 
-def _around(state: ContactState) -> Iterator[ContactState]:
+def _neighbours(state: ContactState) -> Iterator[ContactState]:
     for factor in (1 / MARGIN, MARGIN):
         yield dataclasses.replace(
             state,
@@ -208,10 +203,10 @@ def _around(state: ContactState) -> Iterator[ContactState]:
 
 
 def counts(cases: Sequence[Case]) -> dict[str, int]:
-    """How often each answer is right."""
+    """Number of cases by their right answer."""
     return dict(sorted(Counter(case.answer for case in cases).items()))
 
 
-def share(right: NDArray[np.bool_]) -> float:
-    """Share of True; NaN of nothing."""
+def fraction(right: NDArray[np.bool_]) -> float:
+    """Fraction of True; NaN of an empty array."""
     return float(np.mean(right)) if len(right) else math.nan

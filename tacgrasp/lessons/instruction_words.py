@@ -1,9 +1,9 @@
-"""The vocabulary of instructions for training, by how firm the grip is meant to be.
+"""Vocabulary of the training instructions, by firmness of the grip.
 
-Four levels of firmness, each of one task. What tells them apart: what may happen to the object
-(bursts, bruises, cracks, slips), what it is like, and how the grip is to be. Only words; how they
-become sentences is in ``tacgrasp.lessons.instructions``. Wordings kept for tests are in
-``tacgrasp.lessons.heldout_instructions``.
+There are four levels of firmness, one for each task. They differ in the danger to the object
+(bursting, bruising, cracking, slipping), its properties and the manner of the grip. Not here: how
+the words become sentences (``tacgrasp.lessons.instructions``), and the wordings kept for tests
+(``tacgrasp.lessons.heldout_instructions``).
 """
 
 from __future__ import annotations
@@ -13,33 +13,33 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Firmness:
-    """How people speak of one level of firmness.
+    """Phrases for one level of firmness.
 
     Attributes:
-        objects: What is held so, after 'the'.
-        manners: How to grip, after the thing: 'Pick it up ...'.
-        grips: What grip, between 'a' and 'grip'; each with its article.
-        forces: How much, before 'force' or 'pressure'.
-        be: How to be: 'Be ...'.
-        likes: What the object is like: 'it is ...'.
-        fates: What happens to it, after 'it': 'it ...', with what brings that about.
-        bans: What must not happen, after 'do not'.
-        withouts: The same, after 'without'.
-        nots: The same, after 'it must not'.
-        ends: Other ways to say what it is for, as a clause of their own.
+        objects: Objects, after 'the'.
+        manners: Manners of gripping: 'Pick it up ...'.
+        grips: Adjectives of the grip with their articles, before 'grip'.
+        forces: Quantities, before 'force' or 'pressure'.
+        attitudes: Attitudes of the gripper: 'Be ...'.
+        properties: Properties of the object: 'it is ...'.
+        fates: Dangers to the object as verbs: 'it ...', some with their causes.
+        prohibitions: The same as prohibitions: 'do not ...'.
+        harms: The same as gerunds: 'without ...'.
+        dangers: The same as infinitives: 'it must not ...'.
+        clauses: Other reasons for the grip, as whole clauses.
     """
 
     objects: tuple[str, ...]
     manners: tuple[str, ...]
     grips: tuple[str, ...]
     forces: tuple[str, ...]
-    be: tuple[str, ...]
-    likes: tuple[str, ...]
+    attitudes: tuple[str, ...]
+    properties: tuple[str, ...]
     fates: tuple[str, ...]
-    bans: tuple[str, ...]
-    withouts: tuple[str, ...]
-    nots: tuple[str, ...]
-    ends: tuple[str, ...]
+    prohibitions: tuple[str, ...]
+    harms: tuple[str, ...]
+    dangers: tuple[str, ...]
+    clauses: tuple[str, ...]
 
 
 _BURSTS = Firmness(
@@ -64,11 +64,11 @@ _BURSTS = Firmness(
         "very little", "hardly any", "almost no", "the least possible", "minimal", "the smallest",
         "next to no", "the lightest", "scarcely any", "extremely little",
     ),
-    be=(
+    attitudes=(
         "extremely gentle", "very gentle", "as gentle as you can", "extremely careful and light",
         "very light", "as light as a feather", "extremely soft",
     ),
-    likes=(
+    properties=(
         "very fragile", "very fragile and light", "tiny", "very thin-skinned", "extremely delicate",
         "as thin as paper", "about to burst", "tiny and thin-skinned", "extremely fragile",
         "full of juice under a thin skin", "very easily torn",
@@ -79,10 +79,10 @@ _BURSTS = Firmness(
         "splits at a touch", "gives way at almost no force", "tears at the slightest squeeze",
         "bursts very quickly", "pops open at nearly nothing",
     ),
-    bans=("burst it", "split its skin", "tear it", "pop it", "let it burst", "split it"),
-    withouts=("bursting it", "splitting its skin", "tearing it", "popping it"),
-    nots=("burst", "split", "tear", "pop", "be torn"),
-    ends=(
+    prohibitions=("burst it", "split its skin", "tear it", "pop it", "let it burst", "split it"),
+    harms=("bursting it", "splitting its skin", "tearing it", "popping it"),
+    dangers=("burst", "split", "tear", "pop", "be torn"),
+    clauses=(
         "the least pressure will burst it", "its skin is very thin", "the skin tears at nothing",
         "any pressure will split it", "the skin splits easily", "its thin skin must stay whole",
     ),
@@ -105,8 +105,8 @@ _BRUISES = Firmness(
         "a soft and careful", "a gentle, careful", "a caring",
     ),
     forces=("little", "gentle", "light", "low", "mild", "soft", "a small", "only a little"),
-    be=("gentle", "careful", "soft", "tender", "delicate", "gentle and careful", "kind"),
-    likes=(
+    attitudes=("gentle", "careful", "soft", "tender", "delicate", "gentle and careful", "kind"),
+    properties=(
         "soft and ripe", "delicate", "soft", "ripe", "tender", "ripe and juicy", "quite delicate",
         "easily bruised", "soft inside", "sensitive", "easily squashed", "fresh and soft",
     ),
@@ -115,16 +115,16 @@ _BRUISES = Firmness(
         "bruises when squeezed", "is bruised by a hard grip", "is easily crushed",
         "gets bruised if you press hard", "shows every mark",
     ),
-    bans=(
+    prohibitions=(
         "bruise it", "squash it", "leave marks on it", "crush it", "mash it", "dent it", "mark it",
         "leave any bruise", "squeeze it too hard", "damage its flesh", "make it mushy",
     ),
-    withouts=(
+    harms=(
         "bruising it", "squashing it", "leaving marks on it", "crushing it", "denting it",
         "any bruises", "leaving a bruise", "marking it", "mashing it", "making dents",
     ),
-    nots=("be bruised", "get bruised", "be squashed", "be crushed", "be marked", "get dents"),
-    ends=(
+    dangers=("be bruised", "get bruised", "be squashed", "be crushed", "be marked", "get dents"),
+    clauses=(
         "there should be no bruises", "no marks, please", "no bruises", "leave no bruise on it",
         "it should stay unbruised", "leave no dents", "keep it free of bruises",
         "it should look untouched",
@@ -150,11 +150,11 @@ _CRACKS = Firmness(
         "a reliable", "a sure", "a balanced", "a safe and steady", "a medium-strength",
     ),
     forces=("moderate", "medium", "a moderate", "a fair", "an average", "middling", "balanced"),
-    be=(
+    attitudes=(
         "secure but careful", "safe", "steady", "moderate", "reliable but not rough",
         "sure and steady", "neither too soft nor too hard",
     ),
-    likes=(
+    properties=(
         "heavy but brittle", "brittle", "made of thin glass", "hard but breakable", "heavy",
         "heavy and brittle", "smooth and breakable", "of brittle shell", "fragile and heavy",
         "stiff but not unbreakable",
@@ -164,20 +164,20 @@ _CRACKS = Firmness(
         "shatters if it drops", "cracks", "breaks if it falls", "can crack and can fall",
         "drops out of a loose grip", "breaks under a hard grip", "chips and cracks",
     ),
-    bans=(
+    prohibitions=(
         "crack it", "break it", "break the shell", "crack the shell", "drop it and do not break it",
         "let it fall and do not crack it", "shatter it", "chip it", "drop or crack it",
         "break it or let it fall",
     ),
-    withouts=(
+    harms=(
         "cracking it", "breaking it", "breaking the shell", "cracking or dropping it",
         "shattering it", "dropping or breaking it", "breaking the glass",
     ),
-    nots=(
+    dangers=(
         "crack", "break", "crack and must not fall", "shatter", "fall or break", "be cracked",
         "drop, nor crack",
     ),
-    ends=(
+    clauses=(
         "it must neither crack nor fall", "the shell must not break", "keep the shell whole",
         "it should arrive whole", "keep it from cracking and from falling",
         "neither drop nor crack it", "it must not fall, and it must not break",
@@ -205,8 +205,10 @@ _SLIPS = Firmness(
         "high", "strong", "plenty of", "a lot of", "great", "full", "maximum", "much", "large",
         "a great deal of",
     ),
-    be=("firm", "strong", "forceful", "tough", "as strong as you can", "firm and tight", "rough"),
-    likes=(
+    attitudes=(
+        "firm", "strong", "forceful", "tough", "as strong as you can", "firm and tight", "rough",
+    ),
+    properties=(
         "hard and can not be damaged", "made of steel", "solid metal", "hard", "robust",
         "unbreakable", "rigid and tough", "heavy metal", "tough", "solid", "indestructible",
     ),
@@ -216,16 +218,16 @@ _SLIPS = Firmness(
         "takes any force", "will be hammered in", "has to resist a strong push",
         "rotates if you are too soft",
     ),
-    bans=(
+    prohibitions=(
         "let it slip", "let it turn", "let it rotate", "let it twist", "allow it to move",
         "let it spin in the fingers", "let it give way",
     ),
-    withouts=("letting it slip", "letting it turn", "any slipping", "letting it rotate or twist"),
-    nots=(
+    harms=("letting it slip", "letting it turn", "any slipping", "letting it rotate or twist"),
+    dangers=(
         "slip", "rotate", "turn", "twist", "move in the fingers", "slip or turn", "spin",
         "rotate in the fingers",
     ),
-    ends=(
+    clauses=(
         "nothing can break", "so that it does not turn when it is inserted",
         "so that it can not turn", "so that it can't slip", "it will be driven into a hole",
         "no slipping", "it has to stay put while it is pushed", "there is nothing to damage",
@@ -239,7 +241,7 @@ LEVELS: dict[str, Firmness] = {
     "egg": _CRACKS,
     "peg": _SLIPS,
 }
-"""By task, gentle to firm."""
+"""Phrases by task, from gentle to firm."""
 
 VERBS = (
     "pick", "pick up", "grasp", "grip", "hold", "lift", "take", "grab", "seize", "get", "raise",

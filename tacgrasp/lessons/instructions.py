@@ -1,9 +1,9 @@
-"""Instructions as a person may word them, each with the goal it stands for; for training.
+"""Instructions in many wordings, each with its goal, for training.
 
-Four levels of firmness are the four tasks (their goals are read from the task files). Between them
-lie goals that an instruction names in newtons; a named force counts more than any word beside it.
-The words are in ``tacgrasp.lessons.instruction_words``, the sentences here. Wordings that are kept
-out of training are in ``tacgrasp.lessons.heldout_instructions``.
+The four levels of firmness are the four tasks, whose goals are read from the task files. Goals
+between them are named in newtons; a named force outweighs every word beside it. The words are in
+``tacgrasp.lessons.instruction_words``, and the wordings kept out of training in
+``tacgrasp.lessons.heldout_instructions``.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ from tacgrasp.lessons import instruction_words as wordings
 from tacgrasp.lessons.instruction_words import Firmness
 
 LEVELS = tuple(wordings.LEVELS)
-"""Gentle to firm."""
+"""Names of the tasks, from gentle to firm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Instruction:
-    """What a person says, and what it means.
+    """An instruction and its meaning.
 
     Attributes:
-        text: The words.
-        goal: The goal in numbers.
+        text: Words of the instruction.
+        goal: Numeric goal.
     """
 
     text: str
@@ -41,15 +41,16 @@ class Instruction:
 
 
 FORCE_RATIO = 1.44
-"""A goal between the tasks reaches from its force over this to its force times this, as theirs."""
+"""A named force stands for a band from the force over this to the force times this, as in the
+tasks."""
 
 FORCES_N = (0.5, 7.0)
-"""Forces that instructions name [N]."""
+"""Range of forces that instructions name [N]."""
 
 
 @lru_cache(maxsize=1)
 def task_goals() -> dict[str, Goal]:
-    """Goals of the four levels, from the task files."""
+    """Goals of the four levels, read from the task files."""
     goals = {}
     for level in LEVELS:
         text = (resources.files("tacgrasp") / "tasks" / f"{level}.yaml").read_text()
@@ -62,17 +63,19 @@ def _pairs(section: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
 
 
 def goal_of_force(low_n: float, high_n: float) -> Goal:
-    """The goal that a force band stands for; its other bands lie between those of the tasks."""
+    """Goal of a force band; the other bands are interpolated between those of the tasks."""
     goals = sorted(task_goals().values(), key=lambda goal: goal.force_n.low)
-    middle = [math.log(math.sqrt(g.force_n.low * g.force_n.high)) for g in goals]
-    at = math.log(math.sqrt(low_n * high_n))
+    task_middles = [math.log(math.sqrt(g.force_n.low * g.force_n.high)) for g in goals]
+    middle = math.log(math.sqrt(low_n * high_n))
 
-    def between(values: Sequence[float]) -> float:
-        return float(np.interp(at, middle, values))
+    def interpolate(values: Sequence[float]) -> float:
+        return float(np.interp(middle, task_middles, values))
 
     def band(name: str) -> Band:
         bands: list[Band] = [getattr(goal, name) for goal in goals]
-        return Band(low=between([b.low for b in bands]), high=between([b.high for b in bands]))
+        return Band(
+            low=interpolate([b.low for b in bands]), high=interpolate([b.high for b in bands])
+        )
 
     return Goal(
         force_n=Band(low=low_n, high=high_n),
@@ -84,7 +87,7 @@ def goal_of_force(low_n: float, high_n: float) -> Goal:
 
 
 def draw_instruction(rng: np.random.Generator) -> Instruction:
-    """An instruction in words of one of the four levels, or with a force in newtons."""
+    """Draw an instruction in words of one of the four levels, or with a force in newtons."""
     if rng.random() < 0.3:
         force = float(np.exp(rng.uniform(np.log(FORCES_N[0]), np.log(FORCES_N[1]))))
         return in_newtons(force, rng)
@@ -92,7 +95,7 @@ def draw_instruction(rng: np.random.Generator) -> Instruction:
 
 
 def draw_instruction_near(state: ContactState, rng: np.random.Generator) -> Instruction:
-    """An instruction whose goal lies near the contact's force, so that its words decide."""
+    """Draw an instruction with a goal near the contact's force, so that the words decide."""
     force = float(np.clip(state.force_n * np.exp(rng.uniform(-1.0, 1.0)), *FORCES_N))
     if rng.random() < 0.4:
         return in_newtons(force, rng)
@@ -100,128 +103,128 @@ def draw_instruction_near(state: ContactState, rng: np.random.Generator) -> Inst
         level: math.log(math.sqrt(goal.force_n.low * goal.force_n.high))
         for level, goal in task_goals().items()
     }
-    near = min(LEVELS, key=lambda level: abs(middles[level] - math.log(force)))
-    return in_words(near, rng)
+    nearest = min(LEVELS, key=lambda level: abs(middles[level] - math.log(force)))
+    return in_words(nearest, rng)
 
 
 def in_words(level: str, rng: np.random.Generator) -> Instruction:
-    """A wording of a level; every one says at least one thing that tells the level."""
+    """Draw a wording of a level; at least one part of it tells the level."""
     words = wordings.LEVELS[level]
-    form = _FORMS[int(rng.choice(len(_FORMS), p=_FORM_SHARES))]
-    return Instruction(text=_dressed(form(words, rng), rng), goal=task_goals()[level])
+    form = _FORMS[int(rng.choice(len(_FORMS), p=_FORM_PROBABILITIES))]
+    return Instruction(text=_punctuate(form(words, rng), rng), goal=task_goals()[level])
 
 
-def _asked(words: Firmness, rng: np.random.Generator) -> str:
+def _request(words: Firmness, rng: np.random.Generator) -> str:
     """'Pick up the egg securely, it must not crack'."""
     named = rng.random() < 0.5
-    thing = _thing(words, rng, named=named)
-    manner = _one(words.manners, rng) if rng.random() < 0.7 else ""
-    because = _because(words, rng) if rng.random() < 0.55 else ""
-    if not (named or manner or because):
-        manner = _one(words.manners, rng)
-    verb = _one(wordings.VERBS, rng)
+    noun = _noun_phrase(words, rng, named=named)
+    manner = _draw(words.manners, rng) if rng.random() < 0.7 else ""
+    reason = _reason(words, rng) if rng.random() < 0.55 else ""
+    if not (named or manner or reason):
+        manner = _draw(words.manners, rng)
+    verb = _draw(wordings.VERBS, rng)
     if manner and rng.random() < 0.25:
-        text = f"{manner}, {verb} {thing}"
+        text = f"{manner}, {verb} {noun}"
     else:
-        text = f"{verb} {thing} {manner}".rstrip()
-    return text + (_joint(rng) + because if because else "")
+        text = f"{verb} {noun} {manner}".rstrip()
+    return text + (_joint(rng) + reason if reason else "")
 
 
-def _of_the_grip(words: Firmness, rng: np.random.Generator) -> str:
+def _grip_statement(words: Firmness, rng: np.random.Generator) -> str:
     """'A firm grip on the bolt', 'Use little force', 'Be gentle with this'."""
-    thing = _thing(words, rng, named=rng.random() < 0.4)
-    grip = f"{_one(words.grips, rng)} {_one(wordings.GRIPS, rng)}"
-    force = f"{_one(words.forces, rng)} {_one(('force', 'pressure'), rng)}"
-    text = _one(
+    noun = _noun_phrase(words, rng, named=rng.random() < 0.4)
+    grip = f"{_draw(words.grips, rng)} {_draw(wordings.GRIPS, rng)}"
+    force = f"{_draw(words.forces, rng)} {_draw(('force', 'pressure'), rng)}"
+    text = _draw(
         (
             grip,
-            f"{grip} on {thing}",
-            f"{grip} is what {thing} needs",
+            f"{grip} on {noun}",
+            f"{grip} is what {noun} needs",
             f"use {grip}",
-            f"take {thing} with {grip}",
-            f"{_one(wordings.VERBS, rng)} {thing} with {grip}",
+            f"take {noun} with {grip}",
+            f"{_draw(wordings.VERBS, rng)} {noun} with {grip}",
             f"use {force}",
-            f"{force} on {thing}",
-            f"apply {force} to {thing}",
-            f"be {_one(words.be, rng)}",
-            f"be {_one(words.be, rng)} with {thing}",
-            f"{_one(words.manners, rng)}",
-            f"{_one(words.manners, rng)} now: {_one(wordings.VERBS, rng)} {thing}",
+            f"{force} on {noun}",
+            f"apply {force} to {noun}",
+            f"be {_draw(words.attitudes, rng)}",
+            f"be {_draw(words.attitudes, rng)} with {noun}",
+            f"{_draw(words.manners, rng)}",
+            f"{_draw(words.manners, rng)} now: {_draw(wordings.VERBS, rng)} {noun}",
         ),
         rng,
     )
-    return text + (_joint(rng) + _because(words, rng) if rng.random() < 0.45 else "")
+    return text + (_joint(rng) + _reason(words, rng) if rng.random() < 0.45 else "")
 
 
-def _of_the_object(words: Firmness, rng: np.random.Generator) -> str:
+def _object_statement(words: Firmness, rng: np.random.Generator) -> str:
     """'The egg cracks, so hold it securely', 'It must not slip'."""
-    thing = _thing(words, rng, named=rng.random() < 0.5)
-    about = _one(
+    noun = _noun_phrase(words, rng, named=rng.random() < 0.5)
+    statement = _draw(
         (
-            f"{thing} {_one(words.fates, rng)}",
-            f"{thing} is {_one(words.likes, rng)}",
-            f"{thing} must not {_one(words.nots, rng)}",
-            f"{thing} mustn't {_one(words.nots, rng)}",
-            f"do not {_one(words.bans, rng)}",
-            f"don't {_one(words.bans, rng)}",
-            _one(words.ends, rng),
+            f"{noun} {_draw(words.fates, rng)}",
+            f"{noun} is {_draw(words.properties, rng)}",
+            f"{noun} must not {_draw(words.dangers, rng)}",
+            f"{noun} mustn't {_draw(words.dangers, rng)}",
+            f"do not {_draw(words.prohibitions, rng)}",
+            f"don't {_draw(words.prohibitions, rng)}",
+            _draw(words.clauses, rng),
         ),
         rng,
     )
     if rng.random() < 0.25:
-        return about
-    then = _one(
+        return statement
+    request = _draw(
         (
-            f"{_one(wordings.VERBS, rng)} it {_one(words.manners, rng)}",
-            f"use {_one(words.grips, rng)} {_one(wordings.GRIPS, rng)}",
-            f"use {_one(words.forces, rng)} force",
-            f"be {_one(words.be, rng)}",
+            f"{_draw(wordings.VERBS, rng)} it {_draw(words.manners, rng)}",
+            f"use {_draw(words.grips, rng)} {_draw(wordings.GRIPS, rng)}",
+            f"use {_draw(words.forces, rng)} force",
+            f"be {_draw(words.attitudes, rng)}",
         ),
         rng,
     )
-    return about + _one((", so ", "; ", ": ", ". ", ", "), rng) + then
+    return statement + _draw((", so ", "; ", ": ", ". ", ", "), rng) + request
 
 
-_FORMS = (_asked, _of_the_grip, _of_the_object)
-_FORM_SHARES = (0.5, 0.27, 0.23)
+_FORMS = (_request, _grip_statement, _object_statement)
+_FORM_PROBABILITIES = (0.5, 0.27, 0.23)
 
 
-def _because(words: Firmness, rng: np.random.Generator) -> str:
-    """A reason, as a clause that stands behind another."""
-    it = _one(("it", "it", "this", "this one"), rng)
-    return _one(
+def _reason(words: Firmness, rng: np.random.Generator) -> str:
+    """A reason, as a clause after another one."""
+    it = _draw(("it", "it", "this", "this one"), rng)
+    return _draw(
         (
-            f"{it} {_one(words.fates, rng)}",
-            f"{it} is {_one(words.likes, rng)}",
-            f"{it} must not {_one(words.nots, rng)}",
-            f"it should not {_one(words.nots, rng)}",
-            f"do not {_one(words.bans, rng)}",
-            f"but do not {_one(words.bans, rng)}",
-            f"and don't {_one(words.bans, rng)}",
-            f"without {_one(words.withouts, rng)}",
-            _one(words.ends, rng),
+            f"{it} {_draw(words.fates, rng)}",
+            f"{it} is {_draw(words.properties, rng)}",
+            f"{it} must not {_draw(words.dangers, rng)}",
+            f"it should not {_draw(words.dangers, rng)}",
+            f"do not {_draw(words.prohibitions, rng)}",
+            f"but do not {_draw(words.prohibitions, rng)}",
+            f"and don't {_draw(words.prohibitions, rng)}",
+            f"without {_draw(words.harms, rng)}",
+            _draw(words.clauses, rng),
         ),
         rng,
     )
 
 
-def _thing(words: Firmness, rng: np.random.Generator, *, named: bool) -> str:
+def _noun_phrase(words: Firmness, rng: np.random.Generator, *, named: bool) -> str:
     if not named:
-        return _one(wordings.THINGS, rng)
-    return f"{_one(('the', 'the', 'the', 'this', 'that'), rng)} {_one(words.objects, rng)}"
+        return _draw(wordings.THINGS, rng)
+    return f"{_draw(('the', 'the', 'the', 'this', 'that'), rng)} {_draw(words.objects, rng)}"
 
 
 def _joint(rng: np.random.Generator) -> str:
-    return _one((", ", ", ", "; ", ": ", ". ", " - "), rng)
+    return _draw((", ", ", ", "; ", ": ", ". ", " - "), rng)
 
 
 def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
-    """A wording with numbers, for a goal around ``force_n``; any object may be named with it."""
+    """Draw a wording with numbers for a goal around ``force_n``; it may name any object."""
     words = wordings.LEVELS[LEVELS[rng.integers(len(LEVELS))]]
-    thing = _thing(words, rng, named=rng.random() < 0.5)
+    noun = _noun_phrase(words, rng, named=rng.random() < 0.5)
     low, high = round(force_n / FORCE_RATIO, 1), round(force_n * FORCE_RATIO, 1)
     about = round(math.sqrt(low * high), 1)
-    wording = _one(
+    wording = _draw(
         (
             f"with {low:.1f} to {high:.1f} N",
             f"using {low:.1f} - {high:.1f} N of force",
@@ -238,24 +241,24 @@ def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
     )
     if "about" in wording or "around" in wording:
         low, high = round(about / FORCE_RATIO, 1), round(about * FORCE_RATIO, 1)
-    text = f"{_one(wordings.VERBS, rng)} {thing} {wording}"
+    text = f"{_draw(wordings.VERBS, rng)} {noun} {wording}"
     if rng.random() < 0.3:
-        text = f"{wording}, {_one(wordings.VERBS, rng)} {thing}"
-    return Instruction(text=_dressed(text, rng), goal=goal_of_force(low, high))
+        text = f"{wording}, {_draw(wordings.VERBS, rng)} {noun}"
+    return Instruction(text=_punctuate(text, rng), goal=goal_of_force(low, high))
 
 
-def _dressed(text: str, rng: np.random.Generator) -> str:
-    """A sentence: first letters large, or nothing large; with a polite word, a stop, or not."""
+def _punctuate(text: str, rng: np.random.Generator) -> str:
+    """Make a sentence: capitals or none, perhaps a polite word, perhaps a full stop."""
     if rng.random() < 0.2:
-        text = f"{_one(wordings.POLITE, rng)} {text}"
+        text = f"{_draw(wordings.POLITE, rng)} {text}"
     elif rng.random() < 0.1:
         text = f"{text}, please"
     parts = text.split(". ")
     text = ". ".join(f"{part[0].upper()}{part[1:]}" for part in parts)
     if rng.random() < 0.15:
         text = text.lower()
-    return text + _one((".", ".", ".", "", "!"), rng)
+    return text + _draw((".", ".", ".", "", "!"), rng)
 
 
-def _one(choices: Sequence[str], rng: np.random.Generator) -> str:
+def _draw(choices: Sequence[str], rng: np.random.Generator) -> str:
     return choices[int(rng.integers(len(choices)))]

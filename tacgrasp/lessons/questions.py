@@ -1,4 +1,4 @@
-"""Questions about a contact and their answers, for training; other wordings are kept for tests."""
+"""Questions about a contact and their answers, in wordings for training and others for tests."""
 
 from __future__ import annotations
 
@@ -130,20 +130,20 @@ HELD_OUT: dict[str, tuple[str, ...]] = {
     "force": ("How much force is there?", "With how many newtons does it press?"),
     "cut": ("Is part of the contact over the edge?", "Is it cut by the edge of the pad?"),
 }
-"""Never used in training: answers to these are evaluated."""
+"""Wordings that are never trained on; the evaluation asks them."""
 
 NOTHING = "Nothing touches the pad."
 
 
 def answer(slot: str, state: ContactState) -> str:
-    """The answer to a question about one slot of ``QUESTIONS``."""
+    """Answer a question about one slot of ``QUESTIONS``."""
     return NOTHING if not state.in_contact else _ANSWERS[slot](state)
 
 
 def percent(state: ContactState) -> str:
-    """Share of the field in contact [%], to two figures or so."""
-    share = 100 * state.area_fraction
-    return f"{share:.1f}" if share < 9.95 else f"{share:.0f}"
+    """Fraction of the sensing area in contact [%], to two figures or so."""
+    value = 100 * state.area_fraction
+    return f"{value:.1f}" if value < 9.95 else f"{value:.0f}"
 
 
 def _cut(state: ContactState) -> str:
@@ -162,7 +162,7 @@ _ANSWERS: dict[str, Callable[[ContactState], str]] = {
 
 
 def draw_question(state: ContactState, rng: np.random.Generator) -> Exchange:
-    """A question in a drawn wording, and its answer."""
+    """Draw the wording of a question, and answer it."""
     slot = list(QUESTIONS)[rng.integers(len(QUESTIONS))]
     wording = QUESTIONS[slot][rng.integers(len(QUESTIONS[slot]))]
     return Exchange(prompt=wording, reply=answer(slot, state))

@@ -14,7 +14,7 @@ from primitives import Primitive
 from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
-from tacgrasp.config.schema import GoalConfig, RunConfig
+from tacgrasp.config.schema import GoalConfig
 from tacgrasp.episodes import StepRecord
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.run import run_recorded
@@ -114,7 +114,8 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoRes
     if name not in DEMOS:
         raise UsageError(f"unknown demo {name!r}; known: {', '.join(DEMOS)}")
     demo = DEMOS[name]
-    config = _config(demo, record)
+    changes = {"record": record, "seed": demo.seed, "policy": demo.policy, "goal": GOAL}
+    config = load("strawberry")[0].model_copy(update=changes)
     rig = build(
         config.object,
         demo.seed,
@@ -137,15 +138,3 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoRes
         rig.disconnect()
     as_scripted = tuple(actions) == demo.actions and outcome.reason is demo.end
     return DemoResult(outcome=outcome, path=path, actions=tuple(actions), as_scripted=as_scripted)
-
-
-def _config(demo: Demo, record: Path) -> RunConfig:
-    config, _ = load("strawberry")
-    return config.model_copy(
-        update={
-            "record": record,
-            "seed": demo.seed,
-            "policy": demo.policy,
-            "goal": GOAL,
-        }
-    )

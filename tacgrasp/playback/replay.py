@@ -14,13 +14,14 @@ import yaml
 from pydantic import ValidationError
 
 from cltp import TouchError
-from policies import Decision, Observation, Policy, PolicyError
+from policies import Observation, Policy, PolicyError
 from primitives.devices import Pose
 from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
 from tacgrasp.config.errors import explain
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.episodes import Episode, EpisodeError, StepPhase, StepRecord
+from tacgrasp.episodes import Episode, EpisodeError, StepPhase
+from tacgrasp.episodes.codec import to_json
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason
@@ -88,16 +89,13 @@ def differences(episode: Episode, policy: Policy) -> Iterator[Difference]:
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue
-        recorded, repeated = _compared(step.decision), _compared(decision)
-        if recorded != repeated:
-            pairs = ((name, recorded[name], repeated[name]) for name in recorded)
-            texts = [f"{name}: {old!r} then, {new!r} now" for name, old, new in pairs if old != new]
+        old, new = (
+            {name: to_json(getattr(each, name)) for name in ("action", "success", "text")}
+            for each in (step.decision, decision)
+        )
+        texts = [f"{n}: {old[n]!r} then, {new[n]!r} now" for n in old if old[n] != new[n]]
+        if texts:
             yield Difference(index=step.index, text="; ".join(texts))
-
-
-def _compared(decision: Decision) -> dict[str, object]:
-    action = None if decision.action is None else decision.action.value
-    return {"action": action, "success": decision.success, "text": decision.text}
 
 
 def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedAction, None, None]:
@@ -124,13 +122,15 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
         executor = make_executor(rig, config)
         executor.grasp(episode.steps[0].gripper.force_n or None)
         for step in episode.steps:
-            if step.executed is not None and step.executed.primitive is not None:
-                recorded = step.executed
+            recorded = step.executed
+            if recorded is not None and recorded.primitive is not None:
                 executed = executor.execute(recorded.primitive, recorded.force_n or None)
-                deviation_mm = distance_mm(executed.reached, step.executed.reached)
+                deviation_mm = distance_mm(executed.reached, recorded.reached)
                 yield RepeatedAction(index=step.index, executed=executed, deviation_mm=deviation_mm)
             elif step.phase is StepPhase.VERIFY_AFTER:
-                _lift(rig, step, config)
+                check_workspace(step.tcp_pose, config.limits())
+                speed, acceleration = config.verify.speed_m_s, config.verify.acceleration_m_s2
+                rig.arm.move_to(step.tcp_pose, speed_m_s=speed, acceleration_m_s2=acceleration)
     finally:
         rig.arm.stop()
         if (config.on_success if is_success else config.on_failure) == "release":
@@ -160,12 +160,3 @@ def _approach(rig: Rig, target: Pose, config: RunConfig) -> None:
             Pose(position_m=position_m, rotvec_rad=rotvec_rad),
             speed_m_s=min(SOFT_SPEED_M_S, limits.max_speed_m_s),
         )
-
-
-def _lift(rig: Rig, step: StepRecord, config: RunConfig) -> None:
-    check_workspace(step.tcp_pose, config.limits())
-    rig.arm.move_to(
-        step.tcp_pose,
-        speed_m_s=config.verify.speed_m_s,
-        acceleration_m_s2=config.verify.acceleration_m_s2,
-    )

@@ -7,7 +7,9 @@ geometric baseline, which needs no encoder, is measured with them
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import torch
@@ -20,18 +22,29 @@ from cltp.data.sampler import CLEAN, NOISY
 from cltp.evaluation.features import EncodedContacts
 from cltp.evaluation.probes import ClassProbes, NumberProbe, score_intervals
 from cltp.evaluation.retrieval import score_retrieval
-from cltp.evaluation.scores import score_classes
+from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.splits import EvaluationSplit
 from cltp.evaluation.zero_shot import PROMPTINGS, ClassPrompts
 from cltp.texts.captions import caption
 from cltp.train.methods import ALIGNED_METHODS, TRAINING_ORDER
-from cltp.train.stage import ProgressReport
 from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.checkpoints import TrainedMethod, external_checkpoint, find_method_of_data
-from tacgrasp.pretraining.evaluation_run import EvaluationRun
+from tacgrasp.pretraining.checkpoints import (
+    TrainedMethod,
+    external_checkpoint,
+    find_method,
+    find_method_of_data,
+)
+from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun
 from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
-from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failures, save_failures
-from tacgrasp.pretraining.report.store import Result
+from tacgrasp.pretraining.methods import labelled
+from tacgrasp.pretraining.real_touches import RealTouches
+from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failures
+from tacgrasp.pretraining.report.store import Result, save
+
+TABLES = dict(zip(PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True))
+
+Scorer = Callable[[EncodedContacts], Sequence[Tensor]]
+"""Scores of each class by dimension, shape (N, classes)."""
 
 
 def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, TrainedMethod]:
@@ -59,86 +72,138 @@ def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, Tra
     return available
 
 
-def check_aligned(methods: Sequence[str]) -> None:
-    """Refuse methods without prompts.
+def zero_shot(
+    run: EvaluationRun,
+    methods: Sequence[str] = (),
+    *,
+    real: RealTouches | None = None,
+    promptings: Sequence[str] = PROMPTINGS,
+    predictions: Path | None = None,
+) -> list[Result]:
+    """Table 1: classes by the nearest prompt, and the geometric baseline beside the first.
+
+    Real touches are also classified by weights that don't say what they were trained on, as the
+    shipped ones, but such results are not stored.
+
+    Args:
+        run: Folders and settings.
+        methods: Names; all that were trained when empty, and ``cltp`` for real touches.
+        real: Real touches in place of the data's contacts.
+        promptings: Out of ``PROMPTINGS``: one prompt a class, or several.
+        predictions: CSV file with a row for each real touch.
 
     Raises:
-        UsageError: A method is not aligned with language in all dimensions.
+        UsageError: A method is not aligned with language in all dimensions, or was not trained.
+        TouchError: Weights or data can't be used.
     """
     for method in methods:
         if method not in ALIGNED_METHODS:
             raise UsageError(
                 f"{method} has no prompts for contact states; {', '.join(ALIGNED_METHODS)} do"
             )
+    data = None
+    if real is None:
+        trained = _aligned_methods(run, methods)
+    else:
+        trained = {name: find_method(name, run.weights) for name in methods or ("cltp",)}
+        trained = {name: replace(one, data=one.data or "") for name, one in trained.items()}
+        data = next(iter(trained.values())).data
+
+    def scorers(_: str, method: TrainedMethod, __: FrozenEncoder) -> dict[str, Scorer]:
+        towers = method.towers(run.weights)
+        return {TABLES[one]: _by_prompts(ClassPrompts(towers, one)) for one in promptings}
+
+    splits = [real] if real is not None else run.evaluation_splits()
+    results = _measure_classes(run, trained, splits, scorers, "cosine", predictions)
+    return results + geometric_baseline(run, TABLES[promptings[0]], splits, data)
 
 
-def zero_shot(run: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
-    """Table 1: classes by the nearest prompt, with one prompt a class and with several.
-
-    Raises:
-        UsageError: A method is not aligned with language in all dimensions, or was not trained.
-        TouchError: Weights or data can't be used.
-    """
-    check_aligned(methods)
-    results = []
-    tables = dict(zip(PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True))
-    for name, method in _aligned_methods(run, methods).items():
-        encoder, towers = method.encoder(), method.towers(run.weights)
-        prompts = {prompting: ClassPrompts(towers, prompting) for prompting in tables}
-        for split in run.evaluation_splits():
-            encoded = run.encode(encoder, split)
-            for prompting, table in tables.items():
-                classes = prompts[prompting].classes(encoded.feature)
-                scores = score_classes(classes, encoded.classes)
-                result = run.store(run.class_result(table, name, method, split.name, scores))
-                results.append(result)
-                if table == "zero_shot":
-                    cosines = prompts[prompting].cosines(encoded.feature)
-                    _store_failures(run, result, split, encoded, cosines, "cosine")
-    return results + geometric_baseline(run, ("zero_shot",))
-
-
-def probe(run: EvaluationRun, methods: Sequence[str] = (), *, views: int = 2) -> list[Result]:
+def probe(
+    run: EvaluationRun,
+    methods: Sequence[str] = (),
+    *,
+    views: int = 2,
+    real: RealTouches | None = None,
+    predictions: Path | None = None,
+) -> list[Result]:
     """Table 2 and appendix A: MLPs on frozen features, and for CLTP numbers with intervals.
 
     Args:
         run: Folders and settings.
         methods: Names; all that were trained when empty.
         views: How often each training contact is encoded, half of the time without noise.
+        real: Real touches, on which classes alone are measured, in place of the data's contacts.
+        predictions: CSV file with a row for each real touch.
 
     Raises:
         UsageError: A method was not trained.
         TouchError: Weights or data can't be used.
     """
     results = []
-    splits = run.evaluation_splits()
-    for name, method in trained_methods(run, methods).items():
-        encoder = method.encoder()
+
+    def scorers(name: str, method: TrainedMethod, encoder: FrozenEncoder) -> dict[str, Scorer]:
         learned = run.encode_training(encoder, views)
-        probes = ClassProbes(learned, seed=run.seed, report=_named(run.report, name))
+        if name == "cltp" and real is None:
+            results.extend(_numbers(run, encoder, learned, method))
+        named = replace(run.probe_training, report=labelled(run.report, name))
+        return {"probe": ClassProbes(learned, named).probabilities}
+
+    splits = [real] if real is not None else run.evaluation_splits()
+    trained = trained_methods(run, methods)
+    results += _measure_classes(run, trained, splits, scorers, "probability", predictions)
+    results += geometric_baseline(run, "probe", splits)
+    return results if real is not None else results + heights_alone(run, views)
+
+
+def _by_prompts(prompts: ClassPrompts) -> Scorer:
+    return lambda encoded: prompts.cosines(encoded.feature)
+
+
+def _measure_classes(
+    run: EvaluationRun,
+    methods: Mapping[str, TrainedMethod],
+    splits: Sequence[EvaluatedContacts],
+    scorers: Callable[[str, TrainedMethod, FrozenEncoder], dict[str, Scorer]],
+    measure: str,
+    predictions: Path | None,
+) -> list[Result]:
+    """Score classes by each method on each split, for each table that ``scorers`` gives.
+
+    Predictions about real touches are written into ``predictions``, with several methods into
+    ``NAME-METHOD.csv``. Of CLTP, failures are stored with pictures in the splits of the paper's
+    tables.
+    """
+    results = []
+    for name, method in methods.items():
+        encoder = method.encoder()
+        by_table = scorers(name, method, encoder)
         for split in splits:
             encoded = run.encode(encoder, split)
-            scores = score_classes(probes.classes(encoded), encoded.classes)
-            result = run.store(run.class_result("probe", name, method, split.name, scores))
-            results.append(result)
-            probabilities = probes.probabilities(encoded)
-            _store_failures(run, result, split, encoded, probabilities, "probability")
-        if name == "cltp":
-            results += _numbers(run, encoder, learned, name, method)
-    return [*results, *geometric_baseline(run, ("probe",)), *heights_alone(run, views)]
+            for table, scorer in by_table.items():
+                scores = scorer(encoded)
+                accuracy = score_classes(best_classes(scores), encoded.classes)
+                result = run.store_scores(table, name, method, split, accuracy)
+                results.append(result)
+                if isinstance(split, RealTouches):
+                    if predictions is not None:
+                        file = f"{predictions.stem}-{name}{predictions.suffix}"
+                        path = predictions if len(methods) == 1 else predictions.with_name(file)
+                        split.write_predictions(path, scores, measure)
+                elif name == "cltp" and table != "zero_shot_ensemble":
+                    _store_failures(run, result, split, encoded, scores, measure)
+    return results
 
 
 def _numbers(
     run: EvaluationRun,
     encoder: FrozenEncoder,
     learned: EncodedContacts,
-    name: str,
     method: TrainedMethod,
 ) -> list[Result]:
     """Numbers, with intervals calibrated on the validation split with each split's noise."""
     names = ContactDataset(run.data, split=Split.TRAIN).column("object")
     objects = torch.from_numpy(np.unique(names, return_inverse=True)[1])[learned.index]
-    probe = NumberProbe(learned, objects, seed=run.seed, report=run.report)
+    probe = NumberProbe(learned, objects, run.probe_training)
     scales = {
         str(noise): probe.calibrate(run.encode_validation(encoder, noise))
         for noise in (CLEAN, NOISY)
@@ -147,7 +212,7 @@ def _numbers(
     for split in run.evaluation_splits():
         encoded = run.encode(encoder, split)
         values = score_intervals(probe.intervals(encoded, scales[str(split.noise)]), encoded)
-        result = run.result("numbers", name, method, split.name, len(encoded), values)
+        result = run.result("numbers", "cltp", method, split.name, len(encoded), values)
         results.append(run.store(result))
     return results
 
@@ -190,10 +255,9 @@ def _store_failures(
     scores: Sequence[Tensor],
     measure: str,
 ) -> None:
-    """Store CLTP's wrong predictions, with pictures, in the splits of the paper's tables."""
-    if result.method == "cltp" and split.name in FAILURE_SPLITS:
+    if split.name in FAILURE_SPLITS:
         data = ContactDataset(run.data, split=split.split)
-        save_failures(run.results, collect_failures(result, data, encoded, scores, measure))
+        save(run.results, collect_failures(result, data, encoded, scores, measure))
 
 
 def _aligned_methods(run: EvaluationRun, methods: Sequence[str]) -> Mapping[str, TrainedMethod]:
@@ -202,10 +266,3 @@ def _aligned_methods(run: EvaluationRun, methods: Sequence[str]) -> Mapping[str,
         return trained_methods(run, methods)
     available = trained_methods(run, ())
     return {name: available[name] for name in ALIGNED_METHODS if name in available}
-
-
-def _named(report: ProgressReport, method: str) -> ProgressReport:
-    def named_report(stage: str, step: int, steps: int, scores: object) -> None:
-        report(f"{method} {stage}", step, steps, {})
-
-    return named_report

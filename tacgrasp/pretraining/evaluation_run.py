@@ -11,11 +11,15 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation
 from cltp.evaluation.features import EncodedContacts, encode_contacts
+from cltp.evaluation.probes import ProbeTraining
 from cltp.evaluation.scores import ClassScores
 from cltp.evaluation.splits import LEARNING_NOISE, EvaluationSplit, evaluation_splits
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.report.store import Result, percent, read_result, save_result
+from tacgrasp.pretraining.real_touches import RealTouches
+from tacgrasp.pretraining.report.store import Result, load, percent, save
+
+EvaluatedContacts = EvaluationSplit | RealTouches
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,14 +49,20 @@ class EvaluationRun:
     report: ProgressReport = silent
 
     @property
+    def probe_training(self) -> ProbeTraining:
+        return ProbeTraining(self.seed, self.report)
+
+    @property
     def checksum(self) -> str:
         return ContactDataset(self.data).checksum()
 
     def evaluation_splits(self) -> list[EvaluationSplit]:
         return evaluation_splits(self.data, self.splits)
 
-    def encode(self, encoder: FrozenEncoder, split: EvaluationSplit) -> EncodedContacts:
-        """Features of an evaluation split, at most ``limit`` contacts."""
+    def encode(self, encoder: FrozenEncoder, split: EvaluatedContacts) -> EncodedContacts:
+        """Features of real touches, or of an evaluation split, at most ``limit`` contacts."""
+        if isinstance(split, RealTouches):
+            return split.encode(encoder)
         return self._encode(encoder, split.split, split.noise, limit=self.limit)
 
     def encode_training(self, encoder: FrozenEncoder, views: int) -> EncodedContacts:
@@ -83,13 +93,18 @@ class EvaluationRun:
             report=self.report,
         )
 
-    def class_result(
-        self, table: str, name: str, method: TrainedMethod, split: str, scores: ClassScores
+    def store_scores(
+        self,
+        table: str,
+        name: str,
+        method: TrainedMethod,
+        split: EvaluatedContacts,
+        scores: ClassScores,
     ) -> Result:
-        """Accuracies and confusion matrices as a row of a table, not yet stored."""
+        """Store accuracies and confusion matrices as a row of a table."""
+        result = self.result(table, name, method, split.name, scores.count, percent(scores))
         confusion = {slot: counts.tolist() for slot, counts in scores.confusion.items()}
-        result = self.result(table, name, method, split, scores.count, percent(scores))
-        return replace(result, confusion=confusion)
+        return self.store(replace(result, confusion=confusion))
 
     def result(
         self,
@@ -117,23 +132,29 @@ class EvaluationRun:
         )
 
     def store(self, result: Result) -> Result:
-        """Write a result at once, so that an interruption loses nothing that was measured."""
-        save_result(self.results, result)
+        """Write a result at once, so that an interruption loses nothing that was measured.
+
+        Results of unknown data are not written: a report is of one data set.
+        """
+        if result.data:
+            save(self.results, result)
         return result
 
     def stored(
-        self, table: str, name: str, method: TrainedMethod, split: EvaluationSplit
+        self, table: str, name: str, method: TrainedMethod, split: EvaluatedContacts
     ) -> Result | None:
         """The same measurement where it is stored already, of what does not depend on training.
 
         Raises:
             TouchError: The stored result is damaged.
         """
+        if isinstance(split, RealTouches):
+            return None  # other touches may have been measured
         data = ContactDataset(self.data, split=split.split)
         contacts = len(data) if self.limit is None else min(self.limit, len(data))
         expected = self.result(table, name, method, split.name, contacts, {})
         path = self.results / expected.file
-        result = read_result(path) if path.exists() else None
+        result = load(Result, path) if path.exists() else None
         if result is None or (result.data, result.contacts) != (expected.data, contacts):
             return None
         return result

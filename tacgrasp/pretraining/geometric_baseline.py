@@ -18,52 +18,52 @@ from cltp.evaluation.features import numbered_batches, selected_rows
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.heights_alone import HeightsAlone
 from cltp.evaluation.probes import ClassProbes
-from cltp.evaluation.scores import ClassScores, score_classes
-from cltp.evaluation.splits import EvaluationSplit
+from cltp.evaluation.scores import ClassScores, best_classes, score_classes
+from cltp.tactile.measure import contact_state
 from cltp.tactile.states import MEASURABLE
 from cltp.train.text_targets import class_numbers
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.evaluation_run import EvaluationRun
+from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun
+from tacgrasp.pretraining.real_touches import RealTouches
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, USUAL_VARIANTS, Result
 
 READ_FROM_HEIGHTS = ("depth", "area")
 
 
-def baseline_method(run: EvaluationRun, variant: str | None = None) -> TrainedMethod:
-    """The baseline in place of a trained method; computed directly unless a variant is named."""
-    variant = variant or USUAL_VARIANTS[GEOMETRIC_BASELINE]
-    return TrainedMethod(folder=run.weights, variant=variant, budget=None)
+def geometric_baseline(
+    run: EvaluationRun, table: str, splits: Sequence[EvaluatedContacts], data: str | None = None
+) -> list[Result]:
+    """Direct computation as a row of a table; not repeated where it is stored already.
 
-
-def geometric_baseline(run: EvaluationRun, tables: Sequence[str]) -> list[Result]:
-    """Direct computation as a row of tables; not repeated where it is stored already.
+    Args:
+        run: Folders and settings.
+        table: Name of the table.
+        splits: What methods are measured on.
+        data: Checksum of the data that the result belongs to; the run's when not given.
 
     Raises:
         TouchError: The data or a stored result can't be used.
     """
-    results = []
-    method = baseline_method(run)
-    for split in run.evaluation_splits():
-        stored = [run.stored(table, GEOMETRIC_BASELINE, method, split) for table in tables]
-        complete = [result for result in stored if result is not None]
-        if len(complete) < len(tables):
-            scores = score_geometry(run, split)
-            complete = [
-                run.store(run.class_result(table, GEOMETRIC_BASELINE, method, split.name, scores))
-                for table in tables
-            ]
-        results += complete
-    return results
+    variant = USUAL_VARIANTS[GEOMETRIC_BASELINE]
+    method = TrainedMethod(folder=run.weights, variant=variant, budget=None, data=data)
+    row = (table, GEOMETRIC_BASELINE, method)
+    return [
+        run.stored(*row, split) or run.store_scores(*row, split, score_geometry(run, split))
+        for split in splits
+    ]
 
 
-def score_geometry(run: EvaluationRun, split: EvaluationSplit) -> ClassScores:
+def score_geometry(run: EvaluationRun, split: EvaluatedContacts) -> ClassScores:
     """Scores of direct computation on the contacts, and with the noise, that encoders are given."""
-    data = ContactDataset(run.data, split=split.split)
-    rows = selected_rows(len(data), limit=run.limit, seed=run.seed)
-    sampler = Sampler(data, split.noise, seed=run.seed)
-    batches = [batch for batch, _ in numbered_batches(sampler, rows)]
-    labels = torch.cat([class_numbers(batch.states) for batch in batches])
-    classes = predict_geometrically(data, batches).classes
+    if isinstance(split, RealTouches):
+        classes, labels = class_numbers(list(map(contact_state, split.clouds))), split.labels
+    else:
+        data = ContactDataset(run.data, split=split.split)
+        rows = selected_rows(len(data), limit=run.limit, seed=run.seed)
+        sampler = Sampler(data, split.noise, seed=run.seed)
+        batches = [batch for batch, _ in numbered_batches(sampler, rows)]
+        labels = torch.cat([class_numbers(batch.states) for batch in batches])
+        classes = predict_geometrically(data, batches).classes
     return score_classes(classes, labels).restricted(MEASURABLE)
 
 
@@ -78,18 +78,16 @@ def heights_alone(run: EvaluationRun, views: int) -> list[Result]:
         TouchError: The data or a stored result can't be used.
     """
     encoder = HeightsAlone()
-    method = baseline_method(run, "heights alone")
+    method = TrainedMethod(folder=run.weights, variant="heights alone", budget=None)
+    row = ("probe", GEOMETRIC_BASELINE, method)
     splits = run.evaluation_splits()
-    stored = [run.stored("probe", GEOMETRIC_BASELINE, method, split) for split in splits]
-    complete = [result for result in stored if result is not None]
-    if len(complete) == len(splits):
-        return complete
-    probes = ClassProbes(run.encode_training(encoder, views), seed=run.seed, report=run.report)
+    stored = [result for split in splits if (result := run.stored(*row, split)) is not None]
+    if len(stored) == len(splits):
+        return stored
+    probes = ClassProbes(run.encode_training(encoder, views), run.probe_training)
     results = []
     for split in splits:
         encoded = run.encode(encoder, split)
-        scores = score_classes(probes.classes(encoded), encoded.classes)
-        scores = scores.restricted(READ_FROM_HEIGHTS)
-        result = run.class_result("probe", GEOMETRIC_BASELINE, method, split.name, scores)
-        results.append(run.store(result))
+        scores = score_classes(best_classes(probes.probabilities(encoded)), encoded.classes)
+        results.append(run.store_scores(*row, split, scores.restricted(READ_FROM_HEIGHTS)))
     return results

@@ -99,7 +99,7 @@ def pretrain(
     folder = run.out / method
     run.announce(method, folder / "encoder")
     config, clip = PRESETS[preset], run.out / "clip"
-    training = replace(run, out=folder, report=_labelled(run.report, method))
+    training = replace(run, out=folder, report=labelled(run.report, method))
     if method in ALIGNED_METHODS:
         train_cltp(
             training,
@@ -133,13 +133,13 @@ def pretrain(
     return folder
 
 
-def _labelled(report: ProgressReport, method: str) -> ProgressReport:
+def labelled(report: ProgressReport, method: str) -> ProgressReport:
     """Put the method before the names of stages that don't begin with it."""
 
-    def labelled(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+    def labelled_report(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
         report(stage if stage.startswith(method) else f"{method} {stage}", step, steps, scores)
 
-    return labelled
+    return labelled_report
 
 
 def device_name(device: torch.device) -> str:

@@ -9,9 +9,10 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 import torch
@@ -22,7 +23,6 @@ from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.sampler import sampled
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
-from cltp.evaluation.scores import ClassScores, score_classes
 from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_cloud, read_heights
 from cltp.tactile.cloud import TactileCloud
@@ -38,82 +38,22 @@ BACKGROUND = "background.png"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class LabelledTouch:
-    """One row of the table.
+class RealTouches:
+    """Labelled touches of one sensor, with the inputs of encoders that are made from them.
 
     Attributes:
-        file: File of the touch.
-        classes: Five class numbers, -1 where empty.
-    """
-
-    file: Path
-    classes: tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class TouchPredictions:
-    """Predicted classes of real touches.
-
-    Attributes:
-        rows: One for each file: its classes with their cosines or probabilities, by column.
-        scores: Scores against the labels.
-    """
-
-    rows: list[dict[str, str]]
-    scores: ClassScores
-
-
-def read_labels(folder: Path, table: Path) -> list[LabelledTouch]:
-    """Read the table.
-
-    Raises:
-        UsageError: A file, column or label is wrong; it names file and row.
-    """
-    try:
-        with table.open(encoding="utf-8-sig", newline="") as file:
-            reader = csv.DictReader(file)
-            names = [name.strip() for name in reader.fieldnames or []]
-            if set(names) != set(COLUMNS):
-                raise UsageError(
-                    f"{table} needs the columns {', '.join(COLUMNS)}, got {', '.join(names)}"
-                )
-            rows = [{(k or "").strip(): (v or "").strip() for k, v in r.items()} for r in reader]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"labels can't be read from {table}: {error}") from None
-    if not rows:
-        raise UsageError(f"{table} has no rows")
-    return [_labelled(folder, table, number, row) for number, row in enumerate(rows, start=2)]
-
-
-def _labelled(folder: Path, table: Path, number: int, row: dict[str, str]) -> LabelledTouch:
-    path = folder / row["file"]
-    if not row["file"] or not path.is_file():
-        raise UsageError(f"{table}, row {number}: {path} does not exist")
-    classes = []
-    for slot, names in CLASSES.items():
-        if row[slot] and row[slot] not in names:
-            raise UsageError(
-                f"{table}, row {number}: no {slot} {row[slot]!r}; known: {', '.join(names)}"
-            )
-        classes.append(names.index(row[slot]) if row[slot] else -1)
-    return LabelledTouch(file=path, classes=tuple(classes))
-
-
-def labels_of(rows: Sequence[LabelledTouch]) -> Tensor:
-    """Class numbers of touches, shape (N, 5)."""
-    return torch.tensor([row.classes for row in rows])
-
-
-@dataclass(frozen=True, slots=True)
-class TouchInputs:
-    """Inputs of encoders, made from real touches.
-
-    Attributes:
+        name: Name in tables.
+        files: The files.
+        labels: Class numbers, shape (N, 5); -1 where unknown.
         clouds: Clouds of 1024 evenly spaced points.
         heights_mm: Height maps, shape (H, W) each, with median 0.
         frames: Rendered frames, shape (N, 3, 64, 64).
     """
 
+    name: ClassVar[str] = "real"
+
+    files: Sequence[Path]
+    labels: Tensor
     clouds: Sequence[TactileCloud]
     heights_mm: Sequence[NDArray[np.float32]]
     frames: Tensor
@@ -129,81 +69,116 @@ class TouchInputs:
             points.append(scaled(points_mm, cloud.sensor))
         return torch.from_numpy(np.stack(points))
 
+    def encode(self, encoder: FrozenEncoder) -> EncodedContacts:
+        """Features with labels; the numbers are NaN.
 
-def read_inputs(
-    rows: Sequence[LabelledTouch], sensor: SensorSpec, background: Path | None
-) -> TouchInputs:
-    """Read touches and make the inputs of encoders.
+        Raises:
+            TouchError: A feature is not finite; it names the file.
+        """
+        inputs = self.frames if encoder.sees_images else self.points(encoder.sampling)
+        parts = [encoder.read(batch) for batch in inputs.split(64)]
+        pooled, feature = (torch.cat(part).float() for part in zip(*parts, strict=True))
+        is_finite = feature.isfinite().all(dim=1)
+        if not is_finite.all():
+            raise TouchError(
+                f"{self.files[int(is_finite.int().argmin())]}: its feature is not finite"
+            )
+        return EncodedContacts(
+            pooled=pooled,
+            feature=feature,
+            classes=self.labels,
+            numbers=torch.full((len(self.files), len(NUMBERS)), math.nan),
+            index=torch.arange(len(self.files)),
+        )
+
+    def write_predictions(self, path: Path, scores: Sequence[Tensor], measure: str) -> None:
+        """Write a CSV file: for each touch the best classes and their scores.
+
+        Args:
+            path: The file.
+            scores: Scores of each class by dimension, shape (N, classes).
+            measure: What scores are: ``cosine`` or ``probability``.
+
+        Raises:
+            UsageError: It can't be written.
+        """
+        columns: dict[str, list[str]] = {"file": [str(file) for file in self.files]}
+        for (slot, names), of_slot in zip(CLASSES.items(), scores, strict=True):
+            columns[slot] = [names[best] for best in of_slot.argmax(1).tolist()]
+        for slot, of_slot in zip(CLASSES, scores, strict=True):
+            columns[f"{slot}_{measure}"] = [f"{best:.3f}" for best in of_slot.amax(1).tolist()]
+        try:
+            with path.open("w", encoding="utf-8", newline="") as file:
+                writer = csv.writer(file)
+                writer.writerow(columns)
+                writer.writerows(zip(*columns.values(), strict=True))
+        except OSError as error:
+            raise UsageError(f"predictions can't be written to {path}: {error.strerror}") from None
+
+
+def read_touches(
+    folder: Path, table: Path, sensor: SensorSpec, background: Path | None = None
+) -> RealTouches:
+    """Read a table and its touches, and make the inputs of encoders.
+
+    Args:
+        folder: Folder of the touches.
+        table: CSV file of the labels.
+        sensor: The sensor that recorded the touches.
+        background: Frame of the untouched unit; ``background.png`` in the folder when not given.
 
     Raises:
+        UsageError: A file, column or label is wrong; it names file and row.
         TouchError: A file is no touch of this sensor.
     """
+    rows = [_labelled(folder, table, number, row) for number, row in _rows(table)]
+    if background is None and (folder / BACKGROUND).exists():
+        background = folder / BACKGROUND
     clouds, maps, frames = [], [], []
-    for row in rows:
-        is_frame = row.file.suffix.lower() in FRAME_SUFFIXES
-        untouched = background if is_frame else None
-        clouds.append(read_cloud(row.file, sensor, background=untouched))
-        heights = read_heights(row.file, sensor, background=untouched)
+    for path, _ in rows:
+        untouched = background if path.suffix.lower() in FRAME_SUFFIXES else None
+        clouds.append(read_cloud(path, sensor, background=untouched))
+        heights = read_heights(path, sensor, background=untouched)
         maps.append(heights - np.float32(np.median(heights)))
         frames.append(render(maps[-1], sensor))
-    return TouchInputs(clouds, maps, torch.stack(frames))
-
-
-def encode_touches(
-    encoder: FrozenEncoder, rows: Sequence[LabelledTouch], touches: TouchInputs
-) -> EncodedContacts:
-    """Features of touches with their labels; their numbers are NaN.
-
-    Raises:
-        TouchError: A feature is not finite; it names the file.
-    """
-    inputs = touches.frames if encoder.sees_images else touches.points(encoder.sampling)
-    parts = [encoder.read(batch) for batch in inputs.split(64)]
-    pooled, feature = (torch.cat(part).float() for part in zip(*parts, strict=True))
-    if not feature.isfinite().all():
-        row = int((~feature.isfinite().all(dim=1)).nonzero()[0, 0])
-        raise TouchError(f"{rows[row].file}: its feature is not finite")
-    return EncodedContacts(
-        pooled=pooled,
-        feature=feature,
-        classes=labels_of(rows),
-        numbers=torch.full((len(rows), len(NUMBERS)), math.nan),
-        index=torch.arange(len(rows)),
+    files, classes = zip(*rows, strict=True)
+    return RealTouches(
+        files=files,
+        labels=torch.tensor(classes),
+        clouds=clouds,
+        heights_mm=maps,
+        frames=torch.stack(frames),
     )
 
 
-def predict_touches(
-    rows: Sequence[LabelledTouch], scores: Sequence[Tensor], measure: str
-) -> TouchPredictions:
-    """Take the best class of every dimension.
-
-    Args:
-        rows: The touches.
-        scores: Scores of each class by dimension, shape (N, classes).
-        measure: What scores are: ``cosine`` or ``probability``.
-    """
-    predicted = torch.stack([of_dimension.argmax(1) for of_dimension in scores], dim=1)
-    lines = []
-    for number, row in enumerate(rows):
-        words, values = {}, {}
-        for column, (slot, names) in enumerate(CLASSES.items()):
-            best = int(predicted[number, column])
-            words[slot] = names[best]
-            values[f"{slot}_{measure}"] = f"{float(scores[column][number, best]):.3f}"
-        lines.append({"file": str(row.file), **words, **values})
-    return TouchPredictions(lines, score_classes(predicted, labels_of(rows)))
-
-
-def write_predictions(path: Path, predictions: TouchPredictions) -> None:
-    """Write a CSV file with a row for each touch.
-
-    Raises:
-        UsageError: It can't be written.
-    """
+def _rows(table: Path) -> Iterator[tuple[int, dict[str, str]]]:
+    """Rows of the table with their numbers in the file."""
     try:
-        with path.open("w", encoding="utf-8", newline="") as file:
-            writer = csv.DictWriter(file, fieldnames=list(predictions.rows[0]))
-            writer.writeheader()
-            writer.writerows(predictions.rows)
-    except OSError as error:
-        raise UsageError(f"predictions can't be written to {path}: {error.strerror}") from None
+        with table.open(encoding="utf-8-sig", newline="") as file:
+            reader = csv.DictReader(file)
+            names = [name.strip() for name in reader.fieldnames or []]
+            if set(names) != set(COLUMNS):
+                raise UsageError(
+                    f"{table} needs the columns {', '.join(COLUMNS)}, got {', '.join(names)}"
+                )
+            rows = [{(k or "").strip(): (v or "").strip() for k, v in r.items()} for r in reader]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise UsageError(f"labels can't be read from {table}: {error}") from None
+    if not rows:
+        raise UsageError(f"{table} has no rows")
+    return enumerate(rows, start=2)
+
+
+def _labelled(
+    folder: Path, table: Path, number: int, row: dict[str, str]
+) -> tuple[Path, list[int]]:
+    """File of a touch, and its class numbers, -1 where empty."""
+    path = folder / row["file"]
+    if not row["file"] or not path.is_file():
+        raise UsageError(f"{table}, row {number}: {path} does not exist")
+    for slot, names in CLASSES.items():
+        if row[slot] and row[slot] not in names:
+            raise UsageError(
+                f"{table}, row {number}: no {slot} {row[slot]!r}; known: {', '.join(names)}"
+            )
+    return path, [names.index(row[s]) if row[s] else -1 for s, names in CLASSES.items()]

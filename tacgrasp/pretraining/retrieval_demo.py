@@ -46,7 +46,7 @@ class RetrievalMatch:
     is_own: bool = False
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class RetrievalMatches:
     """What one query retrieved.
 
@@ -92,7 +92,6 @@ def find_matches(
     data = ContactDataset(run.data, split=split.split)
     captions = captions_of(data, encoded)
     if text is not None:
-        query, rank, among = text, None, len(encoded)
         matches = [
             RetrievalMatch(
                 text=captions[row],
@@ -102,27 +101,19 @@ def find_matches(
             )
             for row, cosine in nearest_contacts(towers, encoded, text, count)
         ]
-    else:
-        if contact not in encoded.index.tolist():
-            raise UsageError(
-                f"no contact {contact} in {split.name}; it has 0 to {int(encoded.index.max())}"
-            )
-        row, texts = encoded.index.tolist().index(contact), sorted(set(captions))
-        query, among = captions[row], len(texts)
-        nearest = nearest_texts(towers, encoded.feature[row], texts, among)
-        rank = [one for one, _ in nearest].index(query) + 1
-        matches = [
-            RetrievalMatch(text=one, cosine=cosine, is_own=one == query)
-            for one, cosine in nearest[:count]
-        ]
-    return RetrievalMatches(
-        query=query,
-        contact=contact,
-        rank=rank,
-        among=among,
-        split=split,
-        matches=matches,
-    )
+        return RetrievalMatches(text, None, None, len(encoded), split, matches)
+    if contact not in encoded.index.tolist():
+        raise UsageError(
+            f"no contact {contact} in {split.name}; it has 0 to {int(encoded.index.max())}"
+        )
+    row, texts = encoded.index.tolist().index(contact), sorted(set(captions))
+    nearest = nearest_texts(towers, encoded.feature[row], texts, len(texts))
+    rank = [one for one, _ in nearest].index(captions[row]) + 1
+    matches = [
+        RetrievalMatch(text=one, cosine=cosine, is_own=one == captions[row])
+        for one, cosine in nearest[:count]
+    ]
+    return RetrievalMatches(captions[row], contact, rank, len(texts), split, matches)
 
 
 def print_matches(matches: RetrievalMatches, console: Console) -> None:

@@ -35,7 +35,10 @@ def make_rig(config: RunConfig) -> Rig:
         _check_object(config)
         return emulated_rig.start(config, config.hardware)
     if config.gripper.first_force_n is None:
-        raise UsageError("a rig of real devices needs gripper.first_force_n")
+        raise UsageError(
+            "a rig of real devices needs gripper.first_force_n, the largest commanded force until "
+            "something is felt [N]"
+        )
     return hardware_rig.connect(config, config.hardware, config.gripper.first_force_n)
 
 

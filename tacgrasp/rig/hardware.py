@@ -154,14 +154,20 @@ def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor
     return connect_driver(rng=rng)
 
 
-def device_findings(hardware: HardwareConfig) -> list[Finding]:
-    """Check arm, gripper and sensor for ``tacgrasp doctor``; nothing moves."""
+def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> list[Finding]:
+    """Check arm, gripper and sensor for ``tacgrasp doctor``; nothing moves.
+
+    Args:
+        hardware: The devices.
+        first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
+    """
     from tacgrasp.drivers.dynamixel import gripper
     from tacgrasp.drivers.ur import preflight
 
     _, check_sensor = _sensor_driver(hardware.sensor)
     arm_findings = preflight.check(hardware.arm)
-    return [*arm_findings, *gripper.check(hardware.gripper), *check_sensor()]
+    gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
+    return [*arm_findings, *gripper_findings, *check_sensor()]
 
 
 def _sensor_driver(settings: SensorSettings) -> _SensorDriver:

@@ -10,7 +10,6 @@ Not here: how pairs are chosen (``tacgrasp.lessons.instruction_pairs``), printin
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +28,7 @@ from cltp.evaluation.geometric_baseline import predict_geometrically, unscaled
 from cltp.evaluation.llm_scores import predict_by_captions, score_answers
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.retrieval import score_image_retrieval
-from cltp.evaluation.scores import Predictions, median_errors, score_classes
+from cltp.evaluation.scores import Predictions, best_classes, median_errors, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
@@ -39,7 +38,7 @@ from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, Policy, PolicyError
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
+from tacgrasp.lessons.answer_scoring import is_right, read_numbers
 from tacgrasp.lessons.exchanges import BLIND
 from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instruction_pairs import (
@@ -49,49 +48,24 @@ from tacgrasp.lessons.instruction_pairs import (
     choose_pairs,
     choose_paraphrases,
     counts,
-    share,
+    fraction,
 )
 from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS
 from tacgrasp.policy_factory import load_llm
+from tacgrasp.training.requests import EvaluationRequest
 
 KINDS = ("clear", "any")
 """Contacts whose answer noise does not decide, and any."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Sizes:
-    """Sizes of the evaluation.
-
-    Attributes:
-        captions: Number of contacts to describe.
-        answers: Number of contacts to ask about; each slot once in every set of wordings.
-        pairs: Number of instruction pairs.
-        per_wording: Number of contacts for each paraphrase.
-    """
-
-    captions: int = 500
-    answers: int = 150
-    pairs: int = 200
-    per_wording: int = 8
-
-
 def evaluate(
-    weights: Path,
-    data_dir: Path,
-    *,
-    blind: Path | None = None,
-    sizes: Sizes | None = None,
-    seed: int = 0,
-    report: ProgressReport = silent,
+    weights: Path, request: EvaluationRequest, report: ProgressReport = silent
 ) -> dict[str, Any]:
     """Measure everything.
 
     Args:
         weights: Folder of weights.
-        data_dir: Contacts; the test split is used.
-        blind: Folder of an instruction-blind copy.
-        sizes: Number of contacts, questions and instructions.
-        seed: Seed of contacts, noise and wordings.
+        request: Contacts, of which the test split is used, and what is measured on how many.
         report: Receives the progress.
 
     Returns:
@@ -103,33 +77,33 @@ def evaluate(
         TouchError: Weights or data can't be used.
     """
     disable_progress_bar()  # of reading weights, over in milliseconds
-    sizes = sizes or Sizes()
-    data = ContactDataset(data_dir, split=Split.TEST)
+    blind, seed = request.blind, request.seed
+    data = ContactDataset(request.data, split=Split.TEST)
     policy = load_llm(weights)
     encoder, heads = load_encoder(weights / "encoder")
     towers = load_clip(weights / "clip")
     cases = _CaseEvaluation(
         data, policy, load_llm(blind) if blind is not None else None, seed, report
     )
-    described = random_batches(data, sizes.captions, NOISY, seed=seed)
+    described = random_batches(data, request.captions, NOISY, seed=seed)
     encoded = encode_batches(frozen(encoder), described)
     predictions = {
         "llm": predict_by_captions(
             _ReportedTalker(policy.talker, "captions", len(encoded), report),
             described,
-            numbers_said,
+            read_numbers,
         ),
         "heads": predict_with_heads(heads.eval(), encoded),
         "geometric_baseline": predict_geometrically(data, described),
     }
     states = [state for batch in described for state in batch.states]
-    zero_shot = score_classes(ClassPrompts(towers).classes(encoded.feature), encoded.classes)
-    asked = random_batches(data, sizes.answers, NOISY, seed=seed + 1)
+    prompted = best_classes(ClassPrompts(towers).cosines(encoded.feature))
+    asked = random_batches(data, request.answers, NOISY, seed=seed + 1)
     return {
         "weights": str(weights),
         "blind": str(blind) if blind is not None else None,
-        "data": str(data_dir),
-        "data_checksum": ContactDataset(data_dir).checksum(),
+        "data": str(request.data),
+        "data_checksum": ContactDataset(request.data).checksum(),
         "seed": seed,
         "captions": {"contacts": len(encoded)}
         | {name: _accuracy(one, encoded.classes, name) for name, one in predictions.items()},
@@ -141,9 +115,9 @@ def evaluate(
             "held_out": _answers(policy.talker, asked, HELD_OUT, "held-out questions", report),
             "trained": _answers(policy.talker, asked, QUESTIONS, "trained questions", report),
         },
-        "instruction_pairs": {kind: cases.pairs(sizes.pairs, kind) for kind in KINDS},
-        "paraphrases": {kind: cases.paraphrases(sizes.per_wording, kind) for kind in KINDS},
-        "zero_shot": _plain(zero_shot.accuracy),
+        "instruction_pairs": {kind: cases.pairs(request.pairs, kind) for kind in KINDS},
+        "paraphrases": {kind: cases.paraphrases(request.per_wording, kind) for kind in KINDS},
+        "zero_shot": _plain(score_classes(prompted, encoded.classes).accuracy),
         "clip_retrieval": _plain(score_image_retrieval(towers, data, described)),
     }
 
@@ -171,7 +145,7 @@ def _answers(
 ) -> dict[str, float | None]:
     total = sum(len(batch.states) for batch in samples) * len(wordings)
     reported = _ReportedTalker(talker, stage, total, report)
-    accuracy = dict(score_answers(reported, samples, wordings, answers_right))
+    accuracy = dict(score_answers(reported, samples, wordings, is_right))
     return _plain(accuracy | {"mean": float(np.mean(list(accuracy.values())))})
 
 
@@ -276,7 +250,7 @@ def _accuracy(predictions: Predictions, labels: Tensor, name: str) -> dict[str, 
 
 
 def _fractions(right: Mapping[str, NDArray[np.bool_]]) -> dict[str, float | None]:
-    return _plain({name: share(mask) for name, mask in right.items()})
+    return _plain({name: fraction(mask) for name, mask in right.items()})
 
 
 def _plain(values: Mapping[str, float]) -> dict[str, float | None]:

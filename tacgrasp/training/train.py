@@ -33,6 +33,7 @@ from cltp.train.progress import Bar
 from cltp.train.stage import TrainingRun
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
+from tacgrasp.datasets.requests import GenerateRequest
 from tacgrasp.lessons.exchanges import TouchLessons
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
@@ -65,7 +66,7 @@ def train_all(
         TouchError: Data, weights or a checkpoint can't be used.
     """
     _require_mark(out, blind=False)
-    generate(data, contacts=contacts, seed=seed)
+    generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
     methods = out / ".training" / "methods"
     command = f"tacgrasp train all --contacts {contacts} --seed {seed}"
     with pretraining_run(methods, data, seed=seed, command=command, threads=threads) as run:
@@ -121,7 +122,7 @@ def train_language_model(
         take_encoder(blind_of, out)
     _require_mark(out, blind=blind_of is not None)
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
-    generate(data, contacts=contacts, seed=seed)
+    generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
     torch.set_num_threads(threads or os.cpu_count() or 1)
     words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
     lessons = TouchLessons(blind=blind_of is not None)

@@ -57,9 +57,9 @@ class PolicyContract:
 
     def test_action_and_success_are_what_extraction_reads_in_the_text(self, policy):
         for decision in self.decide_all(policy):
-            found = extract(decision.text)
-            assert decision.action in (found.action, None)  # a policy may abstain
-            assert decision.success in (found.success, False)
+            extraction = extract(decision.text)
+            assert decision.action in (extraction.action, None)  # a policy may abstain
+            assert decision.success in (extraction.success, False)
 
     def test_a_fresh_policy_decides_the_same(self, policy):
         def as_tuples(decisions):

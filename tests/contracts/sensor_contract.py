@@ -10,7 +10,17 @@ from cltp.tactile.cloud import NUM_POINTS
 
 
 class SensorContract:
-    """Subclass as Test... and give a fixture ``sensor`` that yields a connected sensor."""
+    """Subclass as Test... and give a fixture ``sensor`` that yields a connected sensor.
+
+    Where something touches that sensor, ``untouched_sensor`` yields another one that nothing does.
+    """
+
+    flat_mm = 0.02
+    """Largest root mean square of the heights of an untouched gel after a reference [mm]."""
+
+    @pytest.fixture
+    def untouched_sensor(self, sensor):
+        return sensor
 
     def test_a_cloud_has_1024_points_of_this_sensor_in_its_field(self, sensor):
         cloud = sensor.read()
@@ -32,6 +42,17 @@ class SensorContract:
     def test_a_cloud_can_not_be_changed(self, sensor):
         with pytest.raises(ValueError):
             sensor.read().points_mm[0, 0] = 1.0
+
+    def test_after_a_reference_and_after_another_an_untouched_gel_is_flat(self, untouched_sensor):
+        for _ in range(2):
+            untouched_sensor.take_reference()
+            heights_mm = untouched_sensor.read().points_mm[:, 2]
+            assert np.sqrt(np.mean(heights_mm**2)) < self.flat_mm
+
+    def test_a_disconnected_sensor_takes_no_reference(self, sensor):
+        sensor.disconnect()
+        with pytest.raises(TouchError):
+            sensor.take_reference()
 
     def test_a_disconnected_sensor_refuses_instead_of_answering_with_an_old_cloud(self, sensor):
         sensor.read()

@@ -15,14 +15,34 @@ from tacgrasp.drivers.taxels.settings import TaxelSettings
 from tests.contracts.sensor_contract import SensorContract
 
 
+class TiltedGel:
+    """An untouched gel with a tilt of 0.3 mm and 5 µm of noise; a ``HeightSource``."""
+
+    def __init__(self, rows, columns):
+        self._tilt_mm = np.linspace(-0.15, 0.15, columns) * np.ones((rows, 1))
+        self._rng = np.random.default_rng(0)
+
+    def height_mm(self):
+        noise_mm = self._rng.normal(0, 0.005, self._tilt_mm.shape)
+        return (self._tilt_mm + noise_mm).astype(np.float32)
+
+
 class TestTaxelArrayOnAPty(SensorContract):
-    @pytest.fixture
-    def sensor(self, tmp_path):
-        emulator = TaxelEmulator(PressedBall(75, 100), link=tmp_path / "array")
+    @staticmethod
+    def connected(source, link):
+        emulator = TaxelEmulator(source, link=link)
         array = connect_taxels(TaxelSettings(port=emulator.port, read_timeout_s=2.0))
         yield array
         array.disconnect()
         emulator.close()
+
+    @pytest.fixture
+    def sensor(self, tmp_path):
+        yield from self.connected(PressedBall(75, 100), tmp_path / "array")
+
+    @pytest.fixture
+    def untouched_sensor(self, tmp_path):
+        yield from self.connected(TiltedGel(75, 100), tmp_path / "untouched")
 
 
 @pytest.fixture(scope="module")

@@ -29,6 +29,10 @@ class TestSimulatedSensor(SensorContract):
         rig.gripper.grip(1.0)
         return rig.sensor
 
+    @pytest.fixture
+    def untouched_sensor(self):
+        return build("strawberry", 1).sensor
+
 
 class TestSimulatedSensorOfAnUntouchedGel(SensorContract):
     @pytest.fixture

@@ -1,9 +1,13 @@
 """Cheap contacts for tests of learning: bodies pressed into a blurred surface. No mechanics."""
 
+from collections.abc import Mapping
+from pathlib import Path
+
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from cltp.data.contact import Contact, Split
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     ContactState,
@@ -139,3 +143,12 @@ def fake_contact(
         split=split,
         seed=seed,
     )
+
+
+def write_contacts(folder: Path, seeds: Mapping[Split, range]) -> Path:
+    """A data set of fake contacts, by the splits that they belong to."""
+    with DatasetWriter(folder) as writer:
+        for split, numbers in seeds.items():
+            for seed in numbers:
+                writer.add(fake_contact(seed, split=split))
+    return folder

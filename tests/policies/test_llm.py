@@ -22,8 +22,8 @@ from policies.llm import (
     LlmPolicy,
     as_request,
     check_instruction,
-    going_in_circles,
-    held_because,
+    hold_reason,
+    repeated_moves,
 )
 from primitives import Primitive
 
@@ -74,7 +74,7 @@ def reply(text: str, action: str | None, chance: float = 0.9, *, ended: bool = T
 
 
 @pytest.mark.parametrize(
-    ("said", "reason"),
+    ("answer", "reason"),
     [
         (reply("Action: <move_up>. It is off", "<move_up>", ended=False), "did not end"),
         (reply("The the the.", None), "comes to no action"),
@@ -83,20 +83,22 @@ def reply(text: str, action: str | None, chance: float = 0.9, *, ended: bool = T
         (reply("Action: <none>. Move up.", "<none>"), None),
     ],
 )
-def test_nothing_is_done_about_a_reply_that_does_not_stand(said: Reply, reason: str | None) -> None:
-    found = extract(said.text)
-    held = held_because(said, found, 0.5)
+def test_nothing_is_done_about_a_reply_that_does_not_stand(
+    answer: Reply, reason: str | None
+) -> None:
+    extraction = extract(answer.text)
+    held = hold_reason(answer, extraction, 0.5)
     if reason is None:  # extraction itself calls this one ambiguous
-        assert found.action is None
-        assert not found.success
+        assert extraction.action is None
+        assert not extraction.success
     else:
         assert reason in held
 
 
 @pytest.mark.parametrize("action", ACTIONS)
 def test_a_clear_reply_stands(action: str) -> None:
-    said = reply(f"smooth sphere, deep 0.70 mm. Action: {action}. It is so.", action)
-    assert held_because(said, extract(said.text), 0.5) == ""
+    answer = reply(f"smooth sphere, deep 0.70 mm. Action: {action}. It is so.", action)
+    assert hold_reason(answer, extract(answer.text), 0.5) == ""
 
 
 def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) -> None:
@@ -173,7 +175,7 @@ def test_missing_weights_say_what_to_do(tmp_path: Path) -> None:
     ],
 )
 def test_a_move_and_its_undoing_ban_both_and_nothing_else(moves, banned):
-    assert going_in_circles([Primitive(move) for move in moves]) == banned
+    assert repeated_moves([Primitive(move) for move in moves]) == banned
 
 
 def test_an_instruction_worded_as_a_question_is_no_question() -> None:

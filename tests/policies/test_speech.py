@@ -15,23 +15,23 @@ from policies.speech import (
     describe,
     speak,
 )
-from policies.teacher import Advice, Why
+from policies.teacher import Advice, Reason
 from primitives import Primitive
 from tests.policies.test_teacher import GOAL, NOTHING, TOUCHES, advise, touch
 
 ADVICE = [
-    *((Advice(action=p, success=False, why=Why.TOO_FIRM), w) for p in Primitive
+    *((Advice(action=p, success=False, reason=Reason.TOO_FIRM), w) for p in Primitive
       for w in ACTION_WORDINGS[p]),
-    *((Advice(action=None, success=True, why=Why.GOOD), w) for w in SUCCESS_WORDINGS),
-    (Advice(action=None, success=False, why=Why.BAND_TOO_NARROW), ""),
+    *((Advice(action=None, success=True, reason=Reason.GOOD), w) for w in SUCCESS_WORDINGS),
+    (Advice(action=None, success=False, reason=Reason.BAND_TOO_NARROW), ""),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize("reason", [r for rs in REASON_WORDINGS.values() for r in rs])
 def test_every_advice_in_every_wording_reads_back_after_every_reason(reason):
     for advice, wording in ADVICE:
-        found = extract(f"{reason} {wording}")
-        assert (found.action, found.success) == (advice.action, advice.success), wording
+        extraction = extract(f"{reason} {wording}")
+        assert (extraction.action, extraction.success) == (advice.action, advice.success), wording
 
 
 @pytest.mark.parametrize("template", [*CONTACT_WORDINGS, *NO_CONTACT_WORDINGS])
@@ -41,24 +41,24 @@ def test_every_advice_in_every_wording_reads_back_after_every_contact(template):
         x="-8.0", y="+6.1", share="2", force="1.4",
     )  # fmt: skip
     for advice, wording in ADVICE:
-        found = extract(f"{contact} {wording}")
-        assert (found.action, found.success) == (advice.action, advice.success), wording
+        extraction = extract(f"{contact} {wording}")
+        assert (extraction.action, extraction.success) == (advice.action, advice.success), wording
 
 
 @given(st.one_of(st.just(NOTHING), TOUCHES), st.integers(0, 2**32 - 1))
 def test_whatever_is_felt_the_teachers_words_read_back_to_its_advice(state, seed):
     advice = advise(state, GOAL)
     for text in (speak(state, advice), speak(state, advice, np.random.default_rng(seed))):
-        found = extract(text)
-        assert (found.action, found.success) == (advice.action, advice.success), text
+        extraction = extract(text)
+        assert (extraction.action, extraction.success) == (advice.action, advice.success), text
 
 
 @given(TOUCHES, st.integers(0, 2**32 - 1))
 def test_the_action_as_a_token_at_the_end_says_the_same(state, seed):
     advice = advise(state, GOAL)
     token = "none" if advice.action is None else advice.action
-    found = extract(f"{speak(state, advice, np.random.default_rng(seed))} Action: <{token}>.")
-    assert (found.action, found.success) == (advice.action, advice.success)
+    extraction = extract(f"{speak(state, advice, np.random.default_rng(seed))} Action: <{token}>.")
+    assert (extraction.action, extraction.success) == (advice.action, advice.success)
 
 
 def test_there_are_at_least_eight_wordings_of_each_advice_and_no_two_alike():
@@ -73,8 +73,8 @@ def test_each_success_uses_one_of_the_four_descriptors():
 
 
 def test_the_contact_is_said_in_words_and_numbers():
-    said = describe(touch(x=1.25, y=-5, depth=0.42, share=0.05, force=1.26))
-    assert said == (
+    text = describe(touch(x=1.25, y=-5, depth=0.42, share=0.05, force=1.26))
+    assert text == (
         "The contact is moderate (0.42 mm) at the bottom-center (+1.2, -5.0 mm), its area is small "
         "(5 % of the pad), the force is about 1.3 N."
     )

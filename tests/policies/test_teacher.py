@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies.goal import Band, Goal
-from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_SHARE, Advice, Why, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_FRACTION, Advice, Reason, teacher
 from primitives import Primitive
 from primitives.execution import INCREASE_FACTOR
 from primitives.primitive import PAD_DIRECTION
@@ -58,36 +58,36 @@ TOUCHES = st.builds(
 
 
 @pytest.mark.parametrize(
-    ("state", "action", "why"),
+    ("state", "action", "reason"),
     [
-        (NOTHING, Primitive.RESET, Why.NO_CONTACT),
-        (touch(y=-7, share=0.003, cut=[Side.BOTTOM]), Primitive.RESET, Why.OVER_THE_EDGE),
-        (touch(y=-7, share=0.005, cut=[Side.BOTTOM]), Primitive.MOVE_DOWN, Why.OFF_CENTER),
-        (touch(y=-5), Primitive.MOVE_DOWN, Why.OFF_CENTER),
-        (touch(y=5), Primitive.MOVE_UP, Why.OFF_CENTER),
-        (touch(x=-5), Primitive.MOVE_LEFT, Why.OFF_CENTER),
-        (touch(x=5), Primitive.MOVE_RIGHT, Why.OFF_CENTER),
+        (NOTHING, Primitive.RESET, Reason.NO_CONTACT),
+        (touch(y=-7, share=0.003, cut=[Side.BOTTOM]), Primitive.RESET, Reason.OVER_THE_EDGE),
+        (touch(y=-7, share=0.005, cut=[Side.BOTTOM]), Primitive.MOVE_DOWN, Reason.OFF_CENTER),
+        (touch(y=-5), Primitive.MOVE_DOWN, Reason.OFF_CENTER),
+        (touch(y=5), Primitive.MOVE_UP, Reason.OFF_CENTER),
+        (touch(x=-5), Primitive.MOVE_LEFT, Reason.OFF_CENTER),
+        (touch(x=5), Primitive.MOVE_RIGHT, Reason.OFF_CENTER),
         # Excess over half-width: x (5 - 2.5) / 2.5 = 1, y (4.5 - 2) / 2 = 1.25.
-        (touch(x=5, y=4.5), Primitive.MOVE_UP, Why.OFF_CENTER),
-        (touch(x=6, y=4.5), Primitive.MOVE_RIGHT, Why.OFF_CENTER),
-        (touch(force=2.1), Primitive.DECREASE_FORCE, Why.TOO_FIRM),
-        (touch(depth=0.61), Primitive.DECREASE_FORCE, Why.TOO_FIRM),
-        (touch(share=0.61), Primitive.DECREASE_FORCE, Why.TOO_FIRM),
-        (touch(force=0.9), Primitive.INCREASE_FORCE, Why.TOO_LIGHT),
-        (touch(share=0.04, force=1.2), Primitive.INCREASE_FORCE, Why.TOO_LIGHT),
-        (touch(depth=0.09, force=1.2), Primitive.INCREASE_FORCE, Why.TOO_LIGHT),
-        (touch(y=1.8, cut=[Side.TOP]), Primitive.MOVE_UP, Why.CUT),
-        (touch(x=-2, cut=[Side.LEFT]), Primitive.MOVE_LEFT, Why.CUT),
+        (touch(x=5, y=4.5), Primitive.MOVE_UP, Reason.OFF_CENTER),
+        (touch(x=6, y=4.5), Primitive.MOVE_RIGHT, Reason.OFF_CENTER),
+        (touch(force=2.1), Primitive.DECREASE_FORCE, Reason.TOO_FIRM),
+        (touch(depth=0.61), Primitive.DECREASE_FORCE, Reason.TOO_FIRM),
+        (touch(share=0.61), Primitive.DECREASE_FORCE, Reason.TOO_FIRM),
+        (touch(force=0.9), Primitive.INCREASE_FORCE, Reason.TOO_LIGHT),
+        (touch(share=0.04, force=1.2), Primitive.INCREASE_FORCE, Reason.TOO_LIGHT),
+        (touch(depth=0.09, force=1.2), Primitive.INCREASE_FORCE, Reason.TOO_LIGHT),
+        (touch(y=1.8, cut=[Side.TOP]), Primitive.MOVE_UP, Reason.CUT),
+        (touch(x=-2, cut=[Side.LEFT]), Primitive.MOVE_LEFT, Reason.CUT),
     ],
 )
-def test_each_contact_gets_the_advice_worked_out_by_hand(state, action, why):
+def test_each_contact_gets_the_advice_worked_out_by_hand(state, action, reason):
     advice = advise(state, GOAL)
-    assert (advice.action, advice.success, advice.why) == (action, False, why)
+    assert (advice.action, advice.success, advice.reason) == (action, False, reason)
 
 
 def test_a_contact_inside_every_band_is_success_without_action():
     advice = advise(touch(), GOAL)
-    assert (advice.action, advice.success, advice.why) == (None, True, Why.GOOD)
+    assert (advice.action, advice.success, advice.reason) == (None, True, Reason.GOOD)
 
 
 def test_the_papers_example_is_followed():
@@ -105,15 +105,19 @@ def test_too_firm_comes_before_moving_and_moving_before_too_light():
 def test_an_increase_that_would_overshoot_is_not_advised():
     narrow = replace(GOAL, force_n=Band(low=1.0, high=1.2))
     advice = advise(touch(force=0.95), narrow)  # 0.95 * 1.5 = 1.425 > 1.2
-    assert (advice.action, advice.success, advice.why) == (None, False, Why.BAND_TOO_NARROW)
+    assert (advice.action, advice.success, advice.reason) == (
+        None,
+        False,
+        Reason.BAND_TOO_NARROW,
+    )
     assert advise(touch(force=0.79), narrow).action is Primitive.INCREASE_FORCE  # 1.185
     deep = touch(force=0.9, depth=0.47)  # 0.47 * 1.5^(2/3) = 0.616 > 0.6
-    assert advise(deep, GOAL).why is Why.BAND_TOO_NARROW
+    assert advise(deep, GOAL).reason is Reason.BAND_TOO_NARROW
 
 
 def test_a_move_that_would_not_come_nearer_is_not_advised():
     narrow = replace(GOAL, x_mm=Band(low=-1, high=1))
-    assert advise(touch(x=1.4), narrow).why is Why.BAND_TOO_NARROW  # would come to -1.6
+    assert advise(touch(x=1.4), narrow).reason is Reason.BAND_TOO_NARROW  # would come to -1.6
     assert advise(touch(x=1.6), narrow).action is Primitive.MOVE_RIGHT  # comes to -1.4
 
 
@@ -167,7 +171,7 @@ def test_two_moves_never_undo_each_other(y, cut):
 
 
 def test_the_sliver_is_a_millimetre_or_so_of_a_gelsight_mini():
-    assert SLIVER_SHARE * sensor_named("gelsight_mini").area_mm2 == pytest.approx(1.2, abs=0.1)
+    assert SLIVER_FRACTION * sensor_named("gelsight_mini").area_mm2 == pytest.approx(1.2, abs=0.1)
 
 
 def test_the_length_of_a_step_decides_whether_a_move_helps():
@@ -176,4 +180,4 @@ def test_the_length_of_a_step_decides_whether_a_move_helps():
     assert teacher(state, narrow, move_step_mm=3.0).action is Primitive.MOVE_RIGHT
     for step_mm in (4.0, 5.0):
         advice = teacher(state, narrow, move_step_mm=step_mm)
-        assert (advice.action, advice.why) == (None, Why.BAND_TOO_NARROW)
+        assert (advice.action, advice.reason) == (None, Reason.BAND_TOO_NARROW)

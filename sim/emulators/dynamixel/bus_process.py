@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
 from contextlib import closing
 
 from sim.emulators.dynamixel import control_table as at
@@ -34,11 +33,10 @@ class DynamixelEmulator:
         load: GripLoad | None = None,
         options: ServoOptions | None = None,
         linkage: Linkage | None = None,
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Start with open fingers and torque off."""
         options, linkage = options or ServoOptions(), linkage or Linkage()
-        self._clock, self._lock = clock, threading.RLock()
+        self._lock = threading.RLock()
         self._servos = [
             EmulatedServo(
                 MODELS[options.model],
@@ -49,10 +47,10 @@ class DynamixelEmulator:
             )
             for servo_id in range(1, options.num_servos + 1)
         ]
-        self._fingers = Fingers(self._servos, linkage, load or SpringLoad(), self._lock, clock())
-        self._fingers.step(clock())
+        self._fingers = Fingers(self._servos, linkage, load or SpringLoad(), self._lock)
+        self._fingers.step(time.monotonic())
         self._wire, self._reader = Wire(), protocol.PacketReader()
-        self._faults = BusFaults(self._servos, self._wire, clock)
+        self._faults = BusFaults(self._servos, self._wire)
         self._late: list[tuple[float, bytes]] = []
         self._instructions = 0
         self._ended = threading.Event()
@@ -78,7 +76,7 @@ class DynamixelEmulator:
 
     def facts(self) -> Facts:
         with self._lock:
-            self._fingers.step(self._clock())
+            self._fingers.step(time.monotonic())
             first = self._servos[0]
             return {
                 "injected_ago_ms": self._faults.injected_ago_ms(),
@@ -116,12 +114,12 @@ class DynamixelEmulator:
                     self._receive(data)
 
     def _wait_s(self) -> float:
-        now_s = self._clock()
+        now_s = time.monotonic()
         wait_s = _BUSY_S if self._fingers.busy else _IDLE_S
         return max(0.0, min([wait_s, *(due_s - now_s for due_s, _ in self._late)]))
 
     def _pass_time(self) -> None:
-        now_s = self._clock()
+        now_s = time.monotonic()
         self._fingers.step(now_s)
         for servo in self._servos:
             servo.check_watchdog(now_s)
@@ -137,11 +135,11 @@ class DynamixelEmulator:
         for instruction in self._reader.feed(data):
             self._instructions += 1
             for servo in self._servos:
-                servo.feed_watchdog(self._clock())
+                servo.feed_watchdog(time.monotonic())
             for reply in self._execute(instruction):
                 delay_s, output = self._faults.apply(reply)
                 if delay_s > 0:
-                    self._late.append((self._clock() + delay_s, output))
+                    self._late.append((time.monotonic() + delay_s, output))
                 else:
                     self._wire.write(output)
 
@@ -166,7 +164,7 @@ class DynamixelEmulator:
         error, data, written = servo.execute(code, parameters)
         if written:
             self._fingers.on_written(written)
-            self._fingers.step(self._clock())
+            self._fingers.step(time.monotonic())
         return self._status(servo, error, data)
 
     def _status(self, servo: EmulatedServo, error: int, data: bytes = b"") -> bytes:

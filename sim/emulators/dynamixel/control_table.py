@@ -49,57 +49,36 @@ class Register:
 
 _R, _E, _W = RegisterAccess.READ_ONLY, RegisterAccess.EEPROM, RegisterAccess.RAM
 _REGISTERS: dict[int, Register] = {
-    MODEL: Register(2, _R),
-    2: Register(4, _R),
-    FIRMWARE: Register(1, _R),
+    **dict.fromkeys((FIRMWARE, 69, HARDWARE_ERROR, MOVING, 123, TEMPERATURE), Register(1, _R)),
+    **dict.fromkeys((MODEL, 120, VOLTAGE), Register(2, _R)),
+    **dict.fromkeys((2, 136, 140), Register(4, _R)),
     ID: Register(1, _E, 0, 252),
     BAUD: Register(1, _E, 0, 6),
     9: Register(1, _E, 0, 254),
     10: Register(1, _E, 0, 13),
     MODE: Register(1, _E, 0, 16),
-    12: Register(1, _E, 0, 255),
+    **dict.fromkeys((12, SHUTDOWN), Register(1, _E, 0, 255)),
     13: Register(1, _E, 1, 22),
     20: Register(4, _E, -1044479, 1044479),
     MOVING_THRESHOLD: Register(4, _E, 0, 1023),
     MAX_TEMPERATURE: Register(1, _E, 0, 100),
-    MAX_VOLTAGE: Register(2, _E, 31, 160),
-    MIN_VOLTAGE: Register(2, _E, 31, 160),
+    **dict.fromkeys((MAX_VOLTAGE, MIN_VOLTAGE), Register(2, _E, 31, 160)),
     36: Register(2, _E, 0, 885),
     CURRENT_LIMIT: Register(2, _E),
     VELOCITY_LIMIT: Register(4, _E, 0, 2047),
-    MAX_POSITION: Register(4, _E, 0, 4095),
-    MIN_POSITION: Register(4, _E, 0, 4095),
-    SHUTDOWN: Register(1, _E, 0, 255),
-    TORQUE: Register(1, _W, 0, 1),
-    65: Register(1, _W, 0, 1),
+    **dict.fromkeys((MAX_POSITION, MIN_POSITION), Register(4, _E, 0, 4095)),
+    **dict.fromkeys((TORQUE, 65), Register(1, _W, 0, 1)),
     68: Register(1, _W, 0, 2),
-    69: Register(1, _R),
-    HARDWARE_ERROR: Register(1, _R),
-    76: Register(2, _W, 0, 16383),
-    78: Register(2, _W, 0, 16383),
-    80: Register(2, _W, 0, 16383),
-    82: Register(2, _W, 0, 16383),
-    84: Register(2, _W, 0, 16383),
-    88: Register(2, _W, 0, 16383),
-    90: Register(2, _W, 0, 16383),
+    **dict.fromkeys((76, 78, 80, 82, 84, 88, 90), Register(2, _W, 0, 16383)),
     WATCHDOG: Register(1, _W, 0, 127),
     GOAL_PWM: Register(2, _W, -885, 885),
     GOAL_CURRENT: Register(2, _W, -32768, 32767),
     GOAL_VELOCITY: Register(4, _W, -2047, 2047),
-    108: Register(4, _W, 0, 32767),
-    PROFILE_VELOCITY: Register(4, _W, 0, 32767),
+    **dict.fromkeys((108, PROFILE_VELOCITY), Register(4, _W, 0, 32767)),
     GOAL_POSITION: Register(4, _W, -1048575, 1048575),
-    120: Register(2, _R),
-    MOVING: Register(1, _R),
-    123: Register(1, _R),
     124: Register(2, _R, -885, 885),
     PRESENT_CURRENT: Register(2, _R, -32768, 32767),
-    PRESENT_VELOCITY: Register(4, _R, -(2**31), 2**31 - 1),
-    PRESENT_POSITION: Register(4, _R, -(2**31), 2**31 - 1),
-    136: Register(4, _R),
-    140: Register(4, _R),
-    VOLTAGE: Register(2, _R),
-    TEMPERATURE: Register(1, _R),
+    **dict.fromkeys((PRESENT_VELOCITY, PRESENT_POSITION), Register(4, _R, -(2**31), 2**31 - 1)),
 }
 
 
@@ -168,12 +147,6 @@ class ControlTable:
     def __init__(self, model: EmulatedServoModel, servo_id: int, baud: int, mode: int) -> None:
         self._registers = dict(_REGISTERS)
         self._memory = bytearray(_SIZE)
-        if model.current_limit is None:
-            del self._registers[CURRENT_LIMIT], self._registers[GOAL_CURRENT]
-        else:
-            self._registers[CURRENT_LIMIT] = Register(
-                2, RegisterAccess.EEPROM, 0, model.current_limit
-            )
         low_v, high_v = model.volt_limits
         factory = {
             MODEL: model.number,
@@ -194,7 +167,10 @@ class ControlTable:
             VOLTAGE: round(10 * model.volts),
             TEMPERATURE: 34,
         }
-        if model.current_limit is not None:
+        if model.current_limit is None:
+            del self._registers[CURRENT_LIMIT], self._registers[GOAL_CURRENT]
+        else:
+            self._registers[CURRENT_LIMIT] = Register(2, _E, 0, model.current_limit)
             factory[CURRENT_LIMIT] = model.current_limit
         for address, value in factory.items():
             self[address] = value
@@ -202,9 +178,8 @@ class ControlTable:
 
     def start_up(self) -> None:
         """Reset the volatile registers, as after switching on."""
-        for address, value in ((68, 2), (GOAL_PWM, 885), (TORQUE, 0), (HARDWARE_ERROR, 0)):
-            self[address] = value
-        for address in (WATCHDOG, GOAL_VELOCITY, PROFILE_VELOCITY, 108):
+        self[68], self[GOAL_PWM] = 2, 885
+        for address in (TORQUE, HARDWARE_ERROR, WATCHDOG, GOAL_VELOCITY, PROFILE_VELOCITY, 108):
             self[address] = 0
         if GOAL_CURRENT in self._registers:
             self[GOAL_CURRENT] = self[CURRENT_LIMIT]
@@ -250,12 +225,9 @@ class ControlTable:
 
     def _refusal(self, address: int, value: int) -> int:
         register = self._registers[address]
-        if register.access is RegisterAccess.READ_ONLY:
-            return NO_ACCESS
-        if register.access is RegisterAccess.EEPROM and self[TORQUE]:
-            return NO_ACCESS
-        tripped = self[WATCHDOG] == 0xFF
-        if tripped and address in (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION):
+        locked = register.access is _R or (register.access is _E and self[TORQUE])
+        is_goal = address in (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION)
+        if locked or (is_goal and self[WATCHDOG] == 0xFF):
             return NO_ACCESS
         if not register.low <= value <= register.high:
             return OUT_OF_RANGE

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import time
+from collections.abc import Mapping, Sequence
 
 from sim.emulators.dynamixel import control_table as at
 from sim.emulators.dynamixel.servo import EmulatedServo
@@ -35,10 +36,8 @@ class BusFaults:
         active: Names of the faults injected since the last ``clear``.
     """
 
-    def __init__(
-        self, servos: Sequence[EmulatedServo], wire: Wire, clock: Callable[[], float]
-    ) -> None:
-        self._servos, self._wire, self._clock = servos, wire, clock
+    def __init__(self, servos: Sequence[EmulatedServo], wire: Wire) -> None:
+        self._servos, self._wire = servos, wire
         self._injected_s: float | None = None
         self.active: set[str] = set()
         self._silent_ids: set[int] = set()
@@ -70,7 +69,7 @@ class BusFaults:
         else:
             self._change(fault, values, servos)
         self.active.add(fault)
-        self._injected_s = self._clock()
+        self._injected_s = time.monotonic()
 
     def clear(self) -> None:
         """End all faults; torque that went off stays off."""
@@ -88,7 +87,7 @@ class BusFaults:
 
     def injected_ago_ms(self) -> float | None:
         """Time since the last injection [ms]; None without one."""
-        return None if self._injected_s is None else 1000 * (self._clock() - self._injected_s)
+        return None if self._injected_s is None else 1000 * (time.monotonic() - self._injected_s)
 
     def is_silent(self, servo_id: int) -> bool:
         return servo_id in self._silent_ids

@@ -14,6 +14,7 @@ from __future__ import annotations
 import logging
 import queue
 import threading
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
@@ -119,14 +120,13 @@ class Fingers:
         linkage: Linkage,
         load: GripLoad,
         lock: threading.RLock,
-        now_s: float,
     ) -> None:
         self._servos, self._linkage, self._load, self._lock = servos, linkage, load, lock
         self.squeezes = self.releases = 0
         self.load_error = ""
         self._squeezed = False
         self._num_solved = 0
-        self._now_s = now_s
+        self._now_s = time.monotonic()
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         for index, servo in enumerate(servos):
             servo.position = linkage.ticks(index, linkage.open_width_m)

@@ -115,7 +115,7 @@ class PacketReader:
             self._buffer = self._buffer[start:]
             if len(self._buffer) < 8:
                 return None
-            length = int.from_bytes(self._buffer[5:7], "little")
+            length = u16(self._buffer[5:])
             if self._buffer[3] == 0xFD or not 3 <= length <= _LONGEST:
                 self._buffer = self._buffer[3:]
                 continue
@@ -127,5 +127,5 @@ class PacketReader:
                 servo_id=whole[4],
                 code=body[0],
                 parameters=body[1:],
-                intact=crc16(whole[:-2]) == int.from_bytes(whole[-2:], "little"),
+                intact=crc16(whole[:-2]) == u16(whole[-2:]),
             )

@@ -14,7 +14,10 @@ import tempfile
 import termios
 import tty
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
+
+from sim.emulators.dynamixel.control_table import BAUDS
 
 
 class Wire:
@@ -97,10 +100,8 @@ class Wire:
         """Send; bytes beyond the buffer of a client that does not read are lost, as on a line."""
         if not self.plugged:
             return
-        try:
+        with suppress(BlockingIOError):
             os.write(self._master, data)
-        except BlockingIOError:
-            return
 
     def close(self) -> None:
         """Unplug for good, once no thread reads any more. Idempotent."""
@@ -109,7 +110,4 @@ class Wire:
         self._folder.cleanup()
 
 
-_SPEEDS: Mapping[int, int] = {
-    getattr(termios, f"B{baud}"): baud
-    for baud in (9600, 57600, 115200, 1000000, 2000000, 3000000, 4000000)
-}
+_SPEEDS: Mapping[int, int] = {getattr(termios, f"B{baud}"): baud for baud in BAUDS}

@@ -15,6 +15,8 @@ from typing import Any, Protocol
 
 from primitives.errors import RobotError
 
+_TIMEOUT_S = 5.0
+
 Facts = Mapping[str, float | str | bool | None]
 
 
@@ -91,7 +93,7 @@ class _Requests(socketserver.StreamRequestHandler):
 class ControlClient:
     """Client of an emulator's control channel; every call is bounded in time."""
 
-    def __init__(self, port: int, timeout_s: float = 5.0) -> None:
+    def __init__(self, port: int) -> None:
         """Connect.
 
         Raises:
@@ -99,7 +101,7 @@ class ControlClient:
         """
         self._lock = threading.Lock()
         try:
-            self._socket = socket.create_connection(("127.0.0.1", port), timeout=timeout_s)
+            self._socket = socket.create_connection(("127.0.0.1", port), timeout=_TIMEOUT_S)
         except OSError as error:
             raise RobotError(f"no emulator's control channel at port {port}: {error}") from None
         self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

@@ -15,7 +15,6 @@ import tempfile
 import threading
 import time
 import tty
-from collections.abc import Callable
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Protocol
@@ -66,7 +65,6 @@ class TaxelEmulator:
         *,
         link: Path,
         rate_hz: float = 30.0,
-        clock: Callable[[], float] = time.monotonic,
         seed: int = 0,
     ) -> None:
         """Plug the array in.
@@ -75,7 +73,6 @@ class TaxelEmulator:
             source: The gel.
             link: Free path for the symbolic link to the pty.
             rate_hz: Frames per second.
-            clock: Monotonic [s].
             seed: Random seed of the garbage bytes.
 
         Raises:
@@ -85,7 +82,7 @@ class TaxelEmulator:
         if not 1 <= rate_hz <= 200:
             raise ValueError(f"an array sends 1 to 200 frames a second, got {rate_hz}")
         self.port = str(link)
-        self._link, self._source, self._rate_hz, self._clock = link, source, rate_hz, clock
+        self._link, self._source, self._rate_hz = link, source, rate_hz
         self._rng = np.random.default_rng(seed)
         self._faults: dict[str, int] = {}
         self._injected_s: float | None = None
@@ -113,7 +110,7 @@ class TaxelEmulator:
             raise ValueError(f"{fault}: expected at most count >= 1, got {details or count}")
         with self._condition:
             self._faults[fault] = int(count)
-            self._injected_s = self._clock()
+            self._injected_s = time.monotonic()
         self._apply()
 
     def clear(self) -> None:
@@ -124,7 +121,7 @@ class TaxelEmulator:
 
     def facts(self) -> Facts:
         with self._condition:
-            ago_s = None if self._injected_s is None else self._clock() - self._injected_s
+            ago_s = None if self._injected_s is None else time.monotonic() - self._injected_s
             return {
                 "serial_port": self.port,
                 "plugged": self._master >= 0,
@@ -156,12 +153,12 @@ class TaxelEmulator:
 
     def _run(self) -> None:
         request_real_time(inherited=False)
-        due = self._clock()
+        due = time.monotonic()
         try:
-            while self._wait(max(0.0, due - self._clock())):
-                if self._clock() < due:
+            while self._wait(max(0.0, due - time.monotonic())):
+                if time.monotonic() < due:
                     continue
-                due = max(due + 1 / self._rate_hz, self._clock() - 1 / self._rate_hz)
+                due = max(due + 1 / self._rate_hz, time.monotonic() - 1 / self._rate_hz)
                 if self._master >= 0 and "stall" not in self._faults:
                     self._send(self._next_bytes())
         finally:
@@ -195,7 +192,7 @@ class TaxelEmulator:
 
     def _next_bytes(self) -> bytes:
         """The bytes to send for the next frame, after faults."""
-        clock_us = int(self._clock() * 1e6)
+        clock_us = int(time.monotonic() * 1e6)
         mark = self._mark  # before the capture: the frame is newer than the mark
         counts = counts_of(self._source.height_mm())
         if "garbage" in self._faults:

@@ -116,13 +116,8 @@ class UrChild:
         # When the world fails, the connection closes, and the move in the child never ends.
         with self._connection, self._connection.makefile("rb") as lines:
             for line in lines:
-                by_base_m, rotvec_rad, speed_m_s, acceleration_m_s2 = json.loads(line)
-                segment = MotionSegment(
-                    by_base_m=np.array(by_base_m),
-                    rotvec_rad=np.array(rotvec_rad),
-                    speed_m_s=speed_m_s,
-                    acceleration_m_s2=acceleration_m_s2,
-                )
+                by_base_m, rotvec_rad, *limits = json.loads(line)
+                segment = MotionSegment(np.array(by_base_m), np.array(rotvec_rad), *limits)
                 try:
                     self._follow(segment)
                 except Exception:

@@ -6,7 +6,7 @@ of program and safety stops and the state of the program after them: Universal R
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 from sim.emulators.ur.kinematics import Floats
 from sim.emulators.ur.robot import Robot, SegmentListener
@@ -39,6 +39,11 @@ SAFETY_BITS = {
 STOPPED, PLAYING, PAUSED = 1, 2, 4
 
 
+def _registers(side: str) -> dict[str, float]:
+    doubles = {f"{side}_double_register_{i}": 0.0 for i in range(48)}
+    return {f"{side}_int_register_{i}": 0 for i in range(48)} | doubles
+
+
 class Controller:
     """The state of an emulated controller.
 
@@ -67,10 +72,8 @@ class Controller:
         self.end_reason = ""
         self.num_programs = 0
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
-        self.inputs: dict[str, float] = {f"input_int_register_{i}": 0 for i in range(48)}
-        self.inputs |= {f"input_double_register_{i}": 0.0 for i in range(48)}
-        self.outputs: dict[str, float] = {f"output_int_register_{i}": 0 for i in range(48)}
-        self.outputs |= {f"output_double_register_{i}": 0.0 for i in range(48)}
+        self.inputs, self.outputs = _registers("input"), _registers("output")
+        self._readers = self._variables()
         self._paused = False
         self._kicked_s = self._began_s
 
@@ -177,38 +180,33 @@ class Controller:
 
     def values(self, name: str) -> list[float]:
         """Numbers of an output variable; empty for one that is not emulated (currents and such)."""
-        robot = self.robot
         if name in self.outputs:
             return [self.outputs[name]]
-        if name in ("actual_TCP_pose", "target_TCP_pose"):
-            return robot.tcp_pose()
-        if name in ("actual_TCP_speed", "target_TCP_speed"):
-            return robot.tool.twist.tolist()
-        if name in ("actual_q", "target_q"):
-            return robot.joints().tolist()
-        if name in ("actual_qd", "target_qd"):
-            return robot.joint_speeds().tolist()
-        if name in ("actual_TCP_force", "ft_raw_wrench"):
-            return robot.force()
-        if name == "tcp_offset":
-            return robot.tcp_offset.tolist()
-        if name == "payload_cog":
-            return list(self.payload_cog_m)
-        return self._scalar(name)
+        return self._readers[name]() if name in self._readers else []
 
-    def _scalar(self, name: str) -> list[float]:
-        playing = self.runtime_state == PLAYING
-        powered = self.robot_mode == RUNNING
-        scalars: dict[str, float] = {
-            "timestamp": self._clock() - self._began_s,
-            "robot_mode": self.robot_mode,
-            "safety_mode": self.safety_mode,
-            "safety_status": self.safety_mode,
-            "runtime_state": self.runtime_state,
-            "robot_status_bits": (1 if powered else 0) | (2 if playing else 0),
-            "safety_status_bits": SAFETY_BITS[self.safety_mode],
-            "speed_scaling": self.robot.speed_fraction if self.robot.in_motion else 1.0,
-            "target_speed_fraction": self.robot.speed_fraction,
-            "payload": self.payload_kg,
+    def _variables(self) -> Mapping[str, Callable[[], list[float]]]:
+        robot = self.robot
+        motion: dict[str, Callable[[], list[float]]] = {
+            "TCP_pose": robot.tcp_pose,
+            "TCP_speed": lambda: robot.tool.twist.tolist(),
+            "q": lambda: robot.joints().tolist(),
+            "qd": lambda: robot.joint_speeds().tolist(),
         }
-        return [scalars[name]] if name in scalars else []
+        return {
+            **{f"actual_{name}": read for name, read in motion.items()},
+            **{f"target_{name}": read for name, read in motion.items()},
+            **dict.fromkeys(("actual_TCP_force", "ft_raw_wrench"), robot.force),
+            **dict.fromkeys(("safety_mode", "safety_status"), lambda: [self.safety_mode]),
+            "tcp_offset": lambda: robot.tcp_offset.tolist(),
+            "payload_cog": lambda: list(self.payload_cog_m),
+            "timestamp": lambda: [self._clock() - self._began_s],
+            "robot_mode": lambda: [self.robot_mode],
+            "runtime_state": lambda: [self.runtime_state],
+            "robot_status_bits": lambda: [
+                (self.robot_mode == RUNNING) | (self.runtime_state == PLAYING) << 1
+            ],
+            "safety_status_bits": lambda: [SAFETY_BITS[self.safety_mode]],
+            "speed_scaling": lambda: [robot.speed_fraction if robot.in_motion else 1.0],
+            "target_speed_fraction": lambda: [robot.speed_fraction],
+            "payload": lambda: [self.payload_kg],
+        }

@@ -30,12 +30,7 @@ _REGISTERS = [f"input_int_register_{i}" for i in range(24)]
 class UrEmulator:
     """One emulated controller; an ``Emulated`` device of the control channel."""
 
-    def __init__(
-        self,
-        options: UrOptions,
-        follow: Follow | None = None,
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:
+    def __init__(self, options: UrOptions, follow: Follow | None = None) -> None:
         """Listen on the host of the options and serve.
 
         Args:
@@ -43,14 +38,13 @@ class UrEmulator:
             follow: Function of a world that follows a segment of the tool that has ended (arrived,
                 or was cut short by a stop). It may take its time: the controller goes on, and
                 reports the end of the move when the world has followed.
-            clock: Monotonic [s].
 
         Raises:
             OSError: The ports are taken on this address.
             ValueError: The start pose is out of reach.
         """
         major, minor = (int(part) for part in options.version.split("."))
-        self._clock, self._version = clock, (major, minor)
+        self._version = (major, minor)
         self._injected_s: float | None = None
         self._segments: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
             queue.SimpleQueue()
@@ -61,9 +55,9 @@ class UrEmulator:
             np.array(options.start_tcp),
             np.array(options.tcp_offset),
             None if follow is None else self._queue_segment,
-            clock,
+            time.monotonic,
         )
-        self.server = Server(options.host, self.controller, self._version, options.stream_hz, clock)
+        self.server = Server(options.host, self.controller, self._version, options.stream_hz)
         self._faults: dict[str, Callable[..., None]] = {
             "mute": lambda: self._link(mute=True),
             "garbage": lambda: self._link(garbage=True),
@@ -96,7 +90,7 @@ class UrEmulator:
         if fault not in self._faults:
             raise ValueError(f"no fault {fault!r} of a UR; known: {', '.join(self._faults)}")
         with self.server.lock:
-            self._injected_s = self._clock()
+            self._injected_s = time.monotonic()
             self.controller.robot.watch_stop(self._injected_s)
             try:
                 self._faults[fault](**details)
@@ -121,7 +115,7 @@ class UrEmulator:
         with self.server.lock:
             self.controller.advance()
             controller, robot = self.controller, self.controller.robot
-            ago_s = None if self._injected_s is None else self._clock() - self._injected_s
+            ago_s = None if self._injected_s is None else time.monotonic() - self._injected_s
             after_s = robot.stopped_after_s
             x, y, z, *rotvec = robot.tcp_pose()
             return {

@@ -19,7 +19,12 @@ AT_REST = np.zeros(6)
 AT_REST.setflags(write=False)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+def norm(vector: Floats) -> float:
+    """Length of a vector."""
+    return math.sqrt(float(vector @ vector))
+
+
+@dataclass(frozen=True, slots=True)
 class ToolState:
     """Pose and velocity of the tool centre point.
 
@@ -33,8 +38,19 @@ class ToolState:
     rotation: Floats
     twist: Floats
 
+    def path_to(self, position_m: Floats, rotation: Floats) -> Floats:
+        """Displacement and rotation vector (6,) to another pose [m, rad, base]."""
+        return np.concatenate([position_m - self.position_m, rotvec(rotation @ self.rotation.T)])
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+    def moved(self, path: Floats, twist: Floats) -> ToolState:
+        """The state after a path (6,), with another twist."""
+        rotation = self.rotation
+        if float(np.abs(path[3:]).max()) > 1e-12:
+            rotation = matrix(path[3:]) @ rotation
+        return ToolState(self.position_m + path[:3], rotation, twist)
+
+
+@dataclass(frozen=True, slots=True)
 class MotionSegment:
     """A straight motion of the tool centre point from rest to rest.
 
@@ -91,11 +107,9 @@ class Line:
         numbers = (*position_m.tolist(), *rotation.ravel().tolist(), speed, acceleration)
         if not (all(math.isfinite(v) for v in numbers) and speed > 0 and acceleration > 0):
             raise ValueError(f"a line needs finite numbers and a speed above 0, got {numbers}")
-        self._start, self._position_m, self._rotation = start, position_m, rotation
-        self._by_m = position_m - start.position_m
-        self._by_rad = rotvec(rotation @ start.rotation.T)
-        length_m = math.sqrt(float(self._by_m @ self._by_m))
-        self._length = length_m or math.sqrt(float(self._by_rad @ self._by_rad))
+        self._start, self._end = start, ToolState(position_m, rotation, AT_REST)
+        self._by = start.path_to(position_m, rotation)
+        self._length = norm(self._by[:3]) or norm(self._by[3:])
         self._acceleration = acceleration
         self._top = min(speed, math.sqrt(self._length * acceleration))
         self._ramp_s = self._top / acceleration
@@ -103,7 +117,7 @@ class Line:
 
     def at(self, t_s: float) -> ToolState:
         if t_s >= self.duration_s:
-            return ToolState(position_m=self._position_m, rotation=self._rotation, twist=AT_REST)
+            return self._end
         remaining_s = self.duration_s - t_s
         if t_s < self._ramp_s:
             path, speed = 0.5 * self._acceleration * t_s**2, self._acceleration * t_s
@@ -114,15 +128,7 @@ class Line:
             path = self._top * (t_s - 0.5 * self._ramp_s)
             speed = self._top
         fraction = path / self._length
-        rotation = self._start.rotation
-        if float(np.abs(self._by_rad).max()) > 1e-9:
-            rotation = matrix(fraction * self._by_rad) @ rotation
-        twist = np.concatenate([self._by_m, self._by_rad]) * (speed / self._length)
-        return ToolState(
-            position_m=self._start.position_m + fraction * self._by_m,
-            rotation=rotation,
-            twist=twist,
-        )
+        return self._start.moved(fraction * self._by, self._by * (speed / self._length))
 
 
 class Ramp:
@@ -144,12 +150,7 @@ class Ramp:
         fraction = within / self._seconds if self._seconds > 0 else 1.0
         twist = self._start.twist + fraction * (self._twist - self._start.twist)
         path = 0.5 * (self._start.twist + twist) * within + self._twist * (t_s - within)
-        rotation = self._start.rotation
-        if float(np.abs(path[3:]).max()) > 1e-12:
-            rotation = matrix(path[3:]) @ rotation
-        return ToolState(
-            position_m=self._start.position_m + path[:3], rotation=rotation, twist=twist
-        )
+        return self._start.moved(path, twist)
 
 
 def stop_in(start: ToolState, seconds: float) -> Ramp:
@@ -159,16 +160,14 @@ def stop_in(start: ToolState, seconds: float) -> Ramp:
 
 def stop_at(start: ToolState, deceleration: float) -> Ramp:
     """Come to rest with a deceleration [m/s²], or [rad/s²] where the tool only turns."""
-    speed = math.sqrt(float(start.twist[:3] @ start.twist[:3]))
-    if speed == 0:
-        speed = math.sqrt(float(start.twist[3:] @ start.twist[3:]))
+    speed = norm(start.twist[:3]) or norm(start.twist[3:])
     return stop_in(start, speed / deceleration)
 
 
 def run_at(start: ToolState, twist: Floats, acceleration: float, until_s: float) -> Ramp:
     """Change to a twist (6,) with an acceleration [m/s²]; end at ``until_s`` [s]."""
     change = twist - start.twist
-    size = math.sqrt(float(change[:3] @ change[:3])) or math.sqrt(float(change[3:] @ change[3:]))
+    size = norm(change[:3]) or norm(change[3:])
     return Ramp(start, twist, size / acceleration, until_s)
 
 
@@ -180,17 +179,9 @@ class ServoMotion:
     def __init__(
         self, start: ToolState, position_m: Floats, rotation: Floats, lookahead_s: float
     ) -> None:
-        self._start, self._position_m, self._rotation = start, position_m, rotation
+        self._start, self._by = start, start.path_to(position_m, rotation)
         self._tau_s = max(0.01, lookahead_s)
-        self._by = np.concatenate([
-            position_m - start.position_m, rotvec(rotation @ start.rotation.T)
-        ])  # fmt: skip
 
     def at(self, t_s: float) -> ToolState:
         remaining = math.exp(-t_s / self._tau_s)
-        path = (1.0 - remaining) * self._by
-        return ToolState(
-            position_m=self._start.position_m + path[:3],
-            rotation=matrix(path[3:]) @ self._start.rotation,
-            twist=self._by * (remaining / self._tau_s),
-        )
+        return self._start.moved((1.0 - remaining) * self._by, self._by * (remaining / self._tau_s))

@@ -45,22 +45,27 @@ _DOUBLES = [
     "standard_analog_output1", "payload",
 ]  # fmt: skip
 
+_INT32 = ["robot_mode", "safety_mode", "safety_status"]
+_UINT32 = [
+    "runtime_state", "robot_status_bits", "safety_status_bits", "output_bit_registers0_to_31",
+    "output_bit_registers32_to_63",
+]  # fmt: skip
+_BYTE_INPUTS = [
+    "standard_digital_output_mask", "standard_digital_output", "configurable_digital_output_mask",
+    "configurable_digital_output", "tool_digital_output_mask", "tool_digital_output",
+    "standard_analog_output_mask", "standard_analog_output_type",
+]  # fmt: skip
+
 OUTPUT_TYPES: Mapping[str, str] = {
     **dict.fromkeys(_SIX, "VECTOR6D"),
     **dict.fromkeys(_DOUBLES, "DOUBLE"),
+    **dict.fromkeys(_INT32, "INT32"),
+    **dict.fromkeys(_UINT32, "UINT32"),
     "joint_mode": "VECTOR6INT32",
-    "robot_mode": "INT32",
-    "safety_mode": "INT32",
-    "safety_status": "INT32",
-    "runtime_state": "UINT32",
-    "robot_status_bits": "UINT32",
-    "safety_status_bits": "UINT32",
     "actual_digital_input_bits": "UINT64",
     "actual_digital_output_bits": "UINT64",
     "actual_tool_accelerometer": "VECTOR3D",
     "payload_cog": "VECTOR3D",
-    "output_bit_registers0_to_31": "UINT32",
-    "output_bit_registers32_to_63": "UINT32",
     **{f"output_int_register_{i}": "INT32" for i in range(48)},
     **{f"output_double_register_{i}": "DOUBLE" for i in range(48)},
 }
@@ -68,17 +73,10 @@ OUTPUT_TYPES: Mapping[str, str] = {
 INPUT_TYPES: Mapping[str, str] = {
     **{f"input_int_register_{i}": "INT32" for i in range(48)},
     **{f"input_double_register_{i}": "DOUBLE" for i in range(48)},
+    **dict.fromkeys(_BYTE_INPUTS, "UINT8"),
     "external_force_torque": "VECTOR6D",
     "speed_slider_mask": "UINT32",
     "speed_slider_fraction": "DOUBLE",
-    "standard_digital_output_mask": "UINT8",
-    "standard_digital_output": "UINT8",
-    "configurable_digital_output_mask": "UINT8",
-    "configurable_digital_output": "UINT8",
-    "tool_digital_output_mask": "UINT8",
-    "tool_digital_output": "UINT8",
-    "standard_analog_output_mask": "UINT8",
-    "standard_analog_output_type": "UINT8",
     "standard_analog_output_0": "DOUBLE",
     "standard_analog_output_1": "DOUBLE",
 }

@@ -6,7 +6,6 @@ here: commands and programs, safety, the wire.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -28,6 +27,7 @@ from sim.emulators.ur.motion import (
     MotionSegment,
     Rest,
     ToolState,
+    norm,
     stop_at,
     stop_in,
 )
@@ -62,7 +62,7 @@ class Robot:
             ValueError: No posture reaches the pose.
         """
         self.tcp_offset = np.array(tcp_offset, dtype=np.float64)
-        self.tool = ToolState(position_m=np.array(tcp[:3]), rotation=matrix(tcp[3:]), twist=AT_REST)
+        self.tool = ToolState(np.array(tcp[:3]), matrix(tcp[3:]), AT_REST)
         self.contact = np.zeros(6)
         self.speed_fraction = 1.0
         self._bias = np.array(FORCE_BIAS_N)
@@ -91,8 +91,7 @@ class Robot:
 
     @property
     def speed_m_s(self) -> float:
-        twist = self.tool.twist
-        return math.sqrt(float(twist[:3] @ twist[:3]))
+        return norm(self.tool.twist[:3])
 
     def begin(self, motion: Motion, speed_m_s: float = 0.0, acceleration: float = 0.0) -> None:
         """Change to a motion that begins now; the numbers are for the listener."""
@@ -146,8 +145,7 @@ class Robot:
         """Time of the motion, between two times, at which its speed fell below ``STILL_M_S``."""
         for _ in range(20):
             middle = 0.5 * (low_s + high_s)
-            twist = self._state_at(middle, scale).twist
-            if math.sqrt(float(twist[:3] @ twist[:3])) < STILL_M_S:
+            if norm(self._state_at(middle, scale).twist[:3]) < STILL_M_S:
                 high_s = middle
             else:
                 low_s = middle
@@ -161,12 +159,8 @@ class Robot:
         start, speed_m_s, acceleration = self._segment_start
         self._segment_start = None
         if self._listener is not None:
-            segment = MotionSegment(
-                by_base_m=self.tool.position_m - start.position_m,
-                rotvec_rad=rotvec(self.tool.rotation @ start.rotation.T),
-                speed_m_s=speed_m_s,
-                acceleration_m_s2=acceleration,
-            )
+            path = start.path_to(self.tool.position_m, self.tool.rotation)
+            segment = MotionSegment(path[:3], path[3:], speed_m_s, acceleration)
             self._followed = self._listener(segment)
 
     # -- sensors ---------------------------------------------------------------------------------
@@ -180,7 +174,7 @@ class Robot:
         flange = self._flange()
         self.tcp_offset = np.array(offset, dtype=np.float64)
         tip = flange @ as_frame(self.tcp_offset)
-        self.tool = ToolState(position_m=tip[:3, 3], rotation=tip[:3, :3], twist=AT_REST)
+        self.tool = ToolState(tip[:3, 3], tip[:3, :3], AT_REST)
         self._q_of = self.tool
         self._motion = Rest(self.tool)
 

@@ -12,8 +12,9 @@ import selectors
 import socket
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import TypeGuard
 
 from sim.emulators.process.lifetime import request_real_time
 from sim.emulators.ur.controller import Controller
@@ -77,7 +78,6 @@ class Server:
         controller: Controller,
         version: tuple[int, int],
         fastest_hz: float,
-        clock: Callable[[], float] = time.monotonic,
     ) -> None:
         """Listen and serve.
 
@@ -87,7 +87,7 @@ class Server:
         self.host, self.version, self.fastest_hz = host, version, fastest_hz
         self.link = Link()
         self.lock = threading.RLock()
-        self._controller, self._clock = controller, clock
+        self._controller = controller
         self._taken: dict[str, RtdeSession] = {}
         self._selector = selectors.DefaultSelector()
         self._listening: dict[int, socket.socket] = {}
@@ -132,7 +132,7 @@ class Server:
             self._hang_up(connection)
         for port in ports:
             self._unlisten(port)
-        self._reopen_s = None if reopen_after_s is None else self._clock() + reopen_after_s
+        self._reopen_s = None if reopen_after_s is None else time.monotonic() + reopen_after_s
 
     def restore(self) -> None:
         """End all faults of the link, and the connections that were opened under one."""
@@ -148,7 +148,7 @@ class Server:
         while not self._ended:
             ready = self._selector.select(self._pause_s())
             with self.lock:
-                now_s = self._clock()
+                now_s = time.monotonic()
                 if self._reopen_s is not None and now_s >= self._reopen_s:
                     self.restore()
                 for key, _ in ready:
@@ -158,16 +158,15 @@ class Server:
                     elif key.data in self._listening:
                         self._accept(key.data)
                 self._controller.advance()
-                self._stream(self._clock())
+                self._stream(time.monotonic())
             if self.link.deaf and ready:
                 time.sleep(CYCLE_S)  # unread input keeps the selector awake
 
     def _pause_s(self) -> float:
         with self.lock:
-            now_s = self._clock()
-            due_s = [c.due_s for c in self._connections if _is_streaming(c)]
-            deadline_s = self._controller.next_deadline_s
-            if deadline_s is not None:
+            now_s = time.monotonic()
+            due_s = [c.due_s for c in self._connections if _is_streaming(c.session)]
+            if (deadline_s := self._controller.next_deadline_s) is not None:
                 due_s.append(deadline_s)
             pause_s = min(due_s, default=now_s + IDLE_S) - now_s
             longest_s = CYCLE_S if self._controller.robot.moving else IDLE_S
@@ -239,9 +238,7 @@ class Server:
     def _stream(self, now_s: float) -> None:
         for connection in list(self._connections):
             session = connection.session
-            if not (isinstance(session, RtdeSession) and session.streaming):
-                continue
-            if now_s >= connection.due_s:
+            if _is_streaming(session) and now_s >= connection.due_s:
                 period_s = max(session.period_s, 1.0 / self.fastest_hz)
                 late = now_s - connection.due_s > period_s
                 connection.due_s = (now_s if late else connection.due_s) + period_s
@@ -276,5 +273,5 @@ class Server:
             self._unlisten(port)
 
 
-def _is_streaming(connection: _Connection) -> bool:
-    return isinstance(connection.session, RtdeSession) and connection.session.streaming
+def _is_streaming(session: Session | None) -> TypeGuard[RtdeSession]:
+    return isinstance(session, RtdeSession) and session.streaming

@@ -11,10 +11,7 @@ from scipy.fft import next_fast_len
 from torch import Tensor
 
 _MARGIN_CELLS = 2  # elements of the coarser grid around its contact
-_STEP_CPU, _STEP_DEVICE = (
-    16,
-    80,
-)  # on an accelerator few sizes, with many contacts of each, are faster
+_STEP_CPU, _STEP_DEVICE = 16, 80  # on an accelerator few sizes, with many contacts each, are faster
 _OVERLAP_MM = 2e-4  # allowed outside of a box; a fifth of the stored resolution
 
 

@@ -20,7 +20,7 @@ import torch
 from torch import Tensor
 from torch.nn.functional import avg_pool2d, interpolate
 
-from sim.gel.contact_solver import Solution
+from sim.gel.contact_solver import Solution, chosen
 from sim.gel.fine.boxes import Box, boxes_around, escaped_from
 from sim.gel.fine.levels import TOLERANCE, GridLevel
 from sim.gel.gap import NO_BODY_MM
@@ -110,7 +110,7 @@ def _whole_surface(
         field = Box(top=0, left=0, rows=gap.shape[1], columns=gap.shape[2])
         regions = [field if one else box for one, box in zip(escaped.tolist(), boxes, strict=True)]
         resolved = level.solve(regions, gap, loads, solved.pressure_mpa, by_force=by_force)
-        solved = _select(escaped, resolved, solved)
+        solved = chosen(escaped, resolved, solved)
         height, opening = level.surface(solved, gap)
     pressure = solved.pressure_mpa
     residual = torch.where(pressure > 0, opening, opening.clamp(max=0))
@@ -161,13 +161,3 @@ def _finer(pressure: Tensor) -> Tensor:
 def _pooled(start: Press | Tensor, factor: int) -> Tensor:
     pressure = start.pressure_kpa if isinstance(start, Press) else start
     return avg_pool2d(pressure[:, None], factor)[:, 0]
-
-
-def _select(mask: Tensor, solution: Solution, other: Solution) -> Solution:
-    """``solution`` where ``mask`` (B,), else ``other``."""
-    return Solution(
-        pressure_mpa=torch.where(mask[:, None, None], solution.pressure_mpa, other.pressure_mpa),
-        approach_mm=torch.where(mask, solution.approach_mm, other.approach_mm),
-        iterations=torch.where(mask, solution.iterations, other.iterations),
-        converged=torch.where(mask, solution.converged, other.converged),
-    )

@@ -14,7 +14,7 @@ from functools import lru_cache
 import torch
 from torch import Tensor
 
-from sim.gel.compliance import GelMaterial, Spectrum, layer_kernel, love_kernel, spectrum_from
+from sim.gel.compliance import GelMaterial, Spectrum, kernel_of, spectrum_from
 from sim.gel.contact_solver import Solution, solve
 from sim.gel.fine.boxes import Box, by_size
 from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
@@ -23,13 +23,6 @@ from sim.gel.layer import MAX_ITERATIONS, ElasticLayer
 
 TOLERANCE = 1e-3
 """Tolerance of every level: residual gap over mean displacement in contact, root mean square."""
-
-
-@lru_cache(maxsize=32)
-def _kernel(material: GelMaterial | None, rows: int, columns: int, pitch_mm: float) -> Tensor:
-    if material is None:
-        return love_kernel(rows, columns, pitch_mm)
-    return layer_kernel(rows, columns, pitch_mm, material)
 
 
 @lru_cache(maxsize=128)
@@ -41,7 +34,7 @@ def _spectrum(
     device: torch.device,
 ) -> Spectrum:
     """Spectrum of a box within a grid (rows, columns, pitch): a corner of the grid's kernel."""
-    return spectrum_from(_kernel(material, *grid)[: size[0], : size[1]], dtype, device)
+    return spectrum_from(kernel_of(material, *grid)[: size[0], : size[1]], dtype, device)
 
 
 @lru_cache(maxsize=512)
@@ -52,7 +45,7 @@ def _compliance(
     dtype: torch.dtype,
 ) -> BoxCompliance:
     """The same for one contact on a CPU."""
-    return box_compliance(_kernel(material, *grid)[: size[0], : size[1]], dtype)
+    return box_compliance(kernel_of(material, *grid)[: size[0], : size[1]], dtype)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

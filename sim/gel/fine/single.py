@@ -32,19 +32,15 @@ class BoxCompliance:
     real and for the imaginary part.
 
     Attributes:
-        rows: Rows of the box.
-        columns: Columns of the box.
-        padded_rows: Rows of the transform, >= 2 rows - 1, even.
-        padded_columns: Columns of the transform, >= 2 columns - 1, even.
-        values: Transform of the kernel, (padded_columns // 2 + 1, 2 padded_rows) [mm/MPa].
+        size: Rows and columns of the box.
+        padded: Rows and columns of the transform, even, each at least twice the box's less 1.
+        values: Transform of the kernel, (padded[1] // 2 + 1, 2 padded[0]) [mm/MPa].
         periodic: Transform of the kernel of the box as if it were periodic, shape
             (columns // 2 + 1, 2 rows) [mm/MPa].
     """
 
-    rows: int
-    columns: int
-    padded_rows: int
-    padded_columns: int
+    size: tuple[int, int]
+    padded: tuple[int, int]
     values: Tensor
     periodic: Tensor
 
@@ -70,10 +66,8 @@ def box_compliance(kernel: Tensor, dtype: torch.dtype) -> BoxCompliance:
     periodic = torch.fft.rfft2(nearest).real
     periodic = periodic.clamp(min=_MIN_FRACTION * float(periodic.max()))
     return BoxCompliance(
-        rows=rows,
-        columns=columns,
-        padded_rows=padded_rows,
-        padded_columns=padded_columns,
+        size=(rows, columns),
+        padded=(padded_rows, padded_columns),
         values=_repeated(torch.cat([waves, waves[1:-1].flip(0)]), dtype),
         periodic=_repeated(periodic, dtype),
     )
@@ -112,9 +106,7 @@ class Convolution:
 
 def convolution(compliance: BoxCompliance) -> Convolution:
     """The convolution from pressure [MPa] to displacement [mm]."""
-    size = (compliance.rows, compliance.columns)
-    padded = (compliance.padded_rows, compliance.padded_columns)
-    return Convolution(compliance.values, size, padded)
+    return Convolution(compliance.values, compliance.size, compliance.padded)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -153,8 +145,7 @@ def solve_single(
         max_iterations: Bound of the iterations.
     """
     deform = convolution(compliance)
-    size = (compliance.rows, compliance.columns)
-    precondition = Convolution(compliance.periodic.reciprocal(), size, size)
+    precondition = Convolution(compliance.periodic.reciprocal(), compliance.size, compliance.size)
     above = gap_mm - depth_mm
     pressure = torch.where(above < 0, start_mpa.clamp(min=0), 0.0)
     direction, previous, power = torch.zeros_like(above), torch.zeros_like(above), torch.inf

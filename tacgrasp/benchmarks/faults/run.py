@@ -2,34 +2,26 @@
 
 from __future__ import annotations
 
-import json
 import logging
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
-from pathlib import Path
 
 from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
+from tacgrasp.benchmarks.faults.cases import CASES, FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
 from tacgrasp.benchmarks.faults.table import FaultRow, markdown_of, row_of, table_of
+from tacgrasp.benchmarks.figures import write_figures
+from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.console import make_console
 
-log = logging.getLogger(__name__)
 
-
-def run(
-    cases: Sequence[FaultCase],
-    *,
-    repeats: int,
-    json_path: Path | None,
-    markdown_path: Path | None,
-) -> bool:
-    """Inject every fault ``repeats`` times, print and write the table.
+def run(settings: FaultsSettings) -> bool:
+    """Inject every fault several times, print and write the table.
 
     Returns:
         True when every fault met the requirements in every repeat.
@@ -37,6 +29,13 @@ def run(
     Raises:
         RobotError: The emulators did not start.
     """
+    repeats = settings.repeats
+    cases = [case for case in CASES if settings.only.lower() in case.name.lower()]
+    if repeats < 1 or not cases:
+        raise UsageError(
+            f"--repeats must be at least 1 and --only a part of a fault's name "
+            f"({'; '.join(case.name for case in CASES)}), got {repeats} and {settings.only!r}"
+        )
     config, _ = load("strawberry", "emulated")
     if config.hardware is None:
         raise UsageError("rigs/emulated.yaml names no hardware")
@@ -50,11 +49,10 @@ def run(
     console.print(table_of(rows))
     passed = sum(row.passed for row in rows)
     console.print(f"{passed} of {len(rows)} faults met the requirements in every repeat")
-    if json_path is not None:
-        json_path.write_text(json.dumps({"faults": [asdict(r) for r in rows]}, indent=1), "utf-8")
-    if markdown_path is not None:
+    write_figures(settings.json, {"faults": [asdict(row) for row in rows]})
+    if settings.markdown is not None:
         command = f"tacgrasp bench faults --repeats {repeats}"
-        markdown_path.write_text(markdown_of(rows, command), encoding="utf-8")
+        settings.markdown.write_text(markdown_of(rows, command), encoding="utf-8")
     return passed == len(rows)
 
 

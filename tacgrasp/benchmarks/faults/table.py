@@ -15,6 +15,7 @@ from tacgrasp.benchmarks.faults.injection import (
     STOPPED_MS,
     InjectionResult,
 )
+from tacgrasp.benchmarks.figures import number_table
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -94,8 +95,6 @@ _COLUMNS = (
     "invented",
     "episode",
 )
-
-
 _REACTIONS: Mapping[str, str] = {
     InjectionPhase.START: "nothing moved.",
     InjectionPhase.MOTION: "the arm came to rest.",
@@ -105,10 +104,8 @@ _REACTIONS: Mapping[str, str] = {
 
 def table_of(rows: Sequence[FaultRow]) -> Table:
     """Table for the screen; rows of faults that did not pass are red."""
-    table = Table(title="faults of the emulated rig: p50 / max")
-    for column in _COLUMNS:
-        is_text = column in ("fault", "phase")
-        table.add_column(column, justify="left" if is_text else "right", no_wrap=column == "fault")
+    table = number_table("faults of the emulated rig: p50 / max", _COLUMNS, ("fault", "phase"))
+    table.columns[0].no_wrap = True
     for row in rows:
         table.add_row(*_cells(row), style="" if row.passed else "red")
     return table

@@ -7,23 +7,24 @@ Scaling: with the number of points and of groups, where an encoder takes any num
 from __future__ import annotations
 
 import dataclasses
-import json
 import time
 from collections.abc import Callable, Mapping, Sequence
-from pathlib import Path
+from functools import partial
 
 import numpy as np
 import torch
 from rich.console import Console
-from rich.table import Table
 from torch import Tensor, nn
 
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
 from cltp.tactile.point_layout import EVEN
 from cltp.tactile.sensors import SENSORS
+from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import number_table, times_ms, write_figures
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert
+from tacgrasp.benchmarks.settings import EncoderSettings
 
 WARM_UP = 3
 SCALES = ((256, 64), (1024, 64), (4096, 64), (1024, 32), (1024, 128), (1024, 256))
@@ -33,26 +34,24 @@ Figures = Mapping[str, float]
 
 
 def run(
-    preset: str,
+    settings: EncoderSettings,
     *,
-    repeats: int = 100,
     scales: Sequence[tuple[int, int]] = SCALES,
-    json_path: Path | None = None,
     clock: Callable[[], float] = time.perf_counter,
 ) -> None:
     """Measure and print.
 
+    The preset's own tokenizer, ours with groups, and the reference design of the same size.
+
     Args:
-        preset: Name of the encoder. Its own tokenizer, ours with groups, and the reference design
-            of the same size are timed.
-        repeats: Number of encodings at batch 1; a tenth of it at batch 64 and for training.
+        settings: Preset and number of encodings at batch 1; a tenth of it at batch 64.
         scales: Numbers of points and groups to time as well.
-        json_path: File for the figures.
         clock: Time source [s].
 
     Raises:
         UsageError: An unknown preset, or one that takes images.
     """
+    preset, repeats = settings.preset, settings.repeats
     if preset not in PRESETS:
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     config = PRESETS[preset]
@@ -62,23 +61,24 @@ def run(
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)
-    figures: dict[str, dict[str, float]] = {}
-    for name, model in models.items():
-        figures[name] = {
-            "parameters": float(sum(p.numel() for p in model.parameters())),
-            **_latency(model, 1, repeats, clock),
-            **_latency(model, 64, max(3, repeats // 10), clock),
-            "train_samples_per_s": _training(model, max(3, repeats // 10), clock),
+    few = max(3, repeats // 10)
+    with torch_threads(settings.threads):
+        figures = {
+            name: {
+                "parameters": float(sum(p.numel() for p in model.parameters())),
+                **_latency(model, 1, repeats, clock),
+                **_latency(model, 64, few, clock),
+                "train_samples_per_s": _training(model, few, clock),
+            }
+            for name, model in models.items()
         }
-    scaling = {
-        f"{points} points, {num} groups": _scaling(groups, points, num, repeats, clock)
-        for points, num in scales
-    }
-    _show(preset, figures, scaling)
-    if json_path is not None:
-        threads = torch.get_num_threads()
-        report = {"preset": preset, "threads": threads, "encoders": figures, "scaling": scaling}
-        json_path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
+        scaling = {
+            f"{points} points, {num} groups": _scaling(groups, points, num, few, clock)
+            for points, num in scales
+        }
+    _show(settings, figures, scaling)
+    report = {"preset": preset, "threads": settings.threads}
+    write_figures(settings.json, report | {"encoders": figures, "scaling": scaling})
 
 
 def clouds(count: int, num_points: int = 1024) -> Tensor:
@@ -104,20 +104,9 @@ def _latency(
 ) -> dict[str, float]:
     model.eval()
     points = clouds(batch, _points_of(model))
-    p50, p99 = np.percentile(_times_ms(model, points, repeats, clock), [50, 99])
+    times = times_ms(lambda: model(points), repeats, warm_up=WARM_UP, clock=clock)
+    p50, p99 = np.percentile(times, [50, 99])
     return {f"batch_{batch}_p50_ms": float(p50), f"batch_{batch}_p99_ms": float(p99)}
-
-
-def _times_ms(
-    model: nn.Module, points: Tensor, repeats: int, clock: Callable[[], float]
-) -> list[float]:
-    times = []
-    for number in range(WARM_UP + repeats):
-        began = clock()
-        model(points)
-        if number >= WARM_UP:
-            times.append(1e3 * (clock() - began))
-    return times
 
 
 def _points_of(model: nn.Module) -> int:
@@ -146,27 +135,26 @@ def _scaling(
     config: EncoderConfig, points: int, groups: int, repeats: int, clock: Callable[[], float]
 ) -> dict[str, float]:
     sized = dataclasses.replace(config, num_groups=groups)
-    figures = {}
+    figures, cloud = {}, clouds(1, points)
     for name, model in (("ours", TactileEncoder(sized)), ("plain", PlainPointBert(sized))):
-        model.eval()
-        times = _times_ms(model, clouds(1, points), max(3, repeats // 10), clock)
+        encode = partial(model.eval(), cloud)
+        times = times_ms(encode, repeats, warm_up=WARM_UP, clock=clock)
         figures[f"{name}_ms"] = float(np.median(times))
     return figures
 
 
-def _show(preset: str, encoders: Mapping[str, Figures], scaling: Mapping[str, Figures]) -> None:
+def _show(
+    settings: EncoderSettings, encoders: Mapping[str, Figures], scaling: Mapping[str, Figures]
+) -> None:
     console = Console()
     console = console if console.is_terminal else Console(width=140)
-    table = Table(title=f"encoders at the size of {preset}, {torch.get_num_threads()} threads")
+    title = f"encoders at the size of {settings.preset}, {settings.threads} threads"
     columns = list(next(iter(encoders.values())))
-    for column in ("", *columns):
-        table.add_column(column.replace("_", " "), justify="right" if column else "left")
+    table = number_table(title, ["", *(column.replace("_", " ") for column in columns)])
     for name, figures in encoders.items():
         table.add_row(name, *(_number(figures[column]) for column in columns))
     console.print(table)
-    table = Table(title="one cloud, fps: median ms")
-    for column in ("", "ours ms", "plain ms"):
-        table.add_column(column, justify="right" if column else "left")
+    table = number_table("one cloud, fps: median ms", ("", "ours ms", "plain ms"))
     for name, figures in scaling.items():
         table.add_row(name, *(f"{value:.2f}" for value in figures.values()))
     console.print(table)

@@ -6,7 +6,6 @@ Recording is timed apart from the decision.
 
 from __future__ import annotations
 
-import json
 import tempfile
 import time
 from collections import defaultdict
@@ -16,11 +15,11 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 
 from cltp.tactile.cloud import TactileCloud
 from policies import Observation, Policy
-from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.settings import LatencySettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.console import make_console
@@ -34,27 +33,18 @@ WARM_UP = 5
 FORCES_N = (0.6, 1.2, 2.4)
 
 
-def run(
-    *,
-    ticks: int,
-    policy_name: str,
-    task: str,
-    json_path: Path | None,
-    weights: Path | None = None,
-) -> dict[str, Any]:
-    """Time ``ticks`` decisions, print a table, write the figures.
+def run(settings: LatencySettings) -> None:
+    """Time decisions, print a table, write the figures.
 
-    Returns:
-        ``tick_ms.{p50, p99}`` and ``stages_ms.<stage>.{p50, p99}``; for ``llm`` also the figures of
-        ``llm_latency.language_report``, and ``start_to_first_action_s``.
+    They are ``tick_ms.{p50, p99}`` and ``stages_ms.<stage>.{p50, p99}``; for ``llm`` also those of
+    ``llm_latency.language_report``, and ``start_to_first_action_s``.
 
     Raises:
-        UsageError: An unknown policy or task, or fewer than one decision.
+        UsageError: An unknown policy or task.
         TouchError: The weights can't be used.
     """
-    if ticks < 1:
-        raise UsageError(f"--ticks must be at least 1, got {ticks}")
-    config = load(task)[0].model_copy(update={"weights": weights})
+    policy_name, ticks = settings.policy, settings.ticks
+    config = load(settings.task)[0].model_copy(update={"weights": settings.weights})
     policy = make_policy(policy_name, config)
     rig = make_rig(config)
     clouds = _clouds(rig)
@@ -80,9 +70,7 @@ def run(
     if policy_name == "llm":
         report |= _language_model(policy, clouds, config, report["stages_ms"])
     _print(report)
-    if json_path is not None:
-        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
-    return report
+    write_figures(settings.json, report)
 
 
 def _language_model(
@@ -154,11 +142,9 @@ def _quantiles(times_ms: list[float]) -> dict[str, float]:
 
 def _print(report: dict[str, Any]) -> None:
     floors = report.get("floors", {})
-    table = Table(title=f"{report['policy']}, {report['ticks']} steps")
     columns = ["stage", "p50 ms", "p99 ms"]
     columns += ["million operations", "floor ms", "times the floor"] if floors else []
-    for column in columns:
-        table.add_column(column, justify="left" if column == "stage" else "right")
+    table = number_table(f"{report['policy']}, {report['ticks']} steps", columns, ("stage",))
     for name, quantiles in {**report["stages_ms"], "whole step": report["tick_ms"]}.items():
         row = [name, f"{quantiles['p50']:.2f}", f"{quantiles['p99']:.2f}"]
         if name in floors:

@@ -32,6 +32,7 @@ from cltp.llm.generation import MAX_TOKENS, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import times_ms
 
 BASELINE_RUNS = 5
 START_LIMIT_S = 120.0
@@ -99,12 +100,7 @@ def operations(talker: Talker, instruction: str, num_tokens: int) -> dict[str, i
 def product_rate(runs: int = 20) -> float:
     """Operations a second of a product of square float32 matrices: the best of ``runs``."""
     a, b = torch.rand(2, PRODUCT_SIZE, PRODUCT_SIZE)
-    best_s = float("inf")
-    for _ in range(runs):
-        began = time.perf_counter()
-        torch.mm(a, b)
-        best_s = min(best_s, time.perf_counter() - began)
-    return 2 * PRODUCT_SIZE**3 / best_s
+    return 2e3 * PRODUCT_SIZE**3 / min(times_ms(lambda: torch.mm(a, b), runs))
 
 
 @torch.inference_mode()

@@ -15,7 +15,6 @@ import math
 import multiprocessing
 import subprocess
 import time
-from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
 from functools import partial
@@ -28,6 +27,7 @@ from rich.table import Table
 
 from sim.gel.layer import ElasticLayer
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import times_ms, write_figures
 from tacgrasp.benchmarks.learning.timed_contacts import (
     COLUMNS,
     ROWS,
@@ -38,6 +38,7 @@ from tacgrasp.benchmarks.learning.timed_contacts import (
     scene_of,
     solve,
 )
+from tacgrasp.benchmarks.settings import Tcl3dSettings
 
 LIMIT_PER_S, DEVICE_LIMIT_PER_S = 40.0, 2000.0
 _GRIDS = ((60, 80), (120, 160), (240, 320), (480, 640))
@@ -72,7 +73,7 @@ def floors_ms(times: StageTimes, repeats: int = 5) -> dict[str, float]:
     Caption: 0.
     """
     gap_map = torch.rand(ROWS, COLUMNS)
-    copy_ms = _best_ms(lambda: gap_map.clone(), 50)
+    copy_ms = min(times_ms(gap_map.clone, 50))
     fft_ms = 0.0
     for (rows, padded_rows, padded_columns), count in times.transforms.items():
         along = torch.rand(rows, padded_columns)
@@ -84,22 +85,13 @@ def floors_ms(times: StageTimes, repeats: int = 5) -> dict[str, float]:
             partial(torch.fft.ifft, down),
             partial(torch.fft.irfft, half, n=padded_columns),
         ):
-            fft_ms += count * _best_ms(transform, repeats)
+            fft_ms += count * min(times_ms(transform, repeats))
     return {
         "geometry": copy_ms,
         "solve": fft_ms / times.contacts,
         "labels": 2 * copy_ms,
         "caption": 0.0,
     }
-
-
-def _best_ms(call: Callable[[], object], repeats: int) -> float:
-    times = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        call()
-        times.append(1e3 * (time.perf_counter() - begin))
-    return min(times)
 
 
 def shortcut_error_um(series: int) -> dict[str, float]:
@@ -176,15 +168,14 @@ def tacto_frame(python: Path) -> dict[str, float]:
     return {f"tacto_{name}": float(value) for name, value in times.items()}
 
 
-def run(
-    *, series: int, workers: int, device: str, tacto: Path | None, json_path: Path | None
-) -> bool:
-    """Measure, print, write ``json_path`` if given; returns whether the limit was kept.
+def run(settings: Tcl3dSettings) -> bool:
+    """Measure, print, write the figures; returns whether the limit was kept.
 
     Raises:
         UsageError: Too few series, or TACTO does not run.
         OSError: The file can't be written.
     """
+    series, workers, device = settings.series, settings.workers, settings.device
     rate, times = throughput(series, workers, device)
     limit = LIMIT_PER_S if device == "cpu" else DEVICE_LIMIT_PER_S
     torch.set_num_threads(1)
@@ -201,12 +192,11 @@ def run(
     floors = floors_ms(times[0])
     figures |= {f"{stage}_floor_ms": value for stage, value in floors.items()}
     figures |= shortcut_error_um(max(2, series // 8)) | exponents(max(4, series // 8))
-    if tacto is not None:
-        figures |= tacto_frame(tacto)
+    if settings.tacto is not None:
+        figures |= tacto_frame(settings.tacto)
     _print(figures, device, limit)
-    if json_path is not None:
-        report = {"device": device, "made": [_plain(each) for each in times], **figures}
-        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    made = [_plain(each) for each in times]
+    write_figures(settings.json, {"device": device, "made": made, **figures})
     return rate >= limit
 
 

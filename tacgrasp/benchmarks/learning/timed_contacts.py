@@ -23,7 +23,6 @@ from sim.tcl3d.series import Scene, SeriesRequest, draw_scene, series_request
 ROWS, COLUMNS = 240, 320
 SEED = 0
 STAGES = ("geometry", "solve", "labels", "caption")
-_SOFT_SHARE_MPA = 0.35  # as in ``sim.tcl3d.series``: extra depth for a soft body
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,7 +59,7 @@ def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
         transforms[size] = transforms.get(size, 0) + num
 
     def counting(self: Spectrum, pressure_mpa: Tensor) -> Tensor:
-        count((self.rows, self.padded_rows, self.padded_columns), len(pressure_mpa))
+        count((self.size[0], *self.padded), len(pressure_mpa))
         return apply_batch(self, pressure_mpa)
 
     def counting_one(self: Convolution, field: Tensor) -> Tensor:
@@ -75,13 +74,10 @@ def _counted(transforms: dict[tuple[int, int, int], int]) -> Iterator[None]:
 
 
 def scene_of(number: int, device: str) -> tuple[SeriesRequest, Scene, list[float]]:
-    """A series, the scene over the pad, and the depths of its presses [mm]."""
+    """A series, the scene over the pad, and the approaches of its presses [mm]."""
     request = series_request(SEED, number)
     rng = np.random.default_rng([SEED, number, 1])
-    scene, depths = draw_scene(request, rng, device)
-    modulus_mpa = request.obj.modulus_mpa
-    extra = _SOFT_SHARE_MPA / modulus_mpa if modulus_mpa else 0.0
-    return request, scene, [depth * (1 + extra) for depth in depths]
+    return request, *draw_scene(request, rng, device)
 
 
 def solve(request: SeriesRequest, scene: Scene, approach: list[float], device: str) -> Press:

@@ -6,7 +6,6 @@ fro under supervision at 125 Hz, the gripper grips and opens, the sensor is read
 
 from __future__ import annotations
 
-import json
 import tempfile
 import time
 from collections import defaultdict
@@ -17,11 +16,12 @@ from pathlib import Path
 
 import numpy as np
 from rich.progress import Progress
-from rich.table import Table
 
 from primitives.devices import Pose
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.settings import DriversSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.console import make_console
@@ -51,12 +51,13 @@ class _Devices:
     sensor: WatchedSensor
 
 
-def run(*, minutes: float, json_path: Path | None) -> Mapping[str, Distribution]:
+def run(settings: DriversSettings) -> None:
     """Drive the rig for some minutes, print the distributions and write them.
 
     Raises:
         RobotError: The emulators did not start, or a device failed on the way.
     """
+    minutes = settings.minutes
     config, _ = load("strawberry", "emulated")
     console = make_console()
     with ExitStack() as stack:
@@ -71,18 +72,15 @@ def run(*, minutes: float, json_path: Path | None) -> Mapping[str, Distribution]
         "command to motion": timing.command_to_motion,
         **{name: _distribution(values) for name, values in times_ms.items()},
     }
-    table = Table(title=f"{minutes:g} minutes on the emulated rig, ms")
-    for column in ("", "count", "p50", "p99", "max"):
-        table.add_column(column, justify="left" if not column else "right")
+    title = f"{minutes:g} minutes on the emulated rig, ms"
+    table = number_table(title, ("", "count", "p50", "p99", "max"))
     for name, times in figures.items():
         cells = (f"{value:.1f}" for value in (times.p50_ms, times.p99_ms, times.max_ms))
         table.add_row(_DESCRIPTIONS[name], str(times.count), *cells)
     console.print(table)
     console.print(f"errors survived on the gripper's bus: {transients}")
-    if json_path is not None:
-        report = {"minutes": minutes} | {name: asdict(times) for name, times in figures.items()}
-        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
-    return figures
+    report = {"minutes": minutes} | {name: asdict(times) for name, times in figures.items()}
+    write_figures(settings.json, report)
 
 
 def _connect(config: RunConfig, stack: ExitStack) -> _Devices:
@@ -129,7 +127,5 @@ def _drive(
 
 
 def _distribution(values_ms: list[float]) -> Distribution:
-    p50, p99 = np.percentile(values_ms, [50, 99])
-    return Distribution(
-        count=len(values_ms), p50_ms=float(p50), p99_ms=float(p99), max_ms=max(values_ms)
-    )
+    p50, p99, most = (float(value) for value in np.percentile(values_ms, [50, 99, 100]))
+    return Distribution(count=len(values_ms), p50_ms=p50, p99_ms=p99, max_ms=most)

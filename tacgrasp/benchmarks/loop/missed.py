@@ -11,7 +11,6 @@ resets, and never to reset in nothing but them.
 
 from __future__ import annotations
 
-import json
 import math
 from collections import Counter
 from collections.abc import Callable, Sequence
@@ -29,8 +28,10 @@ from policies import Policy
 from primitives import Primitive
 from sim.grasp.rig import SimRig, build
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.settings import MissedSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import StepRecord
@@ -222,33 +223,20 @@ def keeps_targets(figures: dict[str, Any]) -> bool:
     return all(low <= figures[name] <= high for name, (low, high) in TARGETS.items())
 
 
-def run(
-    weights: Path | None,
-    *,
-    episodes: int,
-    first_seed: int,
-    policies: Sequence[str],
-    json_path: Path | None,
-) -> bool:
+def run(settings: MissedSettings) -> bool:
     """Run the benchmark, print its table and write its figures.
-
-    Args:
-        weights: Folder of llm's weights; None takes the default.
-        episodes: Number of missed and of ordinary episodes of each policy.
-        first_seed: First random seed; both kinds of episode take the same seeds.
-        policies: Names out of ``POLICIES``.
-        json_path: File to write the figures to.
 
     Returns:
         Whether each policy keeps ``TARGETS``.
 
     Raises:
-        UsageError: A policy that does not feel, or nothing to run.
+        UsageError: A policy that does not feel.
     """
-    if not policies or not set(policies) <= set(POLICIES) or episodes < 1:
+    weights, episodes, first_seed = settings.weights, settings.episodes, settings.first_seed
+    policies = tuple(name.strip() for name in settings.policies.split(","))
+    if not set(policies) <= set(POLICIES):
         raise UsageError(
-            f"bench missed needs at least one episode and policies out of {', '.join(POLICIES)}; "
-            f"got {episodes} episodes and {', '.join(policies) or 'no policy'}"
+            f"bench missed needs policies out of {', '.join(POLICIES)}, got {settings.policies!r}"
         )
     for name in policies:
         _policy(name, weights)  # an error shows here, not in a process
@@ -265,8 +253,7 @@ def run(
         "episodes_by_policy": {n: [asdict(r) for r in rs] for n, rs in by_policy.items()},
     }
     _print(console, figures, episodes, first_seed)
-    if json_path is not None:
-        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
+    write_figures(settings.json, report)
     return all(map(keeps_targets, figures.values()))
 
 

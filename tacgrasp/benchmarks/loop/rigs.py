@@ -6,17 +6,16 @@ several rigs side by side. The reason of the end and the truth are compared.
 
 from __future__ import annotations
 
-import json
-import os
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import partial
 from multiprocessing import get_context
-from pathlib import Path
 
 from rich.progress import Progress
 
 from primitives import RobotError
+from tacgrasp.benchmarks.figures import one_thread, write_figures
+from tacgrasp.benchmarks.settings import RigsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.console import make_console
@@ -26,6 +25,9 @@ from tacgrasp.rig.factory import make_executor, make_rig
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import verify_by_lifting
+
+MIN_AGREEMENT = 0.96
+"""Fraction of the seeds that must come to the same end and truth on both rigs."""
 
 COMPARED = ("held", "slipped", "dropped", "bruised", "bruised_at_start")
 """Facts of the truth that must agree, beside the reason of the end."""
@@ -63,28 +65,24 @@ class RigPair:
         return (simulated.reason, simulated.facts) == (emulated.reason, emulated.facts)
 
 
-def run(
-    *,
-    seeds: int,
-    first_seed: int,
-    policy: str,
-    parallel: int,
-    weights: Path | None,
-    json_path: Path | None,
-) -> list[RigPair]:
+def run(settings: RigsSettings) -> bool:
     """Run each seed on both rigs; print the seeds that differ, and how many agree.
+
+    Returns:
+        Whether enough agree.
 
     Raises:
         UsageError: An unknown policy, or weights that can't be used.
     """
-    configs = [
-        load("strawberry", rig)[0].model_copy(update={"policy": policy, "weights": weights})
-        for rig in ("sim", "emulated")
-    ]
+    policy, seeds, first_seed = settings.policy, settings.seeds, settings.first_seed
+    changes = {"policy": policy, "weights": settings.weights}
+    configs = [load("strawberry", rig)[0].model_copy(update=changes) for rig in ("sim", "emulated")]
     make_policy(policy, configs[0])  # an error shows here, not in a worker
     console, pairs = make_console(), []
     with (
-        ProcessPoolExecutor(parallel, get_context("spawn"), initializer=_one_thread) as pool,
+        ProcessPoolExecutor(
+            settings.parallel, get_context("spawn"), initializer=one_thread
+        ) as pool,
         Progress(console=console, transient=True) as progress,
     ):
         task = progress.add_task("episodes", total=seeds)
@@ -97,16 +95,15 @@ def run(
                 console.print(f"{'':5}{'':{len(str(pair.seed))}}  {_words(pair.emulated)} emulated")
     agree = sum(pair.agree for pair in pairs)
     console.print(f"{agree} of {len(pairs)} seeds agree in end and truth ({policy})")
-    if json_path is not None:
-        report = {
-            "policy": policy,
-            "first_seed": first_seed,
-            "seeds": seeds,
-            "agree": agree,
-            "episodes": [asdict(pair) | {"agree": pair.agree} for pair in pairs],
-        }
-        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
-    return pairs
+    report = {
+        "policy": policy,
+        "first_seed": first_seed,
+        "seeds": seeds,
+        "agree": agree,
+        "episodes": [asdict(pair) | {"agree": pair.agree} for pair in pairs],
+    }
+    write_figures(settings.json, report)
+    return agree >= MIN_AGREEMENT * len(pairs)
 
 
 def run_seed(simulated: RunConfig, emulated: RunConfig, seed: int) -> RigPair:
@@ -145,10 +142,3 @@ def _end(config: RunConfig) -> RigEnd:
 
 def _words(end: RigEnd) -> str:
     return f"{end.reason}, {', '.join(end.facts) or 'nothing true'}, {end.steps} actions"
-
-
-def _one_thread() -> None:
-    import torch
-
-    torch.set_num_threads(1)
-    os.environ["OMP_NUM_THREADS"] = "1"

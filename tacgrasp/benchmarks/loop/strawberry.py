@@ -6,7 +6,6 @@ touch was needed. Rates have Wilson intervals.
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Callable, Sequence
@@ -21,12 +20,14 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 from rich.progress import Progress
-from rich.table import Table
 
 from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.figures import number_table, one_thread, write_figures
+from tacgrasp.benchmarks.settings import StrawberrySettings
+from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig, VerifyConfig
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
@@ -122,7 +123,7 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
 
 def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
     if name == "llm":
-        return _language_model(config.weights, config.instruction)
+        return _language_model(config.weights, config.instruction, config.primitives.move_step_mm)
     if name != "oracle":
         return make_policy(name, config)
     grasp = rig.grasp
@@ -140,10 +141,11 @@ def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) ->
 
 
 @lru_cache(maxsize=1)
-def _language_model(weights: Path | None, instruction: str) -> Policy:
+def _language_model(weights: Path | None, instruction: str, move_step_mm: float) -> Policy:
     """The policy ``llm``, read once a process: it has no memory, so episodes can share it."""
     policy = load_llm(weights)
     try:
+        policy.check_move_step(move_step_mm)
         policy.check(instruction)
     except PolicyError as error:
         raise UsageError(str(error)) from None
@@ -184,28 +186,24 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
     return figures
 
 
-def run(
-    config: RunConfig,
-    *,
-    episodes: int,
-    first_seed: int,
-    policies: Sequence[str],
-    json_path: Path | None,
-) -> dict[str, Any]:
-    """Run the benchmark, print its table, and return and write its figures.
+def run(settings: StrawberrySettings) -> None:
+    """Run the benchmark, print its table and write its figures.
 
     Raises:
-        UsageError: An unknown policy, or nothing to run.
+        UsageError: An unknown policy.
     """
+    config = load("strawberry")[0].model_copy(update={"weights": settings.weights})
+    episodes, first_seed = settings.episodes, settings.first_seed
+    policies = [name.strip() for name in settings.policies.split(",")]
     names = [*POLICIES, "oracle"]
     unknown = [name for name in policies if name not in names]
-    if unknown or not policies or episodes < 1:
+    if unknown:
         raise UsageError(
-            f"bench needs at least one episode and policies out of {', '.join(names)}; "
-            f"got {episodes} episodes and {', '.join(policies) or 'no policy'}"
+            f"bench needs policies out of {', '.join(names)}; got {', '.join(policies)}"
         )
     if "llm" in policies:
-        _language_model(config.weights, config.instruction)  # an error shows here, not in a worker
+        step_mm = config.primitives.move_step_mm
+        _language_model(config.weights, config.instruction, step_mm)  # an error shows here
     contestants: list[Contestant] = []
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
@@ -230,9 +228,7 @@ def run(
         "episodes_by_policy": details,
     }
     _print(console, figures, sweep, episodes, first_seed)
-    if json_path is not None:
-        json_path.write_text(json.dumps(report, indent=1), encoding="utf-8")
-    return report
+    write_figures(settings.json, report)
 
 
 def _all_episodes(
@@ -241,7 +237,7 @@ def _all_episodes(
     results: dict[Contestant, list[EpisodeResult]] = {contestant: [] for contestant in contestants}
     # spawned, not forked: torch's threads don't survive a fork
     with (
-        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=_one_thread) as pool,
+        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=one_thread) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task("episodes", total=len(seeds))
@@ -250,12 +246,6 @@ def _all_episodes(
                 results[contestant].append(result)
             progress.advance(task)
     return results
-
-
-def _one_thread() -> None:
-    import torch
-
-    torch.set_num_threads(1)
 
 
 def _flat(result: EpisodeResult) -> dict[str, Any]:
@@ -269,10 +259,10 @@ def _print(
     episodes: int,
     first_seed: int,
 ) -> None:
-    table = Table(title=f"{episodes} episodes, seeds from {first_seed:,}; 95 % Wilson intervals")
-    columns = ("policy", "verified", "bruised", "bruised at start", "dropped", "actions")
-    for column in (*columns, "peak force / slip minimum", "ends"):
-        table.add_column(column, justify="left" if column in ("policy", "ends") else "right")
+    title = f"{episodes} episodes, seeds from {first_seed:,}; 95 % Wilson intervals"
+    columns = ["policy", "verified", "bruised", "bruised at start", "dropped", "actions"]
+    columns += ["peak force / slip minimum", "ends"]
+    table = number_table(title, columns, ("policy", "ends"))
     for name, row in figures.items():
 
         def rate(event: str, row: dict[str, Any] = row) -> str:

@@ -21,7 +21,7 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, Depth, Shape
 from cltp.texts.captions import parse_caption
 from policies import PolicyError
-from tacgrasp.lessons.answer_scoring import numbers_said
+from tacgrasp.lessons.answer_scoring import read_numbers
 from tacgrasp.playback.describe import CAPTION_REQUEST
 from tacgrasp.policy_factory import load_llm
 
@@ -80,7 +80,7 @@ def make_reader(
         except PolicyError as error:
             text = f"nothing: {error}"
         shape, depth = _caption_words(text)
-        numbers = numbers_said(text)
+        numbers = read_numbers(text)
         logits, values, _, _ = heads(encoder(torch.from_numpy(encoder_input(cloud))[None]).pooled)
         return BallReading(
             name=name,

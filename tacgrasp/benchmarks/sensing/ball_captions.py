@@ -9,27 +9,27 @@ the calibration that it judges.
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 from scipy import stats
 
 from cltp.errors import TouchError
 from cltp.sensing.ball_presses import find_press
-from cltp.tactile.sensors import SensorSpec, sensor_named
+from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Depth, Shape
+from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.sensing.ball_answers import BallReading, make_reader
 from tacgrasp.benchmarks.sensing.balls import measure_held_out
+from tacgrasp.benchmarks.settings import BallCaptionsSettings
 from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles
+from tacgrasp.policy_factory import default_weights
 
 ROUND = (Shape.SPHERE, Shape.ELLIPSOID)
 """One class on frames of an uncalibrated unit, whose gains of x and y differ."""
@@ -75,40 +75,25 @@ def depth_order(true_mm: Sequence[float], readings: Sequence[float | None]) -> D
     )
 
 
-def run(
-    folder: Path,
-    *,
-    weights: Path,
-    diameter_mm: float,
-    background: Path | None,
-    calibration: Path | None,
-    folds: int,
-    json_path: Path | None,
-) -> None:
-    """Read every press, print the scores, write them to ``json_path`` if given.
-
-    Args:
-        folder: Frames of ball presses.
-        weights: Folder of the model.
-        diameter_mm: Diameter of the ball [mm].
-        background: Frame of the untouched gel; None for ``background.png`` in the folder.
-        calibration: Calibration of the unit; None for the shipped one.
-        folds: Number of calibrations, each for the presses that it has not seen; 0 for
-            ``calibration``.
-        json_path: File for the figures.
+def run(settings: BallCaptionsSettings) -> None:
+    """Read every press, print the scores and write them.
 
     Raises:
         TouchError: Frames or weights can't be used, or no ball was found in any frame.
         OSError: The file can't be written.
     """
     sensor = sensor_named("gelsight_mini")
-    heights = (
-        _held_out(folder, sensor, background, diameter_mm, folds)
-        if folds
-        else frames_heights(folder, sensor=sensor, background=background, calibration=calibration)
-    )
-    read = make_reader(weights, sensor, ball_profiles(sensor.name, diameter_mm))
+    folder, background, folds = settings.data, settings.background, settings.folds
+    weights, diameter_mm = settings.weights or default_weights(), settings.diameter_mm
     balls = read_ball_frames(folder, sensor, background)
+    if folds:
+        presses = measure_held_out(balls, sensor, diameter_mm, min(folds, len(balls.frames)))
+        heights = [(press.name, press.height_mm) for press in presses]
+    else:
+        heights = frames_heights(
+            folder, sensor=sensor, background=background, calibration=settings.calibration
+        )
+    read = make_reader(weights, sensor, ball_profiles(sensor.name, diameter_mm))
     readings, left_out = [], {}
     for (name, height_mm), frame in zip(heights, balls.frames, strict=True):
         try:
@@ -119,24 +104,15 @@ def run(
         readings.append(read(name, press, height_mm))
     if not readings:
         raise TouchError(f"{folder}: no ball was found in any of {len(heights)} frames")
-    source = "presses held out" if folds else f"calibration {calibration or 'as shipped'}"
+    source = "presses held out" if folds else f"calibration {settings.calibration or 'as shipped'}"
     figures = figures_of(readings) | {
         "weights": str(weights),
         "heights": f"{source}{f', {folds} folds' if folds else ''}",
         "left_out": left_out,
     }
     _print(Console(), figures)
-    if json_path is not None:
-        report = figures | {"per_press": [asdict(reading) for reading in readings]}
-        json_path.write_text(json.dumps(_finite(report), indent=1) + "\n", encoding="utf-8")
-
-
-def _held_out(
-    folder: Path, sensor: SensorSpec, background: Path | None, diameter_mm: float, folds: int
-) -> list[tuple[str, NDArray[np.float32]]]:
-    balls = read_ball_frames(folder, sensor, background)
-    presses = measure_held_out(balls, sensor, diameter_mm, min(folds, len(balls.frames)))
-    return [(press.name, press.height_mm) for press in presses]
+    report = figures | {"per_press": [asdict(reading) for reading in readings]}
+    write_figures(settings.json, _finite(report))
 
 
 def figures_of(readings: Sequence[BallReading]) -> dict[str, Any]:

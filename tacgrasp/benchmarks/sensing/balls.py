@@ -6,11 +6,9 @@ folds) measures it, and a sphere of free diameter is fitted to its heights.
 
 from __future__ import annotations
 
-import json
 import sys
-import time
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
+from itertools import cycle
 from pathlib import Path
 from statistics import median
 
@@ -26,6 +24,8 @@ from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.train.photometric import train_gradients
 from cltp.train.progress import Bar
+from tacgrasp.benchmarks.figures import times_ms, write_figures
+from tacgrasp.benchmarks.settings import BallsSettings
 from tacgrasp.bringup.ball_frames import BallFrames, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles
 
@@ -132,47 +132,24 @@ def _to_border_px(ball: FittedBall, sensor: SensorSpec) -> float:
     return min(across, ball.row, sensor.rows - 1 - ball.row)
 
 
-def reconstruction_ms(
-    photometer: Photometer,
-    balls: BallFrames,
-    *,
-    repeats: int = 100,
-    clock: Callable[[], float] = time.perf_counter,
-) -> list[float]:
-    """Durations from the colours of one frame to its heights [ms], ascending."""
-    photometer.heights(balls.frames[0])
-    times = []
-    for index in range(repeats):
-        began = clock()
-        photometer.heights(balls.frames[index % len(balls.frames)])
-        times.append(1e3 * (clock() - began))
-    return sorted(times)
-
-
-def run(
-    folder: Path,
-    *,
-    diameter_mm: float,
-    background: Path | None,
-    folds: int,
-    bare_sphere: bool = False,
-    json_path: Path | None,
-) -> bool:
-    """Measure, print, write ``json_path`` if given; returns whether both limits are kept.
+def run(settings: BallsSettings) -> bool:
+    """Measure, print, write the figures; returns whether both limits are kept.
 
     Raises:
         TouchError: The folder can't be used, or no ball was found in any press.
         OSError: The file can't be written.
     """
     sensor = sensor_named("gelsight_mini")
-    balls = read_ball_frames(folder, sensor, background)
-    folds = min(folds, len(balls.frames))
-    presses = measure_held_out(balls, sensor, diameter_mm, folds, bare_sphere=bare_sphere)
+    folder, diameter_mm = settings.data, settings.diameter_mm
+    balls = read_ball_frames(folder, sensor, settings.background)
+    folds = min(settings.folds, len(balls.frames))
+    presses = measure_held_out(balls, sensor, diameter_mm, folds, bare_sphere=settings.bare_sphere)
     fitted = [press.ball for press in presses if press.ball is not None]
     if not fitted:
         raise TouchError(f"{folder}: no ball could be fitted in any of {len(presses)} presses")
     net = load_calibration(default_calibration(sensor), sensor).net
-    times = reconstruction_ms(Photometer(net, balls.background, sensor), balls)
+    photometer, frames = Photometer(net, balls.background, sensor), cycle(balls.frames)
+    times = times_ms(lambda: photometer.heights(next(frames)), 100)
     diameters = sorted(ball.diameter_mm for ball in fitted)
     profile = profile_rmse(presses, sensor, folder / PROFILE)
     error = 100 * (median(diameters) / diameter_mm - 1)
@@ -193,13 +170,11 @@ def run(
         "reconstruction_ms_p95": float(np.percentile(times, 95)),
     }
     _print(Console(), presses, figures)
-    if json_path is not None:
-        per_press = [
-            {"name": press.name, **(asdict(press.ball) if press.ball else {"diameter_mm": None})}
-            for press in presses
-        ]
-        report = {**figures, "per_press": per_press}
-        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    per_press = [
+        {"name": press.name, **(asdict(press.ball) if press.ball else {"diameter_mm": None})}
+        for press in presses
+    ]
+    write_figures(settings.json, {**figures, "per_press": per_press})
     return abs(error) <= DIAMETER_LIMIT_PERCENT and median(times) <= TIME_LIMIT_MS
 
 

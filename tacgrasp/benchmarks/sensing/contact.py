@@ -1,21 +1,19 @@
-"""``tacgrasp bench contact``: how often contact is falsely detected in air, and how light it may be.
+"""``tacgrasp bench contact``: how often contact is imagined in air, and how light it may be.
 
 False alarms are counted by closing, two seconds in air against the gel of its open fingers, for the
-simulated sensor with its slow drift at noise levels 1, 2 and 3. Missed contacts are counted by true
-force, in one frame each, at the positions that episodes start from. Beside them stands an ideal
-detector, which knows the shape of each contact: no test of one frame can miss fewer.
+simulated sensor with its slow drift and fine noise of levels 1, 2 and 3. Missed contacts are
+counted by true force, in one frame each, at the positions that episodes start from. Beside them
+stands an ideal detector, which knows the shape of each contact: no test of one frame misses fewer.
 
 Not here: the test itself (``cltp.tactile.contact_test``).
 """
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from functools import partial
-from pathlib import Path
+from dataclasses import dataclass, replace
+from functools import lru_cache, partial
 from statistics import NormalDist, median
 from typing import Any
 
@@ -24,17 +22,20 @@ from rich.console import Console
 from rich.table import Table
 
 from cltp.tactile.cloud import cloud_from_heights
-from cltp.tactile.contact_test import NUM_FRAMES, THRESHOLD, UntouchedGel
+from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
 from cltp.tactile.measure import cell_means
-from cltp.tactile.sensor_noise import spread_of
+from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from sim.grasp.bodies import OBJECTS
+from sim.grasp.devices import SimClock, SimSensor
 from sim.grasp.fingers import Patch
 from sim.grasp.rig import OFFSET_X_MM, OFFSET_Y_MM, SimRig, build
+from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.settings import ContactSettings
 
 NOISE_LEVELS = (1.0, 2.0, 3.0)
-"""Levels of noise that closings in air take in turn; 1 is the measured sensor."""
+"""Levels of the fine noise that closings in air take in turn; 1 is the measured sensor."""
 
 FRAMES_PER_CLOSING = 50
 """Frames of a closing in air: two seconds at 25 Hz."""
@@ -62,20 +63,16 @@ class GraspSample:
     ideal_missed: tuple[float, ...]
 
 
-def run(closings: int, bodies: int, json_path: Path | None) -> bool:
+def run(settings: ContactSettings) -> bool:
     """Measure, print and write the figures.
-
-    Args:
-        closings: Number of closings in air.
-        bodies: Number of bodies of each kind, ``GRASPS_PER_BODY`` positions each.
-        json_path: File to write the figures to.
 
     Returns:
         Whether at most ``MAX_FALSE_PER_CLOSING`` of the closings had a false alarm.
     """
+    closings, bodies = settings.closings, settings.bodies
     console = Console()
-    responses = map_seeds(console, "closings in air", largest_response, range(closings))
-    figures = false_alarms(responses)
+    ratios = map_seeds(console, "closings in air", largest_ratio, range(closings))
+    figures = false_alarms(ratios)
     figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
     figures |= {key: {} for key in ("ideal_missed_by_force", "ideal_least_force_n")}
     for name in OBJECTS:
@@ -87,35 +84,41 @@ def run(closings: int, bodies: int, json_path: Path | None) -> bool:
             figures[f"{prefix}missed_by_force"][name] = by_force
             figures[f"{prefix}least_force_n"][name] = least_force_n(missed)
     _print(console, figures, bodies)
-    if json_path is not None:
-        json_path.write_text(json.dumps({"contact": figures}, indent=1), encoding="utf-8")
+    write_figures(settings.json, {"contact": figures})
     return bool(figures["false_per_closing"] <= MAX_FALSE_PER_CLOSING)
 
 
-def largest_response(seed: int) -> float:
-    """Largest response of a closing in air, over the standard deviation of the noise.
+def largest_ratio(seed: int) -> float:
+    """Largest response of a closing in air, over the least response of a contact.
 
-    Each seed has a unit and a drift of its own; noise levels follow the seeds in turn.
+    Each seed has a unit and a drift of its own; levels of the fine noise follow the seeds in turn.
     """
-    level = NOISE_LEVELS[seed % len(NOISE_LEVELS)]
-    rig = build("strawberry", seed, noise_level=level)
-    gel = _untouched(rig)
-    frames = range(FRAMES_PER_CLOSING)
-    return THRESHOLD * max(gel.test(rig.sensor.read()).ratio for _ in frames)
+    rig = _open_rig()
+    rng, level = np.random.default_rng([seed, 1]), NOISE_LEVELS[seed % len(NOISE_LEVELS)]
+    unit = NoiseUnit.draw(rng, spread=spread_of(rig.sensor.spec))
+    unit = replace(unit, fine_mm=level * unit.fine_mm)
+    sensor = SimSensor(rig.grasp, SimClock(), rig.sensor.spec, unit, seed)
+    gel = _untouched(sensor)
+    return max(gel.test(sensor.read()).ratio for _ in range(FRAMES_PER_CLOSING))
 
 
-def _untouched(rig: SimRig) -> UntouchedGel:
-    rig.sensor.take_reference()
-    return UntouchedGel([rig.sensor.read() for _ in range(NUM_FRAMES)])
+@lru_cache
+def _open_rig() -> SimRig:
+    return build("strawberry", 0)
 
 
-def false_alarms(responses: Sequence[float]) -> dict[str, Any]:
-    """Rates of closings with a false alarm, from the largest response of each closing.
+def _untouched(sensor: SimSensor) -> UntouchedGel:
+    sensor.take_reference()
+    return UntouchedGel([sensor.read() for _ in range(NUM_FRAMES)])
+
+
+def false_alarms(ratios: Sequence[float]) -> dict[str, Any]:
+    """Rates of closings with a false alarm, from the largest ratio of each closing.
 
     Args:
-        responses: By seed from 0 on.
+        ratios: By seed from 0 on.
     """
-    alarms = [response >= THRESHOLD for response in responses]
+    alarms = [ratio >= 1 for ratio in ratios]
     of_level = {
         f"{level:g}": alarms[i :: len(NOISE_LEVELS)] for i, level in enumerate(NOISE_LEVELS)
     }
@@ -126,16 +129,15 @@ def false_alarms(responses: Sequence[float]) -> dict[str, Any]:
         "false_per_closing_by_noise_level": {
             level: float(np.mean(values)) for level, values in of_level.items() if values
         },
-        "median_response": median(responses),
-        "largest_response": max(responses),
-        "threshold": THRESHOLD,
+        "median_ratio": median(ratios),
+        "largest_ratio": max(ratios),
     }
 
 
 def grasp_samples(name: str, seed: int) -> list[GraspSample]:
     """Press one body at some positions of the pad with each of ``FORCES_N``."""
     rig = build(name, seed)
-    gel = _untouched(rig)
+    gel = _untouched(rig.sensor)
     rng = np.random.default_rng([seed, 9])
     samples = []
     for _ in range(GRASPS_PER_BODY):
@@ -195,8 +197,8 @@ def _print(console: Console, figures: dict[str, Any], bodies: int) -> None:
         f"{100 * MAX_FALSE_PER_CLOSING:g} %: {levels}"
     )
     console.print(
-        f"largest response of a closing over the noise: {figures['median_response']:.1f} in the "
-        f"median, {figures['largest_response']:.1f} at most; the threshold is {THRESHOLD:g}"
+        "largest response of a closing over the least of a contact: "
+        f"{figures['median_ratio']:.2f} in the median, {figures['largest_ratio']:.2f} at most"
     )
     table = Table(
         title=f"Contacts missed in one frame, by true force; {GRASPS_PER_BODY * bodies} positions"

@@ -6,14 +6,10 @@ Each error is measured when the benchmark runs. The tests hold the same figures 
 
 from __future__ import annotations
 
-import json
 import math
-import time
-from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-import numpy as np
 import torch
 from rich.console import Console
 from rich.table import Table
@@ -21,6 +17,7 @@ from torch import Tensor
 
 from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
+from tacgrasp.benchmarks.figures import median_ms, write_figures
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     FIT_DIAMETER_MM,
     Profile,
@@ -32,11 +29,12 @@ from tacgrasp.benchmarks.sensing.radial_profiles import (
     tacto,
     taxim,
 )
+from tacgrasp.benchmarks.settings import GelSettings
 
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class Figure:
     """One line of the table.
 
@@ -78,23 +76,12 @@ def hertz() -> list[Figure]:
     gap = (_radius_mm(61, 61, 0.05) ** 2 / 20.0)[None]
     press = _square(material, 61, 0.05).press_to_depth(gap, torch.tensor(0.1))
     force = 4 / 3 * material.plane_strain_mpa * math.sqrt(10) * 0.1**1.5
+    force_error = 100 * (press.force_n.item() / force - 1)
     radius = math.sqrt((press.pressure_kpa > 0).sum().item() * 0.05**2 / math.pi)
     note = "Love half-space, 20 elements to the radius; limit 2 %"
     return [
-        Figure(
-            key="hertz_force_error_percent",
-            what="Force against Hertz",
-            value=100 * (press.force_n.item() / force - 1),
-            unit="%",
-            note=note,
-        ),
-        Figure(
-            key="hertz_radius_error_percent",
-            what="Radius against Hertz",
-            value=100 * (radius - 1),
-            unit="%",
-            note=note,
-        ),
+        Figure("hertz_force_error_percent", "Force against Hertz", force_error, "%", note),
+        Figure("hertz_radius_error_percent", "Radius against Hertz", 100 * (radius - 1), "%", note),
     ]
 
 
@@ -111,11 +98,11 @@ def dimitriadis() -> list[Figure]:
         series = 1 + 1.133 * chi + 1.283 * chi**2 + 0.769 * chi**3 + 0.0975 * chi**4
         figures.append(
             Figure(
-                key=f"dimitriadis_chi_{chi:.1f}_error_percent",
-                what=f"Force against Dimitriadis, chi {chi:.1f}",
-                value=100 * (press.force_n.item() / (force * series) - 1),
-                unit="%",
-                note="bonded, nu 0.4999; limit 3 %",
+                f"dimitriadis_chi_{chi:.1f}_error_percent",
+                f"Force against Dimitriadis, chi {chi:.1f}",
+                100 * (press.force_n.item() / (force * series) - 1),
+                "%",
+                "bonded, nu 0.4999; limit 3 %",
             )
         )
     return figures
@@ -125,16 +112,9 @@ def volume() -> list[Figure]:
     """Percentage of the sunk volume that does not rise again, nu = 0.4999."""
     material = GelMaterial(thickness_mm=2.0, young_mpa=0.145, poisson=0.4999)
     press = _square(material, 241, 0.4).press_to_force(_ball(4.0, 241, 241, 0.4), torch.tensor(1.0))
-    sunk = press.height_mm.clamp(min=0).sum().item()
-    return [
-        Figure(
-            key="volume_lost_percent",
-            what="Volume lost",
-            value=100 * press.height_mm.sum().item() / sunk,
-            unit="%",
-            note="nu 0.4999, sensing area 48 thicknesses wide",
-        )
-    ]
+    lost = 100 * press.height_mm.sum().item() / press.height_mm.clamp(min=0).sum().item()
+    note = "nu 0.4999, sensing area 48 thicknesses wide"
+    return [Figure("volume_lost_percent", "Volume lost", lost, "%", note)]
 
 
 def profiles(folder: Path | None) -> list[Figure]:
@@ -145,11 +125,7 @@ def profiles(folder: Path | None) -> list[Figure]:
     measured = [] if folder is None else read_profiles(folder)
     if not measured:
         note = "give --data DIR" if folder is None else f"no profile_*mm.csv in {folder}"
-        return [
-            Figure(
-                key="profile_rmse_mm", what="Real ball's profile", value=None, unit="mm", note=note
-            )
-        ]
+        return [Figure("profile_rmse_mm", "Real ball's profile", None, "mm", note)]
     preset = gel_of("gelsight_mini")
     figures = []
     for profile in measured:
@@ -166,11 +142,11 @@ def profiles(folder: Path | None) -> list[Figure]:
             best = match(simulator, profile, pitch)
             figures.append(
                 Figure(
-                    key=f"{name.split()[0].lower()}_rmse_mm_{profile.diameter_mm:g}mm_at_{pitch}",
-                    what=f"RMSE of {name}, ball {profile.diameter_mm:g} mm, {pitch} mm grid",
-                    value=best.rmse_mm,
-                    unit="mm",
-                    note=f"at {best.depth_mm:.2f} mm depth"
+                    f"{name.split()[0].lower()}_rmse_mm_{profile.diameter_mm:g}mm_at_{pitch}",
+                    f"RMSE of {name}, ball {profile.diameter_mm:g} mm, {pitch} mm grid",
+                    best.rmse_mm,
+                    "mm",
+                    f"at {best.depth_mm:.2f} mm depth"
                     + ("; limit 0.007" if name == "gel preset" and pitch < 0.2 else ""),
                 )
             )
@@ -181,21 +157,10 @@ def _fit(profile: Profile, preset: GelMaterial) -> list[Figure]:
     best, error = fit(profile)
     note = f"RMSE {error.rmse_mm:.5f} mm; the preset is "
     note += "the fit" if best == preset else "NOT the fit"
+    origin = f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid"
     return [
-        Figure(
-            key="fit_thickness_mm",
-            what="Fitted thickness",
-            value=best.thickness_mm,
-            unit="mm",
-            note=note,
-        ),
-        Figure(
-            key="fit_poisson",
-            what="Fitted Poisson's ratio",
-            value=best.poisson,
-            unit="",
-            note=f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid",
-        ),
+        Figure("fit_thickness_mm", "Fitted thickness", best.thickness_mm, "mm", note),
+        Figure("fit_poisson", "Fitted Poisson's ratio", best.poisson, "", origin),
     ]
 
 
@@ -208,11 +173,11 @@ def discretisation() -> list[Figure]:
         forces[pitch] = press.force_n.item()
     figures = [
         Figure(
-            key=f"grid_{pitch}_mm_force_error_percent",
-            what=f"Force at {pitch} mm grid",
-            value=100 * (forces[pitch] / forces[0.1] - 1),
-            unit="%",
-            note="ball R 5 mm at 0.6 mm, against 0.1 mm grid",
+            f"grid_{pitch}_mm_force_error_percent",
+            f"Force at {pitch} mm grid",
+            100 * (forces[pitch] / forces[0.1] - 1),
+            "%",
+            "ball R 5 mm at 0.6 mm, against 0.1 mm grid",
         )
         for pitch in (0.4, 0.2)
     ]
@@ -223,11 +188,11 @@ def discretisation() -> list[Figure]:
         error = (press.height_mm.double() - exact.height_mm).abs().max().item()
         figures.append(
             Figure(
-                key=f"tol_{tol:g}_height_error_um",
-                what=f"Worst height, float32 at tol {tol:g}",
-                value=1e3 * error,
-                unit="µm",
-                note=f"soft ball R 15 mm, 1 N; {press.iterations.item()} iterations; "
+                f"tol_{tol:g}_height_error_um",
+                f"Worst height, float32 at tol {tol:g}",
+                1e3 * error,
+                "µm",
+                f"soft ball R 15 mm, 1 N; {press.iterations.item()} iterations; "
                 "against float64 at 1e-8",
             )
         )
@@ -245,16 +210,6 @@ def _mini(dtype: torch.dtype) -> ElasticLayer:
     )
 
 
-def _median_ms(call: Callable[[], object], repeats: int) -> float:
-    call()
-    times = []
-    for _ in range(repeats):
-        begin = time.perf_counter()
-        call()
-        times.append(1e3 * (time.perf_counter() - begin))
-    return float(np.median(times))
-
-
 @torch_threads()
 def cost() -> list[Figure]:
     """Time per solve on one thread, alone and batched, and the time of its FFTs alone."""
@@ -262,33 +217,26 @@ def cost() -> list[Figure]:
     setting = f"{ROWS}×{COLUMNS} at {PITCH_MM} mm, soft ball R 15 mm, 1 N, one thread"
     force = torch.tensor(1.0)
     press = gel.press_to_force(gap, force)
-    single = _median_ms(lambda: gel.press_to_force(gap, force), 20)
-    loose = _median_ms(lambda: gel.press_to_force(gap, force, tol=1e-3), 20)
-    warm = _median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
+    single = median_ms(lambda: gel.press_to_force(gap, force), 20)
+    loose = median_ms(lambda: gel.press_to_force(gap, force, tol=1e-3), 20)
+    warm = median_ms(lambda: gel.press_to_force(gap, 1.05 * force, start=press), 20)
     many = gap.expand(32, -1, -1)
-    batched = _median_ms(lambda: gel.press_to_force(many, force), 5) / 32
+    batched = median_ms(lambda: gel.press_to_force(many, force), 5) / 32
     # Two convolutions an iteration, one for the last residual, one for the surface.
     convolutions = 2 * int(press.iterations.item()) + 2
     padded = (2 * ROWS, 2 * COLUMNS)
     waves = torch.fft.rfft2(gap.clamp(max=1.0), s=padded)
-    bare = _median_ms(
+    bare = median_ms(
         lambda: (torch.fft.rfft2(gap, s=padded), torch.fft.irfft2(waves, s=padded)), 20
     )
+    fraction = bare * convolutions / single
     floor = f"{convolutions} plain convolutions, padded to double; above 1: ours are faster"
     return [
-        Figure(key="ms_single", what="One solve", value=single, unit="ms", note=setting),
-        Figure(key="ms_loose", what="One solve, tol 1e-3", value=loose, unit="ms", note=""),
-        Figure(
-            key="ms_warm", what="One solve, warm start", value=warm, unit="ms", note="+5 % force"
-        ),
-        Figure(key="ms_batched", what="Per solve, batch of 32", value=batched, unit="ms", note=""),
-        Figure(
-            key="fft_floor_share",
-            what="Bare FFTs / whole solve",
-            value=bare * convolutions / single,
-            unit="",
-            note=floor,
-        ),
+        Figure("ms_single", "One solve", single, "ms", setting),
+        Figure("ms_loose", "One solve, tol 1e-3", loose, "ms", ""),
+        Figure("ms_warm", "One solve, warm start", warm, "ms", "+5 % force"),
+        Figure("ms_batched", "Per solve, batch of 32", batched, "ms", ""),
+        Figure("fft_floor_share", "Bare FFTs / whole solve", fraction, "", floor),
     ]
 
 
@@ -298,24 +246,17 @@ def measure(data: Path | None) -> list[Figure]:
     return before + profiles(data) + discretisation() + cost()
 
 
-def run(data: Path | None, json_path: Path | None) -> None:
-    """Measure, print a table, and write the figures to ``json_path`` if given.
-
-    Args:
-        data: Folder with profiles of real presses; without it they are not compared.
-        json_path: File for the figures.
+def run(settings: GelSettings) -> None:
+    """Measure, print a table, and write the figures.
 
     Raises:
         OSError: The file cannot be written.
     """
-    figures = measure(data)
+    figures = measure(settings.data)
     table = Table("figure", "value", "unit", "note", title="Elastic-layer gel")
     for figure in figures:
         value = "not measured" if figure.value is None else f"{figure.value:.4g}"
         table.add_row(figure.what, value, figure.unit, figure.note)
     Console().print(table)
-    if json_path is not None:
-        report = {"figures": [asdict(figure) for figure in figures]} | {
-            figure.key: figure.value for figure in figures
-        }
-        json_path.write_text(json.dumps(report, indent=2) + "\n", encoding="utf-8")
+    report = {"figures": [asdict(figure) for figure in figures]}
+    write_figures(settings.json, report | {figure.key: figure.value for figure in figures})

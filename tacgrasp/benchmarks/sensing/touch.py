@@ -7,20 +7,19 @@ below the benchmark's.
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from sim.grasp.bodies import OBJECTS, Range
 from sim.grasp.rig import OFFSET_X_MM, OFFSET_Y_MM, SimRig, build
+from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.settings import TouchSettings
 
 FORCES_N = {
     "strawberry": Range(low=0.1, high=5, log=True),
@@ -63,9 +62,9 @@ class GraspSample:
         return abs(self.offset_mm[0]) < 7 and abs(self.offset_mm[1]) < 4.5
 
 
-def run(bodies: int, json_path: Path | None) -> dict[str, Any]:
-    """Measure ``bodies`` bodies of each kind; print, return and write the figures."""
-    console = Console()
+def run(settings: TouchSettings) -> None:
+    """Measure some bodies of each kind; print and write the figures."""
+    console, bodies = Console(), settings.bodies
     figures: dict[str, Any] = {"objects": {}}
     samples: list[GraspSample] = []
     for name in OBJECTS:
@@ -73,16 +72,15 @@ def run(bodies: int, json_path: Path | None) -> dict[str, Any]:
         of_object = [sample for seed in seeds for sample in _samples(name, seed)]
         figures["objects"][name] = _figures(of_object)
         samples += of_object
-    untouched = [_untouched(seed) for seed in range(10 * bodies)]
-    figures["imagined_share"] = float(np.mean([state.in_contact for state in untouched]))
+    rigs = (build("cherry_tomato", seed) for seed in range(10 * bodies))
+    imagined = [contact_state(rig.sensor.read()).in_contact for rig in rigs]
+    figures["imagined_share"] = float(np.mean(imagined))
     figures["missed_share"] = {
         f"{low}-{high} N": _missed([s for s in samples if low <= s.force_n < high])
         for low, high in ((0.1, 0.15), (0.15, 0.22), (0.22, 0.33), (0.33, 0.5), (0.5, 0.8))
     }
     _print(console, figures)
-    if json_path is not None:
-        json_path.write_text(json.dumps(figures, indent=1), encoding="utf-8")
-    return figures
+    write_figures(settings.json, figures)
 
 
 def _samples(name: str, seed: int) -> list[GraspSample]:
@@ -111,10 +109,6 @@ def _sample(
     )
 
 
-def _untouched(seed: int) -> ContactState:
-    return contact_state(build("cherry_tomato", seed).sensor.read())
-
-
 def _missed(samples: list[GraspSample]) -> float:
     return float(np.mean([not s.state.in_contact for s in samples])) if samples else float("nan")
 
@@ -140,18 +134,9 @@ def _figures(samples: list[GraspSample]) -> dict[str, float]:
 
 
 def _print(console: Console, figures: dict[str, Any]) -> None:
-    table = Table(title="Direct measurement against the truth (medians; force from 0.4 N)")
-    table.add_column("object")
-    for column in (
-        "grasps",
-        "ln force: bias",
-        "spread",
-        "depth mm",
-        "ln area: bias",
-        "x mm",
-        "y mm",
-    ):
-        table.add_column(column, justify="right")
+    title = "Direct measurement against the truth (medians; force from 0.4 N)"
+    columns = ("object", "grasps", "ln force: bias", "spread", "depth mm", "ln area: bias")
+    table = number_table(title, (*columns, "x mm", "y mm"), ("object",))
     for name, row in figures["objects"].items():
         table.add_row(
             name,

@@ -48,10 +48,8 @@ class Bus:
             Always False until it is set.
     """
 
-    def __init__(
-        self, settings: DynamixelSettings, clock: Callable[[], float] = time.monotonic
-    ) -> None:
-        self._settings, self._clock = settings, clock
+    def __init__(self, settings: DynamixelSettings) -> None:
+        self._settings = settings
         self._port: ClaimedPort | None = None
         self._sdk: Any = None
         self.counts = BusFaultCounts()
@@ -176,14 +174,14 @@ class Bus:
         Raises:
             BusError: The servo does not reply to the ping either.
         """
-        failed_s = self._clock()
+        failed_s = time.monotonic()
         if error.kind is BusFault.CORRUPT:
             self.counts.corrupt += 1
         else:
             self.counts.silent += 1
         replied = self._ping_until_reply(servo, failed_s)
         drain_s = self._settings.drain_ms / 1000 if error.timed_out else _QUIET_S
-        if self._drain(self._clock() + drain_s) and replied:
+        if self._drain(time.monotonic() + drain_s) and replied:
             self.counts.late += 1
 
     def _ping_until_reply(self, servo: int, failed_s: float) -> bool:
@@ -199,7 +197,7 @@ class Bus:
             except BusError as error:
                 if error.kind is BusFault.CORRUPT:
                     return False
-                over = 1000 * (self._clock() - failed_s) > self._settings.patience_ms
+                over = 1000 * (time.monotonic() - failed_s) > self._settings.patience_ms
                 if error.kind is not BusFault.SILENT or over or self.arm_is_moving():
                     raise
 
@@ -207,7 +205,7 @@ class Bus:
         """Discard what arrives until then; returns whether anything arrived."""
         port, received = self._open_port(), False
         with self._port_errors():
-            while self._clock() < until_s:
+            while time.monotonic() < until_s:
                 received = bool(port.readPort(256)) or received
         return received
 
@@ -216,7 +214,7 @@ class Bus:
         port = self._open_port()
         size = len(body) + 3
         packet = [0, 0, 0, 0, servo, size & 0xFF, size >> 8, code, *body, 0, 0]
-        start_s, num_stray = self._clock(), 0
+        start_s, num_stray = time.monotonic(), 0
         with self._port_errors():
             received, result, _ = self._sdk.txRxPacket(port, packet)
             while result == 0 and servo != _BROADCAST and _is_stray(received, servo, length):
@@ -233,7 +231,7 @@ class Bus:
                 BusFault.CORRUPT, f"{name} answered an earlier packet only", timed_out=True
             )
         if result != 0:
-            raise self._failure(result, name, self._clock() - start_s)
+            raise self._failure(result, name, time.monotonic() - start_s)
         if servo == _BROADCAST:
             return BusReply(data=b"", alert=False)
         error = received[_ERROR_AT]

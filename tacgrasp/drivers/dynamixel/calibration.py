@@ -24,6 +24,8 @@ from primitives.errors import RobotError
 from tacgrasp.base.settings import Number, SettingsBase
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
+ADVICE = "make one with: tacgrasp calibrate gripper"
+
 MIN_READINGS = 3
 MAX_RESIDUAL_FRACTION = 0.15
 """Residual over the largest force; above it a line does not describe the gripper. Our choice."""
@@ -73,6 +75,14 @@ class GripperCalibration(SettingsBase):
     def force_n(self, current_ma: float) -> float:
         return max(0.0, (current_ma - self.friction_ma) * self.newtons_per_ma)
 
+    def step_n(self, unit_ma: float) -> float:
+        """Change of the force by one unit of current [N]."""
+        return self.newtons_per_ma * unit_ma
+
+    def least_n(self, unit_ma: float) -> float:
+        """Least force above 0 that every command of whole units of current can make [N]."""
+        return max(self.step_n(unit_ma), self.force_n(unit_ma))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForceReading:
@@ -86,13 +96,12 @@ class ForceReading:
     force_n: float
 
     def __post_init__(self) -> None:
-        if not (np.isfinite([self.current_ma, self.force_n]).all() and self.current_ma >= 0):
+        values = (self.current_ma, self.force_n)
+        if not (np.isfinite(values).all() and min(values) >= 0):
             raise RobotError(
-                f"a reading is a current from 0 mA on and a force [N], got {self.current_ma} mA "
-                f"and {self.force_n} N"
+                f"a reading is a current from 0 mA on and a force from 0 N on, got "
+                f"{self.current_ma} mA and {self.force_n} N"
             )
-        if self.force_n < 0:
-            raise RobotError(f"a reading of {self.force_n} N: forces are read from 0 on")
 
 
 def fit_calibration(
@@ -127,7 +136,7 @@ def fit_calibration(
         return GripperCalibration(
             unit=settings.unit,
             model=settings.model,
-            ids=tuple(servo.id for servo in settings.servos),
+            ids=settings.ids,
             adapter=adapter,
             date=date,
             newtons_per_ma=float(slope),
@@ -156,10 +165,10 @@ def read_readings(path: Path) -> Sequence[ForceReading]:
             readings = []
             for row in rows:
                 try:
-                    values = float(row["current_ma"]), float(row["force_n"])
+                    current_ma, force_n = float(row["current_ma"]), float(row["force_n"])
                 except (TypeError, ValueError):
                     raise RobotError(f"line {rows.line_num}: {expected}, got {row}") from None
-                readings.append(ForceReading(current_ma=values[0], force_n=values[1]))
+                readings.append(ForceReading(current_ma=current_ma, force_n=force_n))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise RobotError(f"{expected}: {error}") from None
     return readings
@@ -187,22 +196,18 @@ def load_calibration(path: Path) -> GripperCalibration:
     Raises:
         RobotError: The file is missing or damaged.
     """
-    advice = "make one with: tacgrasp calibrate gripper"
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        if isinstance(values, dict):
+            return GripperCalibration(**values)
+        reason = "expected fields"
     except FileNotFoundError:
-        raise RobotError(f"no calibration of the gripper at {path}; {advice}") from None
+        raise RobotError(f"no calibration of the gripper at {path}; {ADVICE}") from None
+    except ValidationError as error:
+        reason = _first_error(error)
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
         reason = " ".join(str(error).split())
-        raise RobotError(f"{path} is no calibration of a gripper: {reason}; {advice}") from None
-    if not isinstance(values, dict):
-        raise RobotError(f"{path} is no calibration of a gripper: expected fields; {advice}")
-    try:
-        return GripperCalibration(**values)
-    except ValidationError as error:
-        raise RobotError(
-            f"{path} is no calibration of a gripper: {_first_error(error)}; {advice}"
-        ) from None
+    raise RobotError(f"{path} is no calibration of a gripper: {reason}; {ADVICE}")
 
 
 def refusal(
@@ -213,18 +218,16 @@ def refusal(
     today: datetime.date,
 ) -> str:
     """Reason to refuse a calibration for this gripper and date; empty for none."""
-    ids = tuple(servo.id for servo in settings.servos)
-    pairs = (
+    for name, calibrated, connected in (
         ("unit", calibration.unit, settings.unit),
         ("model", calibration.model, settings.model),
-        ("ids", calibration.ids, ids),
+        ("ids", calibration.ids, settings.ids),
         ("adapter", calibration.adapter or adapter, adapter or calibration.adapter),
-    )
-    for name, calibrated, connected in pairs:
+    ):
         if calibrated != connected:
             return (
                 f"the calibration is of another gripper: its {name} is {calibrated}, this one's "
-                f"{connected}; make one with: tacgrasp calibrate gripper"
+                f"{connected}; {ADVICE}"
             )
     age_days = (today - calibration.date).days
     if age_days < 0:

@@ -44,10 +44,8 @@ class ServoFingers:
         sent: The last command on the wire, in the servos' words; empty before the first.
     """
 
-    def __init__(
-        self, bus: Bus, poller: ServoPoller, settings: DynamixelSettings, clock: Callable[[], float]
-    ) -> None:
-        self.settings, self._bus, self.poller, self._clock = settings, bus, poller, clock
+    def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
+        self.settings, self._bus, self.poller = settings, bus, ServoPoller(bus, settings)
         self.unit_ma = reg.MODELS[settings.model].unit_ma
         self.adapter = adapter_serial(bus.path)
         self.sent = ""
@@ -165,9 +163,9 @@ class ServoFingers:
             for servo, goal in zip(self.settings.servos, goals, strict=True)
         }
 
+        positions = ", ".join(map(str, goals))
         self.sent = (
-            f"goal current {units} ({units * self.unit_ma:.0f} mA), goal position "
-            f"{', '.join(map(str, goals))} ticks"
+            f"goal current {units} ({units * self.unit_ma:.0f} mA), goal position {positions} ticks"
         )
 
         def write(bus: Bus) -> list[int]:
@@ -184,12 +182,12 @@ class ServoFingers:
         purpose: str,
     ) -> float:
         """Wait until all servos are at rest and done, ``settle_polls`` samples in a row."""
-        deadline_s = self._clock() + self.settings.settle_timeout_s
+        deadline_s = time.monotonic() + self.settings.settle_timeout_s
         num_still, previous, num_stops = 0, None, self._num_stops
         while num_still < self.settings.settle_polls:
             if self._num_stops != num_stops:
                 raise RobotError("the fingers were stopped on their way")
-            if self._clock() > deadline_s:
+            if time.monotonic() > deadline_s:
                 raise RobotError(
                     f"the fingers did not come to rest {purpose} within "
                     f"{self.settings.settle_timeout_s:g} s; is the linkage free, and the speed "
@@ -250,21 +248,15 @@ def _at_rest(previous: PollSample, sample: PollSample) -> bool:
     )
 
 
-def connect_fingers(
-    settings: DynamixelSettings, *, clock: Callable[[], float] = time.monotonic
-) -> ServoFingers:
+def connect_fingers(settings: DynamixelSettings) -> ServoFingers:
     """Open the port, check the servos, and let them hold their positions; nothing moves.
 
     Servos with torque on (a grip kept by an earlier run) stay as they are.
 
-    Args:
-        settings: The gripper's section of the rig's file.
-        clock: Monotonic [s].
-
     Raises:
         RobotError: The port can't be opened, or a check fails; the message gives the remedy.
     """
-    bus = Bus(settings, clock)
+    bus = Bus(settings)
     bus.open()
     try:
         failed = [finding for finding in startup_findings(bus, settings) if not finding.ok]
@@ -278,7 +270,7 @@ def connect_fingers(
         bus.close()
         raise
     bus.arm_is_moving = lambda: True  # from here on the arm may move, as far as this driver knows
-    return ServoFingers(bus, ServoPoller(bus, settings, clock), settings, clock)
+    return ServoFingers(bus, settings)
 
 
 def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> None:

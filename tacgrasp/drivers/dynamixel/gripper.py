@@ -10,16 +10,21 @@ from __future__ import annotations
 import datetime
 import logging
 import math
-import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from primitives.devices import GripperState
 from primitives.errors import LimitError, RobotError
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.calibration import GripperCalibration, load_calibration, refusal
+from tacgrasp.drivers.dynamixel.calibration import (
+    ADVICE,
+    GripperCalibration,
+    load_calibration,
+    refusal,
+)
 from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
 from tacgrasp.drivers.dynamixel.fingers import ServoFingers, connect_fingers
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
@@ -53,7 +58,7 @@ class DynamixelGripper:
     @property
     def force_step_n(self) -> float:
         """Least change of the force [N]: that of one unit of current."""
-        return self._calibration.newtons_per_ma * self._fingers.unit_ma
+        return self._calibration.step_n(self._fingers.unit_ma)
 
     @property
     def fault(self) -> str:
@@ -123,7 +128,6 @@ def connect_gripper(
     settings: DynamixelSettings,
     *,
     folder: Path = Path(),
-    clock: Callable[[], float] = time.monotonic,
     today: Callable[[], datetime.date] = datetime.date.today,
 ) -> DynamixelGripper:
     """Check calibration and servos, and let the servos hold their positions; nothing moves.
@@ -131,14 +135,13 @@ def connect_gripper(
     Args:
         settings: The gripper's section of the rig's file.
         folder: Folder of the rig's file; the calibration's path is relative to it.
-        clock: Monotonic [s].
         today: Gives the date for the calibration's age.
 
     Raises:
         RobotError: The calibration does not fit, the port can't be opened, or a check fails.
     """
     calibration = load_calibration(folder / settings.calibration)
-    fingers = connect_fingers(settings, clock=clock)
+    fingers = connect_fingers(settings)
     reason = refusal(calibration, settings, adapter=fingers.adapter, today=today())
     if reason:
         fingers.disconnect()
@@ -147,13 +150,15 @@ def connect_gripper(
 
 
 def check(
-    settings: DynamixelSettings,
-    *,
-    folder: Path = Path(),
-    clock: Callable[[], float] = time.perf_counter,
-    today: Callable[[], datetime.date] = datetime.date.today,
+    settings: DynamixelSettings, *, folder: Path = Path(), first_force_n: float | None = None
 ) -> Sequence[Finding]:
-    """Check the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves."""
+    """Check the gripper for ``tacgrasp doctor``; nothing is written to it, nothing moves.
+
+    Args:
+        settings: The gripper's section of the rig's file.
+        folder: Folder of the rig's file; the calibration's path is relative to it.
+        first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
+    """
     bus, adapter = Bus(settings), ""
     findings = []
     try:
@@ -163,46 +168,44 @@ def check(
         servo_findings = startup_findings(bus, settings)
         findings += servo_findings
         if servo_findings[0].ok:
-            findings.append(_latency(bus, settings, clock))
+            findings.append(_latency(bus, settings))
     except RobotError as error:
         adapter = ""
         findings.append(_finding("port", False, settings.port, f"{error}"))
     finally:
         bus.close()
-    return [*findings, _calibration(settings, folder, adapter, today())]
+    return [
+        *findings,
+        _calibration(settings, folder, adapter),
+        *_first_force(settings, folder, first_force_n),
+    ]
 
 
-def _finding(name: str, ok: bool, detail: str, advice: str = "") -> Finding:
-    return Finding(device="gripper", name=name, ok=ok, detail=detail, advice="" if ok else advice)
+_finding = partial(finding, "gripper")
 
 
-def _latency(bus: Bus, settings: DynamixelSettings, clock: Callable[[], float]) -> Finding:
-    durations_ms = []
-    for _ in range(LATENCY_READS):
-        start_s = clock()
-        bus.read(settings.servos[0].id, reg.PRESENT, reg.PRESENT_LENGTH)
-        durations_ms.append(1000 * (clock() - start_s))
-    durations_ms.sort()
-    p50, p99 = durations_ms[len(durations_ms) // 2], durations_ms[(99 * len(durations_ms)) // 100]
+def _latency(bus: Bus, settings: DynamixelSettings) -> Finding:
+    servo = settings.servos[0].id
+    p50, p99, longest = read_durations_ms(
+        lambda: bus.read(servo, reg.PRESENT, reg.PRESENT_LENGTH), LATENCY_READS
+    )
     return _finding(
         "latency",
         p99 <= SLOW_MS,
-        f"p50 {p50:.2f} ms, p99 {p99:.2f} ms, max {durations_ms[-1]:.2f} ms over "
-        f"{len(durations_ms)} reads; {bus.counts}",
+        f"p50 {p50:.2f} ms, p99 {p99:.2f} ms, max {longest:.2f} ms over {LATENCY_READS} reads; "
+        f"{bus.counts}",
         "set the USB adapter's latency timer to 1 ms (for ttyUSB0: echo 1 | sudo tee "
         "/sys/bus/usb-serial/devices/ttyUSB0/latency_timer), and end what else keeps this "
         "computer busy",
     )
 
 
-def _calibration(
-    settings: DynamixelSettings, folder: Path, adapter: str, today: datetime.date
-) -> Finding:
+def _calibration(settings: DynamixelSettings, folder: Path, adapter: str) -> Finding:
+    today = datetime.date.today()
     try:
         calibration = load_calibration(folder / settings.calibration)
     except RobotError as error:
-        advice = "make one with: tacgrasp calibrate gripper"
-        return _finding("calibration", False, f"{error}", advice)
+        return _finding("calibration", False, f"{error}", ADVICE)
     reason = refusal(calibration, settings, adapter=adapter, today=today)
     detail = (
         f"of {calibration.date}, {(today - calibration.date).days} days old, "
@@ -210,3 +213,26 @@ def _calibration(
         f"residual {calibration.residual_n:.3f} N, up to {calibration.max_force_n:.1f} N"
     )
     return _finding("calibration", not reason, detail, reason)
+
+
+def _first_force(
+    settings: DynamixelSettings, folder: Path, first_force_n: float | None
+) -> list[Finding]:
+    """Whether an approach can begin below its limit; nothing without a calibration."""
+    try:
+        calibration = load_calibration(folder / settings.calibration)
+    except RobotError:  # a finding of its own
+        return []
+    if first_force_n is None:
+        return []
+    unit_ma = reg.MODELS[settings.model].unit_ma
+    least_n = calibration.least_n(unit_ma)
+    detail = (
+        f"{first_force_n:g} N until something is felt, in steps of "
+        f"{calibration.step_n(unit_ma):.3f} N or more; the least command is {least_n:.3f} N"
+    )
+    advice = (
+        "an approach would press harder than gripper.first_force_n: set it to the least command or "
+        "more, and grasp nothing that so much force bruises; or take a gripper with finer steps"
+    )
+    return [_finding("first force", least_n <= first_force_n, detail, advice)]

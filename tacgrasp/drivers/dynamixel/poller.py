@@ -58,14 +58,8 @@ class PollSample:
 class ServoPoller:
     """The I/O thread of one gripper. Starts polling at once."""
 
-    def __init__(
-        self,
-        bus: Bus,
-        settings: DynamixelSettings,
-        clock: Callable[[], float] = time.monotonic,
-    ) -> None:
-        self._bus, self._settings, self._clock = bus, settings, clock
-        self._ids = [servo.id for servo in settings.servos]
+    def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
+        self._bus, self._settings = bus, settings
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._changed = threading.Condition()
         self._fault = ""
@@ -110,7 +104,7 @@ class ServoPoller:
                 "overloaded?"
             ) from None
 
-    def next_sample(self, after: int, timeout_s: float = CALL_S) -> PollSample:
+    def next_sample(self, after: int) -> PollSample:
         """Wait for the first sample with a number above ``after``.
 
         Raises:
@@ -121,14 +115,14 @@ class ServoPoller:
             for _ in range(_NUM_WAITS):
                 if self._changed.wait_for(
                     lambda: self._closed or self._fault or self._num_polls > after,
-                    timeout_s / _NUM_WAITS,
+                    CALL_S / _NUM_WAITS,
                 ):
                     break
             if self._fault or self._closed:
                 raise RobotError(self._fault or "the gripper is disconnected")
             if self._sample is None or self._sample.number <= after:
                 raise RobotError(
-                    f"the gripper was not polled for {timeout_s:g} s; is this computer overloaded?"
+                    f"the gripper was not polled for {CALL_S:g} s; is this computer overloaded?"
                 )
             return self._sample
 
@@ -147,23 +141,23 @@ class ServoPoller:
 
     def _run(self) -> None:
         period_s = self._settings.poll_ms / 1000
-        due_s = self._clock()
+        due_s = time.monotonic()
         while True:
             try:
-                job = self._jobs.get(timeout=max(0.0, due_s - self._clock()))
+                job = self._jobs.get(timeout=max(0.0, due_s - time.monotonic()))
                 if job is None:
                     return
                 job()
             except queue.Empty:
                 pass
-            if self._clock() >= due_s:
-                due_s = max(due_s + period_s, self._clock())
+            if time.monotonic() >= due_s:
+                due_s = max(due_s + period_s, time.monotonic())
                 if not self._fault:
                     self._poll()
 
     def _poll(self) -> None:
         try:
-            servos = [self._poll_servo(servo) for servo in self._ids]
+            servos = [self._poll_servo(servo) for servo in self._settings.ids]
         except RobotError as error:
             self._latch_fault(f"{error}")
             return

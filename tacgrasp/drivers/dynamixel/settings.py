@@ -102,7 +102,7 @@ class DynamixelSettings(SettingsBase):
                 f"model must be one with current control ({', '.join(sorted(MODELS))}), "
                 f"got {self.model!r}"
             )
-        if len({servo.id for servo in self.servos}) < len(self.servos):
+        if len(set(self.ids)) < len(self.ids):
             raise ValueError("two servos need two ids")
         if self.closed_width_mm >= self.open_width_mm:
             raise ValueError(
@@ -121,3 +121,7 @@ class DynamixelSettings(SettingsBase):
                 f"{self.bus_watchdog_ms}"
             )
         return self
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        return tuple(servo.id for servo in self.servos)

@@ -5,10 +5,9 @@ A failed check refuses the start; ``tacgrasp doctor`` prints all of them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from typing import NamedTuple
+from collections.abc import Iterator, Sequence
 
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
@@ -17,35 +16,22 @@ from tacgrasp.drivers.dynamixel.settings import BAUDS, DynamixelSettings, ServoS
 WIZARD = "with the DYNAMIXEL Wizard"
 _MARGIN_FRACTION = 0.1  # of the travel; a servo may stand so far outside of it
 
-
-class _Check(NamedTuple):
-    """Result of one check; the advice is used when ``ok`` is False."""
-
-    name: str
-    ok: bool
-    detail: str
-    advice: str
+_Check = tuple[str, bool, str, str]
+"""Name, whether it has passed, read values, and the advice for a failed check."""
 
 
 def startup_findings(bus: Bus, settings: DynamixelSettings) -> Sequence[Finding]:
     """Check every servo; a servo that is missing or of another model gets no further checks."""
     findings: list[Finding] = []
     for servo in settings.servos:
-        model = _model(bus, settings, servo)
-        findings.append(_finding(servo, model))
-        if model.ok:
-            findings += [_finding(servo, check(bus, settings, servo)) for check in _CHECKS]
+        checks = [_model(bus, settings, servo)]
+        if checks[0][1]:
+            checks += [*_configuration(bus, servo), *_condition(bus, settings, servo)]
+        findings += [
+            finding("gripper", f"servo {servo.id} {name}", ok, detail, advice)
+            for name, ok, detail, advice in checks
+        ]
     return findings
-
-
-def _finding(servo: ServoSettings, check: _Check) -> Finding:
-    return Finding(
-        device="gripper",
-        name=f"servo {servo.id} {check.name}",
-        ok=check.ok,
-        detail=check.detail,
-        advice="" if check.ok else check.advice,
-    )
 
 
 def _model(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
@@ -55,7 +41,7 @@ def _model(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Chec
         if error.kind is BusFault.LOST:
             raise
         detail = f"expected {settings.model} at id {servo.id}, {settings.baud} baud; {error}"
-        return _Check("model", False, detail, _search_other_bauds(bus, settings, servo))
+        return "model", False, detail, _search_other_bauds(bus, settings, servo)
     expected = reg.MODELS[settings.model].number
     if number in reg.WITHOUT_CURRENT:
         advice = (
@@ -67,7 +53,7 @@ def _model(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Chec
     detail = reg.model_name(number)
     if number != expected:
         detail += f", expected {settings.model}"
-    return _Check("model", number == expected, detail, advice)
+    return "model", number == expected, detail, advice
 
 
 def _search_other_bauds(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> str:
@@ -92,111 +78,66 @@ def _search_other_bauds(bus: Bus, settings: DynamixelSettings, servo: ServoSetti
     )
 
 
-def _firmware(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
+def _configuration(bus: Bus, servo: ServoSettings) -> Iterator[_Check]:
+    """Registers that a person sets once."""
     version = bus.read_number(servo.id, reg.FIRMWARE, 1)
-    return _Check(
-        "firmware",
-        version >= reg.WATCHDOG_FIRMWARE,
-        f"version {version}, {reg.WATCHDOG_FIRMWARE} or later is needed for the bus watchdog",
-        f"update it {WIZARD}",
-    )
+    detail = f"version {version}, {reg.WATCHDOG_FIRMWARE} or later is needed for the bus watchdog"
+    yield "firmware", version >= reg.WATCHDOG_FIRMWARE, detail, f"update it {WIZARD}"
 
-
-def _mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     mode, expected = bus.read_number(servo.id, reg.OPERATING_MODE, 1), reg.CURRENT_BASED_POSITION
-    return _Check(
-        "operating mode",
-        mode == expected,
-        f"{mode}, expected {expected} (current-based position)",
-        f"set register {reg.OPERATING_MODE} to {expected} {WIZARD}, torque off",
-    )
+    detail = f"{mode}, expected {expected} (current-based position)"
+    advice = f"set register {reg.OPERATING_MODE} to {expected} {WIZARD}, torque off"
+    yield "operating mode", mode == expected, detail, advice
 
-
-def _drive_mode(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     mode = bus.read_number(servo.id, reg.DRIVE_MODE, 1)
-    wrong_bits = mode & (reg.TIME_BASED | reg.TORQUE_BY_GOAL)
-    return _Check(
-        "drive mode",
-        not wrong_bits,
-        f"{mode:#04x}, expected a velocity-based profile and no torque-on by goal (bits 2, 3 off)",
-        f"set register {reg.DRIVE_MODE} to {mode & ~wrong_bits} {WIZARD}, torque off",
-    )
+    wrong = mode & (reg.TIME_BASED | reg.TORQUE_BY_GOAL)
+    detail = f"{mode:#04x}, expected a velocity-based profile and no torque-on by goal"
+    advice = f"set register {reg.DRIVE_MODE} to {mode & ~wrong} {WIZARD}, torque off"
+    yield "drive mode", not wrong, f"{detail} (bits 2, 3 off)", advice
 
-
-def _status_return(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     level = bus.read_number(servo.id, reg.STATUS_RETURN, 1)
     detail = f"{level}, expected 2 (every instruction is answered)"
     advice = f"set register {reg.STATUS_RETURN} to 2 {WIZARD}"
-    return _Check("status return level", level == 2, detail, advice)
+    yield "status return level", level == 2, detail, advice
 
-
-def _shutdown(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     mask = bus.read_number(servo.id, reg.SHUTDOWN, 1)
-    missing = reg.NEEDED_SHUTDOWN & ~mask
     detail = f"{mask:#04x}"
-    if missing:
+    if missing := reg.NEEDED_SHUTDOWN & ~mask:
         detail += f", it would not let go when {reg.hardware_error_text(missing)}"
     advice = f"set register {reg.SHUTDOWN} to {mask | missing} {WIZARD}, torque off"
-    return _Check("shutdown mask", not missing, detail, advice)
+    yield "shutdown mask", not missing, detail, advice
 
 
-def _current_limit(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
-    unit_ma = reg.MODELS[settings.model].unit_ma
-    limit_ma = bus.read_number(servo.id, reg.CURRENT_LIMIT, 2) * unit_ma
-    return _Check(
-        "current limit",
-        limit_ma >= settings.max_current_ma,
-        f"{limit_ma:.0f} mA, max_current_ma is {settings.max_current_ma:.0f}",
-        f"lower max_current_ma in the rig's file, or raise register {reg.CURRENT_LIMIT} {WIZARD}",
-    )
+def _condition(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> Iterator[_Check]:
+    """Limits and present state, compared with the settings."""
+    limit_ma = bus.read_number(servo.id, reg.CURRENT_LIMIT, 2) * reg.MODELS[settings.model].unit_ma
+    detail = f"{limit_ma:.0f} mA, max_current_ma is {settings.max_current_ma:.0f}"
+    advice = f"lower max_current_ma in the rig's file, or raise register {reg.CURRENT_LIMIT}"
+    yield "current limit", limit_ma >= settings.max_current_ma, detail, f"{advice} {WIZARD}"
 
-
-def _hardware_error(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     error = bus.read_number(servo.id, reg.HARDWARE_ERROR, 1)
     advice = "remove the cause, then reboot the servo or switch its power off and on"
-    return _Check("hardware error", error == 0, reg.hardware_error_text(error) or "none", advice)
+    yield "hardware error", error == 0, reg.hardware_error_text(error) or "none", advice
 
-
-def _voltage(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     volts, low, high = (
         0.1 * bus.read_number(servo.id, address, 2)
         for address in (reg.VOLTAGE, reg.MIN_VOLTAGE, reg.MAX_VOLTAGE)
     )
     detail = f"{volts:.1f} V, allowed {low:.1f} to {high:.1f} V"
     advice = "check the power supply, its cable and its rating"
-    return _Check("voltage", low <= volts <= high, detail, advice)
+    yield "voltage", low <= volts <= high, detail, advice
 
-
-def _temperature(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
     celsius, limit_c = bus.read_number(servo.id, reg.TEMPERATURE, 1), settings.max_temperature_c
-    detail = f"{celsius} °C, at most {limit_c:g} °C"
     advice = "let it cool; if it is cold to the touch, its sensor is broken"
-    return _Check("temperature", celsius <= limit_c, detail, advice)
+    yield "temperature", celsius <= limit_c, f"{celsius} °C, at most {limit_c:g} °C", advice
 
-
-def _position(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Check:
-    """The position must lie in the travel: mode 5 ignores limits, and a reboot loses the turns."""
+    # Mode 5 ignores position limits, and a reboot loses the turns.
     ticks = bus.read_number(servo.id, reg.PRESENT_POSITION, 4, signed=True)
-    low, high = sorted((servo.open_ticks, servo.closed_ticks))
-    margin = round(_MARGIN_FRACTION * (high - low))
-    return _Check(
-        "position",
-        low - margin <= ticks <= high + margin,
-        f"{ticks} ticks, its travel is {low} to {high}",
+    lowest, highest = sorted((servo.open_ticks, servo.closed_ticks))
+    margin = round(_MARGIN_FRACTION * (highest - lowest))
+    advice = (
         "the turn count is lost on a reboot, or the linkage has moved: with torque off turn the "
-        "fingers into their travel, and check open_ticks and closed_ticks",
+        "fingers into their travel, and check open_ticks and closed_ticks"
     )
-
-
-_CHECKS: Sequence[Callable[[Bus, DynamixelSettings, ServoSettings], _Check]] = (
-    _firmware,
-    _mode,
-    _drive_mode,
-    _status_return,
-    _shutdown,
-    _current_limit,
-    _hardware_error,
-    _voltage,
-    _temperature,
-    _position,
-)
+    detail = f"{ticks} ticks, its travel is {lowest} to {highest}"
+    yield "position", lowest - margin <= ticks <= highest + margin, detail, advice

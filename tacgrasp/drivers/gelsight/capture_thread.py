@@ -21,6 +21,7 @@ from cltp.sensing.frames import Frame
 from cltp.tactile.cloud import Stamp
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
 from tacgrasp.drivers.latest import Latest
+from tacgrasp.drivers.stamps import real_stamp
 
 _NUM_GAPS = 50  # intervals for the median, the camera's own interval
 _LATE_FACTOR = 1.5  # an interval above so many medians means dropped frames
@@ -67,19 +68,11 @@ class CaptureThread:
         opener: Opens the source; called in the thread, which alone uses the source.
         age_s: Largest age of a frame at its arrival [s].
         pace_s: Shortest time between two frames; 0 for a camera, which has its own rate [s].
-        stamp: Returns both clocks.
     """
 
-    def __init__(
-        self,
-        opener: Callable[[], FrameSource],
-        *,
-        age_s: float,
-        pace_s: float,
-        stamp: Callable[[], Stamp],
-    ) -> None:
+    def __init__(self, opener: Callable[[], FrameSource], *, age_s: float, pace_s: float) -> None:
         self.latest: Latest[CapturedFrame] = Latest()
-        self._opener, self._age_s, self._pace_s, self._stamp = opener, age_s, pace_s, stamp
+        self._opener, self._age_s, self._pace_s = opener, age_s, pace_s
         self._ending = threading.Event()
         self._gaps: deque[float] = deque(maxlen=_NUM_GAPS)
         self._frames = self._dropped = self._repeated = 0
@@ -118,7 +111,7 @@ class CaptureThread:
                 source.close()
 
     def _take(self, frame: Frame, previous: CapturedFrame | None) -> CapturedFrame:
-        stamp = self._stamp()
+        stamp = real_stamp()
         if previous is not None and np.array_equal(frame, previous.frame):
             self._repeated += 1
             return previous

@@ -6,7 +6,6 @@ Not here: reading it (``sensor``), calibrating it (``tacgrasp calibrate gelsight
 from __future__ import annotations
 
 import datetime
-import time
 from collections.abc import Callable, Sequence
 from functools import partial
 
@@ -16,15 +15,13 @@ from cltp.errors import TouchError
 from cltp.sensing.calibration import Calibration, default_calibration, load_calibration
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
-from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.gelsight.background import Background, average_frames, load_background
 from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread
 from tacgrasp.drivers.gelsight.sensor import GelSightMini
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tacgrasp.drivers.stamps import real_stamp
 
 _WARM_UP = 10  # frames until a camera's exposure has settled
 _CHECKS = 20
@@ -42,7 +39,6 @@ def connect_gelsight(
     settings: GelSightSettings,
     *,
     rng: np.random.Generator | None = None,
-    stamp: Callable[[], Stamp] = real_stamp,
     now: Now = local_now,
     opener: Opener = make_source,
 ) -> GelSightMini:
@@ -54,17 +50,11 @@ def connect_gelsight(
         TouchError: Calibration or background is missing, of another unit or too old; the camera or
             recording is missing, can't be opened, or gives no frame.
     """
-    sensor = _sensor()
+    sensor = sensor_named("gelsight_mini")
     calibration, background = load_unit_files(settings, now())
     photometer = Photometer(calibration.net, background.frame, sensor)
-    gelsight = GelSightMini(
-        settings,
-        partial(opener, settings, sensor),
-        photometer,
-        background.frame,
-        rng=rng,
-        stamp=stamp,
-    )
+    open_source = partial(opener, settings, sensor)
+    gelsight = GelSightMini(settings, open_source, photometer, background.frame, rng=rng)
     try:
         gelsight.wait_until_alive()
     except BaseException:
@@ -81,7 +71,7 @@ def load_unit_files(
     Raises:
         TouchError: A file is missing, damaged, of another unit, or, for a camera, too old.
     """
-    sensor = _sensor()
+    sensor = sensor_named("gelsight_mini")
     if settings.calibration == "shipped":
         calibration = load_calibration(default_calibration(sensor), sensor)
     else:
@@ -108,7 +98,6 @@ def take_background(
     settings: GelSightSettings,
     *,
     num_frames: int = 20,
-    stamp: Callable[[], Stamp] = real_stamp,
     now: Now = local_now,
     opener: Opener = make_source,
 ) -> Background:
@@ -117,10 +106,10 @@ def take_background(
     Raises:
         TouchError: The source can't be read, or the picture isn't still.
     """
-    sensor = _sensor()
+    sensor = sensor_named("gelsight_mini")
     open_source = partial(opener, settings, sensor)
     if settings.is_camera:
-        frames = _camera_frames(settings, open_source, num_frames, stamp)
+        frames = _camera_frames(settings, open_source, num_frames)
     else:
         source = open_source()
         try:
@@ -131,13 +120,10 @@ def take_background(
 
 
 def _camera_frames(
-    settings: GelSightSettings,
-    open_source: Callable[[], FrameSource],
-    num_frames: int,
-    stamp: Callable[[], Stamp],
+    settings: GelSightSettings, open_source: Callable[[], FrameSource], num_frames: int
 ) -> list[Frame]:
     """Successive frames of a camera, without its first ones."""
-    thread = CaptureThread(open_source, age_s=0.0, pace_s=0.0, stamp=stamp)
+    thread = CaptureThread(open_source, age_s=0.0, pace_s=0.0)
     frames: list[Frame] = []
     last_s, timeout_s = -np.inf, settings.connect_timeout_s
     try:
@@ -167,10 +153,7 @@ def check(
     except TouchError as error:
         advice = "make or name the right file; see docs/hardware.md"
         return [_finding("calibration and background", False, str(error), advice)]
-    findings = [
-        _calibration_finding(settings, calibration, now()),
-        _background_finding(background, now()),
-    ]
+    findings = _file_findings(settings, calibration, background, now())
     try:
         sensor = connect_gelsight(settings, now=now, opener=opener)
     except TouchError as error:
@@ -183,28 +166,24 @@ def check(
         sensor.disconnect()
 
 
-def _calibration_finding(
-    settings: GelSightSettings, calibration: Calibration, now: datetime.datetime
-) -> Finding:
+def _file_findings(
+    settings: GelSightSettings,
+    calibration: Calibration,
+    background: Background,
+    now: datetime.datetime,
+) -> list[Finding]:
     detail = f"{calibration.age_days(now.date())} days old, unit {calibration.unit}"
     if settings.calibration == "shipped":
         detail += ": not this unit's, so heights are rough; tacgrasp calibrate gelsight-mini"
-    return _finding("calibration", True, detail)
-
-
-def _background_finding(background: Background, now: datetime.datetime) -> Finding:
     age_h = background.age_h(now)
-    detail = "no date" if age_h is None else f"{age_h:.1f} h old, {background.num_frames} frames"
-    return _finding("background", True, detail)
+    age = "no date" if age_h is None else f"{age_h:.1f} h old, {background.num_frames} frames"
+    return [_finding("calibration", True, detail), _finding("background", True, age)]
 
 
 def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
-    durations_ms, num_reads = [], _CHECKS if settings.is_camera or settings.repeat else 1
+    num_reads = _CHECKS if settings.is_camera or settings.repeat else 1
     try:
-        for _ in range(num_reads):
-            start = time.perf_counter()
-            sensor.read()
-            durations_ms.append(1e3 * (time.perf_counter() - start))
+        p50, p99, _ = read_durations_ms(sensor.read, num_reads)
         sensor.expect_untouched()
     except TouchError as error:
         return _finding("reads", False, str(error), "correct the error, then check again")
@@ -214,14 +193,9 @@ def _read_finding(sensor: GelSightMini, settings: GelSightSettings) -> Finding:
         f"; {counts.frames} frames, {counts.dropped} dropped, {counts.repeated} repeated, every "
         f"{counts.interval_ms:.0f} ms"
     )  # fmt: skip
-    p50, p99 = np.percentile(durations_ms, [50, 99])
     detail = f"p50 {p50:.0f}, p99 {p99:.0f} ms{rate}"
     advice = "plug it into a USB port of its own"
     return _finding("fresh cloud", not too_many_dropped, detail, advice)
-
-
-def _sensor() -> SensorSpec:
-    return sensor_named("gelsight_mini")
 
 
 _finding = partial(finding, "sensor")

@@ -8,6 +8,7 @@ Not here: opening and checking the sensor of a rig's file (``connect``), the sou
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 
 import numpy as np
@@ -15,14 +16,13 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
-from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.drivers.gelsight.background import check_still, mismatch
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread, FrameCounts
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.stamps import real_stamp
-
 
 REFERENCE_FRAMES = 5
 """Frames that a reference is the mean of. Our choice: its noise is less than half that of a frame,
@@ -42,7 +42,6 @@ class GelSightMini:
         photometer: Photometer of the unit's calibration and stored background.
         background: The same background.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
-        stamp: Returns both clocks.
 
     Raises:
         TouchError: A recording can't be opened. A camera is opened in its thread, and
@@ -57,11 +56,10 @@ class GelSightMini:
         background: Frame,
         *,
         rng: np.random.Generator | None = None,
-        stamp: Callable[[], Stamp] = real_stamp,
     ) -> None:
         self._settings, self._background = settings, background
         self._stored_photometer = self._photometer = photometer
-        self._rng, self._stamp = rng, stamp
+        self._rng = rng
         self._disconnected = False
         self._source: FrameSource | None = None
         self._thread: CaptureThread | None = None
@@ -70,7 +68,6 @@ class GelSightMini:
                 opener,
                 age_s=settings.frame_age_s if settings.is_camera else 0.0,
                 pace_s=0.0 if settings.play_hz is None else 1 / settings.play_hz,
-                stamp=stamp,
             )
         else:
             self._source = opener()
@@ -165,7 +162,7 @@ class GelSightMini:
             self._source.close()
 
     def _fresh_frame(self) -> CapturedFrame:
-        called_s = self._stamp().monotonic_s
+        called_s = time.monotonic()
         if self._source is not None:
             self._check_connected()
             captured = self._next_recorded(self._source)
@@ -186,7 +183,7 @@ class GelSightMini:
         return captured
 
     def _next_recorded(self, source: FrameSource) -> CapturedFrame:
-        frame, stamp = source.next_frame(), self._stamp()
+        frame, stamp = source.next_frame(), real_stamp()
         return CapturedFrame(
             frame=frame, stamp=stamp, exposed_s=stamp.monotonic_s, problem=frame_problem(frame)
         )
@@ -200,7 +197,7 @@ class GelSightMini:
             raise TouchError(f"{self._settings.source}: disconnected; connect it again to read")
 
     def _age_s(self, captured: CapturedFrame) -> float:
-        return self._stamp().monotonic_s - captured.stamp.monotonic_s
+        return time.monotonic() - captured.stamp.monotonic_s
 
     def _no_frame_message(self, waited_s: float) -> str:
         thread, source = self._thread, self._settings.source

@@ -15,7 +15,7 @@ from pathlib import Path
 from cltp.errors import TouchError
 from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_cloud
-from cltp.tactile.cloud import NUM_POINTS, Stamp, TactileCloud
+from cltp.tactile.cloud import NUM_POINTS, TactileCloud
 from cltp.tactile.encoder_input import lattice_points
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import Finding, finding
@@ -39,7 +39,6 @@ class RecordedSensor:
         loaders: Loaders of the clouds, in order; each is called when it is played.
         sensor: Sensor of the recording.
         repeat: Start again at the end.
-        stamp: Returns both clocks.
     """
 
     def __init__(
@@ -49,11 +48,9 @@ class RecordedSensor:
         sensor: SensorSpec,
         *,
         repeat: bool = False,
-        stamp: Callable[[], Stamp] = real_stamp,
     ) -> None:
         self._name, self._loaders, self._spec = name, loaders, sensor
-        self._repeat, self._stamp = repeat, stamp
-        self._num_played, self._disconnected = 0, False
+        self._repeat, self._num_played, self._disconnected = repeat, 0, False
 
     @property
     def spec(self) -> SensorSpec:
@@ -75,7 +72,7 @@ class RecordedSensor:
         cloud = self._loaders[self._num_played % len(self._loaders)]()
         self._num_played += 1
         points = cloud.points_mm if len(cloud.points_mm) == NUM_POINTS else lattice_points(cloud)
-        return TactileCloud(points_mm=points, sensor=self._spec, stamp=self._stamp())
+        return TactileCloud(points_mm=points, sensor=self._spec, stamp=real_stamp())
 
     def take_reference(self) -> None:
         """Nothing to take: recorded clouds are played as they are.
@@ -99,9 +96,7 @@ class RecordedSensor:
         self._disconnected = True
 
 
-def connect_recorded(
-    settings: RecordedSettings, *, stamp: Callable[[], Stamp] = real_stamp
-) -> RecordedSensor:
+def connect_recorded(settings: RecordedSettings) -> RecordedSensor:
     """Open the recording of a rig's file.
 
     Raises:
@@ -116,7 +111,7 @@ def connect_recorded(
     else:
         raise TouchError(f"no recording {path}; expected an episode (.mcap) or a folder of clouds")
     log.info("%d recorded clouds are played from %s: nothing is felt", len(loaders), path)
-    return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat, stamp=stamp)
+    return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat)
 
 
 def _episode_loaders(path: Path, sensor: SensorSpec) -> list[LoadCloud]:

@@ -6,19 +6,17 @@ Not here: reading it (``sensor``), its settings (``settings``).
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import Stamp
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
-from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.check import Finding, finding, read_durations_ms
 from tacgrasp.drivers.serial_ports import claim, find_port, in_use_message
-from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.drivers.taxels.sensor import TaxelArray
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 
@@ -31,10 +29,7 @@ _CHECKS = 20
 
 
 def connect_taxels(
-    settings: TaxelSettings,
-    *,
-    rng: np.random.Generator | None = None,
-    stamp: Callable[[], Stamp] = real_stamp,
+    settings: TaxelSettings, *, rng: np.random.Generator | None = None
 ) -> TaxelArray:
     """Open the array of a rig's file and wait for its first frame.
 
@@ -43,7 +38,7 @@ def connect_taxels(
             another device sends on it; or the grid does not fit the sensor.
     """
     sensor_named(settings.sensor)
-    array = TaxelArray(_open(settings), settings, rng=rng, stamp=stamp)
+    array = TaxelArray(_open(settings), settings, rng=rng)
     try:
         array.wait_until_alive()
     except BaseException:
@@ -90,23 +85,19 @@ def check(settings: TaxelSettings) -> Sequence[Finding]:
 
 def _read_findings(array: TaxelArray, settings: TaxelSettings) -> list[Finding]:
     connection = _finding("connection", True, f"{settings.port}, sensor {array.spec.name}")
-    start_s, durations_ms, first = time.perf_counter(), [], array.counts().frames
+    start_s, first = time.perf_counter(), array.counts().frames
     try:
-        for _ in range(_CHECKS):
-            read_s = time.perf_counter()
-            array.read()
-            durations_ms.append(1e3 * (time.perf_counter() - read_s))
+        p50, p99, _ = read_durations_ms(array.read, _CHECKS)
     except TouchError as error:
         advice = "correct the error; docs/taxels.md has the format"
         return [connection, _finding("reads", False, str(error), advice)]
     counts = array.counts()
     rate = (counts.frames - first) / (time.perf_counter() - start_s)
-    p50, p99 = np.percentile(durations_ms, [50, 99])
     return [
         connection,
         _finding(
             "fresh frame",
-            bool(p99 <= 1e3 * settings.read_timeout_s / 2),
+            p99 <= 1e3 * settings.read_timeout_s / 2,
             f"p50 {p50:.0f}, p99 {p99:.0f} ms; {rate:.0f} frames/s",
             "raise the baud rate, or read_timeout_s to more than twice the p99",
         ),

@@ -11,9 +11,9 @@ array (``sim.emulators.taxels.array``).
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable
+import time
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -69,8 +69,7 @@ class LineCounts:
     garbage_bytes: int
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _StampedFrame:
+class _StampedFrame(NamedTuple):
     frame: TaxelFrame
     stamp: Stamp
     problem: str
@@ -87,18 +86,12 @@ class TaxelArray:
         port: Open and claimed port; closed by the array.
         settings: The sensor's section of the rig's file.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
-        stamp: Returns both clocks.
     """
 
     def __init__(
-        self,
-        port: Serial,
-        settings: TaxelSettings,
-        *,
-        rng: np.random.Generator | None = None,
-        stamp: Callable[[], Stamp] = real_stamp,
+        self, port: Serial, settings: TaxelSettings, *, rng: np.random.Generator | None = None
     ) -> None:
-        self._port, self._settings, self._rng, self._stamp = port, settings, rng, stamp
+        self._port, self._settings, self._rng = port, settings, rng
         self._spec = sensor_named(settings.sensor)
         self._latest: Latest[_StampedFrame] = Latest()
         self._parser, self._numbers = PacketParser(), SequenceCount()
@@ -106,7 +99,7 @@ class TaxelArray:
         self._sending = threading.Lock()
         self._mark = 0
         self._reference_mm: FloatArray | None = None
-        self._opened_s = stamp().monotonic_s
+        self._opened_s = time.monotonic()
         self._thread = threading.Thread(target=self._capture, name="taxel array", daemon=True)
         self._thread.start()
 
@@ -154,7 +147,7 @@ class TaxelArray:
                     f"{self._name} sends a grid of {heights_mm.shape} taxels, its reference has "
                     f"{reference_mm.shape}: was it exchanged? Connect it again"
                 )
-            heights_mm = heights_mm - reference_mm
+            heights_mm = (heights_mm - reference_mm).astype(np.float32)
         return cloud_from_heights(heights_mm, self._spec, rng=self._rng, stamp=fresh.stamp)
 
     def take_reference(self) -> None:
@@ -171,7 +164,7 @@ class TaxelArray:
     def check_alive(self) -> None:
         newest = self._latest.newest()
         since_s = self._opened_s if newest is None else newest.stamp.monotonic_s
-        if self._stamp().monotonic_s - since_s > self._settings.stale_s:
+        if time.monotonic() - since_s > self._settings.stale_s:
             raise self._no_frame_error(self._settings.stale_s)
         if newest is not None and newest.problem:
             raise TouchError(f"{self._name}: {newest.problem}")
@@ -230,7 +223,7 @@ class TaxelArray:
     def _no_frame_error(self, waited_s: float) -> TouchError:
         counts, newest = self.counts(), self._latest.newest()
         if newest is not None:
-            age_s = self._stamp().monotonic_s - newest.stamp.monotonic_s
+            age_s = time.monotonic() - newest.stamp.monotonic_s
             problem = (
                 f"no fresh frame within {waited_s:g} s; the last one came "
                 f"{age_s:.2f} s ago with mark {newest.frame.mark} ({counts.damaged} damaged so "
@@ -264,11 +257,7 @@ class TaxelArray:
             while not self._ending.is_set():
                 for packet in self._parser.feed(self._port.read(max(1, self._port.in_waiting))):
                     if isinstance(packet, TaxelFrame) and self._numbers.is_new(packet.sequence):
-                        self._latest.put(
-                            _StampedFrame(
-                                frame=packet, stamp=self._stamp(), problem=_problem(packet)
-                            )
-                        )
+                        self._latest.put(_StampedFrame(packet, real_stamp(), _problem(packet)))
             reason = "it is disconnected"
         except (SerialException, OSError) as error:
             reason = f"it was unplugged, or its port failed: {error}; plug it in and start again"

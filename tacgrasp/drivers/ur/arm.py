@@ -12,7 +12,6 @@ import logging
 import math
 import threading
 import time
-from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass
 
@@ -80,16 +79,9 @@ class UrArm:
         sent: The last command on the wire, in the controller's words; empty for none.
     """
 
-    def __init__(
-        self,
-        settings: UrSettings,
-        *,
-        clock: Callable[[], float] = time.monotonic,
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
-        """Start nothing yet; see ``connect_arm``. The clock must be the worker's."""
+    def __init__(self, settings: UrSettings) -> None:
+        """Start nothing yet; see ``connect_arm``."""
         self.settings = settings
-        self._clock, self._sleep = clock, sleep
         self._lock = threading.RLock()
         self._worker: WorkerProcess | None = None
         self._fault = "the UR arm is not connected"
@@ -193,7 +185,7 @@ class UrArm:
             self._unsafe = True  # from here on a program on the controller is ours
             self._number, self._worker = 0, WorkerProcess(self.settings)
             try:
-                self._worker.await_ready(self._clock, self._sleep)
+                self._worker.await_ready()
                 self._fault, self._unsafe = "", False
                 self._check_start_position()
             except BaseException:
@@ -226,9 +218,8 @@ class UrArm:
         with self._lock:
             self._number += 1
             return CommandRecord(
-                kind=kind, number=self._number, sent_s=self._clock(), pose=pose,
-                speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2,
-            )  # fmt: skip
+                kind, self._number, time.monotonic(), pose, speed_m_s, acceleration_m_s2
+            )
 
     def _send(self, command: CommandRecord) -> None:
         worker = self._connected()
@@ -241,16 +232,16 @@ class UrArm:
 
     def _wait_for(self, number: int, timeout_s: float) -> WorkerState:
         """Wait until a command (or a later one) has ended."""
-        until_s = self._clock() + timeout_s
+        until_s = time.monotonic() + timeout_s
         while True:
             state = self._state()
             if state.done >= number:
                 return state
-            if self._clock() > until_s:
+            if time.monotonic() > until_s:
                 self._latch(
                     f"the UR arm's worker has not carried out a command in {timeout_s:.1f} s"
                 )
-            self._sleep(POLL_S)
+            time.sleep(POLL_S)
 
     def _connected(self) -> WorkerProcess:
         worker = self._worker
@@ -262,7 +253,7 @@ class UrArm:
         """State of a live worker without a fault; latches any fault."""
         worker = self._connected()
         # Before reading: the state of an ended worker is final, and a pause here is not counted.
-        ended, now_s = worker.has_ended, self._clock()
+        ended, now_s = worker.has_ended, time.monotonic()
         state = worker.read()
         if state.phase != WorkerPhase.READY:
             worker.wait(HANG_S)  # the worker brakes the arm now, and publishes the method
@@ -276,12 +267,9 @@ class UrArm:
 
     def _check_start_position(self) -> None:
         """The TCP must start inside the workspace, or every move back would begin outside."""
-        state = self._connected().read()
-        stay = CommandRecord(
-            kind=ArmCommand.MOVE, number=0, sent_s=0.0, pose=state.pose,
-            speed_m_s=self.settings.max_speed_m_s,
-            acceleration_m_s2=self.settings.max_acceleration_m_s2,
-        )  # fmt: skip
+        state, settings = self._connected().read(), self.settings
+        limits = (settings.max_speed_m_s, settings.max_acceleration_m_s2)
+        stay = CommandRecord(ArmCommand.MOVE, 0, 0.0, state.pose, *limits)
         if reason := refusal(stay, state.pose, self.settings):
             raise LimitError(f"the arm starts where it may not be: {reason}. Jog it at the pendant")
 

@@ -14,10 +14,14 @@ import socket
 import struct
 from collections.abc import Sequence
 from contextlib import closing, suppress
+from itertools import islice
 
 from primitives.errors import RobotError
 
 DASHBOARD_PORT, SCRIPT_PORT, RTDE_PORT = 29999, 30003, 30004
+TIMEOUT_S, URGENT_S = 0.4, 0.15
+"""Longest wait for an answer: in a check, and for a stop from outside [s]."""
+
 GREETING = "Universal Robots Dashboard Server"
 
 INPUTS = (
@@ -82,7 +86,7 @@ class Dashboard:
     Raises ``RobotError`` for a missing or wrong answer, and for a lost connection.
     """
 
-    def __init__(self, host: str, timeout_s: float = 0.4) -> None:
+    def __init__(self, host: str, timeout_s: float = TIMEOUT_S) -> None:
         """Connect and read the greeting."""
         self._connection = _Connection(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
         self._text = b""
@@ -102,6 +106,10 @@ class Dashboard:
         self._connection.send(line.encode() + b"\n")
         return self._read()
 
+    def stops_program(self) -> bool:
+        """End the program; returns whether the controller confirms it."""
+        return self.ask("stop").lower().startswith("stopped")
+
     def close(self) -> None:
         self._connection.close()
 
@@ -120,13 +128,12 @@ class Rtde:
     Every method raises ``RobotError`` for a missing or malformed answer.
     """
 
-    def __init__(self, host: str, timeout_s: float = 0.4) -> None:
+    def __init__(self, host: str) -> None:
         """Connect and agree on the protocol."""
-        self._connection = _Connection(host, RTDE_PORT, "UR RTDE port", timeout_s)
+        self._connection = _Connection(host, RTDE_PORT, "UR RTDE port", TIMEOUT_S)
         self._buffer = bytearray()
-        self._names: list[str] = []
         self._layout = struct.Struct(">")
-        self._sizes: list[int] = []
+        self._sizes: dict[str, int] = {}
         try:
             if self._ask("V", struct.pack(">H", 2)) != b"\x01":
                 raise RobotError("the controller does not speak version 2 of RTDE; update it")
@@ -142,23 +149,21 @@ class Rtde:
         major, minor, _, _ = struct.unpack(">4I", answer)
         return major, minor
 
-    def inputs_in_use(self, names: Sequence[str] = INPUTS) -> list[str]:
-        """Input registers in use by another client; the free ones are ours until ``close``."""
-        answer = self._ask("I", ",".join(names).encode())
-        types = answer[1:].decode("ascii", "replace").split(",")
-        return [name for name, kind in zip(names, types, strict=False) if kind == "IN_USE"]
+    def inputs_in_use(self) -> list[str]:
+        """Those of ``INPUTS`` in use by another client; the free ones are ours until ``close``."""
+        types = self._ask_types("I", ",".join(INPUTS).encode())
+        return [name for name, kind in zip(INPUTS, types, strict=False) if kind == "IN_USE"]
 
     def subscribe(self, names: Sequence[str], rate_hz: float) -> list[str]:
         """Request a stream of variables; returns those that the controller does not have."""
         request = struct.pack(">d", rate_hz) + ",".join(names).encode()
-        types = self._ask("O", request)[1:].decode("ascii", "replace").split(",")
+        types = self._ask_types("O", request)
         available = [(n, t) for n, t in zip(names, types, strict=False) if t != "NOT_FOUND"]
         if len(types) != len(names) or any(kind not in _LENGTHS for _, kind in available):
             raise RobotError(f"the controller answered {len(names)} variables with {types}")
-        self._names = [name for name, _ in available]
         self._layout = struct.Struct(">" + "".join(_LENGTHS[kind] for _, kind in available))
-        self._sizes = [int(_LENGTHS[kind][:-1] or 1) for _, kind in available]
-        return [name for name in names if name not in self._names]
+        self._sizes = {name: int(_LENGTHS[kind][:-1] or 1) for name, kind in available}
+        return [name for name in names if name not in self._sizes]
 
     def start(self) -> None:
         """Start the stream."""
@@ -170,15 +175,14 @@ class Rtde:
         body = self._next("U")[1:]
         if len(body) != self._layout.size:
             raise RobotError(f"an RTDE sample of {len(body)} bytes, expected {self._layout.size}")
-        numbers = list(self._layout.unpack(body))
-        values = {}
-        for name, size in zip(self._names, self._sizes, strict=True):
-            values[name] = tuple(numbers[:size])
-            del numbers[:size]
-        return values
+        numbers = iter(self._layout.unpack(body))
+        return {name: tuple(islice(numbers, size)) for name, size in self._sizes.items()}
 
     def close(self) -> None:
         self._connection.close()
+
+    def _ask_types(self, kind: str, body: bytes) -> list[str]:
+        return self._ask(kind, body)[1:].decode("ascii", "replace").split(",")
 
     def _ask(self, kind: str, body: bytes) -> bytes:
         self._connection.send(struct.pack(">HB", 3 + len(body), ord(kind)) + body)
@@ -208,11 +212,7 @@ class Rtde:
 
 
 def stop_from_outside(
-    host: str,
-    deceleration_m_s2: float,
-    *,
-    dashboard: Dashboard | None = None,
-    timeout_s: float = 0.15,
+    host: str, deceleration_m_s2: float, *, dashboard: Dashboard | None = None
 ) -> str:
     """End the program on the controller without the library. Never raises.
 
@@ -222,20 +222,14 @@ def stop_from_outside(
     Returns:
         The method that was used; empty if none worked.
     """
-
-    def stop_by_open_connection() -> str:
-        return "" if dashboard is None else dashboard.ask("stop")
-
-    def stop_by_new_connection() -> str:
-        with closing(Dashboard(host, timeout_s)) as fresh:
-            return fresh.ask("stop")
-
-    for stop in (stop_by_open_connection, stop_by_new_connection):
-        with suppress(RobotError, OSError):
-            if stop().lower().startswith("stopped"):
-                return CONFIRMED
     with suppress(RobotError, OSError):
-        connection = _Connection(host, SCRIPT_PORT, "UR script port", timeout_s)
+        if dashboard is not None and dashboard.stops_program():
+            return CONFIRMED
+    with suppress(RobotError, OSError), closing(Dashboard(host, URGENT_S)) as fresh:
+        if fresh.stops_program():
+            return CONFIRMED
+    with suppress(RobotError, OSError):
+        connection = _Connection(host, SCRIPT_PORT, "UR script port", URGENT_S)
         connection.send(f"stopl({deceleration_m_s2:g})\n".encode())
         connection.close()
         return "stopl sent to the script port, unconfirmed"

@@ -10,7 +10,7 @@ import logging
 import re
 import socket
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import closing
 from functools import partial
 
@@ -78,63 +78,56 @@ def check(settings: UrSettings) -> Sequence[Finding]:
     return controller_findings(settings, seconds=1.0)
 
 
-def controller_findings(
-    settings: UrSettings, *, seconds: float, clock: Callable[[], float] = time.monotonic
-) -> list[Finding]:
+def controller_findings(settings: UrSettings, *, seconds: float) -> list[Finding]:
     """Run the checks in order; ends early if the remaining ones can't be run.
 
     Args:
         settings: The arm's section of the rig's file.
         seconds: Time of listening to the data stream [s].
-        clock: Monotonic clock [s].
     """
     findings: list[Finding] = []
     try:
         with closing(Dashboard(settings.host)) as dashboard:
-            findings += _on_dashboard(dashboard, clock)
+            findings += [*_on_dashboard(dashboard)]
     except RobotError as error:
         findings.append(_finding("dashboard", False, str(error), "Nothing was moved."))
     if any(not result.ok for result in findings):
         return findings
     try:
         with closing(Rtde(settings.host)) as rtde:
-            findings += _on_rtde(rtde, settings, seconds, clock)
+            findings += [*_on_rtde(rtde, settings, seconds)]
     except RobotError as error:
         findings.append(_finding("RTDE", False, str(error), "Nothing was moved."))
-    findings.append(_script_port(settings.host))
-    return findings
+    return [*findings, _script_port(settings.host)]
 
 
 _finding = partial(finding, "arm")
 
 
-def _on_dashboard(dashboard: Dashboard, clock: Callable[[], float]) -> list[Finding]:
-    start_s = clock()
-    version = dashboard.ask("PolyscopeVersion")
-    duration_ms = 1e3 * (clock() - start_s)
-    findings = [
-        _finding("dashboard", True, f"answers within {duration_ms:.1f} ms"),
-        _version(version),
-    ]
-    if not findings[-1].ok:
-        return findings
-    remote = dashboard.ask("is in remote control")
-    findings.append(_finding(
-        "remote control", remote.lower() == "true", remote,
-        "Switch the pendant to Remote Control (top right; enable it in the settings first).",
-    ))  # fmt: skip
-    mode = dashboard.ask("robotmode")
-    findings.append(_finding(
-        "robot mode", mode.lower() == "robotmode: running", mode,
-        "Power the arm on and release its brakes at the pendant.",
-    ))  # fmt: skip
-    safety = dashboard.ask("safetystatus")
-    findings.append(_finding(
-        "safety", safety.lower() in ("safetystatus: normal", "safetystatus: reduced"), safety,
-        "Find out why it stopped, clear the reason and release the stop at the pendant.",
-    ))  # fmt: skip
-    findings.append(_no_program(dashboard, clock))
-    return findings
+_DASHBOARD_CHECKS = (
+    ("remote control", "is in remote control", ("true",),
+     "Switch the pendant to Remote Control (top right; enable it in the settings first)."),
+    ("robot mode", "robotmode", ("robotmode: running",),
+     "Power the arm on and release its brakes at the pendant."),
+    ("safety", "safetystatus", ("safetystatus: normal", "safetystatus: reduced"),
+     "Find out why it stopped, clear the reason and release the stop at the pendant."),
+)  # fmt: skip
+"""Name, question to the dashboard, expected answers in lower case, and advice of each check."""
+
+
+def _on_dashboard(dashboard: Dashboard) -> Iterator[Finding]:
+    start_s = time.monotonic()
+    answer = dashboard.ask("PolyscopeVersion")
+    duration_ms = 1e3 * (time.monotonic() - start_s)
+    yield _finding("dashboard", True, f"answers within {duration_ms:.1f} ms")
+    version = _version(answer)
+    yield version
+    if not version.ok:
+        return
+    for name, question, expected, advice in _DASHBOARD_CHECKS:
+        answer = dashboard.ask(question)
+        yield _finding(name, answer.lower() in expected, answer, advice)
+    yield _no_program(dashboard)
 
 
 def _version(answer: str) -> Finding:
@@ -143,114 +136,89 @@ def _version(answer: str) -> Finding:
         return _finding("version", False, f"no version in {answer[:60]!r}", "Check the address.")
     version = (int(numbers[1]), int(numbers[2]))
     supported = MIN_VERSION <= version < (6, 0) or MIN_VERSION_X <= version < (11, 0)
-    return _finding(
-        "version", supported, f"PolyScope {version[0]}.{version[1]}",
+    advice = (
         "Needed: PolyScope {}.{} or newer of 5, or {}.{} or newer of 10 (X): update the "
-        "controller.".format(*MIN_VERSION, *MIN_VERSION_X),
-    )  # fmt: skip
+        "controller.".format(*MIN_VERSION, *MIN_VERSION_X)
+    )
+    return _finding("version", supported, f"PolyScope {version[0]}.{version[1]}", advice)
 
 
-def _no_program(dashboard: Dashboard, clock: Callable[[], float]) -> Finding:
+def _no_program(dashboard: Dashboard) -> Finding:
     """Wait until a program of ours that was just abandoned has ended by its watchdog."""
-    start_s = clock()
+    advice = "Another program runs on the arm: stop it at the pendant, or end the other client."
+    start_s = time.monotonic()
     while "true" in (answer := dashboard.ask("running").lower()):
-        if clock() - start_s > 0.3:
-            return _finding(
-                "program", False, answer,
-                "Another program runs on the arm: stop it at the pendant, or end the other client.",
-            )  # fmt: skip
+        if time.monotonic() - start_s > 0.3:
+            return _finding("program", False, answer, advice)
         time.sleep(0.05)
     return _finding("program", True, "none runs")
 
 
-def _on_rtde(
-    rtde: Rtde, settings: UrSettings, seconds: float, clock: Callable[[], float]
-) -> list[Finding]:
-    findings = [_finding("RTDE", True, "controller {}.{}".format(*rtde.version()))]
+def _on_rtde(rtde: Rtde, settings: UrSettings, seconds: float) -> Iterator[Finding]:
+    yield _finding("RTDE", True, "controller {}.{}".format(*rtde.version()))
     in_use = rtde.inputs_in_use()
-    findings.append(_finding(
-        "registers", not in_use, f"{len(in_use)} in use, {in_use[0]} first" if in_use else "free",
-        "Another client, EtherNet/IP, PROFINET or a MODBUS unit has them: end or disable it.",
-    ))  # fmt: skip
+    detail = f"{len(in_use)} in use, {in_use[0]} first" if in_use else "free"
+    advice = "Another client, EtherNet/IP, PROFINET or a MODBUS unit has them: end or disable it."
+    yield _finding("registers", not in_use, detail, advice)
     missing = rtde.subscribe(WATCHED, settings.supervision_hz)
-    if REQUIRED & set(missing):
-        names = ", ".join(sorted(REQUIRED & set(missing)))
-        findings.append(_finding("variables", False, f"missing: {names}", "Update the controller."))
-        return findings
+    if names := ", ".join(sorted(REQUIRED & set(missing))):
+        yield _finding("variables", False, f"missing: {names}", "Update the controller.")
+        return
     if missing:
         rtde.subscribe([n for n in WATCHED if n not in missing], settings.supervision_hz)
     rtde.start()
     sample = rtde.sample()
-    stamps, arrivals = [sample["timestamp"][0]], [clock()]
+    first_stamp, arrivals = sample["timestamp"][0], [time.monotonic()]
     while arrivals[-1] - arrivals[0] < seconds:
         sample = rtde.sample()
-        stamps.append(sample["timestamp"][0])
-        arrivals.append(clock())
-    findings.append(_stream(stamps, arrivals, settings))
-    findings += _state(sample, settings)
-    return findings
+        arrivals.append(time.monotonic())
+    if sample["timestamp"][0] <= first_stamp:
+        yield _finding("data", False, "its time stands still", "Restart the controller.")
+    else:
+        yield _stream(arrivals, settings)
+    yield from _state(sample, settings)
 
 
-def _stream(stamps: list[float], arrivals: list[float], settings: UrSettings) -> Finding:
+def _stream(arrivals: list[float], settings: UrSettings) -> Finding:
     gaps_ms = 1e3 * np.diff(arrivals)
     p50, p99, worst = (float(np.percentile(gaps_ms, p)) for p in (50, 99, 100))
     detail = (
         f"every {p50:.1f} ms (p50), {p99:.1f} ms (p99), {worst:.1f} ms (max) at "
         f"{settings.supervision_hz:g} Hz"
     )
-    if stamps[-1] <= stamps[0]:
-        return _finding("data", False, "its time stands still", "Restart the controller.")
     # This process has ordinary priority: few gaps may hold a stray pause and are not checked.
     even = len(gaps_ms) < MIN_GAPS or p99 < settings.stale_ms
-    return _finding(
-        "data", even, detail,
+    advice = (
         f"Gaps must stay below {settings.stale_ms:g} ms: use a direct cable and a machine that is "
-        "not busy.",
-    )  # fmt: skip
+        "not busy."
+    )
+    return _finding("data", even, detail, advice)
 
 
-def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> list[Finding]:
-    bits = int(sample["safety_status_bits"][0])
-    fraction = sample["target_speed_fraction"][0]
-    findings = [
-        _finding(
-            "safety bits", not safety_text(bits), safety_text(bits) or "normal",
-            "Release the stop at the pendant.",
-        ),
-        _finding(
-            "speed slider", fraction >= settings.min_speed_fraction, f"{fraction:.0%}",
-            f"Move the pendant's speed slider to at least {settings.min_speed_fraction:.0%}.",
-        ),
-        _tcp(sample["actual_TCP_pose"][:3], sample.get("tcp_offset"), settings),
-    ]  # fmt: skip
+def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> Iterator[Finding]:
+    stop = safety_text(int(sample["safety_status_bits"][0]))
+    yield _finding("safety bits", not stop, stop or "normal", "Release the stop at the pendant.")
+    fraction, least = sample["target_speed_fraction"][0], settings.min_speed_fraction
+    advice = f"Move the pendant's speed slider to at least {least:.0%}."
+    yield _finding("speed slider", fraction >= least, f"{fraction:.0%}", advice)
+    x, y, z = sample["actual_TCP_pose"][:3]
+    position = f"at ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    configured = [*settings.tcp_offset_m, *settings.tcp_offset_rad]
+    if np.allclose(sample.get("tcp_offset", np.nan), configured, atol=1e-5):
+        yield _finding("TCP", True, f"as set, {position}")
+    else:
+        detail = f"another one is set now, {position}; {configured} set when connected"
+        yield _finding("TCP", True, detail)
     if "payload" in sample:
         kg = sample["payload"][0]
         setting = "as set" if abs(kg - settings.payload_kg) < 1e-3 else "set when connected"
-        findings.append(
-            _finding("payload", True, f"{kg:.3g} kg; {settings.payload_kg:g} kg {setting}")
-        )
-    return findings
-
-
-def _tcp(
-    position: tuple[float, ...], offset: tuple[float, ...] | None, settings: UrSettings
-) -> Finding:
-    position_text = f"({position[0]:.3f}, {position[1]:.3f}, {position[2]:.3f}) m"
-    configured = (*settings.tcp_offset_m, *settings.tcp_offset_rad)
-    if offset is not None and np.allclose(offset, configured, atol=1e-5):
-        return _finding("TCP", True, f"as set, at {position_text}")
-    return _finding(
-        "TCP",
-        True,
-        f"another one is set now, at {position_text}; {list(configured)} set when connected",
-    )
+        yield _finding("payload", True, f"{kg:.3g} kg; {settings.payload_kg:g} kg {setting}")
 
 
 def _script_port(host: str) -> Finding:
     try:
         socket.create_connection((host, SCRIPT_PORT), timeout=0.4).close()
     except OSError as error:
-        return _finding(
-            "script port", False, f"{host}:{SCRIPT_PORT}: {error}", "Allow it in the firewall."
-        )
+        detail = f"{host}:{SCRIPT_PORT}: {error}"
+        return _finding("script port", False, detail, "Allow it in the firewall.")
     return _finding("script port", True, "open")

@@ -80,18 +80,12 @@ class RtdeSample:
 class UrLink:
     """The library's two connections to one controller."""
 
-    def __init__(
-        self,
-        settings: UrSettings,
-        report_step: Callable[[str], None],
-        sleep: Callable[[float], None] = time.sleep,
-    ) -> None:
+    def __init__(self, settings: UrSettings, report_step: Callable[[str], None]) -> None:
         """Connect; may hang for ever on a silent controller: the owner bounds the wait.
 
         Args:
             settings: The arm's section of the rig's file.
             report_step: Called with each step, so that the owner can name the one that hangs.
-            sleep: Waits [s].
 
         Raises:
             RobotError: The controller refuses.
@@ -100,7 +94,7 @@ class UrLink:
         import rtde_control
         import rtde_receive
 
-        self._settings, self._sleep = settings, sleep
+        self._settings = settings
         rate_hz = settings.supervision_hz
         try:
             report_step("connecting to receive")
@@ -205,7 +199,7 @@ class UrLink:
         for _ in range(50):
             if abs(self._receive.getPayload() - set_kg) < 1e-6:
                 return
-            self._sleep(0.01)
+            time.sleep(0.01)
         read_kg = self._receive.getPayload()
         raise RobotError(f"the controller took the payload as {read_kg} kg, not {set_kg} kg")
 
@@ -213,7 +207,7 @@ class UrLink:
         for _ in range(100):
             if condition(self.sample()):
                 return
-            self._sleep(0.01)
+            time.sleep(0.01)
         raise RobotError(f"{failure} (waited 1 s)")
 
 

@@ -17,6 +17,7 @@ import tempfile
 import zlib
 from dataclasses import dataclass
 from enum import IntEnum
+from typing import NamedTuple
 
 from primitives.errors import RobotError
 
@@ -48,8 +49,7 @@ class CommandOutcome(IntEnum):
     REFUSED = 2
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CommandRecord:
+class CommandRecord(NamedTuple):
     """One command.
 
     Attributes:
@@ -69,10 +69,8 @@ class CommandRecord:
 
     def packed(self) -> bytes:
         """Bytes for the pipe, so few that a write is never split."""
-        return _COMMAND.pack(
-            self.kind, self.number, self.sent_s, *self.pose,
-            self.speed_m_s, self.acceleration_m_s2,
-        )  # fmt: skip
+        kind, number, sent_s, pose, speed_m_s, acceleration_m_s2 = self
+        return _COMMAND.pack(kind, number, sent_s, *pose, speed_m_s, acceleration_m_s2)
 
     @classmethod
     def unpacked(cls, data: bytes) -> CommandRecord:
@@ -82,13 +80,10 @@ class CommandRecord:
             ValueError: The bytes are no command.
         """
         kind, number, sent_s, *pose, speed, acceleration = _COMMAND.unpack(data)
-        return cls(
-            kind=ArmCommand(kind), number=number, sent_s=sent_s, pose=tuple(pose),
-            speed_m_s=speed, acceleration_m_s2=acceleration,
-        )  # fmt: skip
+        return cls(ArmCommand(kind), number, sent_s, tuple(pose), speed, acceleration)
 
 
-@dataclass(slots=True, kw_only=True)
+@dataclass(slots=True)
 class WorkerState:
     """State of the worker, which alone changes it.
 
@@ -180,13 +175,12 @@ class SharedStateBlock:
             data = self._memory[: _STATE.size + _SUM.size]
             body = data[: _STATE.size]
             if zlib.crc32(body) == _SUM.unpack_from(data, _STATE.size)[0]:
-                phase, done, outcome, beat_s, data_s, *numbers, text = _STATE.unpack(body)
+                phase, done, outcome, beat_s, data_s, *numbers, fraction, raw = _STATE.unpack(body)
+                pose, speed, force = (tuple(numbers[at : at + 6]) for at in (0, 6, 12))
+                text = raw.rstrip(b"\0").decode("utf-8", "ignore")
                 return WorkerState(
-                    phase=phase, done=done, outcome=outcome, beat_s=beat_s, data_s=data_s,
-                    pose=tuple(numbers[:6]), speed=tuple(numbers[6:12]),
-                    force=tuple(numbers[12:18]), speed_fraction=numbers[18],
-                    text=text.rstrip(b"\0").decode("utf-8", "ignore"),
-                )  # fmt: skip
+                    phase, done, outcome, beat_s, data_s, pose, speed, force, fraction, text
+                )
         raise RobotError("the UR arm's worker has left a torn state; reset the arm")
 
     def count(self, counter: int, seconds: float) -> None:
@@ -203,10 +197,10 @@ class SharedStateBlock:
     def distribution(self, counter: int) -> Distribution:
         """Distribution of a counter (called by the owner)."""
         *bins, max_ms = _COUNTS.unpack_from(self._memory, _COUNTS_AT + counter * _COUNTS.size)
-        total = sum(bins)
+        cumulative = list(itertools.accumulate(bins))
+        total = cumulative[-1]
         if total == 0:
             return Distribution(count=0, p50_ms=math.nan, p99_ms=math.nan, max_ms=math.nan)
-        cumulative = list(itertools.accumulate(bins))
         p50_ms, p99_ms = (
             min((bisect.bisect_left(cumulative, fraction * total) + 1) * BIN_MS, max_ms)
             for fraction in (0.5, 0.99)

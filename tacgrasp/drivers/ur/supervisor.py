@@ -77,19 +77,14 @@ class Supervisor:
     """Supervision and commands on a link that is set up."""
 
     def __init__(
-        self,
-        settings: UrSettings,
-        link: UrLink,
-        block: SharedStateBlock,
-        commands_fd: int,
-        clock: Callable[[], float] = time.monotonic,
+        self, settings: UrSettings, link: UrLink, block: SharedStateBlock, commands_fd: int
     ) -> None:
         self._settings, self._link, self._block = settings, link, block
-        self._commands_fd, self._clock = commands_fd, clock
+        self._commands_fd = commands_fd
         self.state = WorkerState()
         self._unread = b""
         self._sample = link.sample()
-        self._data_s = clock()
+        self._data_s = time.monotonic()
         self._active: ActiveCommand | None = None
 
     def run(self) -> NoReturn:
@@ -100,10 +95,10 @@ class Supervisor:
             OwnerGoneError: The owner has vanished, or has sent the command to end.
         """
         period_s = 1.0 / self._settings.supervision_hz
-        due_s = self._clock()
+        due_s = time.monotonic()
         previous_s: float | None = None
         while True:
-            now_s = self._clock()
+            now_s = time.monotonic()
             if previous_s is not None:
                 self._block.count(PERIOD, now_s - previous_s)
             previous_s = now_s
@@ -136,8 +131,8 @@ class Supervisor:
             self._link.kick()
         except RobotError:
             # The library has the fault before its data: wait a moment for their explanation.
-            until_s = self._clock() + REASON_WAIT_S
-            while self._clock() < until_s and self._link.connected:
+            until_s = time.monotonic() + REASON_WAIT_S
+            while time.monotonic() < until_s and self._link.connected:
                 if problem := self._link.sample().problem():
                     raise RobotError(problem) from None
                 time.sleep(0.002)
@@ -160,7 +155,7 @@ class Supervisor:
 
     def _wait_until_due(self, due_s: float) -> None:
         """Carry out commands, and watch for the start of a motion, until the next round."""
-        while (remaining_s := due_s - self._clock()) > 0:
+        while (remaining_s := due_s - time.monotonic()) > 0:
             active = self._active
             starting = active is not None and active.sent_s is not None
             timeout_s = min(remaining_s, MOTION_POLL_S) if starting else remaining_s
@@ -186,7 +181,7 @@ class Supervisor:
                 raise OwnerGoneError("ended by a command")
 
     def _move(self, command: CommandRecord) -> None:
-        self._read_sample(self._clock())
+        self._read_sample(time.monotonic())
         reason = refusal(command, self._sample.pose, self._settings)
         if self._active is not None:
             reason = "a move is under way: stop it first"
@@ -200,7 +195,7 @@ class Supervisor:
             number=command.number,
             target=command.pose,
             operation=self._link.operation()[0],
-            until_s=self._clock() + duration_s + self._settings.move_margin_s,
+            until_s=time.monotonic() + duration_s + self._settings.move_margin_s,
             sent_s=command.sent_s if has_motion else None,
         )
         self._link.move(command.pose, command.speed_m_s, command.acceleration_m_s2)
@@ -210,13 +205,13 @@ class Supervisor:
             number=command.number,
             target=None,
             operation=self._link.operation()[0],
-            until_s=self._clock() + STOP_S,
+            until_s=time.monotonic() + STOP_S,
         )
         self._link.stop()
 
     def _count_motion_start(self, active: ActiveCommand) -> None:
         if active.sent_s is not None:
-            now_s = self._clock()
+            now_s = time.monotonic()
             self._read_sample(now_s)
             if self._sample.speed_m_s > REST_M_S:
                 self._block.count(MOTION, now_s - active.sent_s)
@@ -250,20 +245,20 @@ class Supervisor:
     def _finish(self, number: int, outcome: CommandOutcome, text: str = "") -> None:
         self._active = None if outcome is not CommandOutcome.REFUSED else self._active
         self.state.done, self.state.outcome, self.state.text = number, outcome, text
-        self.publish(self._clock())
+        self.publish(time.monotonic())
 
     # -- ends ------------------------------------------------------------------------------------
 
     def brake(self) -> str:
         """Stop the arm by the library, if its link stands; returns the method, empty for none."""
-        data_age_s = self._clock() - self._data_s
+        data_age_s = time.monotonic() - self._data_s
         if not self._link.connected or self._sample.problem() or data_age_s > MAX_DATA_AGE_S:
             return ""
         if not returned_within(LIBRARY_STOP_S, self._link.stop):  # it hangs: stop from outside
             return ""
         braking_s = self._sample.speed_m_s / self._settings.stop_deceleration_m_s2
-        until_s = self._clock() + braking_s + LIBRARY_STOP_S
-        while self._clock() < until_s and self._link.sample().speed_m_s > REST_M_S:
+        until_s = time.monotonic() + braking_s + LIBRARY_STOP_S
+        while time.monotonic() < until_s and self._link.sample().speed_m_s > REST_M_S:
             time.sleep(0.004)
         return "stopL"
 

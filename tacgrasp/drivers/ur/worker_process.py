@@ -10,7 +10,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
@@ -61,27 +60,27 @@ class WorkerProcess:
         if self._process.stdin is not None:
             os.set_blocking(self._process.stdin.fileno(), False)
 
-    def await_ready(self, clock: Callable[[], float], sleep: Callable[[float], None]) -> None:
+    def await_ready(self) -> None:
         """Wait until the arm is supervised, at most ``start_timeout_s``: the library may hang.
 
         Raises:
             RobotError: The start failed or took too long; the message has its last step.
         """
-        until_s = clock() + self._settings.start_timeout_s
+        until_s = time.monotonic() + self._settings.start_timeout_s
         while True:
             ended, state = self.has_ended, self.read()
             if state.phase == WorkerPhase.READY:
                 return
-            if state.phase == WorkerPhase.FAULT or ended:
-                fault = state.phase == WorkerPhase.FAULT
-                reason = state.text if fault else self.exit_message(state)
-                raise RobotError(f"the UR arm can't be used: {reason}")
-            if clock() > until_s:
+            if state.phase == WorkerPhase.FAULT:
+                raise RobotError(f"the UR arm can't be used: {state.text}")
+            if ended:
+                raise RobotError(f"the UR arm can't be used: {self.exit_message(state)}")
+            if time.monotonic() > until_s:
                 raise RobotError(
                     f"the UR arm was not ready within {self._settings.start_timeout_s:g} s, while "
                     f"{state.text}; restart the controller if it is so again"
                 )
-            sleep(POLL_S)
+            time.sleep(POLL_S)
 
     def send(self, command: CommandRecord) -> None:
         """Send a command without waiting.

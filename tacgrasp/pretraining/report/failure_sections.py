@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from cltp.tactile.states import CLASSES
-from tacgrasp.pretraining.report.failures import CONFUSED_SHAPES, Failure, FailureCount, Failures
-from tacgrasp.pretraining.report.pages import PageCard, PageCardGroup, PageSection, PageTable
+from tacgrasp.pretraining.report.failures import CONFUSED_SHAPES, FailureCount, Failures
+from tacgrasp.pretraining.report.pages import PageCardGroup, PageSection, PageTable
 from tacgrasp.pretraining.report.store import Groups, merged_accuracy
 
 _TABLES = {"zero_shot": "zero-shot", "probe": "probe"}
@@ -67,8 +67,7 @@ def _cases(failures: Sequence[Failures]) -> PageSection:
         name = f"{_TABLES[each.table]}, {each.split} ({each.variant})"
         rows.append([name, *(_percent(case) for case in each.cases)])
         cards += [
-            PageCardGroup(title=f"{name}: {case.name}", cards=_cards(case.examples))
-            for case in each.cases
+            PageCardGroup(title=f"{name}: {case.name}", cards=case.examples) for case in each.cases
         ]
     return PageSection(
         title="The paper's failure cases, with pictures",
@@ -97,7 +96,7 @@ def _classes(failures: Failures) -> PageSection:
         cards += [
             PageCardGroup(
                 title=f"{dimension} {count.name}: {count.wrong} of {count.contacts} wrong",
-                cards=_cards(count.examples),
+                cards=count.examples,
                 is_open=False,
             )
             for count in worst
@@ -109,17 +108,3 @@ def _classes(failures: Failures) -> PageSection:
         f"{'cosines' if failures.measure == 'cosine' else 'probabilities'}.",
         cards=cards,
     )
-
-
-def _cards(failures: Sequence[Failure]) -> list[PageCard]:
-    return [
-        PageCard(
-            webp=one.image,
-            lines=[
-                f"true: {one.truth} ({one.true_score:.2f})",
-                f"predicted: {one.predicted} ({one.predicted_score:.2f})",
-                f"#{one.index} {one.object}",
-            ],
-        )
-        for one in failures
-    ]

@@ -11,8 +11,9 @@ from __future__ import annotations
 import base64
 import io
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import dataclass, fields
 from pathlib import Path
+from typing import ClassVar
 
 import torch
 from PIL import Image
@@ -24,11 +25,8 @@ from cltp.evaluation.features import EncodedContacts
 from cltp.tactile.picture import picture
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import CLASSES
-from tacgrasp.base.errors import UsageError
-from tacgrasp.pretraining.report.store import Measurement, Result, read_json, write_json
+from tacgrasp.pretraining.report.store import Measurement, Result, load
 
-FORMAT, VERSION = "tacgrasp-failures", 2
-FOLDER = "failures"
 EXAMPLES_PER_CLASS = 3
 EXAMPLES_PER_CASE = 6
 FAILURE_SPLITS = ("contact", "object", "physics")
@@ -94,6 +92,9 @@ class Failures(Measurement):
         classes: Counts by dimension and class.
         cases: Counts of the paper's cases.
     """
+
+    format: ClassVar[str] = "tacgrasp-failures"
+    folder: ClassVar[str] = "failures"
 
     measure: str
     classes: list[FailureCount]
@@ -206,20 +207,6 @@ def small_picture(data: ContactDataset, index: int, width_px: int = _WIDTH_PX) -
     return base64.b64encode(buffer.getvalue()).decode()
 
 
-def save_failures(folder: Path, failures: Failures) -> Path:
-    """Write failures atomically; their file is named as the result's.
-
-    Raises:
-        UsageError: They can't be written.
-    """
-    path = folder / FOLDER / failures.file
-    try:
-        write_json(path, FORMAT, VERSION, asdict(failures))
-    except OSError as error:
-        raise UsageError(f"failures can't be written to {path}: {error.strerror}") from None
-    return path
-
-
 def load_failures(folder: Path, data: str) -> list[Failures]:
     """Failures beside the results in a folder, of the first seed of each result; may be none.
 
@@ -231,8 +218,8 @@ def load_failures(folder: Path, data: str) -> list[Failures]:
         TouchError: A file is damaged, of another version, or of other data.
     """
     first: dict[tuple[str, ...], Failures] = {}
-    for path in sorted((folder / FOLDER).glob("*.json")):
-        failures = _read(path)
+    for path in sorted((folder / Failures.folder).glob("*.json")):
+        failures = load(Failures, path)
         if failures.data != data:
             raise TouchError(
                 f"failures in {path} are of other data than the results; measure again"
@@ -243,16 +230,3 @@ def load_failures(folder: Path, data: str) -> list[Failures]:
     return sorted(
         first.values(), key=lambda f: (f.table != "zero_shot", FAILURE_SPLITS.index(f.split))
     )
-
-
-def _read(path: Path) -> Failures:
-    try:
-        content = read_json(path, FORMAT, VERSION)
-        for part in ("classes", "cases"):
-            content[part] = [
-                FailureCount(**{**each, "examples": [Failure(**one) for one in each["examples"]]})
-                for each in content[part]
-            ]
-        return Failures(**content)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TouchError(f"failures in {path} are damaged; measure again: {error}") from error

@@ -13,7 +13,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.base.html_page import render_page
 from tacgrasp.pretraining.report.failure_sections import failure_sections
 from tacgrasp.pretraining.report.failures import load_failures
-from tacgrasp.pretraining.report.pages import PageSection, markdown
+from tacgrasp.pretraining.report.pages import PageSection
 from tacgrasp.pretraining.report.plots import bars, confusions, curves
 from tacgrasp.pretraining.report.rankings import ranking_section
 from tacgrasp.pretraining.report.store import (
@@ -46,11 +46,12 @@ def report(
     """
     sections = _sections(results, weights)
     plots = out / f"{name}-plots"
+    content = {"sections": sections, "plots": plots.name, "html_page": f"{name}.html"}
     pages = {
-        f"{name}.md": markdown(TITLE, sections, plots=plots.name, html_page=f"{name}.html"),
-        f"{name}.html": render_page(
-            "pretraining/templates/report.html", title=TITLE, sections=sections
-        ),
+        f"{name}{ending}": render_page(
+            f"pretraining/templates/report{template}", title=TITLE, **content
+        )
+        for ending, template in ((".md", ".md.txt"), (".html", ".html"))
     }
     try:
         plots.mkdir(parents=True, exist_ok=True)

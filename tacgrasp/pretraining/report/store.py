@@ -11,7 +11,9 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar, TypeVar
+
+from pydantic import TypeAdapter
 
 from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
@@ -20,7 +22,10 @@ from cltp.tactile.states import CLASSES
 from cltp.train.methods import METHODS
 from tacgrasp.base.errors import UsageError
 
-FORMAT, VERSION = "tacgrasp-result", 2
+VERSION = 2
+"""Version of the format of every measurement."""
+
+M = TypeVar("M", bound="Measurement")
 
 TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval")
 
@@ -58,6 +63,8 @@ class Measurement:
     """What was measured; the same measurement again takes the place of an earlier one.
 
     Attributes:
+        format: Name of the file format.
+        folder: Folder of the files within that of all results.
         table: Name out of ``TABLES``.
         method: Name out of ``TITLES``.
         variant: Encoder preset, and what differs from the method's usual recipe.
@@ -68,6 +75,9 @@ class Measurement:
     Raises:
         UsageError: An unknown table or method.
     """
+
+    format: ClassVar[str]
+    folder: ClassVar[str] = ""
 
     table: str
     method: str
@@ -104,6 +114,8 @@ class Result(Measurement):
         learned_seed: Random seed of the pre-training; None likewise.
     """
 
+    format: ClassVar[str] = "tacgrasp-result"
+
     budget: Budget | None
     command: str
     contacts: int
@@ -113,18 +125,39 @@ class Result(Measurement):
     learned_seed: int | None = None
 
 
-def save_result(folder: Path, result: Result) -> Path:
-    """Write a result atomically.
+def save(folder: Path, measurement: Measurement) -> Path:
+    """Write a measurement atomically, in the place of an earlier one.
 
     Raises:
         UsageError: It can't be written.
     """
-    path = folder / result.file
+    path = folder / measurement.folder / measurement.file
+    document = {"format": measurement.format, "version": VERSION, **asdict(measurement)}
     try:
-        write_json(path, FORMAT, VERSION, asdict(result))
+        path.parent.mkdir(parents=True, exist_ok=True)
+        write_atomically(path, json.dumps(document, indent=1) + "\n")
     except OSError as error:
-        raise UsageError(f"the result {path} can't be written: {error.strerror}") from None
+        raise UsageError(f"{path} can't be written: {error.strerror}") from None
     return path
+
+
+def load(kind: type[M], path: Path) -> M:
+    """Read a measurement.
+
+    Raises:
+        TouchError: It is damaged, or of another format or version.
+    """
+    try:
+        content = json.loads(path.read_text(encoding="utf-8"))
+        stored = content["format"], content["version"]
+        if stored == (kind.format, VERSION):
+            return TypeAdapter(kind).validate_python(content)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise TouchError(f"{path} is damaged; measure again: {error}") from error
+    raise TouchError(
+        f"{path} is {stored[0]} of version {stored[1]}, not {kind.format} of version {VERSION}; "
+        "delete it and measure again"
+    )
 
 
 def load_results(folder: Path) -> list[Result]:
@@ -134,7 +167,7 @@ def load_results(folder: Path) -> list[Result]:
         TouchError: One is damaged, of another version, or of other data than the others.
         UsageError: There are none.
     """
-    results = [read_result(path) for path in sorted(folder.glob("*.json"))]
+    results = [load(Result, path) for path in sorted(folder.glob("*.json"))]
     if not results:
         raise UsageError(f"no results in {folder}; measure with `tacgrasp eval zero-shot|probe`")
     checksums = {result.data: result.file for result in results}
@@ -145,43 +178,6 @@ def load_results(folder: Path) -> list[Result]:
             "measure again or keep them in folders of their own"
         )
     return results
-
-
-def read_result(path: Path) -> Result:
-    """One result.
-
-    Raises:
-        TouchError: It is damaged, or of another version.
-    """
-    try:
-        content = read_json(path, FORMAT, VERSION)
-        budget = content.pop("budget")
-        return Result(**content, budget=Budget(**budget) if budget is not None else None)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        raise TouchError(f"the result {path} is damaged; measure again: {error}") from error
-
-
-def write_json(path: Path, form: str, version: int, content: Mapping[str, Any]) -> None:
-    """Write a file of this folder, with its format and version, atomically."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    document = {"format": form, "version": version, **content}
-    write_atomically(path, json.dumps(document, indent=1) + "\n")
-
-
-def read_json(path: Path, form: str, version: int) -> dict[str, Any]:
-    """Read what ``write_json`` wrote, without format and version.
-
-    Raises:
-        TouchError: It is of another format or version.
-    """
-    content = json.loads(path.read_text(encoding="utf-8"))
-    stored = (content.pop("format"), content.pop("version"))
-    if stored != (form, version):
-        raise TouchError(
-            f"{path} is {stored[0]} of version {stored[1]}, not {form} of version {version}; "
-            "delete it and measure again"
-        )
-    return content
 
 
 def percent(scores: ClassScores) -> dict[str, float | None]:

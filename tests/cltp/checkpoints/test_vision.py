@@ -97,7 +97,7 @@ def test_what_does_not_fit_is_refused(folder: Path, spoil: str, expected: str) -
     elif spoil == "cut":
         path.write_bytes(path.read_bytes()[:200])
     else:
-        told = {"image_std": [0.5, 0.0, 0.5]} if spoil == "std" else {"image_mean": [0.5]}
-        (folder / "preprocessor_config.json").write_text(json.dumps(told))
+        processing = {"image_std": [0.5, 0.0, 0.5]} if spoil == "std" else {"image_mean": [0.5]}
+        (folder / "preprocessor_config.json").write_text(json.dumps(processing))
     with pytest.raises(WeightsError, match=expected):
         load_vision_checkpoint(folder)

@@ -30,8 +30,8 @@ def step(first: int, last: int, *, several: bool) -> dict[str, torch.Tensor]:
     total.backward()
     parameters = [*tower.parameters(), *loss.parameters()]
     averaged_gradients(parameters)
-    found = {str(n): p.grad for n, p in enumerate(parameters) if p.grad is not None}
-    return {"loss": total.detach(), **found}
+    gradients = {str(n): p.grad for n, p in enumerate(parameters) if p.grad is not None}
+    return {"loss": total.detach(), **gradients}
 
 
 def main(rank: int, world: int, folder: Path) -> None:
@@ -40,8 +40,8 @@ def main(rank: int, world: int, folder: Path) -> None:
     dist.init_process_group("gloo", init_method=place, rank=rank, world_size=world)
     share = 8 // world
     for several in (False, True):
-        found = step(rank * share, (rank + 1) * share, several=several)
-        torch.save(found, folder / f"{rank}-{several}.pt")
+        gradients = step(rank * share, (rank + 1) * share, several=several)
+        torch.save(gradients, folder / f"{rank}-{several}.pt")
     dist.destroy_process_group()
 
 

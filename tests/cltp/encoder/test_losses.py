@@ -34,10 +34,10 @@ def test_two_processes_give_the_loss_and_gradients_of_one(tmp_path: Path) -> Non
             rank.kill()
     for rank, several in product(range(2), (False, True)):
         alone = step(0, 8, several=several)
-        found = torch.load(tmp_path / f"{rank}-{several}.pt", weights_only=True)
-        assert found.keys() == alone.keys()
+        gradients = torch.load(tmp_path / f"{rank}-{several}.pt", weights_only=True)
+        assert gradients.keys() == alone.keys()
         for name, value in alone.items():
-            torch.testing.assert_close(found[name], value, rtol=1e-5, atol=1e-5)
+            torch.testing.assert_close(gradients[name], value, rtol=1e-5, atol=1e-5)
 
 
 def test_one_process_alone_gathers_nothing() -> None:

@@ -11,7 +11,6 @@ import torch
 from cltp.checkpoints.frozen import frozen
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
@@ -25,9 +24,9 @@ from cltp.evaluation.features import (
 )
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.heights_alone import HeightsAlone
-from cltp.evaluation.probes import ClassProbes, NumberProbe, score_intervals
+from cltp.evaluation.probes import ClassProbes, NumberProbe, ProbeTraining, score_intervals
 from cltp.evaluation.retrieval import nearest_contacts, nearest_texts, score_retrieval
-from cltp.evaluation.scores import score_classes
+from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.splits import EVALUATION_SPLITS, evaluation_splits
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.tactile.states import CLASSES, NUMBERS
@@ -36,9 +35,9 @@ from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
 from cltp.train.recipes import Schedule
 from cltp.train.text_targets import class_numbers
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
-QUICK = Schedule(steps=150, batch_size=64, learning_rate=3e-3)
+QUICK = ProbeTraining(schedule=Schedule(steps=150, batch_size=64, learning_rate=3e-3))
 SMALL = EncoderConfig(dim=24, depth=1, heads=2, stem_dim=8, feature_dim=32)
 
 
@@ -47,13 +46,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(10):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 107):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(10), Split.TEST: range(100, 107)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 def synthetic(size: int, seed: int, *, numbers_alone: bool = False) -> EncodedContacts:
@@ -121,16 +115,23 @@ def test_classes_are_scored_where_they_have_labels() -> None:
 
 
 def test_probes_read_what_is_there_and_nothing_from_noise() -> None:
-    probes = ClassProbes(synthetic(800, 1), schedule=QUICK)
+    probes = ClassProbes(synthetic(800, 1), QUICK)
     other = synthetic(300, 2)
-    assert min(score_classes(probes.classes(other), other.classes).accuracy.values()) > 0.95
+    assert (
+        min(
+            score_classes(
+                best_classes(probes.probabilities(other)), other.classes
+            ).accuracy.values()
+        )
+        > 0.95
+    )
     blind = synthetic(800, 1)
     blind = EncodedContacts(
         torch.randn(800, 20), blind.feature, blind.classes, blind.numbers, blind.index
     )
     hidden = dataclasses.replace(other, pooled=torch.randn(300, 20))
     found = score_classes(
-        ClassProbes(blind, schedule=QUICK).classes(hidden), hidden.classes
+        best_classes(ClassProbes(blind, QUICK).probabilities(hidden)), hidden.classes
     ).accuracy
     assert found["depth"] < 0.4  # four classes: 25 % by chance
 
@@ -139,13 +140,13 @@ def test_features_that_are_not_finite_are_named() -> None:
     encoded = synthetic(20, 1)
     encoded.pooled[7, 3] = torch.nan
     with pytest.raises(TouchError, match=r"contacts \[7\] are not finite"):
-        ClassProbes(encoded, schedule=QUICK)
+        ClassProbes(encoded, QUICK)
 
 
 def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
-    long = Schedule(steps=600, batch_size=128, learning_rate=3e-3)
+    long = ProbeTraining(schedule=Schedule(steps=600, batch_size=128, learning_rate=3e-3))
     objects = torch.arange(5000) % 10
-    probe = NumberProbe(synthetic(5000, 1, numbers_alone=True), objects, schedule=long)
+    probe = NumberProbe(synthetic(5000, 1, numbers_alone=True), objects, long)
     scale = probe.calibrate(synthetic(1000, 2, numbers_alone=True))
     other = synthetic(2000, 3, numbers_alone=True)
     intervals = probe.intervals(other, scale)
@@ -163,8 +164,8 @@ def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
 
 def test_members_leave_out_objects_and_one_object_alone_is_learned() -> None:
     encoded = synthetic(200, 1, numbers_alone=True)
-    alone = NumberProbe(encoded, torch.zeros(200), schedule=QUICK)
-    several = NumberProbe(encoded, torch.arange(200) // 20, schedule=QUICK)
+    alone = NumberProbe(encoded, torch.zeros(200), QUICK)
+    several = NumberProbe(encoded, torch.arange(200) // 20, QUICK)
     for probe in (alone, several):
         intervals = probe.intervals(encoded, probe.calibrate(encoded))
         assert torch.isfinite(intervals.value).all()
@@ -185,7 +186,7 @@ def test_every_object_is_left_out_by_one_member(
         return whole(encoded, rows, *rest)  # type: ignore[arg-type]
 
     monkeypatch.setattr(probes, "_train_member", noted)
-    NumberProbe(encoded, 100 + 3 * objects, schedule=QUICK)
+    NumberProbe(encoded, 100 + 3 * objects, QUICK)
     assert len(learned) == probes.MEMBERS
     for one in range(count):
         assert sum(one in known for known in learned) == probes.MEMBERS - 1
@@ -212,7 +213,9 @@ def test_a_feature_that_is_a_prompt_is_its_class(towers: Towers, prompting: str)
     ]
     found = ClassPrompts(towers, prompting)
     column = list(CLASSES).index("position")
-    assert found.classes(3 * torch.stack(features))[:, column].tolist() == list(range(9))
+    assert best_classes(found.cosines(3 * torch.stack(features)))[:, column].tolist() == list(
+        range(9)
+    )
     assert found.cosines(torch.stack(features))[column].amax(1).min() > 0.999
 
 

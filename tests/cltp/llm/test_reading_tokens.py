@@ -73,11 +73,12 @@ def test_felt_states_keep_their_words_and_take_the_numbers_that_were_read() -> N
         depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
         area=None,
     )  # fmt: skip
-    said, still = with_read_numbers([true, nothing], transformed(SPOKEN.expand(2, -1)))
-    assert (said.depth, said.position, said.shape) == (true.depth, true.position, true.shape)
-    read = [getattr(said, name) for name in NUMBERS]
+    reading, unread = with_read_numbers([true, nothing], transformed(SPOKEN.expand(2, -1)))
+    for slot in ("depth", "position", "shape"):
+        assert getattr(reading, slot) == getattr(true, slot)
+    read = [getattr(reading, name) for name in NUMBERS]
     assert read == pytest.approx(SPOKEN[0].tolist(), rel=1e-4)
-    assert still == nothing
+    assert unread == nothing
 
 
 def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
@@ -85,5 +86,5 @@ def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
         depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
         position=Position.CENTERED, area=Area.MEDIUM,
     )  # fmt: skip
-    (said,) = with_read_numbers([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
-    assert (said.depth_mm, said.area_fraction, said.force_n) == (0.0, 1.0, 0.0)
+    (reading,) = with_read_numbers([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
+    assert (reading.depth_mm, reading.area_fraction, reading.force_n) == (0.0, 1.0, 0.0)

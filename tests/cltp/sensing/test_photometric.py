@@ -16,6 +16,7 @@ from cltp.sensing.photometric import (
     integrate_differences,
 )
 from cltp.sensing.touch_files import read_cloud
+from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.sensors import SENSORS
 
 SENSOR = SENSORS["gelsight_mini"]
@@ -96,7 +97,8 @@ def test_a_known_law_of_colour_gives_the_surface_back(column, row):
 
 
 def test_indentation_is_positive_and_row_zero_is_the_top():
-    cloud = Photometer(LINEAR, BACKGROUND, SENSOR).cloud(photographed(bump(80, 40)))
+    heights = Photometer(LINEAR, BACKGROUND, SENSOR).heights(photographed(bump(80, 40)))
+    cloud = cloud_from_heights(heights, SENSOR)
     x, y, z = cloud.points_mm[cloud.points_mm[:, 2].argmax()]
     assert z == pytest.approx(0.6, abs=0.05)
     assert x == pytest.approx((80 - 159.5) * PX, abs=0.5)

@@ -11,7 +11,6 @@ from cltp.checkpoints.tac3d_llm import save_clip, save_encoder
 from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler
 from cltp.encoder.clip_towers import small_clip
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
@@ -31,7 +30,7 @@ from cltp.train.baselines import BASELINES, surface_texts, train_baseline
 from cltp.train.curves import read_curves
 from cltp.train.recipes import Schedule
 from cltp.train.stage import TrainingRun
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 MINI = SENSORS["gelsight_mini"]
 SIZES = {
@@ -56,11 +55,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-    return folder
+    seeds = {Split.TRAIN: range(12)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")
@@ -94,28 +90,28 @@ def test_as_many_patches_are_hidden_in_every_row() -> None:
 def test_hidden_patches_do_not_reach_the_encoder(tokenizer: str, points: torch.Tensor) -> None:
     torch.manual_seed(0)
     encoder = TactileEncoder(SIZES[tokenizer]).eval()
-    seen = patches(encoder, points)
+    cloud = patches(encoder, points)
     hidden = hide(38, 64, len(points), torch.Generator().manual_seed(2))
-    tokens, cls = visible_tokens(encoder, points, seen, hidden)
+    tokens, cls = visible_tokens(encoder, points, cloud, hidden)
     if tokenizer == "lattice":  # the hidden heights are all that changes
         cells = hidden.view(-1, 8, 1, 8, 1).expand(-1, 8, 4, 8, 4).reshape(len(points), -1)
         other = points.clone()
         other[..., 2] += cells * 0.3
         changed = patches(encoder, other)
     else:
-        other, changed = points, seen._replace(groups=seen.groups + hidden[..., None, None] * 0.3)
+        other, changed = points, cloud._replace(groups=cloud.groups + hidden[..., None, None] * 0.3)
     again, cls_again = visible_tokens(encoder, other, changed, hidden)
     torch.testing.assert_close(again, tokens, rtol=0, atol=0)
     torch.testing.assert_close(cls_again, cls, rtol=0, atol=0)
     assert tokens[hidden].abs().max() == 0
     shown, _ = visible_tokens(encoder, other, changed, ~hidden)
-    before, _ = visible_tokens(encoder, points, seen, ~hidden)
+    before, _ = visible_tokens(encoder, points, cloud, ~hidden)
     assert not torch.equal(shown, before)
 
 
 def test_patches_of_the_lattice_hold_every_point_once(points: torch.Tensor) -> None:
-    seen = patches(TactileEncoder(SIZES["lattice"]), points)
-    whole = (seen.groups / 8.0 + seen.centres[:, :, None]).flatten(1, 2)
+    cloud = patches(TactileEncoder(SIZES["lattice"]), points)
+    whole = (cloud.groups / 8.0 + cloud.centres[:, :, None]).flatten(1, 2)
     order = lambda p: p[0][p[0][:, :2].mul(torch.tensor([1e3, 1.0])).sum(1).argsort()]  # noqa: E731
     torch.testing.assert_close(order(whole), order(points), atol=1e-5, rtol=0)
     with pytest.raises(TouchError, match="not for 64 groups of image"):
@@ -127,23 +123,23 @@ def test_a_cloud_is_drawn_again_better_and_better(tokenizer: str, points: torch.
     torch.manual_seed(0)
     model = PointMae(TactileEncoder(SIZES[tokenizer]), 16)
     optimiser = torch.optim.AdamW(model.parameters(), lr=3e-3)
-    found = []
+    errors = []
     for step in range(25):
         loss = model.losses(points, torch.Generator().manual_seed(step))["chamfer"]
         optimiser.zero_grad()
         loss.backward()
         optimiser.step()
-        found.append(loss.item())
-    assert np.mean(found[-5:]) < 0.5 * found[0]
+        errors.append(loss.item())
+    assert np.mean(errors[-5:]) < 0.5 * errors[0]
 
 
 def test_patches_that_differ_get_words_that_differ(points: torch.Tensor) -> None:
     torch.manual_seed(0)
     words = ShapeWords(24, 16, vocabulary=8)
-    seen = patches(TactileEncoder(SIZES["fps"]), points)
-    terms = words.losses(seen, 1.0, torch.Generator().manual_seed(0))
+    cloud = patches(TactileEncoder(SIZES["fps"]), points)
+    terms = words.losses(cloud, 1.0, torch.Generator().manual_seed(0))
     assert terms["spread"].item() >= -1e-6  # a divergence
-    assert words.logits(seen).shape == (4, 64, 8)
+    assert words.logits(cloud).shape == (4, 64, 8)
 
 
 @pytest.mark.parametrize("method", BASELINES)

@@ -18,7 +18,6 @@ from cltp.checkpoints.tac3d_llm import (
 from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
 from cltp.encoder.class_token import (
     HeightQuantiles,
@@ -34,7 +33,7 @@ from cltp.errors import TouchError
 from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.probes import predict_with_heads
-from cltp.evaluation.scores import score_classes
+from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import cloud_from_heights
@@ -51,7 +50,7 @@ from cltp.train.llm import train_llm, train_words
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import fake_contact, write_contacts
 
 MINI = SENSORS["gelsight_mini"]
 TINY = PRESETS["tiny"]
@@ -65,19 +64,19 @@ def run_in(folder: Path, seed: int = 0) -> TrainingRun:
     return TrainingRun(data=folder, out=folder, seed=seed)
 
 
-class Sayings:
+class FakeLessons:
     """Lessons for tests: the caption, and an action that the prompt and the depth decide."""
 
-    def captions(self, felt: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        return [Exchange(prompt="Describe the contact.", reply=caption(felt))]
+    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="Describe the contact.", reply=caption(reading))]
 
     def mixed(
-        self, state: ContactState, felt: ContactState, rng: np.random.Generator
+        self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
         hard = "<decrease_force>" if state.depth_mm > 0.3 else "<none>"
         soft = "<none>" if state.depth_mm > 0.3 else "<increase_force>"
         return [
-            *self.captions(felt, rng),
+            *self.captions(reading, rng),
             Exchange(prompt="Hold it gently.", reply=f"Action: {hard}."),
             Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
         ]
@@ -88,27 +87,22 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 106):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(12), Split.TEST: range(100, 106)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")
 def trained(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Tiny weights that have learned twelve clean contacts by heart."""
     folder = tmp_path_factory.mktemp("weights")
-    words = train_words(data_dir, Sayings(), num_contacts=60, size=400)
+    words = train_words(data_dir, FakeLessons(), num_contacts=60, size=400)
     run = TrainingRun(data=data_dir, out=folder)
     train_clip(run, words, schedule(6, 12), dim=32)
     train_cltp(run, TINY, schedule(150, 12), augmentation=CLEAN)
     train_llm(
         run,
         words,
-        Sayings(),
+        FakeLessons(),
         {
             "text": schedule(40, 12, 5e-3),
             "projector": schedule(30, 12, 5e-3),
@@ -232,9 +226,9 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
 
 
 def test_graded_heights_fill_steps_one_after_the_other() -> None:
-    found = piecewise_linear(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
+    encoded = piecewise_linear(torch.tensor([[0.5, 1.2], [-0.1, 0.875]]), 4)
     expected = [[1, 1, 0, 0, 1, 1, 1, 1], [0, 0, 0, 0, 1, 1, 1, 0.5]]
-    torch.testing.assert_close(found, torch.tensor(expected, dtype=torch.float32))
+    torch.testing.assert_close(encoded, torch.tensor(expected, dtype=torch.float32))
     ranks = encoded_ranks(64)
     assert ranks == sorted(set(ranks))
     assert (ranks[0], ranks[-1]) == (0, 63)
@@ -244,9 +238,9 @@ def test_graded_heights_fill_steps_one_after_the_other() -> None:
 def test_grades_are_of_a_bearing_curve_and_tell_encoders_apart() -> None:
     with pytest.raises(TouchError, match="60 grades need height quantiles"):
         EncoderConfig(grades=60)
-    plain, told = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
-    assert plain != told
-    assert plain.identity == str(plain) != told.identity
+    plain, graded = EncoderConfig(bearing=64), EncoderConfig(bearing=64, grades=60)
+    assert plain != graded
+    assert plain.identity == str(plain) != graded.identity
 
 
 def test_numbers_survive_their_transformation() -> None:
@@ -277,11 +271,11 @@ def test_mirroring_turns_positions_and_cut_sides() -> None:
             "cut": frozenset({Side.RIGHT}),
         }
     )
-    seen = mirrored(state, MINI, along_x=True, along_y=False)
-    assert (seen.x_mm, seen.y_mm) == (-8.0, 6.0)
-    assert seen.position is Position.TOP_LEFT
-    assert seen.cut == {Side.LEFT}
-    again = mirrored(seen, MINI, along_x=True, along_y=False)
+    image = mirrored(state, MINI, along_x=True, along_y=False)
+    assert (image.x_mm, image.y_mm) == (-8.0, 6.0)
+    assert image.position is Position.TOP_LEFT
+    assert image.cut == {Side.LEFT}
+    again = mirrored(image, MINI, along_x=True, along_y=False)
     assert again == state
 
 
@@ -338,8 +332,10 @@ def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path
     talker = Talker(load_tac3d_llm(trained))
     states = [s for batch in samples for s in batch.states]
     points = np.concatenate([batch.points for batch in samples])
-    said = [talker.reply(p, "Describe the contact.") for p in points]
-    assert np.mean([s.text == caption(state) for s, state in zip(said, states, strict=True)]) > 0.7
+    replies = [talker.reply(p, "Describe the contact.") for p in points]
+    assert (
+        np.mean([s.text == caption(state) for s, state in zip(replies, states, strict=True)]) > 0.7
+    )
     firm = [talker.reply(p, "Hold it firmly.").action for p in points]
     gentle = [talker.reply(p, "Hold it gently.").action for p in points]
     deep = [state.depth_mm > 0.3 for state in states]
@@ -368,7 +364,7 @@ def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> Non
     encoder, _ = load_encoder(trained / "encoder")
     encoded = encode_batches(frozen(encoder), samples)
     prompts = ClassPrompts(load_clip(trained / "clip"))
-    assert score_classes(prompts.classes(encoded.feature), encoded.classes).count == 6
+    assert score_classes(best_classes(prompts.cosines(encoded.feature)), encoded.classes).count == 6
     direct = score_classes(predict_geometrically(data, samples).classes, encoded.classes)
     assert direct.accuracy["depth"] >= 0.5
     assert direct.accuracy["shape"] == 0.0  # nothing computes a shape directly

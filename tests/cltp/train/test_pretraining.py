@@ -15,7 +15,6 @@ import torch
 from cltp.checkpoints.tac3d_llm import save_clip
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import NOISY, Sampler
 from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import PRESETS
@@ -30,7 +29,7 @@ from cltp.train.finite_check import check_batch
 from cltp.train.recipes import CltpRecipe, Schedule
 from cltp.train.stage import TrainingRun
 from tests.cltp.train.killed_training import train_a_little
-from tests.fakes.fake_contacts import fake_contact
+from tests.fakes.fake_contacts import write_contacts
 from tests.paths import ROOT
 
 HERE = Path(__file__).resolve().parent
@@ -42,13 +41,8 @@ pytestmark = pytest.mark.usefixtures("one_thread")
 
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("data")
-    with DatasetWriter(folder) as writer:
-        for seed in range(12):
-            writer.add(fake_contact(seed))
-        for seed in range(100, 103):
-            writer.add(fake_contact(seed, split=Split.TEST))
-    return folder
+    seeds = {Split.TRAIN: range(12), Split.TEST: range(100, 103)}
+    return write_contacts(tmp_path_factory.mktemp("data"), seeds)
 
 
 @pytest.fixture(scope="module")
@@ -140,11 +134,11 @@ def test_images_of_moved_contacts_are_those_of_where_they_came_to(
     assert sum(apart) >= 4  # some can't be moved, and half of these stay
     assert [s.shape for s in moved.states] == [s.shape for s in stayed.states]
     features = FrozenFeatures(towers, data)
-    found = features.images(moved)
+    images = features.images(moved)
     assert features.num_computed == 0  # nothing of them is kept
-    torch.testing.assert_close(found, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
+    torch.testing.assert_close(images, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
     half = dataclasses.replace(moved, moved=np.arange(8) < 4)
-    torch.testing.assert_close(features.images(half)[:4], found[:4], rtol=0, atol=1e-5)
+    torch.testing.assert_close(features.images(half)[:4], images[:4], rtol=0, atol=1e-5)
     torch.testing.assert_close(features.images(half)[4:], features.images(stayed)[4:])
 
 
@@ -190,16 +184,16 @@ def test_other_towers_have_features_of_their_own(
 def test_a_batch_that_is_not_finite_names_step_and_contacts(data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TRAIN)
     batch = Sampler(data, NOISY).batch(np.array([3, 7, 9]), 0)
-    wanted = targets(batch.states)
-    check_batch("cltp", 12, data, batch, wanted)
+    labels = targets(batch.states)
+    check_batch("cltp", 12, data, batch, labels)
     points = batch.points.copy()
     points[1, 5, 2] = np.nan
     bad = dataclasses.replace(batch, points=points)
     with pytest.raises(TouchError, match=r"step 12 has points .* contacts 7 in"):
-        check_batch("cltp", 12, data, bad, wanted)
-    wanted.numbers[2, 0] = torch.inf
+        check_batch("cltp", 12, data, bad, labels)
+    labels.numbers[2, 0] = torch.inf
     with pytest.raises(TouchError, match=r"labels .* contacts 9 in"):
-        check_batch("cltp", 12, data, batch, wanted)
+        check_batch("cltp", 12, data, batch, labels)
 
 
 def test_rows_after_the_checkpoint_are_dropped(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What is said of contacts, and what else it is true of."""
+"""Texts drawn for contacts, and the contacts that each text is true of."""
 
 import dataclasses
 from pathlib import Path
@@ -49,8 +49,8 @@ def test_a_prompt_fits_its_class_and_a_caption_its_twins() -> None:
         [True] + [False] * 4,
     )
     named = torch.stack([whole, texture, torch.tensor(shape)])
-    found = matches(contacts, contacts, named)
-    assert found.tolist() == [[True, True, False], [True, True, False], [False, True, True]]
+    matching = matches(contacts, contacts, named)
+    assert matching.tolist() == [[True, True, False], [True, True, False], [False, True, True]]
 
 
 def test_without_contact_nothing_but_that_is_said() -> None:
@@ -101,13 +101,13 @@ def test_a_stock_checkpoint_brings_its_own_tokenizer(tmp_path: Path) -> None:
 
 def test_texts_that_lie_at_their_meanings_are_read_back() -> None:
     torch.manual_seed(0)
-    meanings = ClassDirections(64)
+    class_directions = ClassDirections(64)
     classes = torch.tensor([[3, UNNAMED, 1, UNNAMED, 2], [5, UNNAMED, 0, UNNAMED, 4]])
     named = torch.tensor([[False, False, True, False, False], [False, True, True, False, False]])
-    said = TextTargets(texts=["", ""], classes=classes, named=named)
-    depth = meanings.directions[2].detach()
+    texts = TextTargets(texts=["", ""], classes=classes, named=named)
+    depth = class_directions.directions[2].detach()
     right, wrong = depth[[1, 0]] * 7.0, depth[[0, 1]]
-    assert meanings.loss(right, said) < 0.01  # shape, not named, and texture, unknown, don't count
-    assert meanings.loss(wrong, said) > 5.0
+    assert class_directions.loss(right, texts) < 0.01  # no shape is named, no texture labelled
+    assert class_directions.loss(wrong, texts) > 5.0
     nothing = TextTargets(texts=["", ""], classes=classes, named=torch.zeros_like(named))
-    assert meanings.loss(wrong, nothing) == 0.0
+    assert class_directions.loss(wrong, nothing) == 0.0

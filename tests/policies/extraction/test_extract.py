@@ -41,16 +41,20 @@ AFFIRMED = st.sampled_from([t for t in SUCCESS if t.startswith(("The grasp is s"
 
 @pytest.mark.parametrize(("text", "action", "success"), TABLE)
 def test_a_sentence_is_read_as_a_person_would(text, action, success):
-    found = extract(text)
-    assert (found.action, found.success, found.ambiguous) == (action, success, False), found.reason
+    extraction = extract(text)
+    assert (extraction.action, extraction.success, extraction.ambiguous) == (
+        action,
+        success,
+        False,
+    ), extraction.reason
 
 
 @pytest.mark.parametrize("text", AMBIGUOUS)
 def test_two_different_requests_are_ambiguous_and_neither_action_nor_success(text):
-    found = extract(text)
-    assert found.ambiguous, found.reason
-    assert found.action is None
-    assert not found.success
+    extraction = extract(text)
+    assert extraction.ambiguous, extraction.reason
+    assert extraction.action is None
+    assert not extraction.success
 
 
 @pytest.mark.parametrize(
@@ -62,22 +66,22 @@ def test_two_different_requests_are_ambiguous_and_neither_action_nor_success(tex
     ],
 )
 def test_a_text_that_asks_for_what_it_forbids_is_ambiguous(text):
-    found = extract(text)
-    assert found.ambiguous, found.reason
-    assert found.action is None
-    assert not found.success
+    extraction = extract(text)
+    assert extraction.ambiguous, extraction.reason
+    assert extraction.action is None
+    assert not extraction.success
 
 
 @pytest.mark.parametrize("text", REFUSED)
 def test_a_sentence_that_is_not_clearly_read_is_refused(text):
-    found = extract(text)
-    assert (found.action, found.success) == (None, False), found.reason
+    extraction = extract(text)
+    assert (extraction.action, extraction.success) == (None, False), extraction.reason
 
 
 @pytest.mark.parametrize("text", ADVERSARIAL)
 def test_a_text_made_to_mislead_neither_moves_nor_declares_anything(text):
-    found = extract(text)
-    assert (found.action, found.success) == (None, False), found.reason
+    extraction = extract(text)
+    assert (extraction.action, extraction.success) == (None, False), extraction.reason
 
 
 @pytest.mark.parametrize(
@@ -95,8 +99,8 @@ def test_a_text_made_to_mislead_neither_moves_nor_declares_anything(text):
     ],
 )
 def test_plain_words_are_still_read(text, action, success):
-    found = extract(text)
-    assert (found.action, found.success) == (action, success), found.reason
+    extraction = extract(text)
+    assert (extraction.action, extraction.success) == (action, success), extraction.reason
 
 
 def test_the_tables_are_as_long_as_a_reader_of_this_weight_needs():
@@ -108,34 +112,34 @@ def test_the_tables_are_as_long_as_a_reader_of_this_weight_needs():
 
 @given(st.text())
 def test_any_text_is_read_without_an_error(text):
-    found = extract(text)
-    assert not (found.ambiguous and (found.success or found.action is not None))
-    assert found.reason
+    extraction = extract(text)
+    assert not (extraction.ambiguous and (extraction.success or extraction.action is not None))
+    assert extraction.reason
 
 
 @given(st.lists(st.sampled_from(["\n", *GRAMMAR_WORDS]), max_size=25).map(" ".join))
 def test_any_row_of_the_grammars_own_words_is_read_without_an_error(text):
-    found = extract(text)
-    assert not (found.ambiguous and (found.success or found.action is not None))
+    extraction = extract(text)
+    assert not (extraction.ambiguous and (extraction.success or extraction.action is not None))
 
 
 @given(st.lists(st.sampled_from(VOCABULARY), max_size=20), st.sampled_from([" ", "_", "'", "\n"]))
 def test_any_shuffled_vocabulary_is_read_without_an_error(words, joint):
-    found = extract(joint.join(words))
-    assert not (found.ambiguous and (found.success or found.action is not None))
-    assert found.reason
+    extraction = extract(joint.join(words))
+    assert not (extraction.ambiguous and (extraction.success or extraction.action is not None))
+    assert extraction.reason
 
 
 @pytest.mark.parametrize("text", ["", "\x00", "\ud800", "<" * 5000, "not " * 3000, "move " * 3000])
 def test_strange_and_long_texts_declare_and_ask_nothing(text):
-    found = extract(text)
-    assert (found.action, found.success) == (None, False)
+    extraction = extract(text)
+    assert (extraction.action, extraction.success) == (None, False)
 
 
 @given(JUNK)
 def test_words_about_a_contact_never_make_an_action_or_a_success(text):
-    found = extract(text)
-    assert (found.action, found.success) == (None, False)
+    extraction = extract(text)
+    assert (extraction.action, extraction.success) == (None, False)
 
 
 @given(
@@ -154,8 +158,8 @@ def test_an_identifier_is_found_in_any_case(primitive, template, data):
 def test_case_changes_nothing(row, random):
     text, action, success = row
     swapped = "".join(random.choice((c.lower(), c.upper())) for c in text)
-    found = extract(swapped)
-    assert (found.action, found.success) == (action, success)
+    extraction = extract(swapped)
+    assert (extraction.action, extraction.success) == (action, success)
 
 
 @given(
@@ -198,15 +202,15 @@ def test_a_prohibition_takes_the_action_away(row, prohibition):
 
 @given(st.sampled_from(NOTHING), st.sampled_from(string.whitespace))
 def test_space_around_a_text_changes_nothing(text, space):
-    found = extract(space * 3 + text + space)
-    assert (found.action, found.success) == (None, False)
+    extraction = extract(space * 3 + text + space)
+    assert (extraction.action, extraction.success) == (None, False)
 
 
 def test_a_text_that_never_ends_is_not_read():
     assert extract("The grasp is stable. " * 10).success
-    found = extract("The grasp is stable. " * 1000)
-    assert not found.success
-    assert "21000 characters" in found.reason
+    extraction = extract("The grasp is stable. " * 1000)
+    assert not extraction.success
+    assert "21000 characters" in extraction.reason
 
 
 @pytest.mark.parametrize("action", list(Primitive))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import torch
-from scipy.ndimage import binary_dilation, maximum_filter, minimum_filter
+from scipy.ndimage import maximum_filter, minimum_filter
 
 from sim.objects.faces import Cell, Form
 from sim.tcl3d.contact_geometry import ContactGeometry
@@ -15,7 +15,6 @@ from sim.tcl3d.masks import (
     bounding_rectangle,
     count_enclosed_points,
     count_pieces,
-    dilate,
     slopes,
 )
 
@@ -50,13 +49,6 @@ def test_a_bar_that_leans_has_its_own_length_width_and_direction():
     assert rectangle.length == pytest.approx(41, abs=1)
     assert rectangle.width == pytest.approx(9, abs=1)
     assert rectangle.angle == pytest.approx(math.pi / 6)
-
-
-@pytest.mark.parametrize("times", [1, 2, 5])
-def test_growing_is_dilation_by_a_cross(times):
-    for seed in range(5):
-        mask = scattered(0.03, seed)
-        assert np.array_equal(dilate(mask, times), binary_dilation(mask, iterations=times))
 
 
 @pytest.mark.parametrize("point", [(0, 0), (36, 51), (0, 20), (17, 51), (18, 25)])

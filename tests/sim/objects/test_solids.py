@@ -7,8 +7,8 @@ import torch
 
 from cltp.tactile.states import Shape
 from sim.objects.catalogue import CATALOGUE, LARGE, SMALL, object_named
+from sim.objects.compounds import along, moved
 from sim.objects.faces import Form
-from sim.objects.placing import along, moved
 from sim.objects.primitives import ball, bars, box, on_corner, polygon, prism, pyramid, rod
 from sim.objects.solids import Hoop
 

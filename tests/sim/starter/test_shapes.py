@@ -12,8 +12,7 @@ from sim.gel.gap import NO_BODY_MM
 from sim.grasp.bodies import draw_body
 from sim.starter.outlines import arc, circle, convex, rectangle, segment
 from sim.starter.series import curvature_ratio
-from sim.starter.shapes import Indenter, IndenterPose, draw_indenter, gap_mm
-from sim.starter.textures import relief_mm
+from sim.starter.shapes import Indenter, IndenterPose, draw_indenter, gap_mm, relief_mm
 
 MINI = sensor_named("gelsight_mini")
 X, Y = np.meshgrid(*grid_axes_mm(MINI, 75, 100))

@@ -9,8 +9,8 @@ import torch
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import Shape, Texture
+from sim.objects.compounds import along, moved
 from sim.objects.object import Family, Part, SolidObject
-from sim.objects.placing import along, moved
 from sim.objects.primitives import (
     ball,
     block,

@@ -18,6 +18,7 @@ from cltp.errors import TouchError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets import generate as made
 from tacgrasp.datasets import recipes
+from tacgrasp.datasets.requests import GenerateRequest
 from tests.paths import ROOT
 
 
@@ -27,7 +28,8 @@ def small_shards(monkeypatch):
 
 
 def generate(out, contacts=90, seed=7, **options):
-    made.generate(out, contacts=contacts, seed=seed, console=Console(file=io.StringIO()), **options)
+    values = {"out": out, "set": "starter", "contacts": contacts, "seed": seed, **options}
+    made.generate(GenerateRequest(**values), console=Console(file=io.StringIO()))
 
 
 def files(folder):
@@ -134,7 +136,7 @@ def test_impossible_values_are_refused_before_anything_is_made(wrong, tmp_path):
 
 def test_an_unknown_sensor_is_refused(tmp_path):
     with pytest.raises(TouchError, match="unknown sensor 'eye'"):
-        generate(tmp_path / "data", sensor_name="eye")
+        generate(tmp_path / "data", sensor="eye")
     assert not (tmp_path / "data").exists()
 
 
@@ -153,7 +155,7 @@ def test_a_folder_that_can_t_be_written_is_an_error(tmp_path):
 
 
 def tcl3d(out, contacts=24, seed=5, **options):
-    generate(out, contacts, seed, set_name="tcl3d", **options)
+    generate(out, contacts, seed, set="tcl3d", **options)
 
 
 @pytest.fixture(scope="module")
@@ -211,11 +213,11 @@ def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"set_name": "tcl4d"}, "unknown set 'tcl4d'; known: tcl3d, starter"),
-        ({"set_name": "tcl3d", "sensor_name": "digit"}, "belongs to --set starter"),
-        ({"set_name": "starter", "meshes": Path("x")}, "belong to --set tcl3d"),
-        ({"set_name": "tcl3d", "device": "abacus"}, "abacus can't be used: .*; cpu always can"),
-        ({"set_name": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),
+        ({"set": "tcl4d"}, "unknown set 'tcl4d'; known: tcl3d, starter"),
+        ({"set": "tcl3d", "sensor": "digit"}, "belongs to --set starter"),
+        ({"set": "starter", "meshes": Path("x")}, "belong to --set tcl3d"),
+        ({"set": "tcl3d", "device": "abacus"}, "abacus can't be used: .*; cpu always can"),
+        ({"set": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),
     ],
 )
 def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):

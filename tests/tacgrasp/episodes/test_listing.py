@@ -31,7 +31,7 @@ def test_the_list_tells_finished_unfinished_and_unreadable_apart(tmp_path: Path)
     (tmp_path / "text.mcap").write_text("hello")
     (tmp_path / "other.txt").write_text("not listed")
     listed = list_episodes(tmp_path)
-    assert [s.path.name for s in listed] == ["done.mcap", "killed.mcap", "text.mcap"]
+    assert [path.name for path in listed] == ["done.mcap", "killed.mcap", "text.mcap"]
     text = shown(table(listed))
     done = [cell.strip() for cell in row_of(text, "done.mcap").split("│")]
     assert done[2:8] == ["strawberry", "rules", "2", "success", "yes", "yes"]

@@ -106,7 +106,7 @@ def test_a_damaged_chunk_costs_its_own_step_alone(recorded: Recorded, tmp_path: 
     episode = read_episode(path)
     assert [t.index for t in episode.steps] == [0, 2, 3]
     assert not episode.complete and "left out" in episode.problem
-    assert recover(path).num_steps == 3
+    assert ": 3 steps recovered; " in recover(path)
     assert read_episode(path).complete and stock_count(path) == 3
 
 
@@ -127,10 +127,11 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
     path.write_bytes(cut)
     with pytest.raises(McapError):
         stock_count(path)
-    recovery = recover(path)
-    assert recovery.path == path and recovery.num_steps == 3
-    assert recovery.original == tmp_path / "e.mcap.broken"
-    assert recovery.original.read_bytes() == cut
+    original = tmp_path / "e.mcap.broken"
+    message = recover(path)
+    assert message.startswith(f"{path}: 3 steps recovered; ")
+    assert message.endswith(f"; kept as {original}")
+    assert original.read_bytes() == cut
     assert sorted(p.name for p in tmp_path.iterdir()) == ["e.mcap", "e.mcap.broken"]
     episode = read_episode(path)
     assert episode.complete and episode.end is None and len(episode.steps) == 3
@@ -145,7 +146,7 @@ def test_recovery_makes_a_file_that_the_stock_reader_opens(
 def test_an_end_that_was_recorded_survives_recovery(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0][:-100])  # in the summary
-    assert recover(path).num_steps == 4
+    assert ": 4 steps recovered; " in recover(path)
     episode = read_episode(path)
     assert episode.complete and episode.end is not None and episode.end.reason == "success"
 
@@ -153,15 +154,14 @@ def test_an_end_that_was_recorded_survives_recovery(recorded: Recorded, tmp_path
 def test_a_finished_file_is_left_alone(recorded: Recorded, tmp_path: Path) -> None:
     path = tmp_path / "e.mcap"
     path.write_bytes(recorded[0])
-    recovery = recover(path)
-    assert recovery.original is None and "finished already (4 steps)" in recovery.message
+    assert "finished already (4 steps)" in recover(path)
     assert path.read_bytes() == recorded[0] and len(list(tmp_path.iterdir())) == 1
 
 
 def test_recovery_to_another_place_leaves_the_original(recorded: Recorded, tmp_path: Path) -> None:
     path, out = tmp_path / "e.mcap", tmp_path / "out.mcap"
     path.write_bytes(recorded[0][: recorded[1][1]])
-    assert recover(path, out).num_steps == 1
+    assert f"{out}: 1 steps recovered; " in recover(path, out)
     assert path.read_bytes() == recorded[0][: recorded[1][1]] and stock_count(out) == 1
     with pytest.raises(EpisodeError, match="never overwritten"):
         recover(path, out)

@@ -20,13 +20,13 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
-from cltp.evaluation.probes import SCHEDULE, ClassProbes, NumberProbe
+from cltp.evaluation.probes import SCHEDULE, ProbeTraining
 from cltp.evaluation.scores import ClassScores
 from cltp.evaluation.splits import EvaluationSplit
 from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining import evaluate, evaluate_real, geometric_baseline
+from tacgrasp.pretraining import evaluation_run, geometric_baseline
 from tacgrasp.pretraining import run_all as all_methods
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
@@ -37,7 +37,7 @@ from tacgrasp.pretraining.report.store import (
     load_results,
     mean,
     nested,
-    save_result,
+    save,
     spread,
 )
 from tests.fakes.fake_contacts import fake_contact
@@ -89,9 +89,7 @@ def places(out: Path, data: Path, tmp_path: Path) -> list[str]:
 @pytest.fixture
 def quick_probes(monkeypatch: pytest.MonkeyPatch) -> None:
     quick = Schedule(steps=5, batch_size=8, learning_rate=SCHEDULE.learning_rate)
-    for module in (evaluate, evaluate_real, geometric_baseline):
-        monkeypatch.setattr(module, "ClassProbes", partial(ClassProbes, schedule=quick))
-    monkeypatch.setattr(evaluate, "NumberProbe", partial(NumberProbe, schedule=quick))
+    monkeypatch.setattr(evaluation_run, "ProbeTraining", partial(ProbeTraining, schedule=quick))
 
 
 def real_touches(folder: Path, rows: str = "0.npy,sphere,,,,\n", count: int = 1) -> list[str]:
@@ -313,9 +311,9 @@ def test_shipped_weights_name_real_touches_and_store_nothing(
 
 
 def test_results_come_back_as_they_were(tmp_path: Path) -> None:
-    save_result(tmp_path, fake_result())
-    save_result(tmp_path, fake_result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
-    save_result(tmp_path, fake_result(seed=1))
+    save(tmp_path, fake_result())
+    save(tmp_path, fake_result(values=dict.fromkeys(CLASSES, 60.0)))  # takes its place
+    save(tmp_path, fake_result(seed=1))
     found = load_results(tmp_path)
     assert len(found) == 2
     assert found[0].values["shape"] == 60.0
@@ -326,8 +324,8 @@ def test_results_come_back_as_they_were(tmp_path: Path) -> None:
 
 
 def test_a_report_never_mixes_data(tmp_path: Path) -> None:
-    save_result(tmp_path, fake_result())
-    save_result(tmp_path, fake_result(method="random", data="def"))
+    save(tmp_path, fake_result())
+    save(tmp_path, fake_result(method="random", data="def"))
     with pytest.raises(TouchError, match="different data sets"):
         report(tmp_path, tmp_path)
     assert not list(tmp_path.glob("*.html"))
@@ -336,7 +334,7 @@ def test_a_report_never_mixes_data(tmp_path: Path) -> None:
 def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     argv = ["eval", "report", "--results", str(tmp_path)]
     assert "no results" in complaint(argv, capsys)
-    path = save_result(tmp_path, fake_result())
+    path = save(tmp_path, fake_result())
     path.write_text(path.read_text().replace('"version": 2', '"version": 1'))
     assert "of version 1, not tacgrasp-result of version 2" in complaint(argv, capsys)
     path.write_text("{")
@@ -345,7 +343,7 @@ def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixtu
 
 def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
     for method in reversed(TITLES):
-        save_result(tmp_path, fake_result(method=method))
+        save(tmp_path, fake_result(method=method))
     (page, _) = report(tmp_path, tmp_path)
     lines = [line.split(" | ")[0][2:] for line in page.read_text().splitlines()]
     first = lines.index("CLTP, probe") if "CLTP, probe" in lines else 0
@@ -449,7 +447,7 @@ def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
     counts = [[0] * len(names) for _ in names]
     triangle, peak = names.index("triangle"), names.index("peak")
     counts[triangle][triangle], counts[triangle][peak], counts[peak][peak] = 3, 1, 5
-    save_result(tmp_path, fake_result(confusion={"shape": counts}))
+    save(tmp_path, fake_result(confusion={"shape": counts}))
     page = report(tmp_path, tmp_path)[0].read_text()
     assert (
         "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small_graded | triangle as peak (1) |"

@@ -11,11 +11,11 @@ from cltp.data.dataset import ContactDataset
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side
-from policies import Decision
+from policies import Decision, Observation
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives import Primitive
 from tacgrasp.__main__ import main
-from tacgrasp.lessons.answer_scoring import answers_right, numbers_said
+from tacgrasp.lessons.answer_scoring import is_right, read_numbers
 from tacgrasp.lessons.exchanges import caption_exchange, numbers
 from tacgrasp.lessons.instruction_pairs import (
     MOVES,
@@ -26,7 +26,7 @@ from tacgrasp.lessons.instruction_pairs import (
     choose_pairs,
     choose_paraphrases,
     counts,
-    share,
+    fraction,
 )
 from tacgrasp.lessons.instructions import LEVELS, task_goals
 from tacgrasp.lessons.questions import QUESTIONS, answer
@@ -109,7 +109,7 @@ def test_paraphrases_are_all_used_half_of_them_naming_an_object(data_dir: Path) 
 @pytest.mark.parametrize("slot", QUESTIONS)
 @pytest.mark.parametrize("of", [state(1.0, -4.0, 0.95, 2.0), NOTHING])
 def test_the_answers_that_are_taught_are_judged_right(slot: str, of: ContactState) -> None:
-    assert answers_right(slot, answer(slot, of), of)
+    assert is_right(slot, answer(slot, of), of)
 
 
 @pytest.mark.parametrize(
@@ -128,29 +128,29 @@ def test_the_answers_that_are_taught_are_judged_right(slot: str, of: ContactStat
     ],
 )
 def test_wrong_answers_are_judged_wrong(slot: str, text: str) -> None:
-    assert not answers_right(slot, text, state(1.0, -4.0, 0.95, 2.0))
+    assert not is_right(slot, text, state(1.0, -4.0, 0.95, 2.0))
 
 
 def test_cut_sides_are_judged_as_a_whole() -> None:
     whole = state(1.0, -4.0, 0.95, 2.0)
     values = {name: getattr(whole, name) for name in ContactState.__slots__}
     cut = ContactState(**{**values, "cut": frozenset({Side.LEFT, Side.TOP})})
-    assert answers_right("cut", "Cut left top.", cut)
-    assert not answers_right("cut", "Cut left.", cut)
-    assert not answers_right("cut", "Not cut.", cut)
+    assert is_right("cut", "Cut left top.", cut)
+    assert not is_right("cut", "Cut left.", cut)
+    assert not is_right("cut", "Not cut.", cut)
 
 
 def test_the_numbers_of_a_description_are_read_back() -> None:
     of = state(1.0, -4.0, 0.95, 2.0)
-    said = caption_exchange(of, np.random.default_rng(0)).reply
-    assert numbers_said(said) == pytest.approx([0.95, 1.0, -4.0, 0.12, 2.0])
-    assert numbers_said(numbers(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
-    assert numbers_said("a smooth sphere object") is None
+    text = caption_exchange(of, np.random.default_rng(0)).reply
+    assert read_numbers(text) == pytest.approx([0.95, 1.0, -4.0, 0.12, 2.0])
+    assert read_numbers(numbers(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
+    assert read_numbers("a smooth sphere object") is None
 
 
 def test_nothing_has_no_share() -> None:
-    assert math.isnan(share(np.array([], dtype=bool)))
-    assert share(np.array([True, False])) == 0.5
+    assert math.isnan(fraction(np.array([], dtype=bool)))
+    assert fraction(np.array([True, False])) == 0.5
 
 
 def test_eval_prints_every_table_and_writes_json_and_card(
@@ -164,21 +164,21 @@ def test_eval_prints_every_table_and_writes_json_and_card(
     for title in ("captions:", "numbers:", "answers:", "instruction pairs", "paraphrases", "CLIP"):
         assert title in printed.out
     assert "captions 4/4" in printed.err  # progress, in plain lines where there is no terminal
-    found = json.loads(figures.read_text())
-    assert found["captions"]["contacts"] == 4
-    assert found["captions"]["geometric_baseline"]["shape"] is None
-    assert found["captions"]["geometric_baseline"]["depth"] >= 0.5
-    assert set(found["numbers"]["llm"]) == {
+    evaluation = json.loads(figures.read_text())
+    assert evaluation["captions"]["contacts"] == 4
+    assert evaluation["captions"]["geometric_baseline"]["shape"] is None
+    assert evaluation["captions"]["geometric_baseline"]["depth"] >= 0.5
+    assert set(evaluation["numbers"]["llm"]) == {
         "depth_mm",
         "position_mm",
         "area_percent",
         "force_percent",
     }
     for kind in ("clear", "any"):
-        pairs = found["instruction_pairs"][kind]
+        pairs = evaluation["instruction_pairs"][kind]
         assert set(pairs["right"]) == {"llm", "rules", "blind"}
         assert pairs["right"]["llm"] == 0.0  # it was never trained: it holds
-        assert found["paraphrases"][kind]["cases"] == 32
+        assert evaluation["paraphrases"][kind]["cases"] == 32
     card = (weights / "README.md").read_text()
     assert card.startswith("# Tac3D-LLM, small\n\nfacts\n\n## Scores\n")
     assert "| captions, geometric baseline, depth | " in card
@@ -203,9 +203,9 @@ def test_wrong_use_of_eval_is_told_in_one_line(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["eval", "--weights", str(weights), "--data", str(data_dir), *argv]) == 2
-    said = capsys.readouterr().err
-    assert expected in said
-    assert said.count("\n") == 1
+    text = capsys.readouterr().err
+    assert expected in text
+    assert text.count("\n") == 1
 
 
 def test_no_case_remembers_the_one_before() -> None:

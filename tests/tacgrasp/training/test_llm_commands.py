@@ -380,7 +380,7 @@ class Trainer:
 
             return carry_out
 
-        monkeypatch.setattr(train, "generate", lambda data, **_: data.exists() or make_data(data))
+        monkeypatch.setattr(train, "generate", lambda r: r.out.exists() or make_data(r.out))
         for module in (train, methods_module):
             monkeypatch.setattr(module, "train_words", lambda *_, **__: None)
         monkeypatch.setattr(methods_module, "train_clip", stage("clip", "clip"))

@@ -13,6 +13,7 @@ from cltp.errors import TouchError
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.learning import encoder as bench_encoder
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert
+from tacgrasp.benchmarks.settings import EncoderSettings
 
 TINY = dataclasses.replace(PRESETS["tiny"], tokenizer="fps", group_size=8)
 
@@ -40,7 +41,9 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
     few = dataclasses.replace(TINY, group_size=4, num_groups=6, dim=8)
     monkeypatch.setitem(PRESETS, "tiny", few)
     bench_encoder.run(
-        "tiny", repeats=1, scales=[(256, 64)], json_path=path, clock=lambda: float(next(ticks))
+        EncoderSettings(preset="tiny", repeats=1, json=path),
+        scales=[(256, 64)],
+        clock=lambda: float(next(ticks)),
     )
     found = json.loads(path.read_text())
     assert set(found["encoders"]) == {"ours, fps", "plain PointBERT"}
@@ -66,7 +69,9 @@ def test_lattices_with_a_bearing_curve_are_timed(
     )
     monkeypatch.setitem(PRESETS, "tiny", few)
     bench_encoder.run(
-        "tiny", repeats=1, scales=[], json_path=path, clock=lambda: float(next(ticks))
+        EncoderSettings(preset="tiny", repeats=1, json=path),
+        scales=[],
+        clock=lambda: float(next(ticks)),
     )
     found = json.loads(path.read_text())["encoders"]
     assert set(found) == {f"ours, {tokenizer}", "ours, fps", "plain PointBERT"}

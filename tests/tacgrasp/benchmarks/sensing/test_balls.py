@@ -16,6 +16,7 @@ from cltp.tactile.sensors import SENSORS
 from cltp.train.photometric import train_gradients
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.sensing import balls as bench_balls
+from tacgrasp.benchmarks.settings import BallsSettings
 from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles
 from tacgrasp.playback.describe import describe
@@ -103,7 +104,7 @@ def test_the_benchmark_measures_presses_that_it_left_out(folder, tmp_path, capsy
     brief = partial(train_gradients, steps=(100, 100, 200))
     monkeypatch.setattr(bench_balls, "train_gradients", brief)
     report = tmp_path / "balls.json"
-    came_out = bench_balls.run(folder, diameter_mm=6.0, background=None, folds=2, json_path=report)
+    came_out = bench_balls.run(BallsSettings(data=folder, diameter_mm=6.0, folds=2, json=report))
     figures = json.loads(report.read_text())
     assert figures["diameter_error_percent"] == pytest.approx(0, abs=4)
     assert figures["profile_rmse_mm"] is None

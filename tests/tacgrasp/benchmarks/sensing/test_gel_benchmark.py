@@ -6,11 +6,12 @@ import pytest
 import torch
 
 from tacgrasp.benchmarks.sensing import gel as bench_gel
+from tacgrasp.benchmarks.settings import GelSettings
 
 
 def test_the_figures_are_written_under_their_keys(tmp_path, monkeypatch, capsys):
     monkeypatch.setattr(bench_gel, "measure", lambda _data: bench_gel.hertz())
-    bench_gel.run(None, tmp_path / "gel.json")
+    bench_gel.run(GelSettings(json=tmp_path / "gel.json"))
     report = json.loads((tmp_path / "gel.json").read_text())
     assert abs(report["hertz_force_error_percent"]) < 2
     assert abs(report["hertz_radius_error_percent"]) < 2

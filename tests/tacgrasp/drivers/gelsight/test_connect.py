@@ -18,6 +18,7 @@ from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tests.contracts.sensor_contract import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
@@ -187,6 +188,69 @@ def test_a_stale_background_is_told_from_something_that_touches(sensor, camera):
         sensor.expect_untouched()
 
 
+DRIFTED = (GREY + np.linspace(0, 5, 320)[None, :, None]).astype(np.uint8)
+"""An untouched picture with a slope of light of 5 levels."""
+
+
+class TestTheContractOnACamera(SensorContract):
+    @pytest.fixture(autouse=True)
+    def drift(self, camera):
+        camera.picture = DRIFTED
+
+
+def test_heights_are_relative_to_the_last_reference(sensor, camera):
+    camera.picture = DRIFTED
+    assert np.abs(sensor.read().points_mm[:, 2]).max() > 0.1
+    sensor.take_reference()
+    assert np.abs(sensor.read().points_mm[:, 2]).max() < 0.03
+    camera.picture = (pressed(0.8, x_mm=4.0).astype(int) + DRIFTED - 120).astype(np.uint8)
+    state = contact_state(sensor.read())
+    assert state.depth_mm == pytest.approx(0.8, abs=0.1)
+    assert state.x_mm == pytest.approx(4.0, abs=0.3)
+
+
+def test_a_reference_is_of_frames_exposed_after_the_call(sensor, camera):
+    for level in (112, 126, 118):
+        time.sleep(0.05)
+        camera.picture = np.full_like(GREY, level)
+        camera.picture[:, :160] -= 6  # what an old frame does not have
+        sensor.take_reference()
+        assert np.abs(sensor.read().points_mm[:, 2]).max() < 0.03
+        camera.picture = GREY
+
+
+def test_the_untouched_gel_is_compared_with_the_stored_background_after_a_reference(sensor, camera):
+    camera.picture = (GREY - 10).astype(np.uint8)
+    sensor.take_reference()
+    with pytest.raises(TouchError, match="stale background: 100%"):
+        sensor.expect_untouched()
+    camera.picture = GREY
+    sensor.expect_untouched()
+
+
+def test_a_reference_of_another_light_or_a_moving_picture_is_refused_and_the_old_one_stays(
+    sensor, camera, monkeypatch
+):
+    camera.picture = DRIFTED
+    sensor.take_reference()
+    camera.picture = np.full_like(GREY, 80)
+    with pytest.raises(TouchError, match="half of the frame differs from the background"):
+        sensor.take_reference()
+    still = camera.next_frame
+
+    def moving():
+        camera.picture = pressed(0.5, x_mm=(camera.frames % 6) - 3.0)
+        return still()
+
+    monkeypatch.setattr(camera, "next_frame", moving)
+    with pytest.raises(TouchError, match="of the picture changed"):
+        sensor.take_reference()
+    monkeypatch.setattr(camera, "next_frame", still)
+    camera.picture = DRIFTED
+    time.sleep(0.05)
+    assert np.abs(sensor.read().points_mm[:, 2]).max() < 0.03
+
+
 def test_a_camera_whose_first_frames_are_dark_is_waited_for(files, camera):
     camera.picture = np.zeros_like(GREY)
     threading.Timer(0.3, lambda: setattr(camera, "picture", GREY)).start()
@@ -291,6 +355,13 @@ def test_no_image_of_a_recording_is_used_up_to_look_at_the_untouched_gel(files, 
         gelsight.read()
     with pytest.raises(TouchError):
         gelsight.read()
+
+
+def test_no_image_of_a_recording_is_used_up_for_a_reference(files, folder):
+    gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
+    gelsight.take_reference()
+    states = [contact_state(gelsight.read()) for _ in range(3)]
+    assert [state.depth_mm for state in states] == pytest.approx([0.0, 0.3, 0.7], abs=0.1)
 
 
 def test_a_folder_of_images_is_played_one_a_read_and_ends(files, folder):

@@ -79,6 +79,28 @@ def test_a_frame_captured_before_the_call_is_never_returned(sensor, gel):
     assert gel.captures > captured
 
 
+def test_a_reference_is_of_frames_captured_after_the_call_and_is_subtracted(sensor, gel):
+    for mm in (0.5, -0.1, 0.3):
+        time.sleep(0.05)  # frames of the old level are under way
+        gel.level_mm = mm
+        sensor.take_reference()
+        assert level(sensor.read()) == pytest.approx(0.0, abs=0.005)
+        gel.level_mm = mm + 0.2
+        assert level(sensor.read()) == pytest.approx(0.2, abs=0.005)
+
+
+@pytest.mark.parametrize("fault", ["black", "stall"])
+def test_a_reference_that_can_not_be_taken_leaves_the_old_one(sensor, emulator, gel, fault):
+    gel.level_mm = 0.3
+    sensor.take_reference()
+    emulator.inject(fault)
+    with pytest.raises(TouchError):
+        sensor.take_reference()
+    emulator.clear()
+    gel.level_mm = 0.5
+    assert level(sensor.read()) == pytest.approx(0.2, abs=0.005)
+
+
 def test_heights_keep_their_place_and_unit(emulator, settings, gel):
     heights = np.zeros(gel.shape, np.float32)
     heights[:5, 30:] = 0.75  # top right

@@ -11,16 +11,11 @@ from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
 from cltp.tactile.states import CLASSES
-from tacgrasp.pretraining.report.failures import (
-    FOLDER,
-    collect_failures,
-    load_failures,
-    save_failures,
-)
+from tacgrasp.pretraining.report.failures import Failures, collect_failures, load_failures
 from tacgrasp.pretraining.report.paper_numbers import PAPER
 from tacgrasp.pretraining.report.rankings import rankings
 from tacgrasp.pretraining.report.report import describe_run, report
-from tacgrasp.pretraining.report.store import grouped, nested, save_result
+from tacgrasp.pretraining.report.store import grouped, nested, save
 from tests.fakes.fake_results import fake_result
 
 
@@ -109,9 +104,9 @@ def test_failures_are_counted_by_class_and_by_the_papers_cases(
     triangle = next(f for f in found.classes if f.name == "triangle")
     assert [one.index for one in triangle.examples] == [2, 1]  # highest score first
     assert (triangle.examples[0].predicted, triangle.examples[0].predicted_score) == ("peak", 0.7)
-    save_failures(tmp_path, found)
+    save(tmp_path, found)
     assert load_failures(tmp_path, "abc") == [found]
-    save_result(tmp_path, fake_result())
+    save(tmp_path, fake_result())
     page = report(tmp_path, tmp_path)[1].read_text()
     assert page.count("predicted: peak (0.70)") == 2  # as a triangle, and as the paper's case
 
@@ -121,10 +116,10 @@ def test_failures_of_other_data_or_damaged_are_refused(
 ) -> None:
     encoded, scores = four(["plane"] * 4, ["peak"] * 4)
     failures = collect_failures(fake_result(), data, encoded, scores, "cosine")
-    path = save_failures(tmp_path, failures)
+    path = save(tmp_path, failures)
     with pytest.raises(TouchError, match="other data"):
         load_failures(tmp_path, "def")
     path.write_text(path.read_text()[:100])
-    with pytest.raises(TouchError, match="are damaged"):
+    with pytest.raises(TouchError, match=r"failures/.* is damaged"):
         load_failures(tmp_path, "abc")
-    assert path.parent.name == FOLDER
+    assert path.parent.name == Failures.folder == "failures"

@@ -1,0 +1,66 @@
+"""What all benchmarks share: durations of a call, tables of numbers, the file of figures."""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from rich.table import Table
+
+from cltp.atomic_write import write_atomically
+
+
+def times_ms(
+    call: Callable[[], object],
+    repeats: int,
+    *,
+    warm_up: int = 1,
+    clock: Callable[[], float] = time.perf_counter,
+) -> list[float]:
+    """Durations of ``repeats`` calls, after ``warm_up`` calls that don't count [ms]."""
+    times = []
+    for _ in range(warm_up + repeats):
+        began = clock()
+        call()
+        times.append(1e3 * (clock() - began))
+    return times[warm_up:]
+
+
+def median_ms(call: Callable[[], object], repeats: int) -> float:
+    """Median duration of a call [ms]."""
+    return median(times_ms(call, repeats))
+
+
+def one_thread() -> None:
+    """Initialise a worker process among others on the same cores."""
+    import torch
+
+    torch.set_num_threads(1)
+    os.environ["OMP_NUM_THREADS"] = "1"
+
+
+def number_table(title: str, columns: Sequence[str], text: Sequence[str] = ("",)) -> Table:
+    """An empty table; all columns but those named in ``text`` are aligned to the right."""
+    table = Table(title=title)
+    for column in columns:
+        table.add_column(column, justify="left" if column in text else "right")
+    return table
+
+
+def write_figures(path: Path | None, report: Mapping[str, Any]) -> None:
+    """Write the figures as JSON if a path is given: a file all at once, or to a pipe.
+
+    Raises:
+        OSError: The file can't be written.
+    """
+    if path is not None:
+        text = json.dumps(report, indent=2) + "\n"
+        if path.exists() and not path.is_file():
+            path.write_text(text, encoding="utf-8")
+        else:
+            write_atomically(path.resolve(), text)

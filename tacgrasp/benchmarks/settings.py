@@ -1,0 +1,287 @@
+"""Settings of every benchmark; ``tacgrasp bench`` reads its flags into them.
+
+Imports nothing heavy, so that ``tacgrasp bench NAME --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from tacgrasp.base.errors import UsageError
+
+
+@dataclass(frozen=True, kw_only=True)
+class BenchmarkSettings:
+    """What every benchmark takes.
+
+    Attributes:
+        json: File to write the figures to.
+    """
+
+    json: Path | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class ModelBenchmarkSettings(BenchmarkSettings):
+    """What every benchmark with a language model takes.
+
+    Attributes:
+        weights: Folder of llm's weights. Default: TACGRASP_WEIGHTS, else the shipped weights.
+    """
+
+    weights: Path | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class StrawberrySettings(ModelBenchmarkSettings):
+    """Grasp many simulated strawberries with each policy, and count how the grasps end.
+
+    Attributes:
+        episodes: Number of strawberries, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for this benchmark.
+        policies: Names of the policies, separated by commas.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    policies: str = "rules,fixed_force,random,oracle"
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+
+@dataclass(frozen=True, kw_only=True)
+class MissedSettings(ModelBenchmarkSettings):
+    """Close the fingers beside the berry, and count what follows; exit code 1 off the targets.
+
+    As many ordinary episodes of the same seeds show how often a berry that is touched is reset.
+
+    Attributes:
+        episodes: Number of missed and of ordinary episodes, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+        policies: Names of the policies, separated by commas.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    policies: str = "llm,rules"
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ContactSettings(BenchmarkSettings):
+    """Count false contacts in air and missed light contacts; exit code 1 with too many false ones.
+
+    Attributes:
+        closings: Number of closings in air, two seconds each.
+        bodies: Number of bodies of each kind, two positions each.
+    """
+
+    closings: int = 1200
+    bodies: int = 150
+
+    def __post_init__(self) -> None:
+        if min(self.closings, self.bodies) < 1:
+            raise UsageError("--closings and --bodies must be at least 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class LatencySettings(ModelBenchmarkSettings):
+    """Time one step of a policy, stage by stage: from the cloud to the complete decision.
+
+    Attributes:
+        ticks: Number of steps to time.
+        policy: Policy to time. For llm, the arithmetic floor and plain decoding are timed too.
+        task: Task whose goal and instruction the policy is given.
+    """
+
+    ticks: int = 200
+    policy: Annotated[str, tyro.conf.arg(aliases=["--policies"])] = "rules"
+    task: str = "strawberry"
+
+    def __post_init__(self) -> None:
+        if self.ticks < 1:
+            raise UsageError(f"--ticks must be at least 1, got {self.ticks}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class RigsSettings(ModelBenchmarkSettings):
+    """Run the same seeds on the simulated and the emulated rig; exit code 1 if too few agree.
+
+    Attributes:
+        seeds: Number of seeds.
+        first_seed: First seed.
+        policy: Policy that decides: rules or llm.
+        parallel: Number of emulated rigs that run side by side.
+        json: File to write the ends of all episodes to.
+    """
+
+    seeds: int = 50
+    first_seed: int = 0
+    policy: str = "rules"
+    parallel: int = 2
+
+    def __post_init__(self) -> None:
+        if min(self.seeds, self.parallel) < 1 or self.first_seed < 0:
+            raise UsageError(
+                "--seeds and --parallel must be at least 1 and --first-seed at least 0"
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
+class DriversSettings(BenchmarkSettings):
+    """Time the drivers on the emulated rig: period of supervision, delay of commands and readings.
+
+    Attributes:
+        minutes: Duration of the measurement [min].
+    """
+
+    minutes: float = 10.0
+
+    def __post_init__(self) -> None:
+        if not 0.01 <= self.minutes <= 600:
+            raise UsageError(f"--minutes must be 0.01 to 600, got {self.minutes:g}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class FaultsSettings(BenchmarkSettings):
+    """Inject each fault into the emulated rig; exit code 1 if one is not dealt with as it must be.
+
+    Attributes:
+        repeats: Number of injections of each fault.
+        only: Part of the names of the faults to inject. Default: all faults.
+        markdown: File to write the table to, in the form of docs/faults.md.
+    """
+
+    repeats: int = 20
+    only: str = ""
+    markdown: Path | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
+class GelSettings(BenchmarkSettings):
+    """Compare the simulated gel with closed forms and, if given, with profiles of real presses.
+
+    Attributes:
+        data: Folder with radial profiles of real ball presses (profile_<diameter>mm.csv).
+            Default: real presses are not compared.
+    """
+
+    data: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.data is not None and not self.data.is_dir():
+            raise UsageError(f"--data {self.data} is not a folder")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TouchSettings(BenchmarkSettings):
+    """Compare the direct measurement of contacts with the truth of simulated grasps.
+
+    Attributes:
+        bodies: Number of bodies of each kind, four grasps each.
+    """
+
+    bodies: int = 60
+
+    def __post_init__(self) -> None:
+        if self.bodies < 1:
+            raise UsageError("--bodies must be at least 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallsSettings(BenchmarkSettings):
+    """Measure how right the heights of real GelSight Mini frames of a pressed ball are.
+
+    Attributes:
+        data: Folder of the frames.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel. Default: background.png in the folder.
+        folds: Number of calibrations; each leaves its part of the presses out. 44 takes minutes.
+        bare_sphere: Calibrate on the sphere alone, without the gel's profile around it.
+    """
+
+    data: Path
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    folds: int = 11
+    bare_sphere: bool = False
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.diameter_mm <= 100.0 or self.folds < 2:
+            raise UsageError("--diameter-mm must be 1 to 100 and --folds at least 2")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallCaptionsSettings(ModelBenchmarkSettings):
+    """Print and score what the model says about real GelSight Mini frames of a pressed ball.
+
+    Attributes:
+        data: Folder of the frames.
+        weights: Folder of weights. Default: TACGRASP_WEIGHTS, else the shipped weights.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel. Default: background.png in the folder.
+        calibration: Calibration of the unit. Default: the shipped one, which was made from presses
+            of a 6.31 mm ball on one unit.
+        folds: Number of calibrations; each leaves its part of the presses out. 0: none is made.
+    """
+
+    data: Path
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    calibration: Path | None = None
+    folds: int = 0
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.diameter_mm <= 100.0 or self.folds < 0 or self.folds == 1:
+            raise UsageError("--diameter-mm must be 1 to 100 and --folds 0 or at least 2")
+        if self.folds and self.calibration is not None:
+            raise UsageError("--folds makes its own calibrations: give either it or --calibration")
+
+
+@dataclass(frozen=True, kw_only=True)
+class EncoderSettings(BenchmarkSettings):
+    """Time training and encoding beside a PointBERT of the same size, written plainly in torch.
+
+    Attributes:
+        preset: Name of the encoder: small, ulip2, ...
+        repeats: Number of encodings of one cloud; batches and training steps take a tenth of it.
+        threads: Number of torch's threads.
+    """
+
+    preset: str = "small"
+    repeats: int = 100
+    threads: int = 1
+
+    def __post_init__(self) -> None:
+        if min(self.repeats, self.threads) < 1:
+            raise UsageError("--repeats and --threads must be at least 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Tcl3dSettings(BenchmarkSettings):
+    """Time the making of contacts at a sensor's own resolution, from object to caption.
+
+    Attributes:
+        series: Number of series, four contacts each.
+        workers: Number of processes, one thread each.
+        device: Device for ray casting and contact solving: cpu or cuda.
+        tacto: Python interpreter with TACTO installed, whose renderer is timed in the same run.
+    """
+
+    series: int = 60
+    workers: int = 2
+    device: str = "cpu"
+    tacto: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.workers < 1 or self.series < 2 * self.workers:
+            raise UsageError("--workers must be at least 1 and --series at least twice as many")
