@@ -57,8 +57,8 @@ APPROACH_STEP_N = 0.05
 
 CLOSED_WIDTH_M = 0.001
 """Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin,
-and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap when
-closed are closed by the approach up to its limit of force, and no further."""
+and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap
+when closed are closed by the approach up to its limit of force, and no further."""
 
 
 def force_factor(

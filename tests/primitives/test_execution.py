@@ -54,20 +54,21 @@ class FakeArm:
 class FakeGripper:
     """Grips what it is told; writes down every call."""
 
-    def __init__(self, log):
+    def __init__(self, log, closed_width_m):
         self.log, self.now = log, GripperState(width_m=0.04, force_n=0, closed=False)
+        self.closed_width_m = closed_width_m
 
     def state(self):
         return self.now
 
     def grip(self, force_n):
         self.log.append(("grip", force_n))
-        self.now = GripperState(width_m=0.03, force_n=force_n, closed=True)
+        self.now = GripperState(width_m=self.closed_width_m, force_n=force_n, closed=True)
         return self.now
 
     def open_by(self, clear_m):
         self.log.append(("open_by", clear_m))
-        self.now = GripperState(width_m=0.03 + clear_m, force_n=0, closed=False)
+        self.now = GripperState(width_m=self.now.width_m + clear_m, force_n=0, closed=False)
         return self.now
 
     def stop(self): ...
@@ -75,7 +76,7 @@ class FakeGripper:
     def disconnect(self): ...
 
 
-def make(*, limits=LIMITS, refuse=None, log=None, **changes):
+def make(*, limits=LIMITS, refuse=None, log=None, closed_width_m=0.03, **changes):
     log = [] if log is None else log
     ticks = count(100)
     values = {
@@ -87,7 +88,11 @@ def make(*, limits=LIMITS, refuse=None, log=None, **changes):
         "clock": lambda: float(next(ticks)),
     }
     arm = FakeArm(log, refuse)
-    return Executor(arm, FakeGripper(log), limits, **{**values, **changes}), arm, log
+    return (
+        Executor(arm, FakeGripper(log, closed_width_m), limits, **{**values, **changes}),
+        arm,
+        log,
+    )
 
 
 def test_the_first_grasp_closes_with_the_first_force_and_does_not_move():
@@ -296,15 +301,17 @@ def test_a_start_outside_the_workspace_is_refused():
         make(start_pose=far)
 
 
-def feeling(touched_at_n, first_force_n):
+def feeling(touched_at_n, first_force_n, *, closed_width_m=0.03, felt=None, **changes):
     """An executor whose touch is felt from a commanded force on, and its log."""
     log = []
     sense = ContactSense(
         take_reference=lambda: log.append(("reference",)),
         in_contact=lambda: [e[1] for e in log if e[0] == "grip"][-1] >= touched_at_n - 1e-9,
-        felt_force=lambda: None,
+        felt_force=lambda: felt,
     )
-    executor, _, devices_log = make(sense=sense, first_force_n=first_force_n, log=log)
+    executor, _, devices_log = make(
+        sense=sense, first_force_n=first_force_n, log=log, closed_width_m=closed_width_m, **changes
+    )
     assert devices_log is log
     return executor, log
 
@@ -375,3 +382,32 @@ def test_an_interval_in_no_order_is_refused(bounds):
     low, value, high = bounds
     with pytest.raises(LimitError):
         Interval(value=value, low=low, high=high)
+
+
+def test_the_steps_of_an_approach_are_at_least_the_grippers_own():
+    executor, log = feeling(99.0, 0.6, force_step_n=0.15)
+    executor.grasp()
+    forces = [e[1] for e in log if e[0] == "grip"]
+    assert forces == pytest.approx([0.2, 0.35, 0.5, 0.6])
+
+
+def test_fingers_that_close_on_nothing_are_not_closed_further():
+    executor, log = feeling(99.0, 0.6, closed_width_m=0.0006)
+    executed = executor.grasp()
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.2])
+    assert "nothing was felt" in executed.sent
+
+
+def test_a_reset_without_contact_opens_as_wide_as_before_the_first_grasp():
+    executor, log = feeling(99.0, 0.6, closed_width_m=0.0)
+    executor.grasp()
+    executor.execute(Primitive.RESET)
+    assert [e[1] for e in log if e[0] == "open_by"] == pytest.approx([0.04])
+
+
+def test_a_reset_with_contact_opens_by_the_clearance_alone():
+    felt = Interval(value=0.2, low=0.1, high=0.4)
+    executor, log = feeling(0.2, 0.6, felt=felt)
+    executor.grasp()
+    executor.execute(Primitive.RESET)
+    assert [e[1] for e in log if e[0] == "open_by"] == pytest.approx([0.005])

@@ -115,8 +115,29 @@ def test_a_body_that_cannot_be_held_slides_alike_while_it_is_lifted_and_held(clo
     assert facts["slip_mm"] == pytest.approx(pair.rig.truth().slip_mm, rel=0.2)
 
 
+def mean_of_frames(world):
+    return np.mean([world.height_mm() for _ in range(20)], axis=0)
+
+
+def test_each_frame_has_its_own_noise_and_the_drift_goes_on_in_time(world, clock):
+    fine_mm = np.std(world.height_mm() - world.height_mm()) / np.sqrt(2)
+    assert fine_mm == pytest.approx(0.010, rel=0.05)
+    before = mean_of_frames(world)
+    assert np.abs(mean_of_frames(world) - before).max() < 0.02
+    clock.now_s += 120
+    assert np.abs(mean_of_frames(world) - before).max() > 0.05
+
+
+def test_closing_on_nothing_leaves_the_gel_as_it_was(clock):
+    world = SharedWorld(build("strawberry", 3, start_offset_mm=(50.0, 0.0)), clock)
+    before = mean_of_frames(world)
+    assert world.width_under(0.6) == 0.0
+    assert np.abs(mean_of_frames(world) - before).max() < 0.02
+    world.close()
+
+
 def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
-    rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0)
+    rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0, noise_level=0.0)
     world = SharedWorld(rig, clock)
     world.width_under(0.08)
     world.follow(segment([0, 0, 0.002], np.zeros(3), 0.4, 2.5))

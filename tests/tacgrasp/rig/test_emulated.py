@@ -2,13 +2,17 @@
 
 import contextlib
 import io
+import time
 from concurrent.futures import ThreadPoolExecutor
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from primitives import RobotError
+from primitives import Primitive, RobotError
+from primitives.devices import Pose
+from primitives.execution import CLOSED_WIDTH_M
 from tacgrasp.__main__ import main
 from tacgrasp.config.layers import load
 from tacgrasp.console import COMPLETED
@@ -16,6 +20,7 @@ from tacgrasp.episodes import read_episode
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.factory import make_executor, make_rig
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.run import run_recorded
 from tacgrasp.runtime.outcome import EndReason
 from tacgrasp.runtime.shutdown import read_truth
@@ -65,13 +70,15 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
     _, _, episode = printed_and_episode
     config = load("strawberry")[0].model_copy(update={"policy": "rules", "seed": 2})
     rig = make_rig(config)
+    sense = GelSense(rig.sensor)
     outcome = run_episode(
         rig,
-        make_executor(rig, config),
+        make_executor(rig, config, sense),
         make_policy("rules", config),
         config,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
+        sense=sense,
     )
     assert episode.end.reason == outcome.reason.value
     truth = outcome.truth
@@ -97,6 +104,45 @@ def test_every_command_is_recorded_as_asked_sent_and_reached(printed_and_episode
     lifts = [c for c in episode.steps[-1].commands if c.device == "arm"]
     assert len(lifts) == 9  # up, and four times aside and back
     assert all(a.ended_s <= b.started_s for a, b in pairwise(commands))
+
+
+APPROACH_S = 3.0
+BESIDE_M = np.array([0.04, 0.0, 0.0])
+
+
+def timed(action):
+    began_s = time.monotonic()
+    executed = action()
+    return executed, time.monotonic() - began_s
+
+
+@pytest.mark.slow
+def test_an_approach_ends_in_time_at_the_first_touch_and_on_nothing(tmp_path: Path):
+    config = patient_config(tmp_path, seed=2)
+    rig = make_rig(config)
+    try:
+        executor = make_executor(rig, config, GelSense(rig.sensor))
+        touched, touched_s = timed(executor.grasp)
+        peak_n = rig.truth().peak_force_n
+        rig.gripper.open_by(1.0)
+        start = rig.arm.pose()
+        beside = Pose(position_m=start.position_m + BESIDE_M, rotvec_rad=start.rotvec_rad)
+        rig.arm.move_to(beside, speed_m_s=0.2)
+        executor = make_executor(rig, config, GelSense(rig.sensor))
+        missed, missed_s = timed(executor.grasp)
+        assert rig.truth().force_n == 0
+        back, back_s = timed(lambda: executor.execute(Primitive.RESET))
+        commands = [c for c in rig.commands() if c.device == "gripper"]
+    finally:
+        rig.disconnect()
+    assert touched.sent.endswith("where something was felt")
+    assert peak_n < 0.3
+    assert missed.sent.endswith("nothing was felt")
+    assert missed.width_m < CLOSED_WIDTH_M
+    assert back.sent.endswith("where something was felt")
+    opened = [c for c in commands if c.asked.startswith("open")][-1]
+    assert opened.asked == "open by 110.0 mm"
+    assert max(touched_s, missed_s, back_s) < APPROACH_S
 
 
 @pytest.mark.slow

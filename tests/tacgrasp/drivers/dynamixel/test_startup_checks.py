@@ -8,6 +8,7 @@ from pydantic import ValidationError
 
 from primitives import RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
+from tacgrasp.drivers.dynamixel.calibration import load_calibration, save_calibration
 from tacgrasp.drivers.dynamixel.gripper import check, connect_gripper
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tests.fakes.emulated_servos import EmulatedServos
@@ -140,6 +141,23 @@ def test_doctor_says_all_that_is_wrong_at_once(servos):
         "servo 2 temperature",
         "calibration",
     ]
+
+
+@pytest.mark.parametrize(("first_force_n", "ok"), [(0.02, True), (0.014, False)])
+def test_doctor_says_where_the_least_command_is_above_the_first_force(servos, first_force_n, ok):
+    *_, last = check(servos.settings, folder=servos.folder, first_force_n=first_force_n)
+    assert (last.name, last.ok) == ("first force", ok)
+    assert "steps of 0.014 N or more; the least command is 0.014 N" in last.detail
+    assert ok or "press harder than gripper.first_force_n" in last.advice
+
+
+def test_a_gripper_that_presses_with_its_least_current_has_that_as_its_least_command(servos):
+    path = servos.folder / servos.settings.calibration
+    line = load_calibration(path).model_copy(update={"friction_ma": -20.0})
+    save_calibration(path, line)
+    *_, last = check(servos.settings, folder=servos.folder, first_force_n=0.3)
+    assert not last.ok  # (1 mA + 20 mA) × 0.0144 N/mA
+    assert "the least command is 0.302 N" in last.detail
 
 
 def test_doctor_goes_on_without_a_port(servos):

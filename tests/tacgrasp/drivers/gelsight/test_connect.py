@@ -188,8 +188,8 @@ def test_a_stale_background_is_told_from_something_that_touches(sensor, camera):
         sensor.expect_untouched()
 
 
-DRIFTED = (GREY + np.linspace(0, 5, 320)[None, :, None]).astype(np.uint8)
-"""An untouched picture with a slope of light of 5 levels."""
+DRIFTED = (GREY + np.rint(0.05 * LAMPS[:, 0])).astype(np.uint8)
+"""An untouched picture whose light has changed by 2 to 4 levels, as by a tilt of 0.05 mm per mm."""
 
 
 class TestTheContractOnACamera(SensorContract):
@@ -210,13 +210,11 @@ def test_heights_are_relative_to_the_last_reference(sensor, camera):
 
 
 def test_a_reference_is_of_frames_exposed_after_the_call(sensor, camera):
-    for level in (112, 126, 118):
+    for picture in (DRIFTED, GREY, DRIFTED):  # one old frame of five would tilt by 0.09 mm
         time.sleep(0.05)
-        camera.picture = np.full_like(GREY, level)
-        camera.picture[:, :160] -= 6  # what an old frame does not have
+        camera.picture = picture
         sensor.take_reference()
         assert np.abs(sensor.read().points_mm[:, 2]).max() < 0.03
-        camera.picture = GREY
 
 
 def test_the_untouched_gel_is_compared_with_the_stored_background_after_a_reference(sensor, camera):
