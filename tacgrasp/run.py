@@ -32,9 +32,21 @@ from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
 
 
 def run_recorded(
-    rig: Rig, policy: Policy, config: RunConfig, observers: Sequence[Observer] = ()
+    rig: Rig,
+    policy: Policy,
+    config: RunConfig,
+    observers: Sequence[Observer] = (),
+    *,
+    feel: bool = True,
 ) -> tuple[Outcome, Path]:
     """Run an episode and record it in ``config.record``; the file is closed on every path.
+
+    Args:
+        rig: The connected rig.
+        policy: Decides.
+        config: The run.
+        observers: Called after each step.
+        feel: Whether closings approach and contact is tested; False closes with the first force.
 
     Raises:
         EpisodeError: The record can't be created; nothing has moved.
@@ -44,7 +56,7 @@ def run_recorded(
     if not config.dry_run:
         rig.expect_untouched()
     header = _header(rig, policy, config)
-    sense = GelSense(rig.sensor)
+    sense = GelSense(rig.sensor) if feel else None
     executor = make_executor(rig, config, sense)
     directory = make_record_directory(config.record)
     path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)

@@ -21,14 +21,13 @@ from typing import Any
 
 import numpy as np
 from rich.console import Console
-from rich.table import Table
 
 from cltp.tactile.cloud import TactileCloud
 from policies import Policy
 from primitives import Primitive
 from sim.grasp.rig import SimRig, build
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.figures import write_figures
+from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import MissedSettings
@@ -260,13 +259,13 @@ def run(settings: MissedSettings) -> bool:
 def _print(
     console: Console, figures: dict[str, dict[str, Any]], episodes: int, first_seed: int
 ) -> None:
-    table = Table(
-        title=f"{episodes} missed and {episodes} ordinary episodes, seeds from {first_seed:,}; "
-        "95 % Wilson intervals"
+    columns = ("policy", "reset first", "contact lost", "force added", "false reset")
+    table = number_table(
+        f"{episodes} missed and {episodes} ordinary episodes, seeds from {first_seed:,}; "
+        "95 % Wilson intervals",
+        (*columns, "ends of the missed"),
+        text=("policy", "ends of the missed"),
     )
-    for column in ("policy", "reset first", "contact lost", "force added", "false reset"):
-        table.add_column(column, justify="left" if column == "policy" else "right")
-    table.add_column("ends of the missed")
     for name, row in figures.items():
         cells = []
         for rate in TARGETS:

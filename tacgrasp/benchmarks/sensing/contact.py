@@ -19,7 +19,6 @@ from typing import Any
 
 import numpy as np
 from rich.console import Console
-from rich.table import Table
 
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
@@ -29,7 +28,7 @@ from sim.grasp.bodies import OBJECTS
 from sim.grasp.devices import SimClock, SimSensor
 from sim.grasp.fingers import Patch
 from sim.grasp.rig import OFFSET_X_MM, OFFSET_Y_MM, SimRig, build
-from tacgrasp.benchmarks.figures import write_figures
+from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import ContactSettings
@@ -200,13 +199,11 @@ def _print(console: Console, figures: dict[str, Any], bodies: int) -> None:
         "largest response of a closing over the least of a contact: "
         f"{figures['median_ratio']:.2f} in the median, {figures['largest_ratio']:.2f} at most"
     )
-    table = Table(
-        title=f"Contacts missed in one frame, by true force; {GRASPS_PER_BODY * bodies} positions"
+    table = number_table(
+        f"Contacts missed in one frame, by true force; {GRASPS_PER_BODY * bodies} positions",
+        ("object", *(f"{force_n:g} N" for force_n in FORCES_N), "least force"),
+        text=("object",),
     )
-    table.add_column("object")
-    for force_n in FORCES_N:
-        table.add_column(f"{force_n:g} N", justify="right")
-    table.add_column("least force", justify="right")
     for name in figures["least_force_n"]:
         for prefix, words in (("", name), ("ideal_", "  ideal detector")):
             rates = figures[f"{prefix}missed_by_force"][name].values()

@@ -94,7 +94,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply"], "no.ply does not exist"),
         (["describe", "photo.tiff"], "expected a file ending in"),
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
-        (["bench"], "expects one of strawberry, latency, rigs, drivers, faults, gel, touch"),
+        (["bench"], "expects one of strawberry, missed, latency, rigs, drivers, faults, gel"),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
@@ -161,14 +161,14 @@ def test_the_paper_demo_prints_a_line_a_step_the_end_and_the_truth(
     lines = capsys.readouterr().out.splitlines()
     assert "bottom-center" in lines[0]
     assert "move_down" in lines[0]
-    assert "decrease_force" in lines[1]
-    assert "stable" in lines[2]
+    assert all("increase_force" in line for line in lines[1:5])
+    assert "stable" in lines[5]
     assert any(line.startswith("end: success") for line in lines)
     assert any(line.startswith("truth: ") for line in lines)
     assert COMPLETED in lines
 
 
-@pytest.mark.parametrize("name", ["gentle", "missed", "slips"])
+@pytest.mark.parametrize("name", ["gentle", "missed", "missed-rules", "slips"])
 def test_a_demo_comes_out_as_scripted(name: str, tmp_path: Path, capsys: Capture) -> None:
     assert main(["demo", name, "--record", str(tmp_path)]) == 0
     assert (COMPLETED in capsys.readouterr().out) is (name == "gentle")
@@ -188,19 +188,19 @@ def test_a_replay_shows_the_same_steps_as_the_run(episode: Path, capsys: Capture
 
 def test_deciding_again_reproduces_the_episode_exactly(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", str(episode)]) == 0
-    assert "3 decisions, 0 differ" in capsys.readouterr().out
+    assert "6 decisions, 0 differ" in capsys.readouterr().out
 
 
 def test_another_policy_differs_and_says_where(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", "--policy", "fixed_force", str(episode)]) == 1
     printed = capsys.readouterr().out
     assert "action: 'move_down' then, None now" in printed
-    assert "3 decisions, 3 differ" in printed
+    assert "6 decisions, 6 differ" in printed
 
 
 def test_executing_again_reaches_the_recorded_poses(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--execute", str(episode)]) == 0
-    assert "2 actions repeated; at most 0.00 mm" in capsys.readouterr().out
+    assert "5 actions repeated; at most 0.00 mm" in capsys.readouterr().out
 
 
 def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(
