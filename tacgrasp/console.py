@@ -40,7 +40,8 @@ class StepPrinter:
         if self._started_s is None:
             self._started_s = record.stamp.monotonic_s
         elapsed_s = record.stamp.monotonic_s - self._started_s
-        self._console.print(step_line(record, contact_state(record.cloud), elapsed_s))
+        state = contact_state(record.cloud, in_contact=record.in_contact)
+        self._console.print(step_line(record, state, elapsed_s))
 
 
 def step_line(record: StepRecord, state: ContactState, elapsed_s: float) -> Text:

@@ -14,7 +14,9 @@ from tacgrasp.cli.flags import parse
 
 @dataclass(frozen=True)
 class AskFlags:
-    """Answer a question about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz), in mm.
+    """Answer a question about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
+
+    In mm, positive into the gel, with the untouched gel at 0.
 
     Attributes:
         file: Cloud or height map.
@@ -36,6 +38,7 @@ def main(argv: Sequence[str]) -> int:
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
     from tacgrasp.console import make_console
+    from tacgrasp.playback.describe import is_touched
     from tacgrasp.policy_factory import load_llm
 
     cloud = read_cloud(flags.file, sensor_named(flags.sensor))
@@ -44,5 +47,6 @@ def main(argv: Sequence[str]) -> int:
         policy.check(flags.question)
     except PolicyError as error:
         raise UsageError(str(error)) from None
-    make_console().print(policy.ask(cloud, flags.question))
+    answer = policy.ask(cloud, flags.question) if is_touched(cloud) else "Nothing touches the gel."
+    make_console().print(answer)
     return 0

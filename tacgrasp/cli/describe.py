@@ -14,7 +14,9 @@ from tacgrasp.cli.flags import parse
 
 @dataclass(frozen=True)
 class DescribeFlags:
-    """Describe the contact in a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz), in mm.
+    """Describe the contact in a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
+
+    In mm, positive into the gel, with the untouched gel at 0.
 
     A frame of the sensor's camera (.png .jpg .bmp) needs its background too.
 
@@ -43,7 +45,7 @@ def main(argv: Sequence[str]) -> int:
     from policies import PolicyError
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
-    from tacgrasp.playback.describe import describe, describe_by_model
+    from tacgrasp.playback.describe import describe, describe_by_model, is_touched
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
@@ -55,6 +57,8 @@ def main(argv: Sequence[str]) -> int:
     )
     for line in describe(cloud):
         console.print(line)
+    if not is_touched(cloud):
+        return 0
     weights = flags.weights or default_weights()
     if weights == shipped_weights() and not weights.is_dir():
         console.print(

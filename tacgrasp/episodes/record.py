@@ -31,6 +31,7 @@ from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
+from primitives.sense import Interval
 from tacgrasp.episodes.command_log import Command
 
 FORMAT = "tacgrasp-episode/1"
@@ -107,6 +108,8 @@ class StepFields:
         note: Failures of this step that the loop survived, for people; empty otherwise.
         commands: Commands to the devices since the record before, oldest first; only on rigs of
             real or emulated devices.
+        in_contact: Whether something touched the gel, by test; None where none was possible.
+        felt_force_n: Force that the contact suggested [N]; None without contact or test.
     """
 
     index: int
@@ -116,6 +119,8 @@ class StepFields:
     gripper: GripperState
     note: str = ""
     commands: tuple[Command, ...] = ()
+    in_contact: bool | None = None
+    felt_force_n: Interval | None = None
 
     def shared(self) -> dict[str, Any]:
         """The fields above by name, whatever else this dataclass holds."""

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.contact_test import touches_alone
 from cltp.tactile.measure import contact_state
 from cltp.texts.captions import caption
 from policies import Observation, PolicyError
@@ -18,20 +20,38 @@ if TYPE_CHECKING:
 CAPTION_REQUEST = "Describe the contact."
 
 
+NO_CONTACT = "nothing touches the gel"
+
+
+def is_touched(cloud: TactileCloud) -> bool:
+    """Whether something touches the gel of a single cloud, by test.
+
+    Raises:
+        TouchError: The gel rises where a contact would press it in.
+    """
+    evidence = touches_alone(cloud)
+    if evidence.is_inverted:
+        raise TouchError(
+            "the gel rises where a contact would press it in: z has the wrong sign; expected mm, "
+            "positive into the gel, with the untouched gel at 0"
+        )
+    return evidence.in_contact
+
+
 def describe(cloud: TactileCloud) -> list[str]:
     """Measured facts of a contact, a line each.
 
     Raises:
-        TouchError: The cloud can't be measured.
+        TouchError: The cloud can't be measured, or its z has the wrong sign.
     """
     sensor = cloud.sensor
-    state = contact_state(cloud)
+    state = contact_state(cloud, in_contact=is_touched(cloud))
     lines = [
         f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm",
         f"points    {len(cloud.points_mm)}",
     ]
     if state.depth is None or state.position is None or state.area is None:
-        return [*lines, "contact   none: nothing touches the gel"]
+        return [*lines, f"contact   none: {NO_CONTACT}"]
     return [
         *lines,
         f"position  {state.position} ({state.x_mm:+.2f}, {state.y_mm:+.2f} mm)",

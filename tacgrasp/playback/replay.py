@@ -20,11 +20,12 @@ from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
 from tacgrasp.config.errors import explain
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.episodes import Episode, EpisodeError, StepPhase
+from tacgrasp.episodes import Episode, EpisodeError, StepPhase, StepRecord
 from tacgrasp.episodes.codec import to_json
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason
+from tacgrasp.runtime.steps import NOTHING_TOUCHES
 
 SOFT_SPEED_M_S = 0.02
 """Speed of the move to the start of the episode. Our choice: slow enough to be stopped by hand."""
@@ -82,10 +83,10 @@ def differences(episode: Episode, policy: Policy) -> Iterator[Difference]:
     """
     policy.start()
     for step in episode.steps:
-        if step.phase is not StepPhase.LOOP or step.decision is None:
-            continue
+        if step.phase is not StepPhase.LOOP or step.decision in (None, NOTHING_TOUCHES):
+            continue  # without contact the runtime decided, not the policy
         try:
-            decision = policy.decide(Observation(cloud=step.cloud), episode.header.instruction)
+            decision = policy.decide(_observation(step), episode.header.instruction)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue
@@ -96,6 +97,17 @@ def differences(episode: Episode, policy: Policy) -> Iterator[Difference]:
         texts = [f"{n}: {old[n]!r} then, {new[n]!r} now" for n in old if old[n] != new[n]]
         if texts:
             yield Difference(index=step.index, text="; ".join(texts))
+
+
+def _observation(step: StepRecord) -> Observation:
+    gripper = step.gripper
+    return Observation(
+        cloud=step.cloud,
+        in_contact=step.in_contact,
+        width_m=gripper.width_m,
+        commanded_force_n=gripper.force_n,
+        felt_force_n=step.felt_force_n,
+    )
 
 
 def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedAction, None, None]:

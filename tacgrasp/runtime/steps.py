@@ -223,6 +223,8 @@ class Steps:
             step_ms=1000 * (time.perf_counter() - step.observation.started_s),
             note="; ".join([*self._notes, *([note] if note else [])]),
             commands=self._rig.commands(),
+            in_contact=step.observation.in_contact,
+            felt_force_n=step.observation.felt_force_n,
         )
         self._notes = []
         self._recorder.write_step(record)

@@ -39,18 +39,18 @@ def test_untouched_frames_are_untouched_whatever_the_noise(rng, fine_mm):
 
 
 @pytest.mark.parametrize("place", [(0, 0), (8.0, 6.0), (-9.5, 0)])
-def test_a_light_press_of_a_twentieth_of_a_millimetre_is_felt(rng, place):
+def test_a_light_press_of_six_hundredths_of_a_millimetre_is_felt(rng, place):
     x_mm, y_mm = place
     for _ in range(20):
         gel = UntouchedGel([frame(rng) for _ in range(5)])
-        assert gel.test(frame(rng, bump(0.05, x_mm=x_mm, y_mm=y_mm))).in_contact
+        assert gel.test(frame(rng, bump(0.06, 1.5, x_mm=x_mm, y_mm=y_mm))).in_contact
 
 
 def test_drift_since_long_ago_is_in_the_reference_and_hides_no_contact(rng):
     drift = 0.3 * smooth_field(SHAPE, MINI, 12.0, rng)
     gel = UntouchedGel([frame(rng, drift) for _ in range(5)])
     assert not gel.test(frame(rng, drift)).in_contact
-    assert gel.test(frame(rng, drift + bump(0.05))).in_contact
+    assert gel.test(frame(rng, drift + bump(0.06, 1.5))).in_contact
 
 
 def test_broad_drift_during_a_closing_is_no_contact(rng):
