@@ -59,10 +59,8 @@ def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
     return spans
 
 
-def by_size(boxes: list[Box], *, one_by_one: bool) -> list[tuple[tuple[int, int], list[int]]]:
-    """Group contacts by the size of their boxes; on a CPU one by one, which fits its cache."""
-    if one_by_one:
-        return [((box.rows, box.columns), [i]) for i, box in enumerate(boxes)]
+def by_size(boxes: list[Box]) -> list[tuple[tuple[int, int], list[int]]]:
+    """Group contacts by the size of their boxes."""
     groups: dict[tuple[int, int], list[int]] = {}
     for i, box in enumerate(boxes):
         groups.setdefault((box.rows, box.columns), []).append(i)

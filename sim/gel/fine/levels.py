@@ -1,7 +1,7 @@
 """One grid of a cascade: each contact solved in its box, and the surface of the whole grid.
 
-On a CPU, contacts pressed to a depth are solved one by one (``sim.gel.fine.single``); presses by
-force and accelerators use the plain solver (``sim.gel.contact_solver``).
+On a CPU, contacts are solved one by one (``sim.gel.fine.single``); accelerators use the plain
+solver (``sim.gel.contact_solver``).
 
 Not here: the order of the grids (``sim.gel.fine.fine``), the boxes (``sim.gel.fine.boxes``).
 """
@@ -110,21 +110,17 @@ class GridLevel:
             ]
         )
 
-    def solve(
-        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
-    ) -> Solution:
+    def solve(self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor) -> Solution:
         """Solve every contact in its box.
 
         Args:
             boxes: A box for each contact.
             gap: (B, H, W), ``NO_BODY_MM`` where no pressure can act [mm].
-            load: (B,) [N] if ``by_force``, else [mm].
+            depth: (B,) [mm].
             start: (B, H, W) [MPa].
-            by_force: Whether the load is a force.
         """
-        if gap.device.type == "cpu" and not by_force:
-            return self._solve_single(boxes, gap, load, start)
-        return self._solve_batches(boxes, gap, load, start, by_force=by_force)
+        one_by_one = gap.device.type == "cpu"
+        return (self._solve_single if one_by_one else self._solve_batches)(boxes, gap, depth, start)
 
     def _solve_single(
         self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor
@@ -151,37 +147,32 @@ class GridLevel:
         )
 
     def _solve_batches(
-        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
+        self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor
     ) -> Solution:
         """Solve contacts with equally large boxes together."""
         pressure = torch.zeros_like(start)
-        approach = torch.zeros_like(load)
-        iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)
-        converged = torch.ones(len(load), dtype=torch.bool, device=gap.device)
-        for size, indices in by_size(boxes, one_by_one=gap.device.type == "cpu"):
+        iterations = torch.zeros(len(depth), dtype=torch.int64, device=gap.device)
+        converged = torch.ones(len(depth), dtype=torch.bool, device=gap.device)
+        for size, indices in by_size(boxes):
             chosen = torch.tensor(indices, device=gap.device)
-            target = load[chosen]
             first = torch.stack([boxes[i].crop(start[i]) for i in indices])
             inside = torch.stack([boxes[i].crop(gap[i]) for i in indices])
-            first = first.clamp(min=0) * (inside < NO_BODY_MM)
-            if by_force:
-                target = target / self.layer.pitch_mm**2
-                total = first.flatten(1).sum(1).clamp(min=1e-30)
-                first = first * (target / total)[:, None, None]
             solved = solve(
                 self._spectrum_of(size, chosen, with_body=True),
                 inside,
-                target,
-                by_force=by_force,
-                start_mpa=first,
+                depth[chosen],
+                by_force=False,
+                start_mpa=first.clamp(min=0) * (inside < NO_BODY_MM),
                 stiffness=self.layer.stiffness,
                 tol=TOLERANCE,
                 max_iterations=MAX_ITERATIONS,
             )
             for position, i in enumerate(indices):
                 boxes[i].crop(pressure[i]).copy_(solved.pressure_mpa[position])
-            approach[chosen] = solved.approach_mm
             iterations[chosen], converged[chosen] = solved.iterations, solved.converged
         return Solution(
-            pressure_mpa=pressure, approach_mm=approach, iterations=iterations, converged=converged
+            pressure_mpa=pressure,
+            approach_mm=depth.clone(),
+            iterations=iterations,
+            converged=converged,
         )
