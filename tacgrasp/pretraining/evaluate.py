@@ -230,13 +230,7 @@ def retrieval(run: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
         for split in run.evaluation_splits():
             encoded = run.encode(encoder, split)
             captions = captions_of(ContactDataset(run.data, split=split.split), encoded)
-            scores = score_retrieval(towers, encoded, captions)
-            values: dict[str, float | None] = {
-                **{f"contact_to_text_{k}": 100 * v for k, v in scores.contact_to_text.items()},
-                **{f"text_to_contact_{k}": 100 * v for k, v in scores.text_to_contact.items()},
-                "chance": 100 * scores.chance,
-                "captions": float(scores.captions),
-            }
+            values = score_retrieval(towers, encoded, captions)
             result = run.result("retrieval", name, method, split.name, len(encoded), values)
             results.append(run.store(result))
     return results
