@@ -28,10 +28,9 @@ from sim.objects.object import SolidObject
 from sim.objects.ray_casting import PadView, cast_pad_rays
 from sim.objects.skins import SMOOTH, fade, relief_of
 from sim.tcl3d.contact_geometry import ContactGeometry
-from sim.tcl3d.labels import in_contact, label
+from sim.tcl3d.labels import TEXTURE, in_contact, label, name_texture, uncertain_labels
 from sim.tcl3d.poses import PressPose, draw_pose
 from sim.tcl3d.shape_labels import name_shape
-from sim.tcl3d.texture_labels import TEXTURE, name_texture, uncertain_labels
 
 ROWS, COLUMNS = 75, 100
 """Grid over the sensing area of a GelSight Mini: 0.2 mm; other sensors get elements as large."""
@@ -272,10 +271,7 @@ def _at_border(gap_mm: FloatArray) -> bool:
     """Whether the foremost point is at the pad's border, where the object slips off."""
     row, column = np.unravel_index(int(gap_mm.argmin()), gap_mm.shape)
     rows, columns = gap_mm.shape
-    return not (
-        _BORDER_MARGIN <= row < rows - _BORDER_MARGIN
-        and _BORDER_MARGIN <= column < columns - _BORDER_MARGIN
-    )
+    return min(row, column, rows - 1 - row, columns - 1 - column) < _BORDER_MARGIN
 
 
 def _scene(

@@ -59,14 +59,6 @@ def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
     return spans
 
 
-def by_size(boxes: list[Box]) -> list[tuple[tuple[int, int], list[int]]]:
-    """Group contacts by the size of their boxes."""
-    groups: dict[tuple[int, int], list[int]] = {}
-    for i, box in enumerate(boxes):
-        groups.setdefault((box.rows, box.columns), []).append(i)
-    return list(groups.items())
-
-
 def escaped_from(boxes: list[Box], opening: Tensor) -> Tensor:
     """Mask of contacts that overlap their bodies outside of their boxes, (B,).
 

@@ -16,7 +16,7 @@ from torch import Tensor
 
 from sim.gel.compliance import GelMaterial, Spectrum, kernel_of, spectrum_from
 from sim.gel.contact_solver import Solution, solve
-from sim.gel.fine.boxes import Box, by_size
+from sim.gel.fine.boxes import Box
 from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import MAX_ITERATIONS, ElasticLayer
@@ -153,7 +153,10 @@ class GridLevel:
         pressure = torch.zeros_like(start)
         iterations = torch.zeros(len(depth), dtype=torch.int64, device=gap.device)
         converged = torch.ones(len(depth), dtype=torch.bool, device=gap.device)
-        for size, indices in by_size(boxes):
+        groups: dict[tuple[int, int], list[int]] = {}
+        for i, box in enumerate(boxes):
+            groups.setdefault((box.rows, box.columns), []).append(i)
+        for size, indices in groups.items():
             chosen = torch.tensor(indices, device=gap.device)
             first = torch.stack([boxes[i].crop(start[i]) for i in indices])
             inside = torch.stack([boxes[i].crop(gap[i]) for i in indices])
