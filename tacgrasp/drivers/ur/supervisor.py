@@ -151,8 +151,6 @@ class Supervisor:
             self._data_s = now_s
         self._sample = sample
 
-    # -- commands --------------------------------------------------------------------------------
-
     def _wait_until_due(self, due_s: float) -> None:
         """Carry out commands, and watch for the start of a motion, until the next round."""
         while (remaining_s := due_s - time.monotonic()) > 0:
@@ -246,8 +244,6 @@ class Supervisor:
         self._active = None if outcome is not CommandOutcome.REFUSED else self._active
         self.state.done, self.state.outcome, self.state.text = number, outcome, text
         self.publish(time.monotonic())
-
-    # -- ends ------------------------------------------------------------------------------------
 
     def brake(self) -> str:
         """Stop the arm by the library, if its link stands; returns the method, empty for none."""
