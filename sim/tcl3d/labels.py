@@ -19,7 +19,6 @@ Not here: shape (``sim.tcl3d.shape_labels``).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,15 +119,10 @@ MIN_PERIODS = 1.3
 """Number of a texture's periods that a contact must span for a certain label."""
 
 
-class TextureLabel(NamedTuple):
-    """A texture, and whether a careful person would give this label without doubt."""
-
-    texture: Texture
-    sure: bool
-
-
-def name_texture(obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArray) -> TextureLabel:
-    """Label the texture of a contact.
+def name_texture(
+    obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArray
+) -> tuple[Texture, bool]:
+    """Label the texture of a contact, and whether a careful person would give it without doubt.
 
     Args:
         obj: The pressed object.
@@ -139,15 +133,14 @@ def name_texture(obj: SolidObject, contact: ContactGeometry, relief_mm: FloatArr
     skin = obj.parts[int(counts.argmax())].skin
     textures = {obj.parts[i].skin.texture for i in np.flatnonzero(counts > 0.2 * counts.sum())}
     if skin.texture is Texture.SMOOTH:
-        return TextureLabel(Texture.SMOOTH, len(textures) == 1)
+        return Texture.SMOOTH, len(textures) == 1
     relief = relief_mm[contact.closed & (contact.cells >= 0)]
     relief_range_mm = float(np.ptp(np.percentile(relief, [3, 97]))) if len(relief) else 0.0
     if relief_range_mm < SMOOTH_RELIEF_MM:
-        return TextureLabel(
-            Texture.SMOOTH, relief_range_mm < 0.6 * SMOOTH_RELIEF_MM and len(textures) == 1
-        )
+        sure = relief_range_mm < 0.6 * SMOOTH_RELIEF_MM
+        return Texture.SMOOTH, sure and len(textures) == 1
     width = math.sqrt(float(contact.closed.sum())) * contact.pitch_mm
-    return TextureLabel(skin.texture, width > MIN_PERIODS * skin.pitch_mm and len(textures) == 1)
+    return skin.texture, width > MIN_PERIODS * skin.pitch_mm and len(textures) == 1
 
 
 def uncertain_labels(state: ContactState, sensor: SensorSpec) -> set[str]:

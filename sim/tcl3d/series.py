@@ -322,7 +322,7 @@ def label_presses(
             pitch_mm=pitch,
         )
         shape = name_shape(geometry)
-        texture = name_texture(scene.obj, geometry, scene.relief_mm)
+        texture, is_texture_sure = name_texture(scene.obj, geometry, scene.relief_mm)
         state = label(
             height_mm=height_mm,
             pressure_kpa=load,
@@ -330,11 +330,11 @@ def label_presses(
             force_n=float(press.force_n[i]),
             sensor=request.sensor,
             shape=shape.shape,
-            texture=texture.texture,
+            texture=texture,
         )
         unsure = uncertain_labels(state, request.sensor)
         unsure |= {"shape"} if not shape.sure else set()
-        unsure |= {TEXTURE} if not texture.sure else set()
+        unsure |= {TEXTURE} if not is_texture_sure else set()
         contacts.append(
             Contact(
                 height_mm=height_mm,
