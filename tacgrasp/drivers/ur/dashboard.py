@@ -3,7 +3,6 @@
 Used before the library is loaded, and to stop an arm that the library has lost. The library holds
 the interpreter while it connects: a controller that accepts a connection and stays silent would
 freeze this process.
-Not here: the checks of a controller (``preflight``), commands that move.
 
 Source: Universal Robots' dashboard server documentation and RTDE guide, protocol version 2.
 """

@@ -50,7 +50,7 @@ class OwnerGoneError(Exception):
     """The owner's process has vanished, or has sent the command to end."""
 
 
-@dataclass(slots=True, kw_only=True)
+@dataclass(slots=True)
 class ActiveCommand:
     """The running move or stop.
 
@@ -189,22 +189,15 @@ class Supervisor:
         duration_s = expected_duration_s(command, self._sample.pose)
         duration_s /= max(0.01, self._sample.speed_fraction)
         has_motion = distance_m(command.pose, self._sample.pose) > 1e-3
-        self._active = ActiveCommand(
-            number=command.number,
-            target=command.pose,
-            operation=self._link.operation()[0],
-            until_s=time.monotonic() + duration_s + self._settings.move_margin_s,
-            sent_s=command.sent_s if has_motion else None,
-        )
+        operation = self._link.operation()[0]
+        until_s = time.monotonic() + duration_s + self._settings.move_margin_s
+        self._active = ActiveCommand(command.number, command.pose, operation, until_s)
+        self._active.sent_s = command.sent_s if has_motion else None
         self._link.move(command.pose, command.speed_m_s, command.acceleration_m_s2)
 
     def _stop(self, command: CommandRecord) -> None:
-        self._active = ActiveCommand(
-            number=command.number,
-            target=None,
-            operation=self._link.operation()[0],
-            until_s=time.monotonic() + STOP_S,
-        )
+        operation = self._link.operation()[0]
+        self._active = ActiveCommand(command.number, None, operation, time.monotonic() + STOP_S)
         self._link.stop()
 
     def _count_motion_start(self, active: ActiveCommand) -> None:
