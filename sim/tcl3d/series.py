@@ -77,13 +77,11 @@ class Scene:
     """Object over the pad in a series.
 
     Attributes:
-        obj: The object.
-        view: Its bare surface over the pad.
+        view: Bare surface of the object over the pad.
         cells: Shape (H, W), index of the cell at each point; -1 where there is no surface.
         relief_mm: Shape (H, W), relief of its skin [mm].
     """
 
-    obj: SolidObject
     view: PadView
     cells: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
     relief_mm: FloatArray
@@ -163,9 +161,8 @@ def series_request(seed: int, number: int) -> SeriesRequest:
     if number < GELSIGHT_FIRST:
         obj, gel, split = SMALL[number % len(SMALL)], gel_of("gelstereo"), Split.GELSTEREO
     else:
-        rng = np.random.default_rng([seed, number, 3])
-        obj = LARGE[int(rng.integers(len(LARGE)))]
-        gel, split = gel_of("gelsight_mini"), Split.GELSIGHT
+        index = int(np.random.default_rng([seed, number, 3]).integers(len(LARGE)))
+        obj, gel, split = LARGE[index], gel_of("gelsight_mini"), Split.GELSIGHT
     return SeriesRequest(number=number, obj=obj, gel=gel, split=split)
 
 
@@ -298,7 +295,7 @@ def _scene(
     if relief.any():
         down, right = np.gradient(view.gap_mm, sensor.width_mm / view.gap_mm.shape[1])
         relief = fade(relief, np.hypot(down, right))
-    return Scene(obj=obj, view=view, cells=cells, relief_mm=relief)
+    return Scene(view=view, cells=cells, relief_mm=relief)
 
 
 def label_presses(
@@ -315,14 +312,14 @@ def label_presses(
         geometry = ContactGeometry(
             gap_mm=scene.view.gap_mm,
             cells=scene.cells,
-            cell_table=scene.obj.cells,
+            cell_table=request.obj.cells,
             touching=load > 0,
             closed=closed[i],
             depth_mm=float(height_mm.max()),
             pitch_mm=pitch,
         )
         shape = name_shape(geometry)
-        texture, is_texture_sure = name_texture(scene.obj, geometry, scene.relief_mm)
+        texture, is_texture_sure = name_texture(request.obj, geometry, scene.relief_mm)
         state = label(
             height_mm=height_mm,
             pressure_kpa=load,

@@ -202,9 +202,8 @@ def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
     aspect = rectangle.length / rectangle.width
     if cell.outline in (Shape.RING, Shape.CRESCENT):
         label = _loop(contact, mask)
-        return (
-            label if label.shape in (Shape.RING, Shape.CRESCENT) else ShapeLabel(Shape.LINE, False)
-        )
+        is_bent = label.shape in (Shape.RING, Shape.CRESCENT)
+        return label if is_bent else ShapeLabel(Shape.LINE, False)
     bar = BAR_MM if cell.outline is not Shape.LINE else 2 * BAR_MM  # made to be one
     if rectangle.width <= bar and aspect >= 2:
         return ShapeLabel(Shape.LINE, aspect >= 2.4)
@@ -222,9 +221,7 @@ def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     tapers = [n for n in nearby if contact.cell_table[n].form is Form.TAPER]
     if any(contact.cell_table[n].outline is Shape.PEAK for n in tapers):
         return ShapeLabel(Shape.PEAK, elongation < 2.6)
-    if len(touching_cells) == 1 and contact.cell_table[touching_cells[0]] == Cell(
-        form=Form.TAPER
-    ):  # a cone's side
+    if [contact.cell_table[n] for n in touching_cells] == [Cell(form=Form.TAPER)]:  # a cone's side
         return _cap(contact)
     level = _rounds_off(contact)
     radius = 1 / max(curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)[1], 1e-3)
@@ -268,10 +265,8 @@ def _cap(contact: ContactGeometry) -> ShapeLabel:
     """Sphere, ellipsoid, cylinder or line, by the curvatures of the contact."""
     low, high = curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)
     if high < _FLAT_PER_MM:
-        return ShapeLabel(
-            Shape.PLANE if covered_fraction(contact.closed) >= PLANE_FRACTION else Shape.CUBOID,
-            False,
-        )
+        is_plane = covered_fraction(contact.closed) >= PLANE_FRACTION
+        return ShapeLabel(Shape.PLANE if is_plane else Shape.CUBOID, False)
     ratio = high / max(low, 1e-9)
     sure = low > -0.15 * high
     for limit in CAP_RATIOS:

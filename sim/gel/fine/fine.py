@@ -21,8 +21,7 @@ from torch import Tensor
 from torch.nn.functional import interpolate
 
 from sim.gel.contact_solver import Solution, chosen
-from sim.gel.fine.boxes import Box, boxes_around, escaped_from
-from sim.gel.fine.levels import TOLERANCE, GridLevel
+from sim.gel.fine.levels import TOLERANCE, Box, GridLevel, boxes_around, escaped_from
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, Press
 
@@ -122,6 +121,4 @@ def _sum_of_four(field: Tensor) -> Tensor:
 
 
 def _finer(pressure: Tensor) -> Tensor:
-    return interpolate(pressure[:, None], scale_factor=2, mode="bilinear", align_corners=False)[
-        :, 0
-    ]
+    return interpolate(pressure[:, None], scale_factor=2, mode="bilinear").squeeze(1)

@@ -6,9 +6,8 @@ import pytest
 import torch
 
 from sim.gel.fine import fine
-from sim.gel.fine.boxes import Box, boxes_around
 from sim.gel.fine.fine import FineLayer
-from sim.gel.fine.levels import GridLevel
+from sim.gel.fine.levels import Box, GridLevel, boxes_around
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
 
