@@ -59,10 +59,8 @@ class ServoFingers:
         """
 
         def positions(bus: Bus) -> list[int]:
-            return [
-                bus.read_number(servo.id, reg.PRESENT_POSITION, 4, signed=True)
-                for servo in self.settings.servos
-            ]
+            address, ids = reg.PRESENT_POSITION, self.settings.ids
+            return [bus.read_number(servo, address, 4, signed=True) for servo in ids]
 
         return self._width_m(self._call(positions))
 
