@@ -100,8 +100,7 @@ def visible_tokens(
 
 def hide(count: int, num_groups: int, batch: int, rng: torch.Generator) -> Tensor:
     """Exactly ``count`` hidden patches in each row, shape (batch, num_groups), bool."""
-    order = torch.rand(batch, num_groups, generator=rng).argsort(dim=1)
-    return order < count
+    return torch.rand(batch, num_groups, generator=rng).argsort(dim=1) < count
 
 
 def chamfer(one: Tensor, other: Tensor) -> Tensor:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -22,45 +21,32 @@ RANKS = (1, 5, 10)
 """Ranks k at which retrieval is counted."""
 
 
-@dataclass(frozen=True, slots=True)
-class RetrievalScores:
-    """How often the right text and the right contact are retrieved.
-
-    Attributes:
-        contact_to_text: By rank k, the fraction of contacts whose caption is among the k nearest
-            of all captions of the set.
-        text_to_contact: By rank k, the fraction of captions with one of their contacts among the k
-            nearest.
-        chance: Fraction that guessing gives at rank 1, contact to text.
-        captions: Number of different captions.
-    """
-
-    contact_to_text: dict[int, float]
-    text_to_contact: dict[int, float]
-    chance: float
-    captions: int
-
-
 def score_retrieval(
     towers: Towers, encoded: EncodedContacts, captions: Sequence[str]
-) -> RetrievalScores:
+) -> dict[str, float]:
     """Retrieve among all contacts and captions of a set.
 
     Args:
         towers: The encoders that share the space.
         encoded: Contacts.
         captions: One caption a contact; contacts with the same words share one.
+
+    Returns:
+        For each rank k, ``contact_to_text_k``, % of contacts whose caption is among the k nearest
+        of all captions of the set, then ``text_to_contact_k``, % of captions with one of their
+        contacts among the k nearest; ``chance``, % that guessing gives at rank 1, contact to text;
+        ``captions``, the number of different captions.
     """
     texts, own = _different(captions)
     features = torch.cat([towers.texts(texts[n : n + 64]).cpu() for n in range(0, len(texts), 64)])
     cosines = F.normalize(encoded.feature, dim=1) @ features.T
     hits = {rank: _hits(cosines, own, rank) for rank in RANKS}
-    return RetrievalScores(
-        contact_to_text={rank: float(items.mean()) for rank, (items, _) in hits.items()},
-        text_to_contact={rank: float(words.mean()) for rank, (_, words) in hits.items()},
-        chance=1 / len(texts),
-        captions=len(texts),
-    )
+    return {
+        **{f"contact_to_text_{k}": 100 * float(items.mean()) for k, (items, _) in hits.items()},
+        **{f"text_to_contact_{k}": 100 * float(words.mean()) for k, (_, words) in hits.items()},
+        "chance": 100 * (1 / len(texts)),
+        "captions": float(len(texts)),
+    }
 
 
 def score_image_retrieval(

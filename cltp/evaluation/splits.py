@@ -16,7 +16,7 @@ from cltp.data.sampler import CLEAN, NOISY, Augmentation
 from cltp.errors import TouchError
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class EvaluationSplit:
     """One test set.
 
@@ -35,17 +35,16 @@ class EvaluationSplit:
 
 _NOISE = "drift, tilt, depth scale ±15 %, fine noise"
 
-EVALUATION_SPLITS = tuple(
-    EvaluationSplit(name=name, split=split, noise=noise, about=about)
-    for name, split, noise, about in (
-        ("contact", Split.TEST, CLEAN, "unseen contacts of seen objects, no sensor noise"),
-        ("object", Split.OBJECT, CLEAN, "unseen objects, no sensor noise"),
-        ("physics", Split.PHYSICS, NOISY, f"unseen gels; {_NOISE}"),
-        ("contact_noisy", Split.TEST, NOISY, f"contact; {_NOISE}"),
-        ("object_noisy", Split.OBJECT, NOISY, f"object; {_NOISE}"),
-        ("gelstereo", Split.GELSTEREO, NOISY, "a sparse cloud of markers"),
-        ("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
-    )
+EVALUATION_SPLITS = (
+    EvaluationSplit(
+        "contact", Split.TEST, CLEAN, "unseen contacts of seen objects, no sensor noise"
+    ),
+    EvaluationSplit("object", Split.OBJECT, CLEAN, "unseen objects, no sensor noise"),
+    EvaluationSplit("physics", Split.PHYSICS, NOISY, f"unseen gels; {_NOISE}"),
+    EvaluationSplit("contact_noisy", Split.TEST, NOISY, f"contact; {_NOISE}"),
+    EvaluationSplit("object_noisy", Split.OBJECT, NOISY, f"object; {_NOISE}"),
+    EvaluationSplit("gelstereo", Split.GELSTEREO, NOISY, "a sparse cloud of markers"),
+    EvaluationSplit("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
 )
 
 LEARNING_NOISE = Augmentation(clean=0.5)

@@ -4,8 +4,6 @@ It is drawn as the simulated rig of the same object and seed (same body, positio
 gripper force gain, sensor unit and noise of every contact), so that a strawberry slips and bruises
 alike. A thread of its own solves the contacts. The emulated devices have to answer within
 milliseconds; only a closing gripper waits for that thread.
-
-Not here: the protocols, and the process around them (``sim.emulators.rig``).
 """
 
 from __future__ import annotations
@@ -77,7 +75,7 @@ class SharedWorld:
             self._rig.grasp.move((x_mm, y_mm), speed_m_s, acceleration_m_s2)
             self._solved_until_s = max(self._solved_until_s, ended_s)
 
-        _result(self._submit(move))
+        self._solve(move)
 
     def width_under(self, force_n: float) -> float:
         """Close, or adjust a grip, with a commanded force [N].
@@ -98,7 +96,7 @@ class SharedWorld:
             self._rig.grasp.close(force_n * self._rig.gripper.force_gain)
             return settled_width_m(self._rig.grasp)
 
-        return _result(self._submit(close))
+        return self._solve(close)
 
     def release(self) -> None:
         """Open the fingers; returns at once."""
@@ -144,10 +142,16 @@ class SharedWorld:
             counts = {"grips": grasp.grips, "contacts": grasp.contacts}
             return {**facts, "offset_x_mm": x_mm, "offset_y_mm": y_mm, **counts}
 
-        return _result(self._submit(truth))
+        return self._solve(truth)
 
     def close(self) -> None:
         self._solver.shutdown(wait=False, cancel_futures=True)
+
+    def _solve(self, change: Callable[[], T]) -> T:
+        try:
+            return self._submit(change).result(ANSWER_S)
+        except TimeoutError:
+            raise RobotError(f"the emulated world did not answer within {ANSWER_S:g} s") from None
 
     def _submit(self, change: Callable[[], T]) -> Future[T]:
         """Queue a change and publish the gel after it. Changes happen in the order of calls."""
@@ -170,10 +174,3 @@ class SharedWorld:
         if at_s > self._solved_until_s:
             self._rig.grasp.wait(at_s - self._solved_until_s)
             self._solved_until_s = at_s
-
-
-def _result(future: Future[T]) -> T:
-    try:
-        return future.result(ANSWER_S)
-    except TimeoutError:
-        raise RobotError(f"the emulated world did not answer within {ANSWER_S:g} s") from None

@@ -39,8 +39,6 @@ pad, where the pressure of linear elasticity is unbounded and would depend on th
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm of the converged ones
 _LENGTH_MM = 5.0  # turns a rotation into a displacement when motions are sampled
-
-
 _BLOCK = 2
 
 

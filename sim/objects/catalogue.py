@@ -10,6 +10,7 @@ from sim.objects.catalogue_small import SMALL
 from sim.objects.object import SolidObject
 
 CATALOGUE: tuple[SolidObject, ...] = (*SMALL, *LARGE)
+_BY_NAME = {obj.name: obj for obj in CATALOGUE}
 
 UNSEEN: frozenset[str] = frozenset(
     {
@@ -40,14 +41,12 @@ def object_named(name: str) -> SolidObject:
     Raises:
         ValueError: No object has this name; the message lists those that exist.
     """
-    for obj in CATALOGUE:
-        if obj.name == name:
-            return obj
-    names = ", ".join(sorted(obj.name for obj in CATALOGUE))
-    raise ValueError(f"unknown object {name!r}; known: {names}")
+    if name not in _BY_NAME:
+        raise ValueError(f"unknown object {name!r}; known: {', '.join(sorted(_BY_NAME))}")
+    return _BY_NAME[name]
 
 
-if len({obj.name for obj in CATALOGUE}) != len(CATALOGUE):
+if len(_BY_NAME) != len(CATALOGUE):
     raise RuntimeError("two objects of the catalogue have one name")
-if not {obj.name for obj in CATALOGUE} >= UNSEEN:
+if not _BY_NAME.keys() >= UNSEEN:
     raise RuntimeError("an unseen object is not in the catalogue")

@@ -59,19 +59,33 @@ class Blend:
 
 
 @dataclass(frozen=True, slots=True)
-class Hollow:
-    """A solid less another one."""
+class _OfOne:
+    """A solid made of one, whose cells, reach and slope it has unless it says otherwise."""
 
     solid: Solid
+
+    @property
+    def cells(self) -> tuple[Cell, ...]:
+        return self.solid.cells
+
+    @property
+    def reach_mm(self) -> float:
+        return self.solid.reach_mm
+
+    @property
+    def max_slope(self) -> float:
+        return self.solid.max_slope
+
+
+@dataclass(frozen=True, slots=True)
+class Hollow(_OfOne):
+    """A solid less another one."""
+
     without: Solid
 
     @property
     def cells(self) -> tuple[Cell, ...]:
         return (*self.solid.cells, *(Cell(form=Form.CURVED) for _ in self.without.cells))
-
-    @property
-    def reach_mm(self) -> float:
-        return self.solid.reach_mm
 
     @property
     def max_slope(self) -> float:
@@ -87,23 +101,14 @@ class Hollow:
 
 
 @dataclass(frozen=True, slots=True)
-class Around:
+class Around(_OfOne):
     """Copies of a solid that lies about +x, ``count`` of them spread evenly about z."""
 
-    solid: Solid
     count: int
 
     @property
     def cells(self) -> tuple[Cell, ...]:
         return self.solid.cells * self.count
-
-    @property
-    def reach_mm(self) -> float:
-        return self.solid.reach_mm
-
-    @property
-    def max_slope(self) -> float:
-        return self.solid.max_slope
 
     def _fold(self, points: Tensor) -> tuple[Tensor, Tensor]:
         step = 2 * math.pi / self.count
@@ -122,24 +127,15 @@ class Around:
 
 
 @dataclass(frozen=True, slots=True)
-class Placed:
+class Placed(_OfOne):
     """A solid turned by ``turn`` (its rows: the solid's axes in the new frame), then moved [mm]."""
 
-    solid: Solid
     move: Vector = (0.0, 0.0, 0.0)
     turn: tuple[Vector, Vector, Vector] | None = None
 
     @property
-    def cells(self) -> tuple[Cell, ...]:
-        return self.solid.cells
-
-    @property
     def reach_mm(self) -> float:
         return self.solid.reach_mm + math.hypot(*self.move)
-
-    @property
-    def max_slope(self) -> float:
-        return self.solid.max_slope
 
     def _to_local(self, points: Tensor) -> Tensor:
         local = points - constant(self.move, points.dtype, points.device)

@@ -6,7 +6,6 @@ Not here: solids (``sim.objects.solids``).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
@@ -85,23 +84,15 @@ class Flats:
     """Several planes at once; results are those of ``Flat`` to the last bit.
 
     Attributes:
-        normals: x of all normals, y of all, z of all.
-        offsets: Offset of each plane [mm].
+        components: x of all normals, y of all, z of all, and the offset of each plane [mm].
     """
 
-    normals: tuple[tuple[float, ...], ...]
-    offsets: tuple[float, ...]
-
-    @staticmethod
-    def join(flats: Sequence[Flat]) -> Flats:
-        """Join planes, at least one."""
-        normals = tuple(zip(*(flat.normal for flat in flats), strict=True))
-        return Flats(normals, tuple(flat.offset for flat in flats))
+    components: tuple[tuple[float, ...], ...]
 
     def behind(self, points: Tensor) -> Tensor:
         """Signed distance [mm] of ``points`` (..., 3) to each plane, (planes, ...)."""
         each = (-1, *[1] * (points.ndim - 1))
-        components = constant((*self.normals, self.offsets), points.dtype, points.device)
+        components = constant(self.components, points.dtype, points.device)
         a, b, c, offset = (component.view(each) for component in components.unbind(0))
         x, y, z = points.unbind(-1)
         return (x * a).add_(y * b).add_(z * c).sub_(offset)

@@ -95,9 +95,8 @@ class _MeshSolid:
         rays = self._tensor(np.concatenate([starts, directions], axis=1))
         distances = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
         distances[distances > far_mm] = np.inf
-        samples = np.ascontiguousarray(
-            starts[::_INSIDE_CHECK_STRIDE]
-        )  # a part that is in the way is no needle
+        # A part that is in the way is no needle.
+        samples = np.ascontiguousarray(starts[::_INSIDE_CHECK_STRIDE])
         inside = self._scene.compute_signed_distance(self._tensor(samples)).numpy() < 0
         if inside.any():
             distances[:] = np.nan

@@ -14,7 +14,7 @@ from dataclasses import replace
 from cltp.tactile.states import Shape
 from sim.objects.compounds import Blend, Hollow, Placed, moved
 from sim.objects.faces import Barrel, Bore, Cell, Dome, Face, Flat, Form, Ripple
-from sim.objects.solids import Cut, Oval, Rods, Solid, dots
+from sim.objects.solids import Cut, Oval, Rods, Solid
 
 UP, DOWN = (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)
 _SIDE = Cell(form=Form.TAPER, outline=Shape.TRIANGLE)
@@ -227,8 +227,9 @@ def lattice(columns: int, rows: int, pitch: float, skew: float = 0.0) -> list[tu
 
 
 def bumps(points: Sequence[tuple[float, float]], diameter: float) -> Rods:
-    """Round bumps whose tops lie at z = 0."""
-    return dots(points, -diameter / 2, diameter / 2)
+    """Round bumps whose tops lie at z = 0, each a cell."""
+    z = -diameter / 2
+    return Rods(tuple(((x, y, z), (x, y, z)) for x, y in points), diameter / 2, Form.DOT)
 
 
 def waves(x: float, y: float, period: float, amplitude: float, height: float = 12.0) -> Cut:

@@ -50,13 +50,11 @@ class Skin:
     pitch_mm: float = 0.0
 
     def __post_init__(self) -> None:
-        heights, pitches = _LIMITS[self.texture]
-        if not (
-            heights[0] <= self.height_mm <= heights[1] and pitches[0] <= self.pitch_mm <= pitches[1]
-        ):
+        (low, high), (near, far) = _LIMITS[self.texture]
+        if not (low <= self.height_mm <= high and near <= self.pitch_mm <= far):
             raise ValueError(
-                f"a {self.texture} skin is {heights[0]}-{heights[1]} mm high and "
-                f"{pitches[0]}-{pitches[1]} mm apart, got {self.height_mm} and {self.pitch_mm} mm"
+                f"a {self.texture} skin is {low}-{high} mm high and {near}-{far} mm apart, "
+                f"got {self.height_mm} and {self.pitch_mm} mm"
             )
 
 

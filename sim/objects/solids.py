@@ -17,7 +17,6 @@ Not here: the faces that solids are cut from (``sim.objects.faces``), solids of 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from itertools import groupby
@@ -97,8 +96,8 @@ class Cut:
         groups: list[Face | Flats] = []
         for _, alike in groupby(self.faces, key=lambda face: isinstance(face, Flat)):
             faces = list(alike)
-            flats = [face for face in faces if isinstance(face, Flat)]
-            groups += [Flats.join(flats)] if flats else faces
+            flats = [(*face.normal, face.offset) for face in faces if isinstance(face, Flat)]
+            groups += [Flats(tuple(zip(*flats, strict=True)))] if flats else faces
         return tuple(groups)
 
     def _behind(self, points: Tensor) -> Tensor:
@@ -249,8 +248,3 @@ class Rods:
 
     def cell(self, points: Tensor) -> Tensor:
         return self._squared(points).sqrt().argmin(0)
-
-
-def dots(at: Sequence[tuple[float, float]], z: float, radius: float) -> Rods:
-    """Balls of one radius with centres at ``z`` [mm], each a cell."""
-    return Rods(tuple(((x, y, z), (x, y, z)) for x, y in at), radius, Form.DOT)

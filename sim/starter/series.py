@@ -101,22 +101,18 @@ def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> S
         if gap.min() < body.thickness_mm / 2:  # else the fingers miss it
             break
     fractions = np.sort(rng.random(num_loads(number)))
+    shape = Shape.ELLIPSOID if curvature_ratio(body) >= ELLIPSOID_RATIO else Shape.SPHERE
+    if name == "peg":
+        shape = Shape.CYLINDER
     return Series(
         number=number,
         object=name,
         gap_mm=gap - gap.min(),
         modulus_mpa=body.modulus_mpa,
         loads=tuple(BODY_FORCE_N[name].quantile(u) for u in fractions),
-        shape=_body_shape(body),
+        shape=shape,
         texture=_BODY_TEXTURE.get(name, Texture.SMOOTH),
     )
-
-
-def _body_shape(body: Body) -> Shape:
-    """Shape of a body's side by the ratio of its curvatures at the nearest point."""
-    if body.name == "peg":
-        return Shape.CYLINDER
-    return Shape.ELLIPSOID if curvature_ratio(body) >= ELLIPSOID_RATIO else Shape.SPHERE
 
 
 def curvature_ratio(body: Body, radius_mm: float = 4.0) -> float:

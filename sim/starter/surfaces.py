@@ -215,14 +215,11 @@ def _wave(rng: np.random.Generator) -> Surface:
     """Sinusoid of wavelength 3-6 mm, over a rectangle that may exceed the sensing area."""
     length, amplitude = rng.uniform(3, 6), rng.uniform(0.15, 0.45)
     half_u, half_v, phase = _log(rng, 4, 14), _log(rng, 3, 12), rng.uniform(0, 2 * math.pi)
-
-    def behind(u: FloatArray, v: FloatArray) -> FloatArray:
-        inside = rectangle(u, v, half_u, half_v) < 0
-        return np.where(
-            inside, amplitude * (1 - np.cos(2 * math.pi * u / length + phase)), NO_BODY_MM
-        )
-
-    return behind
+    return lambda u, v: np.where(
+        rectangle(u, v, half_u, half_v) < 0,
+        amplitude * (1 - np.cos(2 * math.pi * u / length + phase)),
+        NO_BODY_MM,
+    )
 
 
 def _hole(rng: np.random.Generator) -> Surface:

@@ -28,10 +28,9 @@ from sim.objects.object import SolidObject
 from sim.objects.ray_casting import PadView, cast_pad_rays
 from sim.objects.skins import SMOOTH, fade, relief_of
 from sim.tcl3d.contact_geometry import ContactGeometry
-from sim.tcl3d.labels import in_contact, label
+from sim.tcl3d.labels import TEXTURE, in_contact, label, name_texture, uncertain_labels
 from sim.tcl3d.poses import PressPose, draw_pose
 from sim.tcl3d.shape_labels import name_shape
-from sim.tcl3d.texture_labels import TEXTURE, name_texture, uncertain_labels
 
 ROWS, COLUMNS = 75, 100
 """Grid over the sensing area of a GelSight Mini: 0.2 mm; other sensors get elements as large."""
@@ -78,13 +77,11 @@ class Scene:
     """Object over the pad in a series.
 
     Attributes:
-        obj: The object.
-        view: Its bare surface over the pad.
+        view: Bare surface of the object over the pad.
         cells: Shape (H, W), index of the cell at each point; -1 where there is no surface.
         relief_mm: Shape (H, W), relief of its skin [mm].
     """
 
-    obj: SolidObject
     view: PadView
     cells: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
     relief_mm: FloatArray
@@ -164,9 +161,8 @@ def series_request(seed: int, number: int) -> SeriesRequest:
     if number < GELSIGHT_FIRST:
         obj, gel, split = SMALL[number % len(SMALL)], gel_of("gelstereo"), Split.GELSTEREO
     else:
-        rng = np.random.default_rng([seed, number, 3])
-        obj = LARGE[int(rng.integers(len(LARGE)))]
-        gel, split = gel_of("gelsight_mini"), Split.GELSIGHT
+        index = int(np.random.default_rng([seed, number, 3]).integers(len(LARGE)))
+        obj, gel, split = LARGE[index], gel_of("gelsight_mini"), Split.GELSIGHT
     return SeriesRequest(number=number, obj=obj, gel=gel, split=split)
 
 
@@ -272,10 +268,7 @@ def _at_border(gap_mm: FloatArray) -> bool:
     """Whether the foremost point is at the pad's border, where the object slips off."""
     row, column = np.unravel_index(int(gap_mm.argmin()), gap_mm.shape)
     rows, columns = gap_mm.shape
-    return not (
-        _BORDER_MARGIN <= row < rows - _BORDER_MARGIN
-        and _BORDER_MARGIN <= column < columns - _BORDER_MARGIN
-    )
+    return min(row, column, rows - 1 - row, columns - 1 - column) < _BORDER_MARGIN
 
 
 def _scene(
@@ -302,7 +295,7 @@ def _scene(
     if relief.any():
         down, right = np.gradient(view.gap_mm, sensor.width_mm / view.gap_mm.shape[1])
         relief = fade(relief, np.hypot(down, right))
-    return Scene(obj=obj, view=view, cells=cells, relief_mm=relief)
+    return Scene(view=view, cells=cells, relief_mm=relief)
 
 
 def label_presses(
@@ -319,14 +312,14 @@ def label_presses(
         geometry = ContactGeometry(
             gap_mm=scene.view.gap_mm,
             cells=scene.cells,
-            cell_table=scene.obj.cells,
+            cell_table=request.obj.cells,
             touching=load > 0,
             closed=closed[i],
             depth_mm=float(height_mm.max()),
             pitch_mm=pitch,
         )
         shape = name_shape(geometry)
-        texture = name_texture(scene.obj, geometry, scene.relief_mm)
+        texture, is_texture_sure = name_texture(request.obj, geometry, scene.relief_mm)
         state = label(
             height_mm=height_mm,
             pressure_kpa=load,
@@ -334,11 +327,11 @@ def label_presses(
             force_n=float(press.force_n[i]),
             sensor=request.sensor,
             shape=shape.shape,
-            texture=texture.texture,
+            texture=texture,
         )
         unsure = uncertain_labels(state, request.sensor)
         unsure |= {"shape"} if not shape.sure else set()
-        unsure |= {TEXTURE} if not texture.sure else set()
+        unsure |= {TEXTURE} if not is_texture_sure else set()
         contacts.append(
             Contact(
                 height_mm=height_mm,

@@ -8,7 +8,7 @@ curvatures, patterns from the number of their elements that touch.
 A label is unsure where another one fits nearly as well: close to a limit of the vocabulary, cut off
 by the pad, or several shapes at once.
 
-Not here: depth, position, area (``sim.tcl3d.labels``), texture (``sim.tcl3d.texture_labels``).
+Not here: depth, position, area and texture (``sim.tcl3d.labels``).
 """
 
 from __future__ import annotations
@@ -23,9 +23,10 @@ from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.gel.gap import NO_BODY_MM
 from sim.objects.faces import Cell, Form
-from sim.tcl3d.contact_geometry import ContactGeometry, ShapeLabel, with_nearby_surface
-from sim.tcl3d.masks import (
+from sim.tcl3d.contact_geometry import (
+    ContactGeometry,
     Mask,
+    ShapeLabel,
     angle_between,
     border_fraction,
     circle_fraction,
@@ -34,6 +35,7 @@ from sim.tcl3d.masks import (
     covered_fraction,
     curvatures,
     slopes,
+    with_nearby_surface,
 )
 
 PLANE_FRACTION = 0.80
@@ -187,33 +189,27 @@ def _lies_level(contact: ContactGeometry) -> bool:
 
 def _outline(contact: ContactGeometry, cell: Cell, mask: Mask) -> ShapeLabel:
     """Label of a flat contact, by its outline."""
-    covered = covered_fraction(contact.closed)
-    if covered >= PLANE_FRACTION and cell.outline is Shape.HOLE:
-        if count_enclosed_points(contact.closed) * contact.pitch_mm**2 > _CAVITY_MM2:
-            return ShapeLabel(Shape.HOLE, True)
-        return ShapeLabel(Shape.PLANE, covered > 0.97)
+    covered, cut = covered_fraction(contact.closed), border_fraction(contact.closed)
+    if cell.outline is Shape.HOLE:
+        has_cavity = count_enclosed_points(contact.closed) * contact.pitch_mm**2 > _CAVITY_MM2
+        if covered >= PLANE_FRACTION and not has_cavity:
+            return ShapeLabel(Shape.PLANE, covered > 0.97)
+        return ShapeLabel(Shape.HOLE, has_cavity)
     if covered >= PLANE_FRACTION:
         return ShapeLabel(Shape.PLANE, covered >= PLANE_FRACTION + 0.015)
     rectangle = contact.rectangle(mask)
-    is_whole = border_fraction(contact.closed) < _CUT_UNSURE and covered < PLANE_FRACTION - 0.05
+    is_inside = covered < PLANE_FRACTION - 0.05
     aspect = rectangle.length / rectangle.width
     if cell.outline in (Shape.RING, Shape.CRESCENT):
         label = _loop(contact, mask)
-        return (
-            label if label.shape in (Shape.RING, Shape.CRESCENT) else ShapeLabel(Shape.LINE, False)
-        )
-    if cell.outline is Shape.HOLE:
-        nearby = count_enclosed_points(contact.closed) * contact.pitch_mm**2 > _CAVITY_MM2
-        return ShapeLabel(Shape.HOLE, nearby)
+        is_bent = label.shape in (Shape.RING, Shape.CRESCENT)
+        return label if is_bent else ShapeLabel(Shape.LINE, False)
     bar = BAR_MM if cell.outline is not Shape.LINE else 2 * BAR_MM  # made to be one
     if rectangle.width <= bar and aspect >= 2:
         return ShapeLabel(Shape.LINE, aspect >= 2.4)
     if cell.outline in (None, Shape.CUBOID, Shape.LINE):
-        straight = (
-            border_fraction(contact.closed) < _CUT_STRAIGHT and covered < PLANE_FRACTION - 0.05
-        )
-        return ShapeLabel(Shape.CUBOID, straight and aspect < 2.4)
-    return ShapeLabel(cell.outline, is_whole and aspect < 2.4)
+        return ShapeLabel(Shape.CUBOID, cut < _CUT_STRAIGHT and is_inside and aspect < 2.4)
+    return ShapeLabel(cell.outline, cut < _CUT_UNSURE and is_inside and aspect < 2.4)
 
 
 def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
@@ -225,9 +221,7 @@ def _sharp(contact: ContactGeometry, touching_cells: list[int]) -> ShapeLabel:
     tapers = [n for n in nearby if contact.cell_table[n].form is Form.TAPER]
     if any(contact.cell_table[n].outline is Shape.PEAK for n in tapers):
         return ShapeLabel(Shape.PEAK, elongation < 2.6)
-    if len(touching_cells) == 1 and contact.cell_table[touching_cells[0]] == Cell(
-        form=Form.TAPER
-    ):  # a cone's side
+    if [contact.cell_table[n] for n in touching_cells] == [Cell(form=Form.TAPER)]:  # a cone's side
         return _cap(contact)
     level = _rounds_off(contact)
     radius = 1 / max(curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)[1], 1e-3)
@@ -271,10 +265,8 @@ def _cap(contact: ContactGeometry) -> ShapeLabel:
     """Sphere, ellipsoid, cylinder or line, by the curvatures of the contact."""
     low, high = curvatures(contact.gap_mm, _top(contact), contact.pitch_mm)
     if high < _FLAT_PER_MM:
-        return ShapeLabel(
-            Shape.PLANE if covered_fraction(contact.closed) >= PLANE_FRACTION else Shape.CUBOID,
-            False,
-        )
+        is_plane = covered_fraction(contact.closed) >= PLANE_FRACTION
+        return ShapeLabel(Shape.PLANE if is_plane else Shape.CUBOID, False)
     ratio = high / max(low, 1e-9)
     sure = low > -0.15 * high
     for limit in CAP_RATIOS:

@@ -1,7 +1,4 @@
-"""Checks of a rig's file and of all its devices, for ``tacgrasp doctor``. Nothing moves.
-
-Not here: the checks of one device (its driver in ``tacgrasp.drivers``).
-"""
+"""Checks of a rig's file and of all its devices, for ``tacgrasp doctor``. Nothing moves."""
 
 from __future__ import annotations
 

@@ -170,10 +170,7 @@ class Jogger:
         start = self._rig.arm.pose()
         length = clamp_step(step.length_mm, self._limits)
         direction = self._base_direction(step, start)
-        target = Pose(
-            position_m=start.position_m + 1e-3 * length.value * direction,
-            rotvec_rad=start.rotvec_rad,
-        )
+        target = replace(start, position_m=start.position_m + 1e-3 * length.value * direction)
         check_workspace(target, self._limits)
         speed_m_s = min(SPEED_M_S, self._limits.max_speed_m_s)
         reached = self._rig.arm.move_to(target, speed_m_s=speed_m_s)

@@ -9,14 +9,13 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cltp.errors import TouchError
 from cltp.tactile.measure import contact_state
-from primitives.devices import Pose
 from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force
 from tacgrasp.base.errors import UsageError
@@ -66,10 +65,7 @@ def find_pad_axes(
         raise UsageError(f"--clear-mm must be a number above 0, got {clear_mm}")
     start, steps = rig.arm.pose(), STEP_MM * np.vstack([np.eye(3), -np.eye(3)])
     targets = [
-        Pose(
-            position_m=start.position_m + 1e-3 * rotate(start.rotvec_rad, step),
-            rotvec_rad=start.rotvec_rad,
-        )
+        replace(start, position_m=start.position_m + 1e-3 * rotate(start.rotvec_rad, step))
         for step in steps
     ]
     for target in targets:
@@ -157,19 +153,19 @@ def axes_named(right: str, palm: str) -> PadAxes:
     Raises:
         UsageError: An invalid name, or two names of one axis.
     """
-    vectors = [_vector(name) for name in (right, palm)]
-    if any(a and b for a, b in zip(*vectors, strict=True)):
+    x, y = _vector(right), _vector(palm)
+    if any(a and b for a, b in zip(x, y, strict=True)):
         raise UsageError(f"right and palm must be perpendicular, got {right} and {palm}")
-    (x, y) = (tuple(vector) for vector in vectors)
-    return PadAxes(x_tcp=(x[0], x[1], x[2]), y_tcp=(y[0], y[1], y[2]))
+    return PadAxes(x_tcp=x, y_tcp=y)
 
 
-def _vector(name: str) -> list[float]:
+def _vector(name: str) -> tuple[float, float, float]:
     match = re.fullmatch(r"\s*([+-]?)([xyz])\s*", name)
     if match is None:
         raise UsageError(f"an axis of the TCP is one of +x -x +y -y +z -z, got {name!r}")
     sign = -1.0 if match[1] == "-" else 1.0
-    return [sign if letter == match[2] else 0.0 for letter in "xyz"]
+    x, y, z = (sign if letter == match[2] else 0.0 for letter in "xyz")
+    return x, y, z
 
 
 def as_yaml(axes: PadAxes) -> Sequence[str]:

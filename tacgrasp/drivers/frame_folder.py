@@ -29,21 +29,16 @@ def list_recorded(
         TouchError: No such file in the folder.
     """
     left_out = {path.resolve() for path in excluded}
-    paths = sorted(
-        (
-            path
-            for path in folder.iterdir()
-            if path.suffix.lower() in suffixes and path.resolve() not in left_out
-        ),
-        key=lambda path: _counting_key(path.name),
-    )
+    files = (path for path in folder.iterdir() if path.resolve() not in left_out)
+    paths = sorted((path for path in files if path.suffix.lower() in suffixes), key=_counting_key)
     if not paths:
         raise TouchError(f"{folder} holds no {content}; expected {', '.join(suffixes)}")
     return paths
 
 
-def _counting_key(name: str) -> list[tuple[int, str]]:
-    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)]
+def _counting_key(path: Path) -> list[tuple[int, str]]:
+    parts = re.split(r"(\d+)", path.name)
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in parts]
 
 
 def ended_message(name: str, num_played: int) -> str:

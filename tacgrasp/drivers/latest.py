@@ -1,7 +1,4 @@
-"""The newest item captured by one thread, for another thread that waits for a fresh one.
-
-Not here: capturing, and the criterion for a fresh item (``taxels.sensor``, ``gelsight.sensor``).
-"""
+"""The newest item captured by one thread, for another thread that waits for a fresh one."""
 
 from __future__ import annotations
 

@@ -23,7 +23,6 @@ from cltp.evaluation.features import EncodedContacts
 from cltp.evaluation.probes import ClassProbes, NumberProbe, score_intervals
 from cltp.evaluation.retrieval import score_retrieval
 from cltp.evaluation.scores import best_classes, score_classes
-from cltp.evaluation.splits import EvaluationSplit
 from cltp.evaluation.zero_shot import PROMPTINGS, ClassPrompts
 from cltp.texts.captions import caption
 from cltp.train.methods import ALIGNED_METHODS, TRAINING_ORDER
@@ -42,6 +41,7 @@ from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failure
 from tacgrasp.pretraining.report.store import Result, save
 
 TABLES = dict(zip(PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True))
+_FAILURE_TABLES = ("zero_shot", "probe")
 
 Scorer = Callable[[EncodedContacts], Sequence[Tensor]]
 """Scores of each class by dimension, shape (N, classes)."""
@@ -189,8 +189,10 @@ def _measure_classes(
                         file = f"{predictions.stem}-{name}{predictions.suffix}"
                         path = predictions if len(methods) == 1 else predictions.with_name(file)
                         split.write_predictions(path, scores, measure)
-                elif name == "cltp" and table != "zero_shot_ensemble":
-                    _store_failures(run, result, split, encoded, scores, measure)
+                elif name == "cltp" and table in _FAILURE_TABLES and split.name in FAILURE_SPLITS:
+                    data = ContactDataset(run.data, split=split.split)
+                    failures = collect_failures(result, data, encoded, scores, measure)
+                    save(run.results, failures)
     return results
 
 
@@ -205,7 +207,7 @@ def _numbers(
     objects = torch.from_numpy(np.unique(names, return_inverse=True)[1])[learned.index]
     probe = NumberProbe(learned, objects, run.probe_training)
     scales = {
-        str(noise): probe.calibrate(run.encode_validation(encoder, noise))
+        str(noise): probe.calibrate(run.encode_split(encoder, Split.VALIDATION, noise, views=2))
         for noise in (CLEAN, NOISY)
     }
     results = []
@@ -230,13 +232,7 @@ def retrieval(run: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
         for split in run.evaluation_splits():
             encoded = run.encode(encoder, split)
             captions = captions_of(ContactDataset(run.data, split=split.split), encoded)
-            scores = score_retrieval(towers, encoded, captions)
-            values: dict[str, float | None] = {
-                **{f"contact_to_text_{k}": 100 * v for k, v in scores.contact_to_text.items()},
-                **{f"text_to_contact_{k}": 100 * v for k, v in scores.text_to_contact.items()},
-                "chance": 100 * scores.chance,
-                "captions": float(scores.captions),
-            }
+            values = score_retrieval(towers, encoded, captions)
             result = run.result("retrieval", name, method, split.name, len(encoded), values)
             results.append(run.store(result))
     return results
@@ -245,19 +241,6 @@ def retrieval(run: EvaluationRun, methods: Sequence[str] = ()) -> list[Result]:
 def captions_of(data: ContactDataset, encoded: EncodedContacts) -> list[str]:
     """Captions of contacts of a split."""
     return [caption(data.state(int(index))) for index in encoded.index]
-
-
-def _store_failures(
-    run: EvaluationRun,
-    result: Result,
-    split: EvaluationSplit,
-    encoded: EncodedContacts,
-    scores: Sequence[Tensor],
-    measure: str,
-) -> None:
-    if split.name in FAILURE_SPLITS:
-        data = ContactDataset(run.data, split=split.split)
-        save(run.results, collect_failures(result, data, encoded, scores, measure))
 
 
 def _aligned_methods(run: EvaluationRun, methods: Sequence[str]) -> Mapping[str, TrainedMethod]:

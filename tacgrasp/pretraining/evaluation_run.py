@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -17,7 +18,7 @@ from cltp.evaluation.splits import LEARNING_NOISE, EvaluationSplit, evaluation_s
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.real_touches import RealTouches
-from tacgrasp.pretraining.report.store import Result, load, percent, save
+from tacgrasp.pretraining.report.store import Result, load, save
 
 EvaluatedContacts = EvaluationSplit | RealTouches
 
@@ -63,17 +64,13 @@ class EvaluationRun:
         """Features of real touches, or of an evaluation split, at most ``limit`` contacts."""
         if isinstance(split, RealTouches):
             return split.encode(encoder)
-        return self._encode(encoder, split.split, split.noise, limit=self.limit)
+        return self.encode_split(encoder, split.split, split.noise, limit=self.limit)
 
     def encode_training(self, encoder: FrozenEncoder, views: int) -> EncodedContacts:
         """Features of the training split, half of the views without noise."""
-        return self._encode(encoder, Split.TRAIN, LEARNING_NOISE, views=views)
+        return self.encode_split(encoder, Split.TRAIN, LEARNING_NOISE, views=views)
 
-    def encode_validation(self, encoder: FrozenEncoder, noise: Augmentation) -> EncodedContacts:
-        """Features of two views of the validation split."""
-        return self._encode(encoder, Split.VALIDATION, noise, views=2)
-
-    def _encode(
+    def encode_split(
         self,
         encoder: FrozenEncoder,
         split: Split,
@@ -82,6 +79,7 @@ class EvaluationRun:
         views: int = 1,
         limit: int | None = None,
     ) -> EncodedContacts:
+        """Features of contacts of a split of the data, each encoded ``views`` times."""
         return encode_contacts(
             encoder,
             ContactDataset(self.data, split=split),
@@ -101,8 +99,10 @@ class EvaluationRun:
         split: EvaluatedContacts,
         scores: ClassScores,
     ) -> Result:
-        """Store accuracies and confusion matrices as a row of a table."""
-        result = self.result(table, name, method, split.name, scores.count, percent(scores))
+        """Store accuracies in % and confusion matrices as a row of a table."""
+        accuracy = scores.accuracy.items()
+        values = {slot: None if math.isnan(v) else 100 * v for slot, v in accuracy}
+        result = self.result(table, name, method, split.name, scores.count, values)
         confusion = {slot: counts.tolist() for slot, counts in scores.confusion.items()}
         return self.store(replace(result, confusion=confusion))
 

@@ -109,7 +109,7 @@ def emulated_calibration(
     return GripperCalibration(
         unit=settings.unit,
         model=settings.model,
-        ids=tuple(servo.id for servo in settings.servos),
+        ids=settings.ids,
         date=datetime.date.today(),
         newtons_per_ma=fingers.newtons_per_ma,
         friction_ma=fingers.friction_ma,

@@ -109,15 +109,8 @@ def write_scores(weights: Path, figures: Mapping[str, Any]) -> None:
     card = weights / CARD
     try:
         above = card.read_text(encoding="utf-8").split(HEADING)[0].rstrip()
-        lines = [
-            above,
-            "",
-            HEADING,
-            "",
-            f"By `tacgrasp eval`, data {figures['data_checksum']}.",
-            "",
-        ]
-        lines += ["| | |", "|---|---|"]
+        source = f"By `tacgrasp eval`, data {figures['data_checksum']}."
+        lines = [above, "", HEADING, "", source, "", "| | |", "|---|---|"]
         scores = card_scores(figures)
         lines += [f"| {name} | {value:.4g} |" for name, value in scores if value is not None]
         write_atomically(card, "\n".join(lines) + "\n")

@@ -42,10 +42,5 @@ class EvaluationRequest:
     card: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse counts that leave nothing to measure.
-
-        Raises:
-            UsageError: One is less than 1, or the seed is negative.
-        """
         if min(self.captions, self.answers, self.pairs, self.per_wording) < 1 or self.seed < 0:
             raise UsageError("every number of eval must be at least 1, --seed at least 0")

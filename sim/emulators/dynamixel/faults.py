@@ -72,7 +72,6 @@ class BusFaults:
         self._injected_s = time.monotonic()
 
     def clear(self) -> None:
-        """End all faults; torque that went off stays off."""
         self.active.clear()
         self._silent_ids.clear()
         self._next_replies.clear()

@@ -177,7 +177,6 @@ class Fingers:
             self._let_go()
 
     def close(self) -> None:
-        """End the load's thread. Idempotent."""
         self._jobs.put(None)
         self._thread.join(timeout=2)
 

@@ -3,8 +3,6 @@
 Source: ROBOTIS e-Manual, 'DYNAMIXEL Protocol 2.0': header FF FF FD 00, id, u16 length of the
 rest, instruction, parameters, CRC-16 (polynomial 0x8005, start 0, not reflected). An FF FF FD
 inside instruction or parameters is followed by a stuffed FD.
-
-Not here: the effect of the instructions (``sim.emulators.dynamixel.servo``).
 """
 
 from __future__ import annotations

@@ -101,7 +101,6 @@ class EmulatedServo:
             self.table[at.TORQUE] = 0
 
     def feed_watchdog(self, now_s: float) -> None:
-        """Restart the bus watchdog's time: an instruction was received."""
         self._fed_s = now_s
 
     def check_watchdog(self, now_s: float) -> None:

@@ -9,6 +9,7 @@ import sys
 import tempfile
 import threading
 from collections.abc import Mapping
+from typing import Any
 
 from primitives.errors import RobotError
 from sim.emulators.process.control import ControlClient
@@ -42,10 +43,10 @@ class EmulatorProcess:
             stderr=self._errors,
             env={**os.environ, "COLUMNS": "1000"},  # refused options are explained on one line
         )
-        self.ready: Mapping[str, object] = {}
+        self.ready: Mapping[str, Any] = {}
         try:
             self.ready = self._ready_line(kind, ready_s)
-            self.control = ControlClient(_port(self.ready))
+            self.control = ControlClient(self.ready["control_port"])
         except BaseException:
             self._end()
             raise
@@ -61,11 +62,10 @@ class EmulatorProcess:
         return self._child.poll() is None
 
     def close(self) -> None:
-        """End the process and wait until it is gone. Idempotent."""
         self.control.close()
         self._end()
 
-    def _ready_line(self, kind: str, ready_s: float) -> Mapping[str, object]:
+    def _ready_line(self, kind: str, ready_s: float) -> Mapping[str, Any]:
         stdout = self._child.stdout
         if stdout is None:
             raise RuntimeError("an emulator is started with its output piped")
@@ -77,8 +77,8 @@ class EmulatorProcess:
             failure = "ended at once" if lines else f"was silent for {ready_s:g} s"
             raise RobotError(f"the {kind} emulator {failure}: {self._error() or 'no error text'}")
         ready = json.loads(lines[0])
-        if not isinstance(ready, dict):
-            raise RobotError(f"the {kind} emulator announced {ready!r}, expected an object")
+        if not isinstance(ready, dict) or not isinstance(ready.get("control_port"), int):
+            raise RobotError(f"the {kind} emulator announced {ready!r}, expected a control_port")
         return ready
 
     def _error(self) -> str:
@@ -100,10 +100,3 @@ class EmulatorProcess:
                 self._child.kill()
                 self._child.wait(END_S)
         self._errors.close()
-
-
-def _port(ready: Mapping[str, object]) -> int:
-    port = ready.get("control_port")
-    if not isinstance(port, int):
-        raise RobotError(f"an emulator announces its control_port, got {dict(ready)}")
-    return port

@@ -191,7 +191,6 @@ class TaxelEmulator:
                     self._mark, self._marks = packet.mark, self._marks + 1
 
     def _next_bytes(self) -> bytes:
-        """The bytes to send for the next frame, after faults."""
         clock_us = int(time.monotonic() * 1e6)
         mark = self._mark  # before the capture: the frame is newer than the mark
         counts = counts_of(self._source.height_mm())

@@ -1,6 +1,6 @@
 """A ball pressed into a gel and lifted periodically: the height source of an array without a world.
 
-Not here: contact mechanics (``sim.gel.layer``); the gel takes the bare shape of the sphere.
+The gel takes the bare shape of the sphere, without contact mechanics.
 """
 
 from __future__ import annotations

@@ -77,8 +77,6 @@ class Controller:
         self._paused = False
         self._kicked_s = self._began_s
 
-    # -- time and inputs -------------------------------------------------------------------------
-
     def advance(self) -> None:
         now_s = self._clock()
         self.robot.advance(now_s)
@@ -110,8 +108,6 @@ class Controller:
         if self.program is not None and not self._paused:
             self.program.read_inputs()
             self.advance()
-
-    # -- programs --------------------------------------------------------------------------------
 
     @property
     def runtime_state(self) -> int:
@@ -145,8 +141,6 @@ class Controller:
         self.stop_program("a one-line script replaced it")
         self.robot.halt(deceleration_m_s2)
 
-    # -- safety ----------------------------------------------------------------------------------
-
     def safety_stop(self, mode: int) -> None:
         """Stop the arm.
 
@@ -175,8 +169,6 @@ class Controller:
         self.robot.halt(SAFETY_STOP_M_S2)
         self.robot_mode, self._began_s = BOOTING, self._clock()
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
-
-    # -- variables -------------------------------------------------------------------------------
 
     def values(self, name: str) -> list[float]:
         """Numbers of an output variable; empty for one that is not emulated (currents and such)."""

@@ -79,8 +79,6 @@ class UrEmulator:
         self.server.close()
         self._segments.put(None)
 
-    # -- Emulated --------------------------------------------------------------------------------
-
     def inject(self, fault: str, **details: float | str) -> None:
         """Start a fault now.
 
@@ -136,8 +134,6 @@ class UrEmulator:
                 "num_clients": self.server.num_clients,
             }  # fmt: skip
 
-    # -- faults ----------------------------------------------------------------------------------
-
     def _link(self, *, mute: bool = False, garbage: bool = False) -> None:
         self.server.link.mute, self.server.link.garbage = mute, garbage
 
@@ -165,8 +161,6 @@ class UrEmulator:
 
     def _contact_force(self, force_n: float = 40.0) -> None:
         self.controller.robot.contact = np.array([0.0, 0.0, float(force_n), 0.0, 0.0, 0.0])
-
-    # -- world -----------------------------------------------------------------------------------
 
     def _queue_segment(self, segment: MotionSegment) -> Callable[[], bool]:
         followed = threading.Event()

@@ -78,8 +78,6 @@ class Robot:
         self._watched_speed = 0.0
         self.stopped_after_s: float | None = None
 
-    # -- motion ----------------------------------------------------------------------------------
-
     @property
     def moving(self) -> bool:
         """A motion is under way, or the world has not yet followed the last one."""
@@ -162,8 +160,6 @@ class Robot:
             path = start.path_to(self.tool.position_m, self.tool.rotation)
             segment = MotionSegment(path[:3], path[3:], speed_m_s, acceleration)
             self._followed = self._listener(segment)
-
-    # -- sensors ---------------------------------------------------------------------------------
 
     def tcp_pose(self) -> list[float]:
         """UR pose of the tool centre point, 6 numbers [m, rad]."""

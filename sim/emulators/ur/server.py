@@ -113,7 +113,6 @@ class Server:
         return len(self._connections)
 
     def reserve(self, names: Sequence[str], *, taken: bool) -> None:
-        """Reserve these inputs for another client, or release them."""
         if taken:
             other = RtdeSession(self._controller, self.version, self._taken)
             self._taken |= dict.fromkeys(names, other)
@@ -140,8 +139,6 @@ class Server:
             self._hang_up(connection)
         self.link, self._reopen_s = Link(), None
         self._listen()
-
-    # -- the thread ------------------------------------------------------------------------------
 
     def _serve(self) -> None:
         request_real_time()

@@ -62,7 +62,6 @@ class RtdeSession(Session):
             del self._taken[name]
 
     def data(self) -> bytes:
-        """A data packet with the present values."""
         values: list[float] = []
         for name, count in self._outputs:
             current = self._controller.values(name)
@@ -75,10 +74,9 @@ class RtdeSession(Session):
             return rtde.packet(kind, bytes([version == 2]))
         if kind == rtde.CONTROLLER_VERSION:
             return rtde.packet(kind, struct.pack(">4I", *self._version, 0, 0))
-        if kind == rtde.OUTPUTS:
-            return rtde.packet(kind, self._set_outputs(body))
-        if kind == rtde.INPUTS:
-            return rtde.packet(kind, self._set_inputs(body))
+        if kind in (rtde.OUTPUTS, rtde.INPUTS):
+            set_recipe = self._set_outputs if kind == rtde.OUTPUTS else self._set_inputs
+            return rtde.packet(kind, set_recipe(body))
         if kind == rtde.DATA:
             self._write(body)
             return b""
@@ -171,10 +169,10 @@ class DashboardSession(Session):
     GREETING = b"Connected: Universal Robots Dashboard Server\n"
 
     def __init__(self, controller: Controller, version: tuple[int, int]) -> None:
-        self._controller, self._version = controller, version
+        self._controller = controller
         self._text = b""
         self._answers: dict[str, Callable[[], str]] = {
-            "polyscopeversion": self._polyscope,
+            "polyscopeversion": lambda: "URSoftware {}.{}.0.1100000 (Jan 01 2024)".format(*version),
             "get serial number": lambda: "20210000001",
             "get robot model": lambda: "UR5",
             "is in remote control": lambda: str(controller.remote).lower(),
@@ -182,7 +180,9 @@ class DashboardSession(Session):
             "safetystatus": lambda: f"Safetystatus: {SAFETY_MODES[controller.safety_mode]}",
             "safetymode": lambda: f"Safetymode: {SAFETY_MODES[controller.safety_mode]}",
             "running": lambda: f"Program running: {str(controller.program is not None).lower()}",
-            "programstate": self._program_state,
+            "programstate": lambda: (
+                "STOPPED <none>" if controller.program is None else "PLAYING rtde_control"
+            ),
             "stop": self._stop,
             "unlock protective stop": self._unlock,
             "close safety popup": lambda: "closing safety popup",
@@ -199,13 +199,6 @@ class DashboardSession(Session):
     def _answer(self, line: str) -> bytes:
         answer = self._answers.get(line.lower(), lambda: f'could not understand: "{line}"')
         return answer().encode() + b"\n"
-
-    def _polyscope(self) -> str:
-        major, minor = self._version
-        return f"URSoftware {major}.{minor}.0.1100000 (Jan 01 2024)"
-
-    def _program_state(self) -> str:
-        return "PLAYING rtde_control" if self._controller.program is not None else "STOPPED <none>"
 
     def _stop(self) -> str:
         if not self._controller.remote:

@@ -64,8 +64,6 @@ class Program:
         self._progress(running=False)
         self._out["output_int_register_0"] = READY
 
-    # -- registers -------------------------------------------------------------------------------
-
     def _doubles(self, first: int, count: int = 6) -> Floats:
         return np.array([self._in[f"input_double_register_{first + i}"] for i in range(count)])
 
@@ -77,10 +75,7 @@ class Program:
         bits = (self._operation << 24) | (self._writes << 16) | (0x8000 if running else 0)
         self._out["output_int_register_2"] = bits
 
-    # -- time ------------------------------------------------------------------------------------
-
     def read_inputs(self) -> None:
-        """React to input registers that the client has written."""
         if not self.running or self._awaits_rest:
             return
         command = int(self._in["input_int_register_0"])
@@ -112,8 +107,6 @@ class Program:
             self.read_inputs()
         if self._repeated_motion is not None and not self._robot.moving:
             self._repeated_motion()
-
-    # -- commands --------------------------------------------------------------------------------
 
     def _execute_realtime(self, command: int) -> None:
         first = self._doubles(0)
@@ -156,12 +149,9 @@ class Program:
 
     def _force(self, selected: Floats, wrench: Floats, limits: Floats, frame: Floats) -> None:
         """Yield along the selected axes, at their speed limits, until the forces balance."""
-        load = np.concatenate([
-            frame.T @ self._robot.contact[:3], frame.T @ self._robot.contact[3:]
-        ])  # fmt: skip
-        surplus = wrench + load
+        surplus = wrench + (self._robot.contact.reshape(2, 3) @ frame).ravel()
         local = np.where((selected != 0) & (np.abs(surplus) > 0.5), np.sign(surplus) * limits, 0.0)
-        twist = np.concatenate([frame @ local[:3], frame @ local[3:]])
+        twist = (local.reshape(2, 3) @ frame.T).ravel()
         motion = run_at(self._robot.tool, twist, FORCE_ACCELERATION, math.inf)
         self._robot.begin(motion, float(np.linalg.norm(twist[:3])), FORCE_ACCELERATION)
 

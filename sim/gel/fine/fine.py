@@ -18,13 +18,12 @@ from collections.abc import Callable
 
 import torch
 from torch import Tensor
-from torch.nn.functional import avg_pool2d, interpolate
+from torch.nn.functional import interpolate
 
 from sim.gel.contact_solver import Solution, chosen
-from sim.gel.fine.boxes import Box, boxes_around, escaped_from
-from sim.gel.fine.levels import TOLERANCE, GridLevel
+from sim.gel.fine.levels import TOLERANCE, Box, GridLevel, boxes_around, escaped_from
 from sim.gel.gap import NO_BODY_MM
-from sim.gel.layer import ElasticLayer, Press, StartPressure
+from sim.gel.layer import ElasticLayer, Press
 
 _FEWEST_CELLS = 24  # along the shorter side of the coarsest grid
 
@@ -42,52 +41,27 @@ class FineLayer:
         factors = _factors(finest.rows, finest.columns)
         self._layers = [*(finest.coarsened(factor) for factor in factors), finest]
 
-    def press_to_force(
-        self, gap_mm: Tensor, force_n: Tensor | float, *, start: StartPressure = None
-    ) -> Press:
-        """Press with a given normal force; see ``ElasticLayer.press_to_force``."""
-        return self._press(gap_mm, force_n, start, by_force=True)
-
-    def press_to_depth(
-        self, gap_mm: Tensor, depth_mm: Tensor | float, *, start: StartPressure = None
-    ) -> Press:
+    def press_to_depth(self, gap_mm: Tensor, depth_mm: Tensor | float) -> Press:
         """Press a body to a given depth; see ``ElasticLayer.press_to_depth``."""
-        return self._press(gap_mm, depth_mm, start, by_force=False)
-
-    def _press(
-        self, gap_mm: Tensor, load: Tensor | float, start: StartPressure, *, by_force: bool
-    ) -> Press:
-        gap, loads = self.finest.check_inputs(gap_mm, load, by_force=by_force)
+        gap, depths = self.finest.check_inputs(gap_mm, depth_mm, by_force=False)
         gaps = [self._reachable(gap)]
         for _ in self._layers[1:]:
             gaps.insert(0, _per_body(_coarser, gaps[0]))
         coarsest = self._layers[0]
-        start_kpa = None if start is None else _pooled(start, gap.shape[1] // coarsest.rows)
         if len(self._layers) == 1:
-            press = coarsest.press_to_force if by_force else coarsest.press_to_depth
-            return press(gap, loads, start=start_kpa, tol=TOLERANCE)
-        pressure = self._coarsest(gaps[0], loads, start_kpa, by_force=by_force)
-        moduli = self.finest.moduli_mpa(len(loads))
+            return coarsest.press_to_depth(gap, depths, tol=TOLERANCE)
+        moduli = self.finest.moduli_mpa(len(depths))
+        level = GridLevel(layer=coarsest, moduli_mpa=moduli)
+        field = Box(top=0, left=0, rows=coarsest.rows, columns=coarsest.columns)
+        start = coarsest.first_pressure(None, gaps[0], depths)
+        pressure = level.solve([field] * len(depths), gaps[0], depths, start).pressure_mpa
         gaps[-1] = gap
         for layer, finer in zip(self._layers[1:], gaps[1:], strict=True):
             level = GridLevel(layer=layer, moduli_mpa=moduli)
             boxes = boxes_around(pressure > 0)
-            solved = level.solve(boxes, finer, loads, _finer(pressure), by_force=by_force)
+            solved = level.solve(boxes, finer, depths, _finer(pressure))
             pressure = solved.pressure_mpa
-        return _whole_surface(level, gap, loads, boxes, solved, by_force=by_force)
-
-    def _coarsest(
-        self, gap: Tensor, loads: Tensor, start_kpa: Tensor | None, *, by_force: bool
-    ) -> Tensor:
-        """Pressure on the coarsest grid [MPa]."""
-        layer = self._layers[0]
-        if by_force:
-            press = layer.press_to_force(gap, loads, start=start_kpa, tol=TOLERANCE)
-            return press.pressure_kpa * 1e-3
-        field = Box(top=0, left=0, rows=layer.rows, columns=layer.columns)
-        level = GridLevel(layer=layer, moduli_mpa=layer.moduli_mpa(len(loads)))
-        first = layer.first_pressure(start_kpa, gap, loads)
-        return level.solve([field] * len(loads), gap, loads, first, by_force=False).pressure_mpa
+        return _whole_surface(level, gap, depths, boxes, solved)
 
     def _reachable(self, gap: Tensor) -> Tensor:
         """Gap without parts further away than the gel is thick, which no mean may include."""
@@ -95,13 +69,7 @@ class FineLayer:
 
 
 def _whole_surface(
-    level: GridLevel,
-    gap: Tensor,
-    loads: Tensor,
-    boxes: list[Box],
-    solved: Solution,
-    *,
-    by_force: bool,
+    level: GridLevel, gap: Tensor, depths: Tensor, boxes: list[Box], solved: Solution
 ) -> Press:
     """Surface of the whole grid; contacts that reach out of their boxes are solved again."""
     height, opening = level.surface(solved, gap)
@@ -109,7 +77,7 @@ def _whole_surface(
     if bool(escaped.any()):
         field = Box(top=0, left=0, rows=gap.shape[1], columns=gap.shape[2])
         regions = [field if one else box for one, box in zip(escaped.tolist(), boxes, strict=True)]
-        resolved = level.solve(regions, gap, loads, solved.pressure_mpa, by_force=by_force)
+        resolved = level.solve(regions, gap, depths, solved.pressure_mpa)
         solved = chosen(escaped, resolved, solved)
         height, opening = level.surface(solved, gap)
     pressure = solved.pressure_mpa
@@ -153,11 +121,4 @@ def _sum_of_four(field: Tensor) -> Tensor:
 
 
 def _finer(pressure: Tensor) -> Tensor:
-    return interpolate(pressure[:, None], scale_factor=2, mode="bilinear", align_corners=False)[
-        :, 0
-    ]
-
-
-def _pooled(start: Press | Tensor, factor: int) -> Tensor:
-    pressure = start.pressure_kpa if isinstance(start, Press) else start
-    return avg_pool2d(pressure[:, None], factor)[:, 0]
+    return interpolate(pressure[:, None], scale_factor=2, mode="bilinear").squeeze(1)

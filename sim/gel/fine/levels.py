@@ -1,9 +1,10 @@
 """One grid of a cascade: each contact solved in its box, and the surface of the whole grid.
 
-On a CPU, contacts pressed to a depth are solved one by one (``sim.gel.fine.single``); presses by
-force and accelerators use the plain solver (``sim.gel.contact_solver``).
+On a CPU, contacts are solved one by one (``sim.gel.fine.single``); accelerators use the plain
+solver (``sim.gel.contact_solver``).
 
-Not here: the order of the grids (``sim.gel.fine.fine``), the boxes (``sim.gel.fine.boxes``).
+A box is the part of a grid around a contact, to which its solve is limited. Not here: the order of
+the grids (``sim.gel.fine.fine``).
 """
 
 from __future__ import annotations
@@ -12,17 +13,78 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import torch
+from scipy.fft import next_fast_len
 from torch import Tensor
 
 from sim.gel.compliance import GelMaterial, Spectrum, kernel_of, spectrum_from
 from sim.gel.contact_solver import Solution, solve
-from sim.gel.fine.boxes import Box, by_size
 from sim.gel.fine.single import BoxCompliance, box_compliance, convolution, solve_single
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import MAX_ITERATIONS, ElasticLayer
 
 TOLERANCE = 1e-3
 """Tolerance of every level: residual gap over mean displacement in contact, root mean square."""
+
+_MARGIN_CELLS = 2  # elements of the coarser grid around its contact
+_STEP_CPU, _STEP_DEVICE = 16, 80  # on an accelerator few sizes, with many contacts each, are faster
+_OVERLAP_MM = 2e-4  # allowed outside of a box; a fifth of the stored resolution
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Box:
+    """Part of a grid: first row and column, numbers of rows and columns."""
+
+    top: int
+    left: int
+    rows: int
+    columns: int
+
+    def crop(self, field: Tensor) -> Tensor:
+        """That part of a grid (..., H, W)."""
+        return field[..., self.top : self.top + self.rows, self.left : self.left + self.columns]
+
+
+def boxes_around(contact: Tensor) -> list[Box]:
+    """Boxes on the next finer grid around contacts (B, h, w); the whole grid where there is none.
+
+    Sizes are multiples of a step, so that many contacts share a spectrum; the multiples are lengths
+    that suit a Fourier transform.
+    """
+    step = _STEP_CPU if contact.device.type == "cpu" else _STEP_DEVICE
+    row_spans = _spans(contact.any(2).cpu(), step)
+    column_spans = _spans(contact.any(1).cpu(), step)
+    return [
+        Box(top=vertical[0], rows=vertical[1], left=horizontal[0], columns=horizontal[1])
+        for vertical, horizontal in zip(row_spans, column_spans, strict=True)
+    ]
+
+
+def _spans(mask: Tensor, step: int) -> list[tuple[int, int]]:
+    """First element and length, on the finer grid, of a span around each row of ``mask`` (B, n)."""
+    size = mask.shape[1]
+    spans = []
+    for row in mask.numpy():
+        occupied = row.nonzero()[0]
+        low, high = (occupied[0], occupied[-1] + 1) if len(occupied) else (0, size)
+        low, high = max(0, int(low) - _MARGIN_CELLS), min(size, int(high) + _MARGIN_CELLS)
+        steps = next_fast_len(-(-2 * (high - low) // step), real=True)
+        length = min(2 * size, steps * step)
+        first = max(0, low + high - length // 2)
+        spans.append((min(first, 2 * size - length), length))
+    return spans
+
+
+def escaped_from(boxes: list[Box], opening: Tensor) -> Tensor:
+    """Mask of contacts that overlap their bodies outside of their boxes, (B,).
+
+    Args:
+        boxes: Boxes of the contacts.
+        opening: Deformed gap, (B, H, W) [mm].
+    """
+    overlap = opening < -_OVERLAP_MM
+    for box, one in zip(boxes, overlap, strict=True):
+        box.crop(one).fill_(False)
+    return overlap.flatten(1).any(1)
 
 
 @lru_cache(maxsize=128)
@@ -110,21 +172,17 @@ class GridLevel:
             ]
         )
 
-    def solve(
-        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
-    ) -> Solution:
+    def solve(self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor) -> Solution:
         """Solve every contact in its box.
 
         Args:
             boxes: A box for each contact.
             gap: (B, H, W), ``NO_BODY_MM`` where no pressure can act [mm].
-            load: (B,) [N] if ``by_force``, else [mm].
+            depth: (B,) [mm].
             start: (B, H, W) [MPa].
-            by_force: Whether the load is a force.
         """
-        if gap.device.type == "cpu" and not by_force:
-            return self._solve_single(boxes, gap, load, start)
-        return self._solve_batches(boxes, gap, load, start, by_force=by_force)
+        one_by_one = gap.device.type == "cpu"
+        return (self._solve_single if one_by_one else self._solve_batches)(boxes, gap, depth, start)
 
     def _solve_single(
         self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor
@@ -151,37 +209,35 @@ class GridLevel:
         )
 
     def _solve_batches(
-        self, boxes: list[Box], gap: Tensor, load: Tensor, start: Tensor, *, by_force: bool
+        self, boxes: list[Box], gap: Tensor, depth: Tensor, start: Tensor
     ) -> Solution:
         """Solve contacts with equally large boxes together."""
         pressure = torch.zeros_like(start)
-        approach = torch.zeros_like(load)
-        iterations = torch.zeros(len(load), dtype=torch.int64, device=gap.device)
-        converged = torch.ones(len(load), dtype=torch.bool, device=gap.device)
-        for size, indices in by_size(boxes, one_by_one=gap.device.type == "cpu"):
+        iterations = torch.zeros(len(depth), dtype=torch.int64, device=gap.device)
+        converged = torch.ones(len(depth), dtype=torch.bool, device=gap.device)
+        groups: dict[tuple[int, int], list[int]] = {}
+        for i, box in enumerate(boxes):
+            groups.setdefault((box.rows, box.columns), []).append(i)
+        for size, indices in groups.items():
             chosen = torch.tensor(indices, device=gap.device)
-            target = load[chosen]
             first = torch.stack([boxes[i].crop(start[i]) for i in indices])
             inside = torch.stack([boxes[i].crop(gap[i]) for i in indices])
-            first = first.clamp(min=0) * (inside < NO_BODY_MM)
-            if by_force:
-                target = target / self.layer.pitch_mm**2
-                total = first.flatten(1).sum(1).clamp(min=1e-30)
-                first = first * (target / total)[:, None, None]
             solved = solve(
                 self._spectrum_of(size, chosen, with_body=True),
                 inside,
-                target,
-                by_force=by_force,
-                start_mpa=first,
+                depth[chosen],
+                by_force=False,
+                start_mpa=first.clamp(min=0) * (inside < NO_BODY_MM),
                 stiffness=self.layer.stiffness,
                 tol=TOLERANCE,
                 max_iterations=MAX_ITERATIONS,
             )
             for position, i in enumerate(indices):
                 boxes[i].crop(pressure[i]).copy_(solved.pressure_mpa[position])
-            approach[chosen] = solved.approach_mm
             iterations[chosen], converged[chosen] = solved.iterations, solved.converged
         return Solution(
-            pressure_mpa=pressure, approach_mm=approach, iterations=iterations, converged=converged
+            pressure_mpa=pressure,
+            approach_mm=depth.clone(),
+            iterations=iterations,
+            converged=converged,
         )

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel.errors import (
+    STATUS_ERRORS,
     BusError,
     BusFault,
     BusFaultCounts,
     BusReply,
-    status_error_text,
 )
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.serial_ports import find_port
@@ -73,13 +73,9 @@ class Bus:
 
         self.close()
         self.path = find_port(self._settings.port, DEVICE)
+        timeout_s = self._settings.reply_timeout_ms / 1000
         try:
-            self._port = ClaimedPort(
-                self.path,
-                baud or self._settings.baud,
-                self._settings.reply_timeout_ms / 1000,
-                DEVICE,
-            )
+            self._port = ClaimedPort(self.path, baud or self._settings.baud, timeout_s, DEVICE)
         except (OSError, termios.error) as error:
             raise RobotError(
                 f"the serial port {self.path} of {DEVICE} can't be opened: {error}; check the "
@@ -144,11 +140,11 @@ class Bus:
         Raises:
             BusError: The write of a servo can't be confirmed.
         """
-        if len(data) == 1:
-            for servo, values in data.items():
-                self.write(servo, address, values)
+        (first, values), *others = data.items()
+        if not others:
+            self.write(first, address, values)
             return
-        length = len(next(iter(data.values())))
+        length = len(values)
         body = _u16(address) + _u16(length)
         body += b"".join(bytes([servo]) + values for servo, values in data.items())
         self._transact(_BROADCAST, _SYNC_WRITE, body, 0)
@@ -234,11 +230,11 @@ class Bus:
             raise self._failure(result, name, time.monotonic() - start_s)
         if servo == _BROADCAST:
             return BusReply(data=b"", alert=False)
-        error = received[_ERROR_AT]
-        if error & 0x7F:
-            raise BusError(BusFault.REFUSED, f"{name} refused: {status_error_text(error & 0x7F)}")
+        if error := received[_ERROR_AT] & 0x7F:
+            reason = STATUS_ERRORS.get(error, f"error {error}")
+            raise BusError(BusFault.REFUSED, f"{name} refused: {reason}")
         data = bytes(received[_ERROR_AT + 1 : _ERROR_AT + 1 + length])
-        return BusReply(data=data, alert=bool(error & 0x80))
+        return BusReply(data=data, alert=bool(received[_ERROR_AT] & 0x80))
 
     def _failure(self, result: int, name: str, duration_s: float) -> BusError:
         timeout_ms = self._settings.reply_timeout_ms

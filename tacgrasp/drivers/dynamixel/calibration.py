@@ -244,7 +244,6 @@ def refusal(
 
 
 def _first_error(error: ValidationError) -> str:
-    """The first of pydantic's errors, on one line."""
     first = error.errors()[0]
     field = ".".join(str(part) for part in first["loc"])
     return f"{field}: {first['msg']}" if field else str(first["msg"])

@@ -7,7 +7,7 @@ from enum import Enum
 
 from primitives.errors import RobotError
 
-_STATUS_ERRORS = {
+STATUS_ERRORS = {
     1: "it failed",
     2: "it does not know the instruction",
     3: "it received a wrong CRC",
@@ -16,6 +16,7 @@ _STATUS_ERRORS = {
     6: "the value is beyond a limit",
     7: "it can't be written now (torque on, hardware error, or the bus watchdog has tripped)",
 }
+"""Meanings of the error numbers in a status packet."""
 
 
 class BusFault(Enum):
@@ -63,8 +64,3 @@ class BusFaultCounts:
             f"{self.silent} without a reply, {self.corrupt} corrupt, {self.late} late, "
             f"{self.rewritten} written again, port rebuilt {self.rebuilt} times"
         )
-
-
-def status_error_text(number: int) -> str:
-    """Meaning of the error number in a status packet."""
-    return _STATUS_ERRORS.get(number, f"error {number}")

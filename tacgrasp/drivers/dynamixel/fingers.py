@@ -12,12 +12,10 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
 from tacgrasp.drivers.dynamixel.poller import PollSample, ServoPoller, ServoSample
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
 from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
@@ -40,25 +38,18 @@ class ServoFingers:
         settings: The gripper's section of the rig's file.
         unit_ma: Current of one register unit [mA].
         adapter: Serial number of the USB adapter; empty if the adapter has none.
+        bus: Their bus, used by the poller's thread alone.
         poller: The thread that polls the servos.
         sent: The last command on the wire, in the servos' words; empty before the first.
     """
 
     def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
-        self.settings, self._bus, self.poller = settings, bus, ServoPoller(bus, settings)
+        self.settings, self.bus, self.poller = settings, bus, ServoPoller(bus, settings)
         self.unit_ma = reg.MODELS[settings.model].unit_ma
         self.adapter = adapter_serial(bus.path)
         self.sent = ""
         self._connected = True
         self._num_stops = 0
-
-    @property
-    def transients(self) -> BusFaultCounts:
-        return replace(self._bus.counts)
-
-    def fail_fast_while(self, arm_is_moving: Callable[[], bool]) -> None:
-        """Wait out a servo's silence (``patience_ms``), unless ``arm_is_moving`` returns True."""
-        self._bus.arm_is_moving = arm_is_moving
 
     def width_m(self) -> float:
         """Read the opening between the fingers [m].
@@ -68,10 +59,8 @@ class ServoFingers:
         """
 
         def positions(bus: Bus) -> list[int]:
-            return [
-                bus.read_number(servo.id, reg.PRESENT_POSITION, 4, signed=True)
-                for servo in self.settings.servos
-            ]
+            address, ids = reg.PRESENT_POSITION, self.settings.ids
+            return [bus.read_number(servo, address, 4, signed=True) for servo in ids]
 
         return self._width_m(self._call(positions))
 
@@ -144,7 +133,7 @@ class ServoFingers:
         except RobotError as error:
             _log.warning("the gripper's bus watchdog could not be switched off: %s", error)
         self.poller.close()
-        self._bus.close()
+        self.bus.close()
 
     def _call(self, job: Callable[[Bus], list[int] | None]) -> list[int]:
         if not self._connected:
@@ -170,7 +159,7 @@ class ServoFingers:
 
         def write(bus: Bus) -> list[int]:
             bus.write_all(reg.GOAL_CURRENT, data)
-            return [self.poller.last_sample_number]
+            return [self.poller.num_polls]
 
         return self._call(write)[0]
 

@@ -11,6 +11,7 @@ import datetime
 import logging
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -66,8 +67,7 @@ class DynamixelGripper:
 
     @property
     def transients(self) -> BusFaultCounts:
-        """Faults of the bus from which the driver has recovered."""
-        return self._fingers.transients
+        return replace(self._fingers.bus.counts)
 
     @property
     def sent(self) -> str:
@@ -83,7 +83,7 @@ class DynamixelGripper:
         Args:
             arm_is_moving: Called from the I/O thread when a reply is missing; must return fast.
         """
-        self._fingers.fail_fast_while(arm_is_moving)
+        self._fingers.bus.arm_is_moving = arm_is_moving
 
     def state(self) -> GripperState:
         return self._state(self._fingers.width_m())

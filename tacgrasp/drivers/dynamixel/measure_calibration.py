@@ -48,12 +48,12 @@ def calibrate_gripper(
         RobotError: The gripper fails, or the readings make no line.
     """
     limit_ma = fingers.settings.max_current_ma
-    refused = [current for current in currents_ma if not 0 < current <= limit_ma]
-    if refused:
-        raise LimitError(
-            f"currents must lie in (0, {limit_ma:g}] mA (max_current_ma of the rig's file), got "
-            f"{refused[0]:g}"
-        )
+    for current_ma in currents_ma:
+        if not 0 < current_ma <= limit_ma:
+            raise LimitError(
+                f"currents must lie in (0, {limit_ma:g}] mA (max_current_ma of the rig's file), "
+                f"got {current_ma:g}"
+            )
     start_m = fingers.width_m()
     readings = []
     try:

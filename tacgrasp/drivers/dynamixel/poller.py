@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import logging
 import queue
+import struct
 import threading
 import time
 from collections.abc import Callable, Sequence
@@ -32,11 +33,13 @@ CALL_S = 2.0
 
 _WATCHDOG_POLLS = 10
 _NUM_WAITS = 4
+_PRESENT = struct.Struct("<B3xhii10xB")
+"""Registers 122, 126, 128, 132 and 146 from ``reg.PRESENT`` on, as in ``ServoSample``."""
 
 _log = logging.getLogger(__name__)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class ServoSample:
     """State of one servo at one poll; current in the model's units, signed like the position."""
 
@@ -56,23 +59,23 @@ class PollSample:
 
 
 class ServoPoller:
-    """The I/O thread of one gripper. Starts polling at once."""
+    """The I/O thread of one gripper. Starts polling at once.
+
+    Attributes:
+        fault: The latched fault; empty while there is none.
+        num_polls: Number of the last sample; 0 before the first.
+    """
 
     def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
         self._bus, self._settings = bus, settings
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._changed = threading.Condition()
-        self._fault = ""
+        self.fault = ""
         self._sample: PollSample | None = None
-        self._num_polls = 0
+        self.num_polls = 0
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="gripper", daemon=True)
         self._thread.start()
-
-    @property
-    def fault(self) -> str:
-        """The latched fault; empty while there is none."""
-        return self._fault
 
     def call(self, job: Callable[[Bus], T], *, despite_fault: bool = False) -> T:
         """Run a job on the I/O thread and return its result.
@@ -83,8 +86,8 @@ class ServoPoller:
         result: Future[T] = Future()
 
         def run() -> None:
-            if self._fault and not despite_fault:
-                result.set_exception(RobotError(self._fault))
+            if self.fault and not despite_fault:
+                result.set_exception(RobotError(self.fault))
                 return
             try:
                 result.set_result(job(self._bus))
@@ -94,7 +97,7 @@ class ServoPoller:
                     self._latch_fault(f"{error}")
 
         if not self._thread.is_alive():
-            raise RobotError(self._fault or "the gripper is disconnected")
+            raise RobotError(self.fault or "the gripper is disconnected")
         self._jobs.put(run)
         try:
             return result.result(CALL_S)
@@ -114,22 +117,17 @@ class ServoPoller:
             # Several short waits: after a pause of the whole process the poller must run first.
             for _ in range(_NUM_WAITS):
                 if self._changed.wait_for(
-                    lambda: self._closed or self._fault or self._num_polls > after,
+                    lambda: self._closed or self.fault or self.num_polls > after,
                     CALL_S / _NUM_WAITS,
                 ):
                     break
-            if self._fault or self._closed:
-                raise RobotError(self._fault or "the gripper is disconnected")
+            if self.fault or self._closed:
+                raise RobotError(self.fault or "the gripper is disconnected")
             if self._sample is None or self._sample.number <= after:
                 raise RobotError(
                     f"the gripper was not polled for {CALL_S:g} s; is this computer overloaded?"
                 )
             return self._sample
-
-    @property
-    def last_sample_number(self) -> int:
-        """Number of the last sample; 0 before the first."""
-        return self._num_polls
 
     def close(self) -> None:
         with self._changed:
@@ -152,7 +150,7 @@ class ServoPoller:
                 pass
             if time.monotonic() >= due_s:
                 due_s = max(due_s + period_s, time.monotonic())
-                if not self._fault:
+                if not self.fault:
                     self._poll()
 
     def _poll(self) -> None:
@@ -166,8 +164,8 @@ class ServoPoller:
             self._latch_fault(f"the gripper's driver failed: {type(error).__name__}: {error}")
             return
         with self._changed:
-            self._num_polls += 1
-            self._sample = PollSample(number=self._num_polls, servos=servos)
+            self.num_polls += 1
+            self._sample = PollSample(number=self.num_polls, servos=servos)
             self._changed.notify_all()
 
     def _poll_servo(self, servo: int) -> ServoSample:
@@ -176,14 +174,15 @@ class ServoPoller:
         if error or reply.alert:
             torque = self._bus.read_number(servo, reg.TORQUE, 1)
             raise RobotError(_hardware_error_message(servo, error, bool(torque)))
-        sample = parse_registers(reply.data)
+        moving, *numbers = _PRESENT.unpack(reply.data)
+        sample = ServoSample(bool(moving), *numbers)
         if sample.temperature_c > self._settings.max_temperature_c:
             raise RobotError(
                 f"servo {servo} of the gripper is {sample.temperature_c} °C hot, beyond "
                 f"{self._settings.max_temperature_c:g} °C; let it cool, and grip with less force "
                 "or for less time"
             )
-        if self._settings.bus_watchdog_ms and self._num_polls % _WATCHDOG_POLLS == 0:
+        if self._settings.bus_watchdog_ms and self.num_polls % _WATCHDOG_POLLS == 0:
             watchdog = self._bus.read_number(servo, reg.WATCHDOG, 1)
             if watchdog == reg.WATCHDOG_TRIPPED:
                 raise RobotError(
@@ -194,24 +193,8 @@ class ServoPoller:
 
     def _latch_fault(self, fault: str) -> None:
         with self._changed:
-            self._fault = self._fault or fault
+            self.fault = self.fault or fault
             self._changed.notify_all()
-
-
-def parse_registers(data: bytes) -> ServoSample:
-    """Parse a servo's registers from ``reg.PRESENT`` on."""
-
-    def number(address: int, length: int, signed: bool = True) -> int:
-        start = address - reg.PRESENT
-        return int.from_bytes(data[start : start + length], "little", signed=signed)
-
-    return ServoSample(
-        moving=bool(number(reg.PRESENT, 1, signed=False)),
-        current=number(126, 2),
-        velocity=number(128, 4),
-        position=number(reg.PRESENT_POSITION, 4),
-        temperature_c=number(reg.TEMPERATURE, 1, signed=False),
-    )
 
 
 def _hardware_error_message(servo: int, error: int, torque: bool) -> str:

@@ -51,7 +51,6 @@ class ClaimedPort(PortHandler):
         return True
 
     def closePort(self) -> None:  # noqa: N802
-        """Close the port and release the claim. Idempotent."""
         if self.ser is not None:
             self.ser.close()
         self.is_open = False

@@ -95,31 +95,25 @@ class DynamixelSettings(SettingsBase):
 
     @model_validator(mode="after")
     def _parts_fit(self) -> DynamixelSettings:
-        if self.baud not in BAUDS:
-            raise ValueError(f"baud must be one of {', '.join(map(str, BAUDS))}, got {self.baud}")
-        if self.model not in MODELS:
-            raise ValueError(
-                f"model must be one with current control ({', '.join(sorted(MODELS))}), "
-                f"got {self.model!r}"
-            )
-        if len(set(self.ids)) < len(self.ids):
-            raise ValueError("two servos need two ids")
-        if self.closed_width_mm >= self.open_width_mm:
-            raise ValueError(
-                f"closed_width_mm {self.closed_width_mm} must be below open_width_mm "
-                f"{self.open_width_mm}"
-            )
-        if self.open_current_ma > self.max_current_ma:
-            raise ValueError(
-                f"open_current_ma {self.open_current_ma} is above max_current_ma "
-                f"{self.max_current_ma}"
-            )
-        unit_ms = round(1000 * WATCHDOG_UNIT_S)
-        if self.bus_watchdog_ms % unit_ms or 0 < self.bus_watchdog_ms < 200:
-            raise ValueError(
-                f"bus_watchdog_ms must be 0 or a multiple of {unit_ms} from 200 on, got "
-                f"{self.bus_watchdog_ms}"
-            )
+        unit_ms, watchdog_ms = round(1000 * WATCHDOG_UNIT_S), self.bus_watchdog_ms
+        closed_mm, open_mm = self.closed_width_mm, self.open_width_mm
+        open_ma, max_ma = self.open_current_ma, self.max_current_ma
+        for is_wrong, message in (
+            (self.baud not in BAUDS,
+             f"baud must be one of {', '.join(map(str, BAUDS))}, got {self.baud}"),
+            (self.model not in MODELS,
+             f"model must be one with current control ({', '.join(sorted(MODELS))}), "
+             f"got {self.model!r}"),
+            (len(set(self.ids)) < len(self.ids), "two servos need two ids"),
+            (closed_mm >= open_mm,
+             f"closed_width_mm {closed_mm} must be below open_width_mm {open_mm}"),
+            (open_ma > max_ma, f"open_current_ma {open_ma} is above max_current_ma {max_ma}"),
+            (watchdog_ms % unit_ms or 0 < watchdog_ms < 200,
+             f"bus_watchdog_ms must be 0 or a multiple of {unit_ms} from 200 on, got "
+             f"{watchdog_ms}"),
+        ):  # fmt: skip
+            if is_wrong:
+                raise ValueError(message)
         return self
 
     @property

@@ -1,8 +1,6 @@
 """The untouched gel of one unit: averaged, saved with its date, refused when it is out of date.
 
 A background is a PNG that any viewer shows; unit, date and number of frames are in its text.
-
-Not here: taking the frames (``connect``), the use of a background (``cltp.sensing.photometric``).
 """
 
 from __future__ import annotations
@@ -169,21 +167,19 @@ def load_background(
         )
     frame = read_frame(path, sensor)
     background = _with_record(path, frame)
-    if background.taken is None:
-        if dated:
-            raise TouchError(
-                f"{path} does not say when and of which unit it was taken; a camera needs a "
-                "background that does: free the gel and take one: tacgrasp calibrate background"
-            )
-        return background
     if not dated:  # a recording is as old as its own background
         return background
+    age_h = background.age_h(now)
+    if age_h is None:
+        raise TouchError(
+            f"{path} does not say when and of which unit it was taken; a camera needs a "
+            "background that does: free the gel and take one: tacgrasp calibrate background"
+        )
     if background.unit != unit:
         raise TouchError(
             f"{path} is of unit {background.unit!r}, expected {unit!r}: take one with this unit"
         )
-    age_h = background.age_h(now)
-    if age_h is None or not -0.1 <= age_h <= max_age_h:
+    if not -0.1 <= age_h <= max_age_h:
         raise TouchError(
             f"{path} was taken {age_h:.0f} h ago, expected 0 to {max_age_h:g} h "
             "(max_background_age_h): free the gel and take a new one: tacgrasp calibrate "
@@ -193,7 +189,6 @@ def load_background(
 
 
 def _with_record(path: Path, frame: Frame) -> Background:
-    """Background from an image and the record in its text."""
     from PIL import Image
 
     with Image.open(path) as image:
@@ -205,12 +200,8 @@ def _with_record(path: Path, frame: Frame) -> Background:
         taken = datetime.datetime.fromisoformat(record["taken"])
         if record["version"] != VERSION or taken.tzinfo is None:
             raise ValueError(f"version {record['version']}, {taken}")
-        return Background(
-            frame=frame,
-            unit=str(record["unit"]),
-            taken=taken,
-            num_frames=int(record["num_frames"]),
-        )
+        unit, num_frames = str(record["unit"]), int(record["num_frames"])
+        return Background(frame=frame, unit=unit, taken=taken, num_frames=num_frames)
     except (ValueError, KeyError, TypeError) as error:
         raise TouchError(
             f"{path}: its record can't be understood ({error}); take a new background"

@@ -1,9 +1,6 @@
 """Sources of a GelSight Mini's frames: its camera, a video file, a folder of images.
 
 Each source gives one frame after another, in red, green and blue, of the size of the sensor's map.
-
-Not here: the capture thread and freshness (``capture_thread``), frames to heights
-(``cltp.sensing.photometric``).
 """
 
 from __future__ import annotations
@@ -41,22 +38,18 @@ class FrameSource(Protocol):
         Raises:
             TouchError: The camera is lost, the recording has ended, or the image is no frame.
         """
-        ...
 
     def close(self) -> None:
         """Release the camera or file. Idempotent."""
-        ...
 
 
 class VideoCapture(Protocol):
     """The used part of ``cv2.VideoCapture``."""
 
-    def isOpened(self) -> bool:  # noqa: N802 - OpenCV's name
-        ...
+    def isOpened(self) -> bool: ...  # noqa: N802 - OpenCV's name
 
     def read(self) -> tuple[bool, NDArray[Any] | None]:
         """Success, and the next frame in blue, green, red."""
-        ...
 
     def release(self) -> None: ...
 

@@ -2,8 +2,6 @@
 
 A camera keeps old frames in its buffers unless it is read continuously. A frame equal to its
 predecessor in every bit is a frozen picture, since a camera has noise; it is never a new frame.
-
-Not here: frames to clouds (``sensor``), the sources of frames (``cameras``).
 """
 
 from __future__ import annotations
@@ -44,7 +42,7 @@ class FrameCounts:
     interval_ms: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True)
 class CapturedFrame:
     """A frame with its times.
 
@@ -117,12 +115,8 @@ class CaptureThread:
             return previous
         if previous is not None:
             self._count_dropped(stamp.monotonic_s - previous.stamp.monotonic_s)
-        captured = CapturedFrame(
-            frame=frame,
-            stamp=stamp,
-            exposed_s=stamp.monotonic_s - self._age_s,
-            problem=frame_problem(frame),
-        )
+        exposed_s = stamp.monotonic_s - self._age_s
+        captured = CapturedFrame(frame, stamp, exposed_s, frame_problem(frame))
         self._frames += 1
         self.latest.put(captured)
         return captured

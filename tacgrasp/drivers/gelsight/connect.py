@@ -1,7 +1,4 @@
-"""Open and check the GelSight Mini of a rig's file, and take its background.
-
-Not here: reading it (``sensor``), calibrating it (``tacgrasp calibrate gelsight-mini``).
-"""
+"""Open and check the GelSight Mini of a rig's file, and take its background."""
 
 from __future__ import annotations
 

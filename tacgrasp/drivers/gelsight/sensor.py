@@ -1,9 +1,6 @@
 """A connected GelSight Mini: frames in, clouds out by ``cltp.sensing.photometric``.
 
 A read takes the first frame whose exposure began after the call.
-
-Not here: opening and checking the sensor of a rig's file (``connect``), the sources of frames
-(``cameras``), their thread (``capture_thread``), backgrounds (``background``).
 """
 
 from __future__ import annotations
@@ -184,9 +181,7 @@ class GelSightMini:
 
     def _next_recorded(self, source: FrameSource) -> CapturedFrame:
         frame, stamp = source.next_frame(), real_stamp()
-        return CapturedFrame(
-            frame=frame, stamp=stamp, exposed_s=stamp.monotonic_s, problem=frame_problem(frame)
-        )
+        return CapturedFrame(frame, stamp, stamp.monotonic_s, frame_problem(frame))
 
     def _check(self, captured: CapturedFrame) -> None:
         if captured.problem:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field, model_validator
 
@@ -34,6 +34,7 @@ class GelSightSettings(SettingsBase):
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
+    sensor_name: ClassVar[str] = "gelsight_mini"
     kind: Literal["gelsight_mini"] = "gelsight_mini"
     device: int | str | None = None
     video: Path | None = None
@@ -64,19 +65,13 @@ class GelSightSettings(SettingsBase):
 
     @property
     def is_camera(self) -> bool:
-        """Whether the frames come from a camera, not from a recording."""
         return self.device is not None
 
     @property
     def source(self) -> str:
-        """Name of the frames' source, for messages."""
         if self.device is not None:
             return f"camera {self.device}"
         return f"video {self.video}" if self.video is not None else f"images in {self.images}"
-
-    @property
-    def sensor_name(self) -> str:
-        return "gelsight_mini"
 
     @property
     def is_live(self) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -22,6 +22,7 @@ class RecordedSettings(SettingsBase):
         repeat: Start again at the end; otherwise the end is an error.
     """
 
+    is_live: ClassVar[bool] = False
     kind: Literal["recorded"] = "recorded"
     path: Path
     sensor: str = Field(default="gelsight_mini", min_length=1)
@@ -32,7 +33,3 @@ class RecordedSettings(SettingsBase):
     @property
     def sensor_name(self) -> str:
         return self.sensor
-
-    @property
-    def is_live(self) -> bool:
-        return False

@@ -1,7 +1,4 @@
-"""Open and check the serial taxel array of a rig's file.
-
-Not here: reading it (``sensor``), its settings (``settings``).
-"""
+"""Open and check the serial taxel array of a rig's file."""
 
 from __future__ import annotations
 

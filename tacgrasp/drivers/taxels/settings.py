@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -23,6 +23,7 @@ class TaxelSettings(SettingsBase):
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
+    is_live: ClassVar[bool] = True
     kind: Literal["taxels"] = "taxels"
     port: str = Field(min_length=1)
     baud: int = Field(default=921_600, ge=9600, le=12_000_000, strict=True)
@@ -34,7 +35,3 @@ class TaxelSettings(SettingsBase):
     @property
     def sensor_name(self) -> str:
         return self.sensor
-
-    @property
-    def is_live(self) -> bool:
-        return True

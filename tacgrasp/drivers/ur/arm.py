@@ -21,7 +21,7 @@ from primitives.devices import Pose
 from primitives.errors import LimitError, RobotError
 from tacgrasp.drivers.ur.dashboard import CONFIRMED, Dashboard, stop_from_outside
 from tacgrasp.drivers.ur.motion_limits import expected_duration_s, nearest_rotvec, refusal
-from tacgrasp.drivers.ur.preflight import check, preflight
+from tacgrasp.drivers.ur.preflight import preflight
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     MOTION,
@@ -34,8 +34,6 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerState,
 )
 from tacgrasp.drivers.ur.worker_process import POLL_S, WorkerProcess
-
-__all__ = ["ArmTiming", "UrArm", "check", "connect_arm"]
 
 log = logging.getLogger(__name__)
 
@@ -93,8 +91,6 @@ class UrArm:
     @property
     def fault(self) -> str:
         return self._fault
-
-    # -- Arm -------------------------------------------------------------------------------------
 
     def pose(self) -> Pose:
         return self._as_pose(self._state())
@@ -154,8 +150,6 @@ class UrArm:
             self._worker = None
             self._fault = self._fault or "the UR arm is disconnected"
 
-    # -- operator --------------------------------------------------------------------------------
-
     def reset(self, *, unlock_protective_stop: bool = False) -> None:
         """Start again after a fault; only for an operator who has looked at the arm.
 
@@ -202,11 +196,9 @@ class UrArm:
             if self._worker is None:
                 raise RobotError("the UR arm is not connected")
             return ArmTiming(
-                period=self._worker.distribution(PERIOD),
-                command_to_motion=self._worker.distribution(MOTION),
+                period=self._worker.block.distribution(PERIOD),
+                command_to_motion=self._worker.block.distribution(MOTION),
             )
-
-    # -- commands and state ----------------------------------------------------------------------
 
     def _new_command(
         self,

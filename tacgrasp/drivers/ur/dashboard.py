@@ -3,7 +3,6 @@
 Used before the library is loaded, and to stop an arm that the library has lost. The library holds
 the interpreter while it connects: a controller that accepts a connection and stays silent would
 freeze this process.
-Not here: the checks of a controller (``preflight``), commands that move.
 
 Source: Universal Robots' dashboard server documentation and RTDE guide, protocol version 2.
 """
@@ -87,7 +86,6 @@ class Dashboard:
     """
 
     def __init__(self, host: str, timeout_s: float = TIMEOUT_S) -> None:
-        """Connect and read the greeting."""
         self._connection = _Connection(host, DASHBOARD_PORT, "UR dashboard", timeout_s)
         self._text = b""
         try:
@@ -102,7 +100,6 @@ class Dashboard:
             raise
 
     def ask(self, line: str) -> str:
-        """Send a line and return the answer."""
         self._connection.send(line.encode() + b"\n")
         return self._read()
 
@@ -129,7 +126,6 @@ class Rtde:
     """
 
     def __init__(self, host: str) -> None:
-        """Connect and agree on the protocol."""
         self._connection = _Connection(host, RTDE_PORT, "UR RTDE port", TIMEOUT_S)
         self._buffer = bytearray()
         self._layout = struct.Struct(">")
@@ -166,7 +162,6 @@ class Rtde:
         return [name for name in names if name not in self._sizes]
 
     def start(self) -> None:
-        """Start the stream."""
         if self._ask("S", b"") != b"\x01":
             raise RobotError("the controller does not start its RTDE stream")
 

@@ -50,7 +50,7 @@ class OwnerGoneError(Exception):
     """The owner's process has vanished, or has sent the command to end."""
 
 
-@dataclass(slots=True, kw_only=True)
+@dataclass(slots=True)
 class ActiveCommand:
     """The running move or stop.
 
@@ -151,8 +151,6 @@ class Supervisor:
             self._data_s = now_s
         self._sample = sample
 
-    # -- commands --------------------------------------------------------------------------------
-
     def _wait_until_due(self, due_s: float) -> None:
         """Carry out commands, and watch for the start of a motion, until the next round."""
         while (remaining_s := due_s - time.monotonic()) > 0:
@@ -191,22 +189,15 @@ class Supervisor:
         duration_s = expected_duration_s(command, self._sample.pose)
         duration_s /= max(0.01, self._sample.speed_fraction)
         has_motion = distance_m(command.pose, self._sample.pose) > 1e-3
-        self._active = ActiveCommand(
-            number=command.number,
-            target=command.pose,
-            operation=self._link.operation()[0],
-            until_s=time.monotonic() + duration_s + self._settings.move_margin_s,
-            sent_s=command.sent_s if has_motion else None,
-        )
+        operation = self._link.operation()[0]
+        until_s = time.monotonic() + duration_s + self._settings.move_margin_s
+        self._active = ActiveCommand(command.number, command.pose, operation, until_s)
+        self._active.sent_s = command.sent_s if has_motion else None
         self._link.move(command.pose, command.speed_m_s, command.acceleration_m_s2)
 
     def _stop(self, command: CommandRecord) -> None:
-        self._active = ActiveCommand(
-            number=command.number,
-            target=None,
-            operation=self._link.operation()[0],
-            until_s=time.monotonic() + STOP_S,
-        )
+        operation = self._link.operation()[0]
+        self._active = ActiveCommand(command.number, None, operation, time.monotonic() + STOP_S)
         self._link.stop()
 
     def _count_motion_start(self, active: ActiveCommand) -> None:
@@ -246,8 +237,6 @@ class Supervisor:
         self._active = None if outcome is not CommandOutcome.REFUSED else self._active
         self.state.done, self.state.outcome, self.state.text = number, outcome, text
         self.publish(time.monotonic())
-
-    # -- ends ------------------------------------------------------------------------------------
 
     def brake(self) -> str:
         """Stop the arm by the library, if its link stands; returns the method, empty for none."""

@@ -1,7 +1,4 @@
-"""The UR arm's worker process, seen from its owner: start, commands, state, end. All waits bounded.
-
-Not here: the reaction to a fault (``arm``), the inside of the process (``worker``).
-"""
+"""The UR worker process as its owner sees it: start, commands, state, end. All waits bounded."""
 
 from __future__ import annotations
 
@@ -17,7 +14,6 @@ from primitives.errors import RobotError
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     CommandRecord,
-    Distribution,
     SharedStateBlock,
     WorkerPhase,
     WorkerState,
@@ -34,25 +30,26 @@ class WorkerProcess:
 
     Attributes:
         pid: Id of the process.
+        block: Its shared memory.
     """
 
     def __init__(self, settings: UrSettings) -> None:
         """Start the process; ``await_ready`` waits until it supervises the arm."""
         self._settings = settings
-        self._block = SharedStateBlock()
-        self._block.write(WorkerState(text="starting Python", beat_s=time.monotonic()))
+        self.block = SharedStateBlock()
+        self.block.write(WorkerState(text="starting Python", beat_s=time.monotonic()))
         self._output = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the worker
         packages = str(Path(__file__).resolve().parents[3])
         path = os.pathsep.join(filter(None, [packages, os.environ.get("PYTHONPATH", "")]))
         self._process = subprocess.Popen(
             [
-                sys.executable, "-m", "tacgrasp.drivers.ur.worker", str(self._block.fd),
+                sys.executable, "-m", "tacgrasp.drivers.ur.worker", str(self.block.fd),
                 settings.model_dump_json(),
             ],
             stdin=subprocess.PIPE,
             stdout=self._output,
             stderr=self._output,
-            pass_fds=(self._block.fd,),
+            pass_fds=(self.block.fd,),
             env=os.environ | {"PYTHONPATH": path, "OMP_NUM_THREADS": "1"},
             start_new_session=True,  # a Ctrl-C in the terminal is for the owner alone
         )  # fmt: skip
@@ -99,12 +96,9 @@ class WorkerProcess:
             RobotError: No whole state, or the memory was freed by another thread.
         """
         try:
-            return self._block.read()
+            return self.block.read()
         except ValueError:
             raise RobotError("the UR arm is disconnected") from None
-
-    def distribution(self, counter: int) -> Distribution:
-        return self._block.distribution(counter)
 
     @property
     def has_ended(self) -> bool:
@@ -120,7 +114,6 @@ class WorkerProcess:
             self._process.wait(seconds)
 
     def kill(self) -> None:
-        """Kill the process if it has not ended. Idempotent."""
         if not self.has_ended:
             self._process.kill()
             self.wait(KILL_WAIT_S)
@@ -138,4 +131,4 @@ class WorkerProcess:
                 self._process.stdin.close()
         self.kill()
         self._output.close()
-        self._block.close()
+        self.block.close()

@@ -17,8 +17,7 @@ def failure_sections(groups: Groups, failures: Sequence[Failures]) -> Iterator[P
     yield from _confused_shapes(groups)
     if failures:
         yield _cases(failures)
-    for each in failures:
-        yield _classes(each)
+    yield from map(_classes, failures)
 
 
 def _confused_shapes(groups: Groups) -> Iterator[PageSection]:

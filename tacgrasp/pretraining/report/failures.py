@@ -15,7 +15,6 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import ClassVar
 
-import torch
 from PIL import Image
 from torch import Tensor
 
@@ -165,23 +164,17 @@ class _Finder:
         self, dimension: str, name: str, among: Tensor, wrong: Tensor, examples: int
     ) -> FailureCount:
         rows = wrong.nonzero()[:, 0]
-        scores = self._scores[dimension][rows].amax(dim=1) if len(rows) else torch.zeros(0)
-        ranked = rows[scores.argsort(descending=True, stable=True)]
-        chosen = self._one_of_each_press(ranked.tolist())[:examples]
+        scores = self._scores[dimension][rows].amax(dim=1)
+        first: dict[int, int] = {}  # a press is a series of contacts that look alike
+        for row in rows[scores.argsort(descending=True, stable=True)].tolist():
+            first.setdefault(int(self._data.column("series")[int(self._encoded.index[row])]), row)
         return FailureCount(
             dimension=dimension,
             name=name,
             contacts=int(among.sum()),
             wrong=int(wrong.sum()),
-            examples=[self._failure(dimension, row) for row in chosen],
+            examples=[self._failure(dimension, row) for row in list(first.values())[:examples]],
         )
-
-    def _one_of_each_press(self, rows: Sequence[int]) -> list[int]:
-        """The first row of each press: a press is a series of contacts that look alike."""
-        first: dict[int, int] = {}
-        for row in rows:
-            first.setdefault(int(self._data.column("series")[int(self._encoded.index[row])]), row)
-        return list(first.values())
 
     def _failure(self, dimension: str, row: int) -> Failure:
         names, index = CLASSES[dimension], int(self._encoded.index[row])

@@ -21,11 +21,7 @@ def bars(groups: Groups) -> Iterator[PagePlot]:
     """Every method, dimension by dimension, with the paper's figures as lines."""
     for table in _TABLES:
         for split in COLUMNS:
-            rows = {
-                (method, variant): same
-                for (of_table, method, variant, of_split), same in groups.items()
-                if (of_table, of_split) == (table, split)
-            }
+            rows = {k[1:3]: same for k, same in groups.items() if (k[0], k[3]) == (table, split)}
             if rows:
                 yield _bars(rows, table, split)
 

@@ -36,13 +36,9 @@ def rankings(groups: Groups) -> Iterator[MethodRanking]:
                 values = {m: measured.get(m, {}).get(split, {}).get(dimension) for m in methods}
                 ours = {method: value for method, value in values.items() if value is not None}
                 if len(paper) == len(ours) == len(methods):
-                    yield MethodRanking(
-                        title=title,
-                        split=split,
-                        dimension=dimension,
-                        paper=sorted(paper, key=lambda m: -paper[m]),
-                        ours=sorted(ours, key=lambda m: -ours[m]),
-                    )
+                    papers = sorted(paper, key=lambda m: -paper[m])
+                    ranked = sorted(ours, key=lambda m: -ours[m])
+                    yield MethodRanking(title, split, dimension, papers, ranked)
 
 
 def ranking_section(groups: Groups) -> PageSection:

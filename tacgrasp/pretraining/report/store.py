@@ -7,7 +7,6 @@ be made later from results alone, and is refused where they were measured on dif
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -17,7 +16,6 @@ from pydantic import TypeAdapter
 
 from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
-from cltp.evaluation.scores import ClassScores
 from cltp.tactile.states import CLASSES
 from cltp.train.methods import METHODS
 from tacgrasp.base.errors import UsageError
@@ -178,11 +176,6 @@ def load_results(folder: Path) -> list[Result]:
             "measure again or keep them in folders of their own"
         )
     return results
-
-
-def percent(scores: ClassScores) -> dict[str, float | None]:
-    """Accuracies in %; None where there is no number."""
-    return {name: None if math.isnan(v) else 100 * v for name, v in scores.accuracy.items()}
 
 
 Key = tuple[str, str, str, str]

@@ -20,17 +20,6 @@ TABLE_TITLES = {
     "retrieval": "Retrieval: captions and contacts of a whole split, % found",
 }
 
-UNITS = {
-    "depth_mm": "depth mm",
-    "position_mm": "position mm",
-    "area_percent": "area %",
-    "force_percent": "force %",
-    "coverage_depth": "inside: depth",
-    "coverage_position": "inside: position",
-    "coverage_area": "inside: area",
-    "coverage_force": "inside: force",
-}
-
 _DIMENSIONS = " / ".join(CLASSES)
 
 
@@ -103,7 +92,8 @@ def _detail(table: str, split: str, about: str, groups: Groups) -> PageSection:
     first = next(iter(groups.values()))[0]
     columns = list(first.values)
     has_paper = any((table, method, split) in PAPER for method in TITLES)
-    head = ["", *(UNITS.get(c, c.replace("_", " ")) for c in columns)]
+    names = (name.replace("coverage_", "inside: ").replace("percent", "%") for name in columns)
+    head = ["", *(name.replace("_", " ") for name in names)]
     if has_paper:
         head += [f"paper: {slot}" for slot in CLASSES]
     head += ["encoder", "steps × batch", "seeds"]

@@ -226,10 +226,10 @@ def test_contacts_and_captions_find_each_other(towers: Towers) -> None:
     nothing = torch.zeros(9, 5)
     encoded = EncodedContacts(feature, feature, nothing.long(), nothing, torch.arange(9))
     found = score_retrieval(towers, encoded, captions)
-    assert found.captions == len(set(captions))
-    assert found.contact_to_text[1] == found.text_to_contact[1] == 1.0
+    assert found["captions"] == len(set(captions))
+    assert found["contact_to_text_1"] == found["text_to_contact_1"] == 100.0
     turned = EncodedContacts(feature, feature.roll(1, 0), nothing.long(), nothing, torch.arange(9))
-    assert score_retrieval(towers, turned, captions).contact_to_text[1] < 0.5
+    assert score_retrieval(towers, turned, captions)["contact_to_text_1"] < 50
     assert nearest_contacts(towers, encoded, captions[3], 1)[0][0] == captions.index(captions[3])
     assert nearest_texts(towers, feature[5], sorted(set(captions)), 2)[0][0] == captions[5]
     assert np.isclose(nearest_texts(towers, feature[5], captions, 1)[0][1], 1.0, atol=1e-4)

@@ -8,15 +8,15 @@ import torch
 from scipy.ndimage import maximum_filter, minimum_filter
 
 from sim.objects.faces import Cell, Form
-from sim.tcl3d.contact_geometry import ContactGeometry
-from sim.tcl3d.labels import CLOSING_MM, in_contact
-from sim.tcl3d.masks import (
+from sim.tcl3d.contact_geometry import (
+    ContactGeometry,
     border_fraction,
     bounding_rectangle,
     count_enclosed_points,
     count_pieces,
     slopes,
 )
+from sim.tcl3d.labels import CLOSING_MM, in_contact
 
 PITCH = 0.2
 

@@ -6,8 +6,8 @@ import pytest
 import torch
 
 from sim.gel.fine import fine
-from sim.gel.fine.boxes import Box, boxes_around
 from sim.gel.fine.fine import FineLayer
+from sim.gel.fine.levels import Box, GridLevel, boxes_around
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
 
@@ -59,11 +59,11 @@ def test_rigid_bodies_are_felt_as_on_the_whole_grid():
 def test_soft_bodies_are_felt_as_on_the_whole_grid():
     modulus = torch.tensor([0.23, 0.6])
     gap = torch.cat([ball(15.0), ball(6.0, 3.0, 2.0)])
-    force = torch.tensor([1.5, 0.8])
+    depth = torch.tensor([0.9, 0.7])
     short, whole = layers(body_modulus_mpa=modulus)
-    fine_press, truth = short.press_to_force(gap, force), whole.press_to_force(gap, force, tol=1e-6)
-    assert torch.allclose(fine_press.force_n, force, rtol=1e-5)
-    assert torch.allclose(fine_press.depth_mm, truth.depth_mm, rtol=2e-3)
+    fine_press, truth = short.press_to_depth(gap, depth), whole.press_to_depth(gap, depth, tol=1e-6)
+    assert torch.allclose(fine_press.force_n, truth.force_n, rtol=2e-3)
+    assert torch.equal(fine_press.depth_mm, depth)
     error = (fine_press.height_mm - truth.height_mm).abs()
     assert error.max() < 4e-3
     assert error.square().mean((1, 2)).sqrt().max() < 5e-4
@@ -87,13 +87,20 @@ def test_a_contact_is_the_same_bit_for_bit_in_any_company():
         assert torch.equal(single.pressure_kpa[0], batch.pressure_kpa[k])
 
 
-def test_a_press_of_rising_force_starts_from_the_one_before():
-    short, _ = layers(body_modulus_mpa=0.23)
-    before = short.press_to_force(ball(15.0), 1.0)
-    warm = short.press_to_force(ball(15.0), 1.3, start=before)
-    cold = short.press_to_force(ball(15.0), 1.3)
-    assert torch.allclose(warm.height_mm, cold.height_mm, atol=2e-3)
-    assert warm.force_n.item() == pytest.approx(1.3, rel=1e-5)
+@pytest.mark.parametrize("modulus", [None, torch.tensor([0.23, 0.6, 0.4])])
+def test_boxes_of_one_size_solved_together_give_what_each_gives_alone(modulus):
+    gap = torch.cat([ball(15.0), ball(6.0, 3.0, 2.0), ball(9.0, -2.0)])
+    depth, start = torch.tensor([0.5, 0.4, 0.3]), torch.zeros_like(gap)
+    boxes = [Box(top=20, left=20, rows=80, columns=120)] * 2
+    boxes.append(Box(top=0, left=0, rows=ROWS, columns=COLUMNS))
+    level = GridLevel(layer=layers()[1], moduli_mpa=modulus)
+    gap, start = gap.clamp(max=50.0).float(), start.float()
+    single = level._solve_single(boxes, gap, depth, start)
+    batches = level._solve_batches(boxes, gap, depth, start)
+    assert batches.converged.all()
+    assert torch.equal(batches.approach_mm, depth)
+    forces = [p.pressure_mpa.sum((1, 2)) for p in (single, batches)]
+    assert torch.allclose(*forces, rtol=2e-3)
 
 
 def test_a_contact_that_leaves_its_box_is_solved_on_the_whole_field(monkeypatch):
@@ -131,9 +138,8 @@ def test_a_body_that_barely_touches_or_does_not_is_pressed_as_it_is():
 
 
 def test_nothing_over_the_field_carries_no_force():
-    press = layers()[0].press_to_force(torch.full((1, ROWS, COLUMNS), torch.inf), 1.0)
+    press = layers()[0].press_to_depth(torch.full((1, ROWS, COLUMNS), torch.inf), 1.0)
     assert press.force_n.item() == 0
-    assert math.isinf(press.depth_mm.item())
     assert (press.height_mm == 0).all()
 
 
@@ -153,8 +159,6 @@ def test_bad_input_is_refused_by_name():
         layers()[0].press_to_depth(torch.zeros(1, 5, 5), 0.1)
     with pytest.raises(ValueError, match="body_modulus_mpa"):
         layers(body_modulus_mpa=-1.0)
-    with pytest.raises(ValueError, match="start"):
-        layers()[0].press_to_depth(ball(3.0), 0.1, start=torch.zeros(3, ROWS, COLUMNS))
     with pytest.raises(ValueError, match="2 bodies"):
         layers(body_modulus_mpa=torch.tensor([0.1, 0.2]))[0].press_to_depth(ball(3.0), 0.1)
 

@@ -268,7 +268,7 @@ def test_a_program_that_dies_leaves_the_grip_and_the_next_one_goes_on(servos, lo
     dead = servos.gripper()
     dead.grip(1.0)
     dead._fingers.poller.close()  # as after kill -9: nothing is said any more, the port is freed
-    dead._fingers._bus.close()
+    dead._fingers.bus.close()
     assert eventually(lambda: servos.emulator.facts()["bus_watchdog"] == reg.WATCHDOG_TRIPPED)
     assert servos.emulator.facts()["force_n"] == pytest.approx(1.0, abs=0.02)
     assert servos.gripper().open_by(0.005).width_m == pytest.approx(0.065, abs=5e-4)

@@ -20,14 +20,14 @@ from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.ur.child import UrChild
 from tacgrasp.drivers.ur import arm as ur
 from tacgrasp.drivers.ur import rtde_link as ur_link
-from tacgrasp.drivers.ur.arm import UrArm, check, connect_arm
+from tacgrasp.drivers.ur.arm import UrArm, connect_arm
 from tacgrasp.drivers.ur.motion_limits import (
     expected_duration_s,
     nearest_rotvec,
     refusal,
     turn_between_rad,
 )
-from tacgrasp.drivers.ur.preflight import controller_findings, preflight
+from tacgrasp.drivers.ur.preflight import check, controller_findings, preflight
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     PERIOD,
