@@ -1,6 +1,9 @@
 """The application: command line, run configuration, the loop, drivers, episodes, training.
 
 No other package imports it. Importing it loads neither torch nor open3d nor a device's SDK.
+
+May import: cltp, policies, primitives, tacgrasp.base, tacgrasp.config, tacgrasp.episodes,
+tacgrasp.rig, tacgrasp.runtime.
 """
 
 __version__ = "0.1.0"

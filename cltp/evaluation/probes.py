@@ -138,7 +138,7 @@ class ClassProbes:
         return [probe(encoded.pooled).softmax(dim=1) for probe in self._probes]
 
 
-class Interval(NamedTuple):
+class NumberInterval(NamedTuple):
     """Numbers with their intervals, in the units of ``NUMBERS``.
 
     Attributes:
@@ -217,12 +217,14 @@ class NumberProbe:
         return IntervalScale(error.sort(dim=0).values[rank], float(distance.sort().values[rank]))
 
     @torch.no_grad()
-    def intervals(self, encoded: EncodedContacts, scale: IntervalScale) -> Interval:
+    def intervals(self, encoded: EncodedContacts, scale: IntervalScale) -> NumberInterval:
         """Numbers with their intervals."""
         mean, spread = self._mean_and_spread(encoded.pooled)
         reach = spread * scale.numbers
         radius = spread[:, 1:3].norm(dim=1) * scale.position
-        return Interval(restored(mean), restored(mean - reach), restored(mean + reach), radius)
+        return NumberInterval(
+            restored(mean), restored(mean - reach), restored(mean + reach), radius
+        )
 
 
 def _train_member(
@@ -248,7 +250,7 @@ def _mean_and_spread(member: _ScaledMlp, pooled: Tensor) -> tuple[Tensor, Tensor
     return mean, F.softplus(spread - 2) + 1e-3
 
 
-def score_intervals(intervals: Interval, encoded: EncodedContacts) -> dict[str, float]:
+def score_intervals(intervals: NumberInterval, encoded: EncodedContacts) -> dict[str, float]:
     """Median errors, and percent of the true values inside the intervals, of contacts that touch.
 
     Returns:

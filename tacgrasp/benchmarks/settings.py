@@ -82,15 +82,18 @@ class ContactSettings(BenchmarkSettings):
 
     Attributes:
         closings: Number of closings in air, two seconds each.
+        first_seed: First random seed of the closings. The limits of the test were chosen on seeds
+            below 10000.
         bodies: Number of bodies of each kind, two positions each.
     """
 
     closings: int = 1200
+    first_seed: int = 10_000
     bodies: int = 150
 
     def __post_init__(self) -> None:
-        if min(self.closings, self.bodies) < 1:
-            raise UsageError("--closings and --bodies must be at least 1")
+        if min(self.closings, self.bodies) < 1 or self.first_seed < 0:
+            raise UsageError("--closings and --bodies must be at least 1, --first-seed at least 0")
 
 
 @dataclass(frozen=True, kw_only=True)

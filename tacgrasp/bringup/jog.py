@@ -18,6 +18,7 @@ from primitives.devices import Pose
 from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force, clamp_step
 from tacgrasp.console import contact_text
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 
 SPEED_M_S = 0.02
@@ -133,6 +134,7 @@ class Jogger:
         self._rig, self._limits = rig, limits
         self._pad = np.array([axes.x_tcp, axes.y_tcp])
         self._clear_m = clear_mm / 1000
+        self._sense = GelSense(rig.sensor)
 
     def carry_out(self, command: Command) -> str:
         """Carry out a command and return its result as text.
@@ -140,11 +142,14 @@ class Jogger:
         Raises:
             LimitError: The command is beyond the limits; nothing was sent.
             RobotError: A device failed.
+            TouchError: The sensor gave no reference before a grip; nothing was sent.
         """
         if isinstance(command, JogStep):
             return self._step(command)
         if isinstance(command, Grip):
             force = clamp_force(command.force_n, self._limits)
+            if not self._rig.gripper.state().closed:
+                self._sense.take_reference()
             state = self._rig.gripper.grip(force.value)
             note = f" ({force.note})" if force.note else ""
             return f"closed with {force.value:.2f} N at {1000 * state.width_m:.1f} mm{note}"
@@ -159,12 +164,13 @@ class Jogger:
         return "\n".join(HELP) if command is JogAction.HELP else ""
 
     def contact(self) -> str:
-        """Description of the present contact.
+        """Description of the present contact, against the gel before the last closing if any.
 
         Raises:
             TouchError: The sensor failed.
         """
-        return contact_text(contact_state(self._rig.sensor.read()))
+        cloud = self._rig.sensor.read()
+        return contact_text(contact_state(cloud, in_contact=self._sense.in_contact(cloud)))
 
     def _step(self, step: JogStep) -> str:
         start = self._rig.arm.pose()

@@ -19,6 +19,7 @@ from cltp.tactile.measure import contact_state
 from primitives.execution import PadAxes, rotate
 from primitives.limits import Limits, check_workspace, clamp_force
 from tacgrasp.base.errors import UsageError
+from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 
 STEP_MM = 2.0
@@ -86,10 +87,13 @@ def find_pad_axes(
 
 
 def _contact_position(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.float64]:
-    """Close, measure the position of the contact on the pad [mm], and open again."""
+    """Close from open, measure the position of the contact on the pad [mm], and open again."""
+    sense = GelSense(rig.sensor)
+    sense.take_reference()
     rig.gripper.grip(force_n)
     try:
-        state = contact_state(rig.sensor.read())
+        cloud = rig.sensor.read()
+        state = contact_state(cloud, in_contact=sense.in_contact(cloud))
     finally:
         rig.gripper.open_by(clear_mm / 1000)
     if not state.in_contact or state.cut:

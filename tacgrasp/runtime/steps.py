@@ -13,8 +13,7 @@ from typing import Protocol
 
 from cltp import TouchError
 from cltp.tactile.cloud import Stamp, TactileCloud
-from policies import Decision, PolicyError
-from policies import Observation as PolicyObservation
+from policies import Decision, Observation, PolicyError
 from primitives import Primitive
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
@@ -45,7 +44,7 @@ class NoRecorder:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Observation:
+class Readings:
     """Readings of all devices at the start of a step.
 
     Attributes:
@@ -66,9 +65,9 @@ class Observation:
     in_contact: bool | None = None
     felt_force_n: Interval | None = None
 
-    def for_policy(self, t_s: float) -> PolicyObservation:
+    def for_policy(self, t_s: float) -> Observation:
         """What a policy is given of it, ``t_s`` seconds after the start of the episode."""
-        return PolicyObservation(
+        return Observation(
             cloud=self.cloud,
             in_contact=self.in_contact,
             width_m=self.gripper.width_m,
@@ -87,7 +86,7 @@ NOTHING_TOUCHES = Decision(
 """The runtime's own decision without contact, in place of any policy's."""
 
 
-def read_observation(rig: Rig, sense: GelSense | None = None) -> Observation:
+def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
     """Read sensor, arm and gripper, and test for contact.
 
     Raises:
@@ -96,7 +95,7 @@ def read_observation(rig: Rig, sense: GelSense | None = None) -> Observation:
     """
     stamp, started_s = rig.clock.stamp(), time.perf_counter()
     cloud = rig.sensor.read()
-    return Observation(
+    return Readings(
         cloud=cloud,
         tcp_pose=rig.arm.pose(),
         gripper=rig.gripper.state(),
@@ -117,7 +116,7 @@ class Step:
         phase: Part of the episode.
     """
 
-    observation: Observation
+    observation: Readings
     decision: Decision | None = None
     phase: StepPhase = StepPhase.LOOP
 

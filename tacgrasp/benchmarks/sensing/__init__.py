@@ -1,1 +1,5 @@
-"""Benchmarks of the gel, and of what is read from its shape, against truth and real frames."""
+"""Benchmarks of the gel, and of what is read from its shape, against truth and real frames.
+
+May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks,
+tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.lessons, tacgrasp.playback.
+"""

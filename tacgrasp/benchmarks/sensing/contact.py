@@ -50,7 +50,7 @@ GRASPS_PER_BODY = 2
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GraspSample:
+class ContactSample:
     """One position of one body, pressed with each of ``FORCES_N``.
 
     Attributes:
@@ -68,10 +68,10 @@ def run(settings: ContactSettings) -> bool:
     Returns:
         Whether at most ``MAX_FALSE_PER_CLOSING`` of the closings had a false alarm.
     """
-    closings, bodies = settings.closings, settings.bodies
+    closings, first, bodies = settings.closings, settings.first_seed, settings.bodies
     console = Console()
-    ratios = map_seeds(console, "closings in air", largest_ratio, range(closings))
-    figures = false_alarms(ratios)
+    ratios = map_seeds(console, "closings in air", largest_ratio, range(first, first + closings))
+    figures = false_alarms(ratios, first)
     figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
     figures |= {key: {} for key in ("ideal_missed_by_force", "ideal_least_force_n")}
     for name in OBJECTS:
@@ -111,15 +111,17 @@ def _untouched(sensor: SimSensor) -> UntouchedGel:
     return UntouchedGel([sensor.read() for _ in range(NUM_FRAMES)])
 
 
-def false_alarms(ratios: Sequence[float]) -> dict[str, Any]:
+def false_alarms(ratios: Sequence[float], first_seed: int) -> dict[str, Any]:
     """Rates of closings with a false alarm, from the largest ratio of each closing.
 
     Args:
-        ratios: By seed from 0 on.
+        ratios: By seed.
+        first_seed: Seed of the first one.
     """
     alarms = [ratio >= 1 for ratio in ratios]
     of_level = {
-        f"{level:g}": alarms[i :: len(NOISE_LEVELS)] for i, level in enumerate(NOISE_LEVELS)
+        f"{level:g}": alarms[(i - first_seed) % len(NOISE_LEVELS) :: len(NOISE_LEVELS)]
+        for i, level in enumerate(NOISE_LEVELS)
     }
     return {
         "closings": len(alarms),
@@ -133,7 +135,7 @@ def false_alarms(ratios: Sequence[float]) -> dict[str, Any]:
     }
 
 
-def grasp_samples(name: str, seed: int) -> list[GraspSample]:
+def grasp_samples(name: str, seed: int) -> list[ContactSample]:
     """Press one body at some positions of the pad with each of ``FORCES_N``."""
     rig = build(name, seed)
     gel = _untouched(rig.sensor)
@@ -143,7 +145,7 @@ def grasp_samples(name: str, seed: int) -> list[GraspSample]:
         offset_mm = OFFSET_X_MM.quantile(rng.random()), OFFSET_Y_MM.quantile(rng.random())
         patches = rig.grasp.fingers.press_many([offset_mm] * len(FORCES_N), list(FORCES_N))
         samples.append(
-            GraspSample(
+            ContactSample(
                 missed=tuple(not _is_felt(rig, gel, patch) for patch in patches),
                 ideal_missed=tuple(ideal_missed(rig, patch) for patch in patches),
             )

@@ -141,7 +141,7 @@ def test_an_approach_ends_in_time_at_the_first_touch_and_on_nothing(tmp_path: Pa
     assert missed.width_m < CLOSED_WIDTH_M
     assert back.sent.endswith("where something was felt")
     opened = [c for c in commands if c.asked.startswith("open")][-1]
-    assert opened.asked == "open by 110.0 mm"
+    assert opened.asked == "open by 110 mm"
     assert max(touched_s, missed_s, back_s) < APPROACH_S
 
 

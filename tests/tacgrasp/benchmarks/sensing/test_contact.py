@@ -8,7 +8,7 @@ from tacgrasp.benchmarks.sensing import contact
 
 
 def test_false_alarms_are_counted_by_closing_and_by_noise_level():
-    figures = contact.false_alarms([0.5, 1.0, 0.7, 0.6, 0.9, 0.8])
+    figures = contact.false_alarms([0.5, 1.0, 0.7, 0.6, 0.9, 0.8], 0)
     assert figures["false_per_closing"] == pytest.approx(1 / 6)
     assert figures["false_per_closing_by_noise_level"] == {"1": 0.0, "2": 0.5, "3": 0.0}
 
@@ -43,4 +43,4 @@ def test_a_test_that_always_feels_fails_the_benchmark(monkeypatch):
     evidence = type("Evidence", (), {"ratio": 2.0, "in_contact": True})
     monkeypatch.setattr(UntouchedGel, "test", lambda *_: evidence)
     ratios = [contact.largest_ratio(seed) for seed in range(3)]
-    assert contact.false_alarms(ratios)["false_per_closing"] > contact.MAX_FALSE_PER_CLOSING
+    assert contact.false_alarms(ratios, 0)["false_per_closing"] > contact.MAX_FALSE_PER_CLOSING
