@@ -94,7 +94,7 @@ def _jog(keys: Iterator[str], jogger: Jogger, settings: JogSettings, out: Consol
                 return
             try:
                 result = jogger.carry_out(command) if command is not None else "ready"
-            except LimitError as error:
+            except (LimitError, TouchError) as error:  # nothing was sent
                 result = f"refused: {error}"
         try:
             contact = jogger.contact()
