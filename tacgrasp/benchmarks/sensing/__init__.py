@@ -1,5 +1,6 @@
 """Benchmarks of the gel, and of what is read from its shape, against truth and real frames.
 
 May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks,
-tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.lessons, tacgrasp.playback.
+tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.playback,
+tacgrasp.rig.
 """

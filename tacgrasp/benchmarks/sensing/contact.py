@@ -32,6 +32,9 @@ from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import ContactSettings
+from tacgrasp.config.layers import load
+from tacgrasp.rig.factory import make_executor
+from tacgrasp.rig.gel_sense import GelSense
 
 NOISE_LEVELS = (1.0, 2.0, 3.0)
 """Levels of the fine noise that closings in air take in turn; 1 is the measured sensor."""
@@ -74,6 +77,7 @@ def run(settings: ContactSettings) -> bool:
     figures = false_alarms(ratios, first)
     figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
     figures |= {key: {} for key in ("ideal_missed_by_force", "ideal_least_force_n")}
+    figures["approach_peak_n"] = {}
     for name in OBJECTS:
         of_bodies = map_seeds(console, name, partial(grasp_samples, name), range(bodies))
         samples = [sample for of_body in of_bodies for sample in of_body]
@@ -82,6 +86,13 @@ def run(settings: ContactSettings) -> bool:
             by_force = {f"{f:g}": rate for f, rate in zip(FORCES_N, missed, strict=True)}
             figures[f"{prefix}missed_by_force"][name] = by_force
             figures[f"{prefix}least_force_n"][name] = least_force_n(missed)
+        peaks = map_seeds(console, name, partial(approach_peak_n, name), range(bodies))
+        forces_n = [peak_n for peak_n in peaks if peak_n is not None]
+        p50, p99 = np.percentile(forces_n, [50, 99]) if forces_n else (math.nan, math.nan)
+        figures["approach_peak_n"][name] = {
+            "p50": float(p50), "p99": float(p99), "max": max(forces_n, default=math.nan),
+            "not_found": len(peaks) - len(forces_n),
+        }  # fmt: skip
     _print(console, figures, bodies)
     write_figures(settings.json, {"contact": figures})
     return bool(figures["false_per_closing"] <= MAX_FALSE_PER_CLOSING)
@@ -153,6 +164,18 @@ def grasp_samples(name: str, seed: int) -> list[ContactSample]:
     return samples
 
 
+def approach_peak_n(name: str, seed: int) -> float | None:
+    """Largest true force of one approach [N], at the episode's own position and gripper force gain.
+
+    None when nothing was felt.
+    """
+    rig = build(name, seed)
+    config, _ = load(name)
+    sense = GelSense(rig.sensor)
+    make_executor(rig, config, sense).grasp()
+    return rig.truth().peak_force_n if sense.read_contact() else None
+
+
 def _is_felt(rig: SimRig, gel: UntouchedGel, patch: Patch) -> bool:
     rig.grasp.contacts += 1  # a reconstruction error of its own
     rig.grasp.patch = patch
@@ -213,4 +236,9 @@ def _print(console: Console, figures: dict[str, Any], bodies: int) -> None:
             cells = [f"{100 * rate:.0f} %" for rate in rates]
             table.add_row(words, *cells, "none" if least is None else f"{least:g} N")
     console.print(table)
+    for name, peak in figures["approach_peak_n"].items():
+        console.print(
+            f"approach to a {name}: true force at first touch {peak['p50']:.2f} N in the median, "
+            f"{peak['max']:.2f} N at most; {peak['not_found']} of {bodies} not found"
+        )
     console.print(f"least force: at most {100 * MAX_MISSED:g} % are missed at it and above")
