@@ -8,7 +8,6 @@ since baselines are compared and not shipped.
 from __future__ import annotations
 
 import dataclasses
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -19,17 +18,17 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from cltp.checkpoints.tac3d_llm import load_encoder
+from cltp.checkpoints.tac3d_llm import load_encoder, random_encoder
 from cltp.checkpoints.weight_files import (
     CONFIG,
     WeightsError,
+    digest,
     load_weights,
     read_config,
     save_weights,
 )
 from cltp.data.sampler import Augmentation, Batch
-from cltp.encoder.encoder import EncoderConfig, TactileEncoder
-from cltp.errors import TouchError
+from cltp.encoder.encoder import TactileEncoder
 from cltp.tactile.point_layout import Sampling
 from cltp.tactile.render import render
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
@@ -84,11 +83,11 @@ class Frozen:
 
     @property
     def sees_images(self) -> bool:
-        return self.encoder.config.takes_images
+        return self.encoder.config.variant.takes_images
 
     @property
     def sampling(self) -> Sampling:
-        return self.encoder.config.sampling
+        return self.encoder.config.variant.sampling
 
     @torch.inference_mode()
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
@@ -102,10 +101,8 @@ class Frozen:
 
 def frozen(encoder: TactileEncoder) -> Frozen:
     """Freeze an encoder."""
-    total = hashlib.sha256(encoder.config.identity.encode())
-    for name, value in sorted(encoder.state_dict().items()):
-        total.update(name.encode() + value.cpu().contiguous().numpy().tobytes())
-    return Frozen(encoder.eval().requires_grad_(False), total.hexdigest())
+    checksum = digest(encoder.state_dict(), encoder.config.identity)
+    return Frozen(encoder.eval().requires_grad_(False), checksum)
 
 
 def save_frozen(folder: Path, encoder: TactileEncoder, method: str) -> None:
@@ -125,10 +122,7 @@ def load_frozen(folder: Path) -> Frozen:
     config = read_config(folder / CONFIG)
     if config.get("format") != FORMAT:
         return frozen(load_encoder(folder)[0])
-    try:
-        encoder = TactileEncoder(EncoderConfig(**config["encoder"]))
-    except (KeyError, TypeError, TouchError) as error:
-        raise WeightsError(f"{folder}/{CONFIG} describes no encoder: {error}") from error
+    encoder = random_encoder(folder, config)
     load_weights(folder, encoder)
     return frozen(encoder)
 

@@ -18,7 +18,7 @@ import os
 import shutil
 from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from torch import nn
 
@@ -40,9 +40,6 @@ from cltp.llm.stored_lm import load_stored_lm
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.point_layout import EVEN
 from cltp.texts.tokenizer import Words
-
-if TYPE_CHECKING:
-    from transformers import CLIPModel
 
 VERSION = 1
 PROJECTOR_VERSION = 2
@@ -68,13 +65,22 @@ def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
         WeightsError: Missing, damaged, or of another shape.
     """
     config = _config(folder)
-    try:
-        encoder = TactileEncoder(EncoderConfig(**config["encoder"]))
-    except (KeyError, TypeError, TouchError) as error:
-        raise WeightsError(f"{folder}/config.json describes no encoder: {error}") from error
+    encoder = random_encoder(folder, config)
     heads = StateHeads(2 * encoder.config.dim)
     load_weights(folder, _EncoderWithHeads(encoder, heads))
     return encoder, heads
+
+
+def random_encoder(folder: Path, config: Mapping[str, Any]) -> TactileEncoder:
+    """The encoder that a folder's configuration describes, with random weights.
+
+    Raises:
+        WeightsError: It describes none.
+    """
+    try:
+        return TactileEncoder(EncoderConfig(**config["encoder"]))
+    except (KeyError, TypeError, TouchError) as error:
+        raise WeightsError(f"{folder}/{CONFIG} describes no encoder: {error}") from error
 
 
 def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
@@ -84,17 +90,12 @@ def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
         WeightsError: As there, or the encoder takes points that lie otherwise.
     """
     encoder, heads = load_encoder(folder)
-    if encoder.config.sampling != EVEN:
+    if encoder.config.variant.sampling != EVEN:
         raise WeightsError(
             f"the encoder in {folder} takes points as {encoder.config.tokenizer!r} lays them out; "
             "clouds of sensors have 1024, evenly: train one with another preset"
         )
     return encoder, heads
-
-
-def save_clip(folder: Path, clip: CLIPModel, words: Words) -> None:
-    """Write a CLIP in transformers' layout, beside its tokenizer."""
-    _save_pretrained(folder, clip, words)
 
 
 def load_clip(folder: Path) -> Towers:
@@ -119,7 +120,7 @@ def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
         "tokenizer_sha256": words.fingerprint(),
     }
     _save(folder / "projector", config, model.projector)
-    _save_pretrained(folder / "lm", model.lm, words)
+    save_pretrained(folder / "lm", model.lm, words)
 
 
 def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
@@ -179,14 +180,12 @@ def write_card(folder: Path, facts: Mapping[str, str]) -> None:
 
 def _save(folder: Path, config: Mapping[str, Any], module: nn.Module) -> None:
     state = module.state_dict()
-    save_weights(
-        folder,
-        config,
-        {name: v.half() if v.is_floating_point() else v for name, v in state.items()},
-    )
+    halved = {name: v.half() if v.is_floating_point() else v for name, v in state.items()}
+    save_weights(folder, config, halved)
 
 
-def _save_pretrained(folder: Path, model: Any, words: Words) -> None:
+def save_pretrained(folder: Path, model: Any, words: Words) -> None:
+    """Write a model in transformers' layout, beside its tokenizer."""
     part = folder.with_name(f"{folder.name}.{os.getpid()}.part")
     state = {name: value.clone() for name, value in model.state_dict().items()}
     model.half().save_pretrained(part)

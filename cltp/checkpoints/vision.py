@@ -7,16 +7,15 @@ ImageBind), which have to be converted first. The encoder is frozen and takes ou
 
 from __future__ import annotations
 
-import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from cltp.checkpoints.weight_files import CONFIG, WeightsError, read_config, require_finite
+from cltp.checkpoints.weight_files import CONFIG, WeightsError, digest, read_config, require_finite
 from cltp.data.sampler import Batch
 from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
@@ -44,14 +43,8 @@ class VisionCheckpoint:
     mean: Tensor
     std: Tensor
     sha256: str
-
-    @property
-    def sees_images(self) -> bool:
-        return True
-
-    @property
-    def sampling(self) -> Sampling:
-        return EVEN
+    sees_images: ClassVar[bool] = True
+    sampling: ClassVar[Sampling] = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
         """As ``cltp.checkpoints.frozen.Frozen.encode``; it can't do without frames.
@@ -106,11 +99,9 @@ def load_vision_checkpoint(folder: Path) -> VisionCheckpoint:
         error_class=WeightsError,
     )
     mean, std = _pixels(folder)
-    total = hashlib.sha256(f"{mean.tolist()} {std.tolist()}".encode())
     require_finite(folder, model.state_dict())
-    for name, value in sorted(model.state_dict().items()):
-        total.update(name.encode() + value.contiguous().numpy().tobytes())
-    return VisionCheckpoint(model.eval().requires_grad_(False), mean, std, total.hexdigest())
+    checksum = digest(model.state_dict(), f"{mean.tolist()} {std.tolist()}")
+    return VisionCheckpoint(model.eval().requires_grad_(False), mean, std, checksum)
 
 
 def _pixels(folder: Path) -> tuple[Tensor, Tensor]:

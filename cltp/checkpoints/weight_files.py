@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Mapping
 from pathlib import Path
@@ -61,6 +62,14 @@ def load_weights(folder: Path, module: nn.Module) -> None:
         reason = str(error).splitlines()[0]
         raise WeightsError(f"{path} is damaged or does not match its config: {reason}") from error
     require_finite(path, module.state_dict())
+
+
+def digest(state: Mapping[str, Tensor], text: str = "") -> str:
+    """SHA-256 of a text and of named tensors in the order of their names."""
+    total = hashlib.sha256(text.encode())
+    for name in sorted(state):
+        total.update(name.encode() + state[name].cpu().contiguous().numpy().tobytes())
+    return total.hexdigest()
 
 
 def require_finite(source: Path, state: Mapping[str, Tensor]) -> None:

@@ -75,7 +75,6 @@ class Sampler:
         sampling: Layout of the points.
         moved: Fraction of contacts that are shifted and turned on the pad
             (``cltp.data.placement``).
-        shuffle_labels: Gives each contact the label of another: a control that must not learn.
     """
 
     def __init__(
@@ -86,12 +85,8 @@ class Sampler:
         seed: int = 0,
         sampling: Sampling = EVEN,
         moved: float = 0.0,
-        shuffle_labels: bool = False,
     ) -> None:
         self.dataset, self.sampling, self.moved = dataset, sampling, moved
-        self._label = np.arange(len(dataset))
-        if shuffle_labels:
-            self._label = np.random.default_rng([seed, 99]).permutation(len(dataset))
         self.augmentation = augmentation or Augmentation()
         self.seed = seed
         self._orders: dict[int, NDArray[np.int64]] = {}
@@ -108,7 +103,7 @@ class Sampler:
             sensor = sensor_named(self.dataset.column("sensor")[index])
             height_mm = self.dataset.height_mm(int(index))
             height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
-            state = self.dataset.state(int(self._label[index]))
+            state = self.dataset.state(int(index))
             state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
             if is_moved:
                 placement = draw_placement(height_mm, state, sensor, rng)

@@ -90,12 +90,10 @@ class StockTokens:
         self.bos = int(config.bos_token_id if first is None else first)
         self.eos = int(config.eos_token_id if last is None else last)
         self.pad = self.eos
+        self.has_ends = first is not None and last is not None
 
     def encode(self, text: str) -> list[int]:
         return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
-
-    def __contains__(self, token: str) -> bool:
-        return self._tokenizer.token_to_id(token) is not None
 
     def fingerprint(self) -> str:
         return hashlib.sha256(self._tokenizer.to_str().encode()).hexdigest()
@@ -168,15 +166,10 @@ def load_towers(folder: Path) -> Towers:
     from transformers import CLIPModel
 
     clip = load_strictly(CLIPModel, folder, "CLIP")
-    return Towers(clip, _tokens_of(folder, clip.config.text_config))
-
-
-def _tokens_of(folder: Path, config: Any) -> Tokens:
-    """Our tokenizer, or that of a stock checkpoint."""
     try:
-        return Words.load(folder)
+        return Towers(clip, Words.load(folder))
     except TouchError:
-        stock = StockTokens(folder, config)
-        if all(token in stock for token in STOCK_ENDS):
-            return stock
+        stock = StockTokens(folder, clip.config.text_config)
+        if stock.has_ends:
+            return Towers(clip, stock)
         raise

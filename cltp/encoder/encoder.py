@@ -50,9 +50,7 @@ class EncoderVariant:
 
 def _lattice(sampling: Sampling, presets: Mapping[str, Sizes]) -> EncoderVariant:
     return EncoderVariant(
-        build=lambda c: LatticeTokenizer(
-            c.dim, c.stem_dim, c.stem_blocks, c.num_groups, c.sampling
-        ),
+        build=lambda c: LatticeTokenizer(c.dim, c.stem_dim, c.stem_blocks, c.num_groups, sampling),
         presets=presets,
         sampling=sampling,
         group_counts=(16, 64, 256),
@@ -166,16 +164,6 @@ class EncoderConfig:
         return VARIANTS[self.tokenizer]
 
     @property
-    def sampling(self) -> Sampling:
-        """How the points lie that the encoder takes."""
-        return self.variant.sampling
-
-    @property
-    def takes_images(self) -> bool:
-        """Whether the encoder takes rendered frames instead of points."""
-        return self.variant.takes_images
-
-    @property
     def identity(self) -> str:
         """All sizes in one line; unchanged for encoders that are older than ``grades``."""
         return f"{self} grades {self.grades}" if self.grades else str(self)
@@ -221,7 +209,7 @@ class TactileEncoder(nn.Module):
         self.bearing = None
         if config.bearing:
             self.bearing = HeightQuantiles(
-                dim, config.bearing, grades=config.grades, sampling=config.sampling
+                dim, config.bearing, grades=config.grades, sampling=config.variant.sampling
             )
         self.blocks = nn.ModuleList(
             TransformerBlock(dim, config.heads) for _ in range(config.depth)

@@ -41,13 +41,8 @@ class Targets(NamedTuple):
 
 def targets(states: Sequence[ContactState]) -> Targets:
     """Targets of labelled states."""
-    classes = [
-        [
-            IGNORED if (word := getattr(state, slot)) is None else names.index(word)
-            for slot, names in CLASSES.items()
-        ]
-        for state in states
-    ]
+    words = [[(names, getattr(s, slot)) for slot, names in CLASSES.items()] for s in states]
+    classes = [[IGNORED if w is None else names.index(w) for names, w in row] for row in words]
     numbers = torch.tensor([[getattr(s, n) for n in NUMBERS] for s in states], dtype=torch.float32)
     return Targets(
         classes=torch.tensor(classes),

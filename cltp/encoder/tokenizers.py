@@ -63,12 +63,7 @@ class LatticeTokenizer(nn.Module):
     CELLS = 16
 
     def __init__(
-        self,
-        dim: int,
-        stem_dim: int,
-        blocks: int,
-        num_groups: int = 64,
-        sampling: Sampling = EVEN,
+        self, dim: int, stem_dim: int, blocks: int, num_groups: int = 64, sampling: Sampling = EVEN
     ) -> None:
         super().__init__()
         self.is_adaptive = sampling.adaptive

@@ -110,19 +110,14 @@ def load_language(folder: Path) -> Language:
     Raises:
         TouchError: Missing, damaged, another architecture, or weights that don't fit strictly.
     """
-    from transformers import (
-        AutoConfig,
-        AutoTokenizer,
-        Qwen2_5_VLForConditionalGeneration,
-        Qwen2ForCausalLM,
-    )
+    import transformers
 
     kinds: dict[str, Any] = {
-        "qwen2": Qwen2ForCausalLM,
-        "qwen2_5_vl": Qwen2_5_VLForConditionalGeneration,
+        "qwen2": transformers.Qwen2ForCausalLM,
+        "qwen2_5_vl": transformers.Qwen2_5_VLForConditionalGeneration,
     }
     try:
-        kind = AutoConfig.from_pretrained(folder, local_files_only=True).model_type
+        kind = transformers.AutoConfig.from_pretrained(folder, local_files_only=True).model_type
     except (OSError, ValueError) as error:
         raise TouchError(f"no language model could be read from {folder}: {error}") from error
     if kind not in kinds:
@@ -134,6 +129,7 @@ def load_language(folder: Path) -> Language:
         if not (Path(folder) / "tokenizer_config.json").exists():
             raise
     try:
-        return Language(lm, stock=AutoTokenizer.from_pretrained(folder, local_files_only=True))
+        stock = transformers.AutoTokenizer.from_pretrained(folder, local_files_only=True)
+        return Language(lm, stock=stock)
     except (OSError, ValueError) as error:
         raise TouchError(f"no tokenizer could be read from {folder}: {error}") from error

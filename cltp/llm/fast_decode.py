@@ -68,10 +68,6 @@ class FastDecoder:
         """Append a token; return the logits of what follows, shape (V,)."""
         return self._advance(self._embedding[token : token + 1])
 
-    def embed(self, ids: list[int]) -> Tensor:
-        """Embeddings of tokens, shape (T, D)."""
-        return self._embedding[torch.tensor(ids, device=self._embedding.device)]
-
     def _advance(self, x: Tensor) -> Tensor:
         count = len(x)
         start, end = self._length, self._length + count

@@ -66,11 +66,8 @@ def prefill_operations(config: Any, num_tokens: int) -> int:
         num_tokens: Number of tokens of touch and prompt. Position t attends to t others.
     """
     attended = num_tokens * (num_tokens + 1) // 2
-    return (
-        num_tokens * _matrices(config)
-        + attended * _attention(config)
-        + 2 * config.vocab_size * config.hidden_size
-    )
+    logits = 2 * config.vocab_size * config.hidden_size
+    return num_tokens * _matrices(config) + attended * _attention(config) + logits
 
 
 def generate_operations(config: Any, num_before: int, num_tokens: int) -> int:
@@ -85,11 +82,8 @@ def _matrices(config: Any) -> int:
     dim, inner = config.hidden_size, config.intermediate_size
     size = getattr(config, "head_dim", None) or dim // config.num_attention_heads
     query, key = config.num_attention_heads * size, config.num_key_value_heads * size
-    return (
-        2
-        * int(config.num_hidden_layers)
-        * (dim * (query + 2 * key) + query * dim + 3 * dim * inner)
-    )
+    weights = dim * (query + 2 * key) + query * dim + 3 * dim * inner
+    return 2 * int(config.num_hidden_layers) * weights
 
 
 def _attention(config: Any) -> int:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -64,14 +64,10 @@ class Talker:
     """
 
     def __init__(self, model: Tac3dLlm, clock: Callable[[], float] = time.perf_counter) -> None:
-        self._model = model.eval()
+        self.model = model.eval()
         self._language = model.language
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
-
-    @property
-    def model(self) -> Tac3dLlm:
-        return self._model
 
     @torch.inference_mode()
     def reply(
@@ -93,18 +89,14 @@ class Talker:
                 probable as the one that replaces it. An infinite penalty excludes an action.
         """
         marks = [self._clock()]
-        encoded = self._model.encoder(torch.from_numpy(points)[None])
+        encoded = self.model.encoder(torch.from_numpy(points)[None])
         marks.append(self._clock())
-        touch = self._model.projected(encoded)[0]
+        touch = self.model.projected(encoded)[0]
         marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
-
-        def prefilled() -> None:
-            marks.append(self._clock())
-
         generate = partial(_own, self._fast) if self._fast is not None else _stock
         ids, ended, probabilities = generate(
-            self._language, inputs, max_tokens, prefilled, dict(penalties or {})
+            self._language, inputs, max_tokens, lambda: marks.append(self._clock()), penalties or {}
         )
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
@@ -169,7 +161,7 @@ def _stock(
             return ids, True, []
         ids.append(token)
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
-            logits = logits_after(run, token)
+            logits = run.append(token)
             weights = [
                 probability * math.exp(-penalties.get(name, 0.0))
                 for name, probability in zip(
@@ -179,7 +171,7 @@ def _stock(
             probabilities = [weight / (sum(weights) or 1.0) for weight in weights]
             ids += language.actions()[int(np.argmax(probabilities))]
             return ids, True, probabilities
-        logits = logits_after(run, token)
+        logits = run.append(token)
     return ids, False, []
 
 
@@ -207,13 +199,9 @@ class _Run:
             self._past.crop(length - self.length)  # negative: so many fewer
         self.length = length
 
-    def embed(self, ids: Sequence[int]) -> Tensor:
-        return self._language.embed(ids)
-
-
-def logits_after(run: _Run, token: int) -> Tensor:
-    """Logits of what follows when ``token`` is appended."""
-    return run.feed(run.embed([token]))
+    def append(self, token: int) -> Tensor:
+        """Logits of what follows ``token``."""
+        return self.feed(self._language.embed([token]))
 
 
 def _action_probabilities(run: _Run, logits: Tensor, names: list[list[int]]) -> list[float]:
@@ -236,7 +224,7 @@ def _action_probabilities(run: _Run, logits: Tensor, names: list[list[int]]) -> 
         for token, fraction in zip(nexts, fractions, strict=True):
             branch = [*prefix, token]
             is_leaf = sum(names[n][: len(branch)] == branch for n in inside) == 1
-            descend(branch, logits if is_leaf else logits_after(run, token), mass * fraction)
+            descend(branch, logits if is_leaf else run.append(token), mass * fraction)
             if not is_leaf:
                 run.rewind(length)
 

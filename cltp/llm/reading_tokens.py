@@ -19,13 +19,7 @@ from torch import Tensor, nn
 from cltp.encoder.heads import HeadsOutput, restored
 from cltp.tactile.states import CLASSES, NUMBERS, Side
 
-LAST_DIGIT = {
-    "depth_mm": 0.01,
-    "x_mm": 0.1,
-    "y_mm": 0.1,
-    "area_fraction": 0.001,
-    "force_n": 0.01,
-}
+LAST_DIGIT = {"depth_mm": 0.01, "x_mm": 0.1, "y_mm": 0.1, "area_fraction": 0.001, "force_n": 0.01}
 """The last digit of each number as it is written, in its unit."""
 
 PERIODS = (10.0, 100.0, 1000.0, 10000.0)

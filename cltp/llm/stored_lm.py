@@ -128,7 +128,6 @@ def _config(path: Path) -> StoredConfig:
 
 
 def _shapes(config: StoredConfig) -> dict[str, tuple[int, ...]]:
-    """Every weight's shape."""
     dim, inner = config.hidden_size, config.intermediate_size
     query = config.num_attention_heads * config.head_dim
     key = config.num_key_value_heads * config.head_dim

@@ -54,11 +54,7 @@ class Tac3dLlm(nn.Module):
     lm: Any
 
     def __init__(
-        self,
-        encoder: TactileEncoder,
-        heads: StateHeads,
-        projector: Projector,
-        language: Language,
+        self, encoder: TactileEncoder, heads: StateHeads, projector: Projector, language: Language
     ) -> None:
         super().__init__()
         self.encoder, self.heads, self.projector = encoder, heads, projector

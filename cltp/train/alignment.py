@@ -7,8 +7,7 @@ Minimises L_T2L + L_T2I and, beyond the paper, the losses of the state heads
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -21,14 +20,12 @@ from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
-from cltp.tactile.states import CLASSES
 from cltp.train.clip_feature_cache import FrozenFeatures
-from cltp.train.distributed import Workers
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLTP_SCHEDULE, CltpRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
-from cltp.train.text_targets import draw_prompts, draw_texts, matches_of_all
+from cltp.train.text_targets import draw_texts, matches_of_all, prompt_terms
 
 
 class _Learner(nn.Module):
@@ -49,7 +46,6 @@ def train_cltp(
     also: Sequence[Path] = (),
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
-    shuffle_labels: bool = False,
 ) -> Path:
     """Train, or continue training, and write ``run.out / "encoder"``.
 
@@ -62,7 +58,6 @@ def train_cltp(
         also: Further data sets to learn from, in one random order with the first.
         augmentation: How contacts are varied.
         clip_dir: Folder of the towers; ``run.out / "clip"`` when not given.
-        shuffle_labels: Gives each contact the label of another: a control that must not learn.
 
     Raises:
         TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
@@ -77,32 +72,18 @@ def train_cltp(
     identity = {
         "data": data.checksum(),
         "config": config.identity,
-        "variant": f"{recipe} {with_images} {shuffle_labels} {augmentation}",
+        "variant": f"{recipe} {with_images} False {augmentation}",  # as in stored checkpoints
     }
     folder = run.out / "encoder"
     stage = Stage("cltp", run, learner, schedule, identity)
     if stage.done and (folder / CONFIG).exists():  # the last file that is written
         return folder
-    sampler = Sampler(
-        data,
-        augmentation,
-        seed=seed,
-        sampling=config.sampling,
-        moved=recipe.moved,
-        shuffle_labels=shuffle_labels,
-    )
+    sampling = config.variant.sampling
+    sampler = Sampler(data, augmentation, seed=seed, sampling=sampling, moved=recipe.moved)
     cache = clip_dir.parent / ".training" if workers.is_first else None
     frozen = FrozenFeatures(towers, data, cache)
-    losses = _Losses(
-        learner=learner,
-        frozen=frozen,
-        recipe=recipe,
-        with_images=with_images,
-        batches=prefetched(stage.batches(sampler)),
-        workers=workers,
-        seed=seed,
-    )
-    stage.train(losses)
+    batches = prefetched(stage.batches(sampler))
+    stage.train(lambda n: _terms(n, run, learner, frozen, recipe, with_images, next(batches)))
     if workers.is_first:
         frozen.save()
         stage.plot()
@@ -112,49 +93,34 @@ def train_cltp(
     return folder
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Losses:
-    """From the number of a step to its terms."""
-
-    learner: _Learner
-    frozen: FrozenFeatures
-    recipe: CltpRecipe
-    with_images: bool
-    batches: Iterator[Batch]
-    workers: Workers
-    seed: int
-
-    def __call__(self, step: int) -> dict[str, Tensor]:
-        """Terms of a step, over this process's part of its batch and the others' negatives."""
-        batch, device = next(self.batches), self.workers.device
-        labels = targets(batch.states)
-        check_batch("cltp", step, self.frozen.data, batch, labels)
-        rng = np.random.default_rng([self.seed, 55, self.workers.part(step)])
-        texts = draw_texts(batch.states, self.recipe.texts, rng)
-        language = self.frozen.texts(texts.texts).to(device)
-        images = self.frozen.images(batch).to(device) if self.with_images else None
-        loss = self.learner.loss
-        with self.workers.autocast():
-            encoded = self.learner.encoder(torch.from_numpy(batch.points).to(device))
-        feature = encoded.feature.float()
-        matches = matches_of_all(texts, device) if self.recipe.shares_texts else None
-        terms = loss(feature, language, images, matches)
-        if self.recipe.prompt_weight > 0:
-            prompt_terms = self._prompt_terms(feature, texts.classes.to(device), rng)
-            terms |= {name: self.recipe.prompt_weight * t for name, t in prompt_terms.items()}
-        if self.recipe.head_weight > 0:
-            labels = Targets(*(part.to(device) for part in labels))
-            head_terms = self.learner.heads.losses(encoded.pooled.float(), labels)
-            terms |= {name: self.recipe.head_weight * t for name, t in head_terms.items()}
-        return terms | {"temperature": 1 / loss.contrast.scale.detach()}
-
-    def _prompt_terms(
-        self, feature: Tensor, classes: Tensor, rng: np.random.Generator
-    ) -> dict[str, Tensor]:
-        terms = {}
-        for column, (slot, texts) in enumerate(zip(CLASSES, draw_prompts(rng), strict=True)):
-            prompts = self.frozen.texts(texts).to(feature.device)
-            terms[f"prompt_{slot}"] = self.learner.loss.against_prompts(
-                feature, prompts, classes[:, column]
-            )
-        return terms
+def _terms(
+    step: int,
+    run: TrainingRun,
+    learner: _Learner,
+    frozen: FrozenFeatures,
+    recipe: CltpRecipe,
+    with_images: bool,
+    batch: Batch,
+) -> dict[str, Tensor]:
+    """Terms of a step, over this process's part of its batch and the others' negatives."""
+    workers, device, loss = run.workers, run.workers.device, learner.loss
+    labels = targets(batch.states)
+    check_batch("cltp", step, frozen.data, batch, labels)
+    rng = np.random.default_rng([run.seed, 55, workers.part(step)])
+    texts = draw_texts(batch.states, recipe.texts, rng)
+    language = frozen.texts(texts.texts).to(device)
+    images = frozen.images(batch).to(device) if with_images else None
+    with workers.autocast():
+        encoded = learner.encoder(torch.from_numpy(batch.points).to(device))
+    feature = encoded.feature.float()
+    matches = matches_of_all(texts, device) if recipe.shares_texts else None
+    terms = loss(feature, language, images, matches)
+    if recipe.prompt_weight > 0:
+        classes = texts.classes.to(device)
+        prompts = prompt_terms(loss, feature, classes, frozen.texts, rng)
+        terms |= {name: recipe.prompt_weight * t for name, t in prompts.items()}
+    if recipe.head_weight > 0:
+        labels = Targets(*(part.to(device) for part in labels))
+        head_terms = learner.heads.losses(encoded.pooled.float(), labels)
+        terms |= {name: recipe.head_weight * t for name, t in head_terms.items()}
+    return terms | {"temperature": 1 / loss.contrast.scale.detach()}

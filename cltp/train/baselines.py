@@ -74,7 +74,7 @@ def train_baseline(
     """
     if method not in BASELINES:
         raise TouchError(f"unknown method {method!r}; known: {', '.join(BASELINES)}")
-    if method != "random" and config.takes_images != (method in IMAGE_METHODS):
+    if method != "random" and config.variant.takes_images != (method in IMAGE_METHODS):
         taken = "image" if method in IMAGE_METHODS else "points"
         raise TouchError(f"{method} needs an encoder of {taken}, got tokenizer {config.tokenizer}")
     device = run.workers.device
@@ -83,9 +83,7 @@ def train_baseline(
     encoder = TactileEncoder(config).to(device)
     if method == "point_mae":
         mae = PointMae(encoder, patch_size(config)).to(device)
-        work.train(
-            method, mae, lambda batch, step: mae.losses(work.points(batch), work.torch_rng(step))
-        )
+        work.train_masked(method, mae, schedule)
     elif method == "point_bert":
         _train_point_bert(encoder, work)
     elif method in IMAGE_METHODS:
@@ -111,16 +109,11 @@ class _Work:
     def train(
         self, name: str, model: nn.Module, losses: Losses, schedule: Schedule | None = None
     ) -> None:
-        """Train a model by the losses of a batch in a step."""
-        identity = {
-            "data": self.data.checksum(),
-            "config": self.config.identity,
-            "variant": str(self.augmentation),
-        }
+        sizes, variant = self.config.identity, str(self.augmentation)
+        identity = {"data": self.data.checksum(), "config": sizes, "variant": variant}
         stage = Stage(name, self.run, model, schedule or self.schedule, identity)
-        sampler = Sampler(
-            self.data, self.augmentation, seed=self.run.seed, sampling=self.config.sampling
-        )
+        sampling = self.config.variant.sampling
+        sampler = Sampler(self.data, self.augmentation, seed=self.run.seed, sampling=sampling)
         batches = prefetched(stage.batches(sampler))
 
         def terms(step: int) -> dict[str, Tensor]:
@@ -132,6 +125,12 @@ class _Work:
         stage.train(terms)
         if self.run.workers.is_first:
             stage.plot()
+
+    def train_masked(self, name: str, model: PointMae | PointBert, schedule: Schedule) -> None:
+        def losses(batch: Batch, step: int) -> dict[str, Tensor]:
+            return model.losses(self.points(batch), self.torch_rng(step))
+
+        self.train(name, model, losses, schedule)
 
     def points(self, batch: Batch) -> Tensor:
         return torch.from_numpy(batch.points).to(self.run.workers.device)
@@ -158,12 +157,8 @@ def _train_point_bert(encoder: TactileEncoder, work: _Work) -> None:
     word_schedule = dataclasses.replace(work.schedule, steps=steps)
     work.train("point_bert_words", words, word_losses, word_schedule)
     bert = PointBert(encoder, words).to(work.run.workers.device)
-    work.train(
-        "point_bert",
-        bert,
-        lambda batch, step: bert.losses(work.points(batch), work.torch_rng(step)),
-        dataclasses.replace(work.schedule, steps=max(1, work.schedule.steps - steps)),
-    )
+    rest = max(1, work.schedule.steps - steps)
+    work.train_masked("point_bert", bert, dataclasses.replace(work.schedule, steps=rest))
 
 
 class _VisionLearner(nn.Module):
@@ -187,18 +182,14 @@ def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, work: _W
         for text in texts:
             if text not in text_features:
                 text_features[text] = towers.texts([text])[0].cpu()
-        pixels = noisy_frames(
-            batch.height_mm,
-            [sensor_named(sensors[index]) for index in batch.index],
-            work.augmentation,
-            work.rng(step),
-        )
+        shown = [sensor_named(sensors[index]) for index in batch.index]
+        pixels = noisy_frames(batch.height_mm, shown, work.augmentation, work.rng(step))
         vision = encoder(pixels.to(work.run.workers.device)).feature.float()
         language = torch.stack([text_features[text] for text in texts]).to(work.run.workers.device)
         numbers = torch.tensor([zlib.crc32(text.encode()) for text in texts], device=vision.device)
         numbers = gathered(numbers)
-        terms = {"t2l": learner.contrast(vision, language, numbers[:, None] == numbers[None])}
-        return terms | {"temperature": 1 / learner.contrast.scale.detach()}
+        t2l = learner.contrast(vision, language, numbers[:, None] == numbers[None])
+        return {"t2l": t2l, "temperature": 1 / learner.contrast.scale.detach()}
 
     work.train(method, learner, losses)
 

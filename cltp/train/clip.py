@@ -9,6 +9,7 @@ each one names, by the nearest of learned directions, which are dropped after tr
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +18,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 from transformers import CLIPModel
 
-from cltp.checkpoints.tac3d_llm import save_clip
+from cltp.checkpoints.tac3d_llm import save_pretrained
 from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
 from cltp.encoder.losses import CltpLoss
@@ -27,7 +28,7 @@ from cltp.train.clip_feature_cache import rendered
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import CLIP_SCHEDULE, ClipRecipe, Schedule
 from cltp.train.stage import Stage, TrainingRun
-from cltp.train.text_targets import TextTargets, draw_prompts, draw_texts, matches, matches_of_all
+from cltp.train.text_targets import TextTargets, draw_texts, matches, matches_of_all, prompt_terms
 
 READ_SCALE = 16.0
 """Factor on the cosines between texts and classes; about the scale that the contrast learns."""
@@ -105,21 +106,21 @@ def train_clip(
         return folder
     sampler = Sampler(data, RENDERED, seed=seed)
     batches = prefetched((batch, rendered(data, batch)) for batch in stage.batches(sampler))
+    encode = partial(text_features, learner.clip, words)
 
     def losses(step: int) -> dict[str, Tensor]:
         batch, pixels = next(batches)
         rng = np.random.default_rng([seed, 56, workers.part(step)])
         texts = draw_texts(batch.states, recipe.texts, rng)
         with workers.autocast():
-            language = text_features(learner.clip, words, texts.texts).float()
+            language = encode(texts.texts).float()
             images = image_features(learner.clip, pixels.to(workers.device)).float()
         matching = matches_of_all(texts, workers.device) if recipe.shares_texts else None
         terms = {"contrast": learner.loss.contrast(images, language, matching)}
         if recipe.prompt_weight > 0:
-            prompt_terms = _prompt_terms(
-                learner, words, images, texts.classes.to(workers.device), rng
-            )
-            terms |= {name: recipe.prompt_weight * term for name, term in prompt_terms.items()}
+            classes = texts.classes.to(workers.device)
+            prompts = prompt_terms(learner.loss, images, classes, encode, rng)
+            terms |= {name: recipe.prompt_weight * term for name, term in prompts.items()}
         if recipe.read_weight > 0:
             terms["read"] = recipe.read_weight * learner.class_directions.loss(language, texts)
         nearest = (language @ images.T).argmax(dim=1).cpu()
@@ -131,18 +132,6 @@ def train_clip(
     stage.train(losses)
     if workers.is_first:
         stage.plot()
-        save_clip(folder, learner.clip.cpu().eval(), words)
+        save_pretrained(folder, learner.clip.cpu().eval(), words)
     workers.wait()
     return folder
-
-
-def _prompt_terms(
-    learner: _Learner, words: Words, images: Tensor, classes: Tensor, rng: np.random.Generator
-) -> dict[str, Tensor]:
-    prompts = draw_prompts(rng)
-    features = text_features(learner.clip, words, [text for texts in prompts for text in texts])
-    parts = features.float().split([len(texts) for texts in prompts])
-    return {
-        f"prompt_{slot}": learner.loss.against_prompts(images, part, classes[:, column])
-        for column, (slot, part) in enumerate(zip(CLASSES, parts, strict=True))
-    }

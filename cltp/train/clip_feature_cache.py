@@ -18,6 +18,7 @@ from safetensors.torch import save_file
 from torch import Tensor
 
 from cltp.atomic_write import replacing
+from cltp.checkpoints.weight_files import digest
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch
 from cltp.encoder.clip_towers import Towers
@@ -56,7 +57,6 @@ class FrozenFeatures:
         self._images = torch.zeros(4 * len(data), towers.feature_dim, dtype=torch.float16)
         self._computed = torch.zeros(4 * len(data), dtype=torch.bool)
         self._saved_s, self._changed = clock(), False
-        self.num_computed = 0
         self._path = None
         if folder is not None:
             self._identity = {
@@ -75,7 +75,7 @@ class FrozenFeatures:
             if text not in self._texts:
                 # One by one: the other texts of a batch would change the last bits.
                 self._texts[text] = self._towers.texts([text])[0].cpu()
-                self._count(1)
+                self._note_change()
         return torch.stack([self._texts[text] for text in texts])
 
     def images(self, batch: Batch) -> Tensor:
@@ -102,7 +102,7 @@ class FrozenFeatures:
         pixels = torch.stack([render(height_mm, sensor) for height_mm in mirrored])
         self._images[rows] = self._towers.images(pixels).cpu().half()
         self._computed[rows] = True
-        self._count(4)
+        self._note_change()
 
     def save(self) -> None:
         """Write all features, where any are new."""
@@ -115,14 +115,13 @@ class FrozenFeatures:
             "known": self._computed,
             "texts": torch.stack(features) if texts else torch.zeros(0, self._images.shape[1]),
         }
-        metadata = {**self._identity, "texts": json.dumps(texts), "sha256": _digest(content)}
+        metadata = {**self._identity, "texts": json.dumps(texts), "sha256": digest(content)}
         self._path.parent.mkdir(parents=True, exist_ok=True)
         with replacing(self._path) as part:
             save_file(content, part, metadata=metadata)
         self._changed = False
 
-    def _count(self, num_new: int) -> None:
-        self.num_computed += num_new
+    def _note_change(self) -> None:
         self._changed = True
         if self._clock() - self._saved_s > SAVE_S:
             self.save()
@@ -136,7 +135,7 @@ class FrozenFeatures:
             texts = json.loads(metadata.get("texts", "[]"))
         except (OSError, SafetensorError, ValueError) as error:
             raise TouchError(f"features in {path} are damaged; delete the file: {error}") from error
-        expected = {**self._identity, "sha256": _digest(content)}
+        expected = {**self._identity, "sha256": digest(content)}
         if {name: metadata.get(name) for name in expected} != expected:
             raise TouchError(
                 f"features in {path} are damaged; delete the file, they are computed again"
@@ -147,16 +146,8 @@ class FrozenFeatures:
 
 def fingerprint(towers: Towers) -> str:
     """SHA-256 of the towers' weights and of their tokenizer."""
-    total = hashlib.sha256(towers.words.fingerprint().encode())
-    total.update(_digest(dict(towers.clip.state_dict())).encode())
-    return total.hexdigest()
-
-
-def _digest(content: dict[str, Tensor]) -> str:
-    total = hashlib.sha256()
-    for name in sorted(content):
-        total.update(name.encode() + content[name].cpu().contiguous().numpy().tobytes())
-    return total.hexdigest()
+    text = towers.words.fingerprint() + digest(towers.clip.state_dict())
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def rendered(data: ContactDataset, batch: Batch) -> Tensor:

@@ -51,7 +51,6 @@ class CurveFile:
         self._rows.append(",".join([str(step), f"{rate:.6g}", *(f"{v:.7g}" for v in values)]))
 
     def flush(self) -> None:
-        """Bring the added rows to the disk."""
         if not self._rows:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)

@@ -167,9 +167,8 @@ class _Learner:
                 batch = sampler.numbered(size, step)
                 states, num_touch = batch.states, self.model.num_touch
                 with torch.no_grad():
-                    encoded = self.model.encoder(
-                        torch.from_numpy(batch.points).to(self.run.workers.device)
-                    )
+                    points = torch.from_numpy(batch.points).to(self.run.workers.device)
+                    encoded = self.model.encoder(points)
                     numbers = self.model.heads(encoded.pooled).numbers
                 readings = with_read_numbers(states, numbers)
             exchanges = [

@@ -1,4 +1,4 @@
-"""Progress of a training: bars on a terminal, a plain line every half minute elsewhere."""
+"""progress.Progress of a training: bars on a terminal, a plain line every half minute elsewhere."""
 
 from __future__ import annotations
 
@@ -7,16 +7,8 @@ import time
 from collections.abc import Callable, Mapping
 from typing import TextIO
 
+from rich import progress
 from rich.console import Console
-from rich.progress import (
-    BarColumn,
-    MofNCompleteColumn,
-    Progress,
-    TaskID,
-    TextColumn,
-    TimeElapsedColumn,
-    TimeRemainingColumn,
-)
 
 
 class Bar:
@@ -38,16 +30,16 @@ class Bar:
         self._stream = stream or sys.stderr
         self._line_s, self._clock = line_s, clock
         self._printed_s = -line_s
-        self._tasks: dict[str, TaskID] = {}
-        self._bars: Progress | None = None
+        self._tasks: dict[str, progress.TaskID] = {}
+        self._bars: progress.Progress | None = None
         if self._stream.isatty():
-            self._bars = Progress(
-                TextColumn("{task.description}"),
-                BarColumn(),
-                MofNCompleteColumn(),
-                TimeElapsedColumn(),
-                TimeRemainingColumn(),
-                TextColumn("{task.fields[scores]}"),
+            self._bars = progress.Progress(
+                progress.TextColumn("{task.description}"),
+                progress.BarColumn(),
+                progress.MofNCompleteColumn(),
+                progress.TimeElapsedColumn(),
+                progress.TimeRemainingColumn(),
+                progress.TextColumn("{task.fields[scores]}"),
                 console=Console(file=self._stream),
             )
 

@@ -98,23 +98,17 @@ class Stage:
         shared = {"schedule": str(schedule), "seed": run.seed, "workers": run.workers.count}
         self._identity = json.dumps({**identity, **shared}, sort_keys=True)
         self._parameters = [p for p in model.parameters() if p.requires_grad]
-        groups: list[dict[str, Any]] = [
-            {
-                "params": [p for p in self._parameters if p.ndim > 1],
-                "weight_decay": schedule.weight_decay,
-            },
-            {"params": [p for p in self._parameters if p.ndim <= 1], "weight_decay": 0.0},
-        ]
-        self._optimiser = torch.optim.AdamW(
-            [g for g in groups if g["params"]], lr=schedule.learning_rate, betas=(0.9, 0.98)
-        )
+        matrices = [p for p in self._parameters if p.ndim > 1]
+        vectors = [p for p in self._parameters if p.ndim <= 1]
+        decays = ((matrices, schedule.weight_decay), (vectors, 0.0))
+        groups = [{"params": params, "weight_decay": decay} for params, decay in decays if params]
+        self._optimiser = torch.optim.AdamW(groups, lr=schedule.learning_rate, betas=(0.9, 0.98))
         self.step = self._restore()
         self.curves = self._path.with_suffix(".csv")
         self._curve = CurveFile(self.curves, self.step) if self._workers.is_first else None
 
     @property
     def done(self) -> bool:
-        """Whether all steps are done."""
         return self.step >= self.schedule.steps
 
     def batches(self, sampler: Sampler) -> Iterator[Batch]:

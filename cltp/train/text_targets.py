@@ -9,7 +9,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,8 +17,10 @@ import torch
 from torch import Tensor
 
 from cltp.encoder.all_gather import gathered
+from cltp.encoder.heads import IGNORED, targets
+from cltp.encoder.losses import CltpLoss
 from cltp.tactile.states import CLASSES, ContactState
-from cltp.texts.captions import caption, slots_of
+from cltp.texts.captions import caption
 from cltp.texts.paraphrases import prompts
 
 KINDS = ("caption", "mixed")
@@ -26,7 +28,7 @@ KINDS = ("caption", "mixed")
 CAPTION_FRACTION = 0.5
 """Fraction of captions among the texts of ``mixed``. Our choice: as many captions as prompts."""
 
-UNNAMED = -1
+UNNAMED = IGNORED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,12 +79,8 @@ def draw_texts(states: Sequence[ContactState], kind: str, rng: np.random.Generat
 
 def class_numbers(states: Sequence[ContactState]) -> Tensor:
     """Classes of contacts, shape (B, 5); ``UNNAMED`` for a slot that the caption leaves out."""
-    rows = []
-    for state in states:
-        slots = slots_of(state)
-        words = [(names, getattr(slots, slot)) for slot, names in CLASSES.items()]
-        rows.append([UNNAMED if w is None else names.index(w) for names, w in words])
-    return torch.tensor(rows)
+    labels = targets(states)
+    return torch.where(labels.touching[:, None] > 0, labels.classes, UNNAMED)
 
 
 def matches(contacts: Tensor, texts: Tensor, named: Tensor) -> Tensor:
@@ -97,13 +95,32 @@ def matches(contacts: Tensor, texts: Tensor, named: Tensor) -> Tensor:
     return (same | ~named[None]).all(dim=-1)
 
 
-def matches_of_all(targets: TextTargets, device: torch.device) -> Tensor:
+def matches_of_all(texts: TextTargets, device: torch.device) -> Tensor:
     """``matches`` over the rows of all processes."""
-    classes = gathered(targets.classes.to(device))
-    return matches(classes, classes, gathered(targets.named.to(device).long()).bool())
+    classes = gathered(texts.classes.to(device))
+    return matches(classes, classes, gathered(texts.named.to(device).long()).bool())
 
 
-def draw_prompts(rng: np.random.Generator) -> list[list[str]]:
-    """For each dimension one prompt for every class, its wording drawn."""
-    wordings = [[prompts(slot, name) for name in names] for slot, names in CLASSES.items()]
-    return [[texts[rng.integers(len(texts))] for texts in classes] for classes in wordings]
+def prompt_terms(
+    loss: CltpLoss,
+    features: Tensor,
+    classes: Tensor,
+    encode: Callable[[list[str]], Tensor],
+    rng: np.random.Generator,
+) -> dict[str, Tensor]:
+    """Contrast of contacts with one prompt for every class, its wording drawn: by dimension.
+
+    Args:
+        loss: The loss, with its temperature.
+        features: Features of the contacts, shape (B, F).
+        classes: As ``TextTargets.classes``.
+        encode: From texts to their features.
+        rng: Draws wordings.
+    """
+    wordings = [prompts(slot, name) for slot, names in CLASSES.items() for name in names]
+    drawn = encode([texts[rng.integers(len(texts))] for texts in wordings])
+    parts = drawn.float().to(features.device).split([len(names) for names in CLASSES.values()])
+    return {
+        f"prompt_{slot}": loss.against_prompts(features, part, classes[:, column])
+        for column, (slot, part) in enumerate(zip(CLASSES, parts, strict=True))
+    }

@@ -47,10 +47,7 @@ def _file_findings(config: RunConfig) -> list[Finding]:
     )
     axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
     directions = f"x {_listed(axes.x_tcp)}, y {_listed(axes.y_tcp)} in the TCP's frame"
-    return [
-        finding("rig", "limits", True, limits),
-        finding("rig", "pad axes", True, directions),
-    ]
+    return [finding("rig", "limits", True, limits), finding("rig", "pad axes", True, directions)]
 
 
 def _library_findings() -> list[Finding]:

@@ -114,9 +114,7 @@ def subcommand(
 
 
 def run_subcommand(
-    command: str,
-    argv: Sequence[str],
-    commands: Mapping[str, tuple[type[Any], Callable[[Any], T]]],
+    command: str, argv: Sequence[str], commands: Mapping[str, tuple[type[Any], Callable[[Any], T]]]
 ) -> T | None:
     """Parse and run one of ``commands``; None when only help was asked for (it is printed).
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import AbstractContextManager
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -13,6 +12,7 @@ import tyro
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
+from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
 
 if TYPE_CHECKING:
     from tacgrasp.pretraining.methods import PretrainingRun
@@ -34,21 +34,17 @@ class MethodsFlags:
     seed: int = 0
     threads: int | None = None
 
-    def run(
-        self, command: str, *, precision: str = "no", tensorboard: bool = False
-    ) -> AbstractContextManager[PretrainingRun]:
-        """Open the folders, the progress and the processes of the command."""
+    def train(self, stage: str, command: str) -> None:
+        """Open the folders, the progress and the processes of a stage, and train in them."""
         from tacgrasp.pretraining.run_all import pretraining_run
 
-        return pretraining_run(
-            self.out,
-            self.data,
-            seed=self.seed,
-            command=command,
-            threads=self.threads,
-            precision=precision,
-            tensorboard=tensorboard,
-        )
+        names = ("out", "data", "seed", "threads", "precision", "tensorboard")
+        shared = {name: value for name, value in vars(self).items() if name in names}
+        with pretraining_run(**shared, command=command) as run:
+            self.train_in(run, stage)
+
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
+        raise NotImplementedError
 
 
 @dataclass(frozen=True)
@@ -61,11 +57,10 @@ class TrainRandomFlags(MethodsFlags):
 
     preset: str | None = None
 
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain
 
-        with self.run(command) as run:
-            pretrain("random", run, preset=self.preset)
+        pretrain("random", run, preset=self.preset)
 
 
 @dataclass(frozen=True)
@@ -75,34 +70,33 @@ class PretrainingFlags(MethodsFlags):
     Attributes:
         precision: Precision of matrix products.
         tensorboard: Also write curves for TensorBoard into OUT/tensorboard; needs that package.
-    """
-
-    precision: Literal["no", "bf16"] = "no"
-    tensorboard: bool = False
-
-    def training_run(self, command: str) -> AbstractContextManager[PretrainingRun]:
-        return self.run(command, precision=self.precision, tensorboard=self.tensorboard)
-
-
-@dataclass(frozen=True)
-class TrainClipFlags(PretrainingFlags):
-    """Align the small CLIP on images and captions, into OUT/clip.
-
-    Attributes:
         steps: Optimiser steps.
         batch_size: Contacts in a step, of all processes together.
     """
 
-    recipe: Annotated[ClipRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=ClipRecipe)
+    precision: Literal["no", "bf16"] = "no"
+    tensorboard: bool = False
+    steps: int = CLTP_SCHEDULE.steps
+    batch_size: int = CLTP_SCHEDULE.batch_size
+
+    @property
+    def schedule(self) -> Schedule:
+        return replace(CLTP_SCHEDULE, steps=self.steps, batch_size=self.batch_size)
+
+
+@dataclass(frozen=True)
+class TrainClipFlags(PretrainingFlags):
+    """Align the small CLIP on images and captions, into OUT/clip."""
+
     steps: int = CLIP_SCHEDULE.steps
     batch_size: int = CLIP_SCHEDULE.batch_size
+    recipe: Annotated[ClipRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=ClipRecipe)
 
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain_clip
 
         schedule = replace(CLIP_SCHEDULE, steps=self.steps, batch_size=self.batch_size)
-        with self.training_run(command) as run:
-            pretrain_clip(run, self.recipe, schedule)
+        pretrain_clip(run, self.recipe, schedule)
 
 
 @dataclass(frozen=True)
@@ -114,23 +108,14 @@ class TrainMethodFlags(PretrainingFlags):
     Attributes:
         preset: Name of the encoder; by default small_graded for cltp, small_image for tvl and
             unitouch, which take frames, and small for the others.
-        steps: Optimiser steps.
-        batch_size: Contacts in a step, of all processes together.
     """
 
     preset: str | None = None
-    steps: int = CLTP_SCHEDULE.steps
-    batch_size: int = CLTP_SCHEDULE.batch_size
 
-    @property
-    def schedule(self) -> Schedule:
-        return replace(CLTP_SCHEDULE, steps=self.steps, batch_size=self.batch_size)
-
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain
 
-        with self.training_run(command) as run:
-            pretrain(stage.replace("-", "_"), run, self.schedule, preset=self.preset)
+        pretrain(stage.replace("-", "_"), run, self.schedule, preset=self.preset)
 
 
 @dataclass(frozen=True)
@@ -146,14 +131,11 @@ class TrainCltpFlags(TrainMethodFlags):
     no_image: bool = False
     also: Path | None = None
 
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain
 
         method = "cltp_no_image" if self.no_image else "cltp"
-        with self.training_run(command) as run:
-            pretrain(
-                method, run, self.schedule, preset=self.preset, recipe=self.recipe, also=self.also
-            )
+        pretrain(method, run, self.schedule, preset=self.preset, recipe=self.recipe, also=self.also)
 
 
 @dataclass(frozen=True)
@@ -168,11 +150,10 @@ class TrainProbeFlags(MethodsFlags):
     results: Path = Path("runs/results")
     seeds: int = 1
 
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.run_all import run_probes
 
-        with self.run(command) as run:
-            run_probes(run, self.results, self.seeds)
+        run_probes(run, self.results, self.seeds)
 
 
 @dataclass(frozen=True)
@@ -193,70 +174,19 @@ class TrainAllMethodsFlags(TrainMethodFlags):
     results: Path = Path("runs/results")
     seeds: int = 1
 
-    def train(self, stage: str, command: str) -> None:
+    def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.run_all import run_all_methods
 
-        with self.training_run(command) as run:
-            run_all_methods(
-                run,
-                self.results,
-                seeds=self.seeds,
-                clip_recipe=self.clip,
-                clip_schedule=replace(CLIP_SCHEDULE, steps=self.clip_steps),
-                cltp_recipe=self.cltp,
-                schedule=self.schedule,
-                preset=self.preset,
-            )
-
-
-@dataclass(frozen=True)
-class TrainAllFlags:
-    """Run clip, cltp and llm one after another, into one folder of weights.
-
-    Attributes:
-        out: Folder of weights; checkpoints and pre-training lie in its .training.
-        data: Folder of contacts; missing ones are generated first.
-        contacts: Number of contacts.
-        seed: Random seed of data, weights, order, noise and wordings.
-        threads: Threads of torch; one for each core when not given.
-    """
-
-    out: Path = Path("weights")
-    data: Path = Path("runs/data")
-    contacts: int = 24_000
-    seed: int = 0
-    threads: int | None = None
-
-    def train(self, stage: str, command: str) -> None:
-        from tacgrasp.training.train import train_all
-
-        train_all(**vars(self))
-
-
-@dataclass(frozen=True)
-class TrainLlmFlags(TrainAllFlags):
-    """Train the language model behind the encoder and CLIP in OUT.
-
-    Attributes:
-        methods: Folder of pre-training from which the encoder and CLIP are copied into OUT first.
-        blind_of: Folder of weights; trains an instruction-blind copy behind its encoder, for
-            tacgrasp eval --blind.
-    """
-
-    methods: Path | None = None
-    blind_of: Path | None = None
-
-    def train(self, stage: str, command: str) -> None:
-        from tacgrasp.training.train import train_language_model
-
-        train_language_model(**vars(self))
+        clip = (self.clip, replace(CLIP_SCHEDULE, steps=self.clip_steps))
+        cltp = (self.cltp, self.schedule)
+        run_all_methods(run, self.results, clip, cltp, seeds=self.seeds, preset=self.preset)
 
 
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
-    "llm": (TrainLlmFlags, "Train the language model: text, projector, both together."),
-    "all": (TrainAllFlags, "clip, cltp and llm, one after another, into one folder of weights."),
+    "llm": (TrainLlmRequest, "Train the language model: text, projector, both together."),
+    "all": (TrainAllRequest, "clip, cltp and llm, one after another, into one folder of weights."),
     "point-mae": (TrainMethodFlags, "Baseline: reconstruct hidden patches of clouds."),
     "point-bert": (TrainMethodFlags, "Baseline: predict hidden patches in a vocabulary of shapes."),
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
@@ -278,5 +208,13 @@ def main(argv: Sequence[str]) -> int:
         count = getattr(flags, name, None)
         if count is not None and count < 1:
             raise UsageError(f"--{name} must be at least 1, got {count}")
-    flags.train(stage, " ".join(["tacgrasp train", stage, *rest]))
+    if isinstance(flags, MethodsFlags):
+        flags.train(stage, " ".join(["tacgrasp train", stage, *rest]))
+        return 0
+    from tacgrasp.training.train import train_all, train_language_model
+
+    if isinstance(flags, TrainLlmRequest):
+        train_language_model(flags)
+    else:
+        train_all(flags)
     return 0

@@ -10,6 +10,7 @@ import re
 from collections.abc import Sequence
 
 from cltp.tactile.states import CLASSES, ContactState, Side
+from cltp.texts.captions import alternatives
 from tacgrasp.lessons.questions import NOTHING
 
 FORCE_TOLERANCE = 0.25
@@ -54,14 +55,11 @@ def is_right(slot: str, text: str, state: ContactState) -> bool:
     if slot == "cut":
         sides = {side for side in Side if re.search(rf"\b{side}\b", text)}
         is_negated = text.startswith("Not cut")
-        return (
-            text.lower().find("cut") >= 0 and sides == state.cut and is_negated == (not state.cut)
-        )
+        return "cut" in text.lower() and sides == state.cut and is_negated == (not state.cut)
     return _words(slot, text) == [w for w in (getattr(state, slot),) if w is not None]
 
 
 def _words(slot: str, text: str) -> list[str]:
     """Words of a slot's vocabulary in a text; 'very deep' does not also count as 'deep'."""
-    longest_first = sorted(CLASSES[slot], key=len, reverse=True)
-    pattern = "|".join(re.escape(word) for word in longest_first)
+    pattern = alternatives(CLASSES[slot])
     return [match[0] for match in re.finditer(rf"(?<![\w-])(?:{pattern})(?![\w-])", text)]

@@ -20,11 +20,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from cltp.tactile.states import ContactState
-from cltp.texts.captions import NO_CONTACT, caption
+from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from policies.goal import Goal
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
-from policies.teacher import LESSON_MOVE_STEP_MM, Advice, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.instructions import Instruction, draw_instruction, draw_instruction_near
 from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
 
@@ -77,13 +77,8 @@ def advice_reply(state: ContactState, goal: Goal, reading: ContactState | None =
     advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
     action = f"<{advice.action}>" if advice.action is not None else "<none>"
     contact = contact_text(reading or state)
-    return f"{contact} {goal_text(goal)} Action: {action}. {_reason_text(advice)}"
-
-
-def _reason_text(advice: Advice) -> str:
-    if advice.success:
-        return SUCCESS_WORDINGS[0]
-    return REASON_WORDINGS[advice.reason][0]
+    reason = SUCCESS_WORDINGS[0] if advice.success else REASON_WORDINGS[advice.reason][0]
+    return f"{contact} {goal_text(goal)} Action: {action}. {reason}"
 
 
 def advice_exchange(
@@ -103,8 +98,7 @@ def meaning_exchange(rng: np.random.Generator) -> Exchange:
 def caption_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
     """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
-    text = NO_CONTACT if not state.in_contact else caption(state)
-    return Exchange(prompt=request, reply=f"{text} {numbers(state)}")
+    return Exchange(prompt=request, reply=f"{caption(state)} {numbers(state)}")
 
 
 class TouchLessons:
@@ -119,7 +113,6 @@ class TouchLessons:
         self._blind = blind
 
     def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """One description."""
         return [caption_exchange(reading, rng)]
 
     def mixed(

@@ -196,10 +196,9 @@ def _neighbours(state: ContactState) -> Iterator[ContactState]:
             depth_mm=state.depth_mm * math.sqrt(factor),
             area_fraction=min(1.0, state.area_fraction * math.sqrt(factor)),
         )
-    for along, step in (("x_mm", MARGIN_MM), ("y_mm", MARGIN_MM)):
-        for sign in (-1, 1):
-            moved = getattr(state, along) + sign * step
-            yield dataclasses.replace(state, **{along: moved})
+    for along in ("x_mm", "y_mm"):
+        for step in (-MARGIN_MM, MARGIN_MM):
+            yield dataclasses.replace(state, **{along: getattr(state, along) + step})
 
 
 def counts(cases: Sequence[Case]) -> dict[str, int]:

@@ -54,12 +54,11 @@ def task_goals() -> dict[str, Goal]:
     goals = {}
     for level in LEVELS:
         text = (resources.files("tacgrasp") / "tasks" / f"{level}.yaml").read_text()
-        goals[level] = GoalConfig(**_pairs(yaml.safe_load(text)["goal"])).goal()
+        bands = yaml.safe_load(text)["goal"].items()
+        goals[level] = GoalConfig(
+            **{n: (float(low), float(high)) for n, (low, high) in bands}
+        ).goal()
     return goals
-
-
-def _pairs(section: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
-    return {name: (float(low), float(high)) for name, (low, high) in section.items()}
 
 
 def goal_of_force(low_n: float, high_n: float) -> Goal:
@@ -77,13 +76,8 @@ def goal_of_force(low_n: float, high_n: float) -> Goal:
             low=interpolate([b.low for b in bands]), high=interpolate([b.high for b in bands])
         )
 
-    return Goal(
-        force_n=Band(low=low_n, high=high_n),
-        depth_mm=band("depth_mm"),
-        area_fraction=band("area_fraction"),
-        x_mm=band("x_mm"),
-        y_mm=band("y_mm"),
-    )
+    others = {name: band(name) for name in ("depth_mm", "area_fraction", "x_mm", "y_mm")}
+    return Goal(force_n=Band(low=low_n, high=high_n), **others)
 
 
 def draw_instruction(rng: np.random.Generator) -> Instruction:
@@ -118,11 +112,11 @@ def _request(words: Firmness, rng: np.random.Generator) -> str:
     """'Pick up the egg securely, it must not crack'."""
     named = rng.random() < 0.5
     noun = _noun_phrase(words, rng, named=named)
-    manner = _draw(words.manners, rng) if rng.random() < 0.7 else ""
+    manner = _draw(rng, *words.manners) if rng.random() < 0.7 else ""
     reason = _reason(words, rng) if rng.random() < 0.55 else ""
     if not (named or manner or reason):
-        manner = _draw(words.manners, rng)
-    verb = _draw(wordings.VERBS, rng)
+        manner = _draw(rng, *words.manners)
+    verb = _draw(rng, *wordings.VERBS)
     if manner and rng.random() < 0.25:
         text = f"{manner}, {verb} {noun}"
     else:
@@ -133,25 +127,23 @@ def _request(words: Firmness, rng: np.random.Generator) -> str:
 def _grip_statement(words: Firmness, rng: np.random.Generator) -> str:
     """'A firm grip on the bolt', 'Use little force', 'Be gentle with this'."""
     noun = _noun_phrase(words, rng, named=rng.random() < 0.4)
-    grip = f"{_draw(words.grips, rng)} {_draw(wordings.GRIPS, rng)}"
-    force = f"{_draw(words.forces, rng)} {_draw(('force', 'pressure'), rng)}"
+    grip = f"{_draw(rng, *words.grips)} {_draw(rng, *wordings.GRIPS)}"
+    force = f"{_draw(rng, *words.forces)} {_draw(rng, 'force', 'pressure')}"
     text = _draw(
-        (
-            grip,
-            f"{grip} on {noun}",
-            f"{grip} is what {noun} needs",
-            f"use {grip}",
-            f"take {noun} with {grip}",
-            f"{_draw(wordings.VERBS, rng)} {noun} with {grip}",
-            f"use {force}",
-            f"{force} on {noun}",
-            f"apply {force} to {noun}",
-            f"be {_draw(words.attitudes, rng)}",
-            f"be {_draw(words.attitudes, rng)} with {noun}",
-            f"{_draw(words.manners, rng)}",
-            f"{_draw(words.manners, rng)} now: {_draw(wordings.VERBS, rng)} {noun}",
-        ),
         rng,
+        grip,
+        f"{grip} on {noun}",
+        f"{grip} is what {noun} needs",
+        f"use {grip}",
+        f"take {noun} with {grip}",
+        f"{_draw(rng, *wordings.VERBS)} {noun} with {grip}",
+        f"use {force}",
+        f"{force} on {noun}",
+        f"apply {force} to {noun}",
+        f"be {_draw(rng, *words.attitudes)}",
+        f"be {_draw(rng, *words.attitudes)} with {noun}",
+        f"{_draw(rng, *words.manners)}",
+        f"{_draw(rng, *words.manners)} now: {_draw(rng, *wordings.VERBS)} {noun}",
     )
     return text + (_joint(rng) + _reason(words, rng) if rng.random() < 0.45 else "")
 
@@ -160,29 +152,25 @@ def _object_statement(words: Firmness, rng: np.random.Generator) -> str:
     """'The egg cracks, so hold it securely', 'It must not slip'."""
     noun = _noun_phrase(words, rng, named=rng.random() < 0.5)
     statement = _draw(
-        (
-            f"{noun} {_draw(words.fates, rng)}",
-            f"{noun} is {_draw(words.properties, rng)}",
-            f"{noun} must not {_draw(words.dangers, rng)}",
-            f"{noun} mustn't {_draw(words.dangers, rng)}",
-            f"do not {_draw(words.prohibitions, rng)}",
-            f"don't {_draw(words.prohibitions, rng)}",
-            _draw(words.clauses, rng),
-        ),
         rng,
+        f"{noun} {_draw(rng, *words.fates)}",
+        f"{noun} is {_draw(rng, *words.properties)}",
+        f"{noun} must not {_draw(rng, *words.dangers)}",
+        f"{noun} mustn't {_draw(rng, *words.dangers)}",
+        f"do not {_draw(rng, *words.prohibitions)}",
+        f"don't {_draw(rng, *words.prohibitions)}",
+        _draw(rng, *words.clauses),
     )
     if rng.random() < 0.25:
         return statement
     request = _draw(
-        (
-            f"{_draw(wordings.VERBS, rng)} it {_draw(words.manners, rng)}",
-            f"use {_draw(words.grips, rng)} {_draw(wordings.GRIPS, rng)}",
-            f"use {_draw(words.forces, rng)} force",
-            f"be {_draw(words.attitudes, rng)}",
-        ),
         rng,
+        f"{_draw(rng, *wordings.VERBS)} it {_draw(rng, *words.manners)}",
+        f"use {_draw(rng, *words.grips)} {_draw(rng, *wordings.GRIPS)}",
+        f"use {_draw(rng, *words.forces)} force",
+        f"be {_draw(rng, *words.attitudes)}",
     )
-    return statement + _draw((", so ", "; ", ": ", ". ", ", "), rng) + request
+    return statement + _draw(rng, ", so ", "; ", ": ", ". ", ", ") + request
 
 
 _FORMS = (_request, _grip_statement, _object_statement)
@@ -191,31 +179,29 @@ _FORM_PROBABILITIES = (0.5, 0.27, 0.23)
 
 def _reason(words: Firmness, rng: np.random.Generator) -> str:
     """A reason, as a clause after another one."""
-    it = _draw(("it", "it", "this", "this one"), rng)
+    it = _draw(rng, "it", "it", "this", "this one")
     return _draw(
-        (
-            f"{it} {_draw(words.fates, rng)}",
-            f"{it} is {_draw(words.properties, rng)}",
-            f"{it} must not {_draw(words.dangers, rng)}",
-            f"it should not {_draw(words.dangers, rng)}",
-            f"do not {_draw(words.prohibitions, rng)}",
-            f"but do not {_draw(words.prohibitions, rng)}",
-            f"and don't {_draw(words.prohibitions, rng)}",
-            f"without {_draw(words.harms, rng)}",
-            _draw(words.clauses, rng),
-        ),
         rng,
+        f"{it} {_draw(rng, *words.fates)}",
+        f"{it} is {_draw(rng, *words.properties)}",
+        f"{it} must not {_draw(rng, *words.dangers)}",
+        f"it should not {_draw(rng, *words.dangers)}",
+        f"do not {_draw(rng, *words.prohibitions)}",
+        f"but do not {_draw(rng, *words.prohibitions)}",
+        f"and don't {_draw(rng, *words.prohibitions)}",
+        f"without {_draw(rng, *words.harms)}",
+        _draw(rng, *words.clauses),
     )
 
 
 def _noun_phrase(words: Firmness, rng: np.random.Generator, *, named: bool) -> str:
     if not named:
-        return _draw(wordings.THINGS, rng)
-    return f"{_draw(('the', 'the', 'the', 'this', 'that'), rng)} {_draw(words.objects, rng)}"
+        return _draw(rng, *wordings.THINGS)
+    return f"{_draw(rng, 'the', 'the', 'the', 'this', 'that')} {_draw(rng, *words.objects)}"
 
 
 def _joint(rng: np.random.Generator) -> str:
-    return _draw((", ", ", ", "; ", ": ", ". ", " - "), rng)
+    return _draw(rng, ", ", ", ", "; ", ": ", ". ", " - ")
 
 
 def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
@@ -225,40 +211,38 @@ def in_newtons(force_n: float, rng: np.random.Generator) -> Instruction:
     low, high = round(force_n / FORCE_RATIO, 1), round(force_n * FORCE_RATIO, 1)
     about = round(math.sqrt(low * high), 1)
     wording = _draw(
-        (
-            f"with {low:.1f} to {high:.1f} N",
-            f"using {low:.1f} - {high:.1f} N of force",
-            f"with no less than {low:.1f} and no more than {high:.1f} N",
-            f"with a force between {low:.1f} and {high:.1f} N",
-            f"with {low:.1f}-{high:.1f} newtons",
-            f"with about {about:.1f} N",
-            f"with a grip of about {about:.1f} N",
-            f"at about {about:.1f} N of force",
-            f"at around {about:.1f} newtons",
-            f"so that the force is about {about:.1f} N",
-        ),
         rng,
+        f"with {low:.1f} to {high:.1f} N",
+        f"using {low:.1f} - {high:.1f} N of force",
+        f"with no less than {low:.1f} and no more than {high:.1f} N",
+        f"with a force between {low:.1f} and {high:.1f} N",
+        f"with {low:.1f}-{high:.1f} newtons",
+        f"with about {about:.1f} N",
+        f"with a grip of about {about:.1f} N",
+        f"at about {about:.1f} N of force",
+        f"at around {about:.1f} newtons",
+        f"so that the force is about {about:.1f} N",
     )
     if "about" in wording or "around" in wording:
         low, high = round(about / FORCE_RATIO, 1), round(about * FORCE_RATIO, 1)
-    text = f"{_draw(wordings.VERBS, rng)} {noun} {wording}"
+    text = f"{_draw(rng, *wordings.VERBS)} {noun} {wording}"
     if rng.random() < 0.3:
-        text = f"{wording}, {_draw(wordings.VERBS, rng)} {noun}"
+        text = f"{wording}, {_draw(rng, *wordings.VERBS)} {noun}"
     return Instruction(text=_punctuate(text, rng), goal=goal_of_force(low, high))
 
 
 def _punctuate(text: str, rng: np.random.Generator) -> str:
     """Make a sentence: capitals or none, perhaps a polite word, perhaps a full stop."""
     if rng.random() < 0.2:
-        text = f"{_draw(wordings.POLITE, rng)} {text}"
+        text = f"{_draw(rng, *wordings.POLITE)} {text}"
     elif rng.random() < 0.1:
         text = f"{text}, please"
     parts = text.split(". ")
     text = ". ".join(f"{part[0].upper()}{part[1:]}" for part in parts)
     if rng.random() < 0.15:
         text = text.lower()
-    return text + _draw((".", ".", ".", "", "!"), rng)
+    return text + _draw(rng, ".", ".", ".", "", "!")
 
 
-def _draw(choices: Sequence[str], rng: np.random.Generator) -> str:
+def _draw(rng: np.random.Generator, *choices: str) -> str:
     return choices[int(rng.integers(len(choices)))]

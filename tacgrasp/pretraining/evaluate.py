@@ -197,10 +197,7 @@ def _measure_classes(
 
 
 def _numbers(
-    run: EvaluationRun,
-    encoder: FrozenEncoder,
-    learned: EncodedContacts,
-    method: TrainedMethod,
+    run: EvaluationRun, encoder: FrozenEncoder, learned: EncodedContacts, method: TrainedMethod
 ) -> list[Result]:
     """Numbers, with intervals calibrated on the validation split with each split's noise."""
     names = ContactDataset(run.data, split=Split.TRAIN).column("object")

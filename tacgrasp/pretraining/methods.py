@@ -46,7 +46,6 @@ class PretrainingRun(TrainingRun):
     command: str
 
     def announce(self, stage: str, folder: Path) -> None:
-        """Print the folder that a stage writes."""
         if self.workers.is_first:
             line = f"{stage}: writing {folder}"
             Console(soft_wrap=True).print(line, markup=False, highlight=False)
@@ -116,6 +115,7 @@ def pretrain(
             method, training, config, schedule, augmentation=LEARNING_NOISE, clip_dir=clip
         )
     if run.workers.is_first:
+        device = run.workers.device
         about = {
             "method": method,
             "preset": preset,
@@ -124,7 +124,7 @@ def pretrain(
             "recipe": asdict(recipe) if method in ALIGNED_METHODS else None,
             "data": ContactDataset(run.data).checksum(),
             "seed": run.seed,
-            "device": device_name(run.workers.device),
+            "device": torch.cuda.get_device_name(device) if device.type == "cuda" else device.type,
             "command": run.command,
         }
         if also is not None:
@@ -140,11 +140,6 @@ def labelled(report: ProgressReport, method: str) -> ProgressReport:
         report(stage if stage.startswith(method) else f"{method} {stage}", step, steps, scores)
 
     return labelled_report
-
-
-def device_name(device: torch.device) -> str:
-    """Name of a device: ``cpu``, or the accelerator's."""
-    return torch.cuda.get_device_name(device) if device.type == "cuda" else device.type
 
 
 def _write_about(path: Path, about: dict[str, object]) -> None:

@@ -89,12 +89,10 @@ def run_probes(run: PretrainingRun, results: Path, seeds: int) -> None:
 def run_all_methods(
     run: PretrainingRun,
     results: Path,
+    clip: tuple[ClipRecipe, Schedule],
+    cltp: tuple[CltpRecipe, Schedule],
     *,
     seeds: int,
-    clip_recipe: ClipRecipe,
-    clip_schedule: Schedule,
-    cltp_recipe: CltpRecipe,
-    schedule: Schedule,
     preset: str | None = None,
 ) -> None:
     """Pre-train CLIP and every method, measure them, and write the report.
@@ -102,21 +100,20 @@ def run_all_methods(
     Args:
         run: Folders, seed, progress and processes.
         results: Folder of results and of the report.
+        clip: What CLIP minimises, and how long and how fast it learns.
+        cltp: What CLTP minimises, and how long and how fast each method learns.
         seeds: Number of seeds of probes, counted from the run's; those after the first for CLTP
             alone.
-        clip_recipe: What CLIP minimises.
-        clip_schedule: How long and how fast CLIP learns.
-        cltp_recipe: What CLTP minimises.
-        schedule: How long and how fast each method learns.
         preset: Encoder of all methods; each method's own when not given.
 
     Raises:
         UsageError: An unknown preset.
         TouchError: Data, weights or a checkpoint can't be used.
     """
-    pretrain_clip(run, clip_recipe, clip_schedule)
+    pretrain_clip(run, *clip)
+    recipe, schedule = cltp
     for method in TRAINING_ORDER:
-        pretrain(method, run, schedule, preset=preset, recipe=cltp_recipe)
+        pretrain(method, run, schedule, preset=preset, recipe=recipe)
     run.announce("results", results)
     evaluation = _evaluation(run, results)
     zero_shot(evaluation)

@@ -123,8 +123,6 @@ def evaluate(
 
 
 class _ReportedTalker:
-    """Reports every reply of a talker."""
-
     def __init__(self, talker: Talker, stage: str, total: int, report: ProgressReport) -> None:
         self._talker, self._stage, self._total, self._report = talker, stage, total, report
         self._done = 0
@@ -166,9 +164,7 @@ class _CaseEvaluation:
             "llm": lambda cloud, case: _decided(llm, cloud, case.instruction.text),
             "rules": lambda cloud, case: answer_of(
                 teacher(
-                    contact_state(cloud),
-                    case.instruction.goal,
-                    move_step_mm=LESSON_MOVE_STEP_MM,
+                    contact_state(cloud), case.instruction.goal, move_step_mm=LESSON_MOVE_STEP_MM
                 )
             ),
         }

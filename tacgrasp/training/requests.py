@@ -1,4 +1,4 @@
-"""What an evaluation of trained weights measures; ``tacgrasp eval`` reads its flags into it.
+"""What ``tacgrasp train`` and ``tacgrasp eval`` do with weights; their flags are read into it.
 
 Imports nothing heavy, so that ``--help`` answers at once.
 """
@@ -44,3 +44,36 @@ class EvaluationRequest:
     def __post_init__(self) -> None:
         if min(self.captions, self.answers, self.pairs, self.per_wording) < 1 or self.seed < 0:
             raise UsageError("every number of eval must be at least 1, --seed at least 0")
+
+
+@dataclass(frozen=True)
+class TrainAllRequest:
+    """Run clip, cltp and llm one after another, into one folder of weights.
+
+    Attributes:
+        out: Folder of weights; checkpoints and pre-training lie in its .training.
+        data: Folder of contacts; missing ones are generated first.
+        contacts: Number of contacts.
+        seed: Random seed of data, weights, order, noise and wordings.
+        threads: Threads of torch; one for each core when not given.
+    """
+
+    out: Path = Path("weights")
+    data: Path = Path("runs/data")
+    contacts: int = 24_000
+    seed: int = 0
+    threads: int | None = None
+
+
+@dataclass(frozen=True)
+class TrainLlmRequest(TrainAllRequest):
+    """Train the language model behind the encoder and CLIP in OUT.
+
+    Attributes:
+        methods: Folder of pre-training from which the encoder and CLIP are copied into OUT first.
+        blind_of: Folder of weights; trains an instruction-blind copy behind its encoder, for
+            tacgrasp eval --blind.
+    """
+
+    methods: Path | None = None
+    blind_of: Path | None = None

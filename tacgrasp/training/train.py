@@ -38,6 +38,7 @@ from tacgrasp.lessons.exchanges import TouchLessons
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
 from tacgrasp.pretraining.run_all import pretraining_run
+from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
 
 PARTS = ("clip", "encoder", "projector", "lm")
 PRETRAINED = "pretraining.json"
@@ -47,70 +48,38 @@ BLIND_MARK = Path(".training") / "blind"
 """File in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
 
 
-def train_all(
-    out: Path, data: Path, *, contacts: int, seed: int = 0, threads: int | None = None
-) -> None:
+def train_all(request: TrainAllRequest) -> None:
     """Run the stages clip, cltp and llm one after another, as their own commands do.
 
-    CLIP and CLTP are pre-trained in ``out / ".training" / "methods"``.
-
-    Args:
-        out: Folder of weights.
-        data: Folder of contacts; missing ones are generated first.
-        contacts: Number of contacts.
-        seed: Seed of data, weights, order, noise and wordings.
-        threads: Threads of torch; one for each core when not given.
+    CLIP and CLTP are pre-trained in ``request.out / ".training" / "methods"``.
 
     Raises:
-        UsageError: ``out`` holds other weights.
+        UsageError: ``request.out`` holds other weights.
         TouchError: Data, weights or a checkpoint can't be used.
     """
+    out, data, seed, threads = request.out, request.data, request.seed, request.threads
     _require_mark(out, blind=False)
-    generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
+    generate(GenerateRequest(out=data, set="starter", contacts=request.contacts, seed=seed))
     methods = out / ".training" / "methods"
-    command = f"tacgrasp train all --contacts {contacts} --seed {seed}"
+    command = f"tacgrasp train all --contacts {request.contacts} --seed {seed}"
     with pretraining_run(methods, data, seed=seed, command=command, threads=threads) as run:
         pretrain_clip(run)
         pretrain("cltp", run)
-    train_language_model(
-        out,
-        data,
-        contacts=contacts,
-        seed=seed,
-        threads=threads,
-        methods=methods,
-        command="tacgrasp train all",
-    )
+    train_language_model(TrainLlmRequest(**vars(request), methods=methods), "tacgrasp train all")
 
 
-def train_language_model(
-    out: Path,
-    data: Path,
-    *,
-    contacts: int,
-    seed: int = 0,
-    threads: int | None = None,
-    methods: Path | None = None,
-    blind_of: Path | None = None,
-    command: str = "tacgrasp train llm",
-) -> None:
+def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp train llm") -> None:
     """Train the language model behind the encoder and CLIP in a folder, and write its card.
 
-    Args:
-        out: Folder of weights; checkpoints lie in its ``.training``.
-        data: Folder of contacts; missing ones are generated first.
-        contacts: Number of contacts.
-        seed: Seed of data, weights, order, noise and wordings.
-        threads: Threads of torch; one for each core when not given.
-        methods: Folder of pre-training from which the encoder and CLIP are copied first.
-        blind_of: Folder of weights whose encoder is copied first; every instruction is hidden from
-            the language model (the control of ``tacgrasp eval``).
-        command: The command line, for the model card.
+    Of an instruction-blind copy (the control of ``tacgrasp eval``), every instruction is hidden
+    from the language model. ``command`` is for the model card.
 
     Raises:
-        UsageError: ``out`` holds other weights, or both folders are given.
+        UsageError: ``request.out`` holds other weights, or both folders are given.
         TouchError: Data, weights or a checkpoint can't be used.
     """
+    out, data, contacts, seed = request.out, request.data, request.contacts, request.seed
+    methods, blind_of = request.methods, request.blind_of
     if methods is not None and blind_of is not None:
         raise UsageError("--methods and --blind-of exclude each other")
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
@@ -123,7 +92,7 @@ def train_language_model(
     _require_mark(out, blind=blind_of is not None)
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
     generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
-    torch.set_num_threads(threads or os.cpu_count() or 1)
+    torch.set_num_threads(request.threads or os.cpu_count() or 1)
     words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:

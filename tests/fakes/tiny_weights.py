@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from cltp.checkpoints.tac3d_llm import save_clip, save_encoder, save_tac3d_llm
+from cltp.checkpoints.tac3d_llm import save_encoder, save_pretrained, save_tac3d_llm
 from cltp.data.contact import Contact, Split
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.clip_towers import small_clip
@@ -80,7 +80,7 @@ def make_weights(folder: Path) -> Path:
     words = Words.train(TEXTS, size=600)
     encoder = TactileEncoder(EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8, feature_dim=32))
     save_encoder(folder / "encoder", encoder, StateHeads(2 * encoder.config.dim))
-    save_clip(folder / "clip", small_clip(words, dim=32), words)
+    save_pretrained(folder / "clip", small_clip(words, dim=32), words)
     language = Language(small_lm(words, dim=48, layers=1), words=words)
     save_tac3d_llm(
         folder, Tac3dLlm(encoder, StateHeads(2 * encoder.config.dim), Projector(48, 48), language)

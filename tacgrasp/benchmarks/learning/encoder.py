@@ -55,7 +55,7 @@ def run(
     if preset not in PRESETS:
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     config = PRESETS[preset]
-    if config.takes_images:
+    if config.variant.takes_images:
         raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
     groups = dataclasses.replace(config, tokenizer="fps", bearing=0, grades=0)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
@@ -110,7 +110,7 @@ def _latency(
 
 
 def _points_of(model: nn.Module) -> int:
-    sampling = model.config.sampling if isinstance(model, TactileEncoder) else EVEN
+    sampling = model.config.variant.sampling if isinstance(model, TactileEncoder) else EVEN
     return int(sampling.side**2)
 
 

@@ -70,8 +70,7 @@ def _sections(folder: Path, weights: Path | None) -> list[PageSection]:
     data = results[0].data
     sections = [
         PageSection(
-            title="",
-            text=[describe_run(results, groups), f"Data {data[:16]}. {budgets(results)}"],
+            title="", text=[describe_run(results, groups), f"Data {data[:16]}. {budgets(results)}"]
         ),
         *paper_tables(groups),
         ranking_section(groups),

@@ -109,9 +109,7 @@ def _detail(table: str, split: str, about: str, groups: Groups) -> PageSection:
     if has_paper and split == "physics":
         note += " The paper's columns are its real-world ones."
     return PageSection(
-        title=f"{TABLE_TITLES[table]} – {split}",
-        table=PageTable(head=head, rows=rows),
-        note=note,
+        title=f"{TABLE_TITLES[table]} – {split}", table=PageTable(head=head, rows=rows), note=note
     )
 
 

@@ -138,7 +138,7 @@ def test_every_lattice_gives_a_token_for_each_group(tokenizer: str, num_groups: 
     config = EncoderConfig(
         tokenizer=tokenizer, dim=24, depth=1, heads=2, stem_dim=8, num_groups=num_groups, bearing=16
     )
-    out = TactileEncoder(config)(torch.rand(2, config.sampling.side**2, 3))
+    out = TactileEncoder(config)(torch.rand(2, config.variant.sampling.side**2, 3))
     assert out.tokens.shape == (2, num_groups + 1, 24)
 
 

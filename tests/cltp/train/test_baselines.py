@@ -7,7 +7,7 @@ import pytest
 import torch
 
 from cltp.checkpoints.frozen import frozen, load_frozen, noisy_frames, save_frozen
-from cltp.checkpoints.tac3d_llm import save_clip, save_encoder
+from cltp.checkpoints.tac3d_llm import save_encoder, save_pretrained
 from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
@@ -63,7 +63,7 @@ def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def clip_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("towers") / "clip"
     words = Words.train(["The surface feels smooth to the touch."] * 5, 400)
-    save_clip(folder, small_clip(words, dim=32, layers=1), words)
+    save_pretrained(folder, small_clip(words, dim=32, layers=1), words)
     return folder
 
 

@@ -345,13 +345,18 @@ def test_a_handful_of_contacts_is_learned_by_heart(trained: Path, data_dir: Path
     assert np.mean([a == b for a, b in zip(gentle, when_gentle, strict=True)]) > 0.8
 
 
-def test_shuffled_labels_do_not_generalise(data_dir: Path, trained: Path, tmp_path: Path) -> None:
+def test_shuffled_labels_do_not_generalise(
+    data_dir: Path, trained: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "w"
     (folder / "clip").parent.mkdir(parents=True)
     (folder / "clip").symlink_to(trained / "clip")
+    data, shuffled_data = (ContactDataset(data_dir, split=Split.TRAIN) for _ in range(2))
+    order = np.random.default_rng([0, 99]).permutation(len(data))
+    monkeypatch.setattr(shuffled_data, "state", lambda index: data.state(int(order[index])))
+    monkeypatch.setattr(TrainingRun, "dataset", lambda *_: shuffled_data)
     run = TrainingRun(data=data_dir, out=folder)
-    train_cltp(run, TINY, schedule(100, 12), augmentation=CLEAN, shuffle_labels=True)
-    data = ContactDataset(data_dir, split=Split.TRAIN)
+    train_cltp(run, TINY, schedule(100, 12), augmentation=CLEAN)
     encoder, heads = load_encoder(folder / "encoder")
     encoded = encode_batches(frozen(encoder), random_batches(data, 12, CLEAN))
     shuffled = score_classes(predict_with_heads(heads.eval(), encoded).classes, encoded.classes)
@@ -464,7 +469,7 @@ def test_a_tokenizer_of_another_training_is_refused(trained: Path, tmp_path: Pat
 
 
 def test_the_shipped_sizes_stay_within_twenty_megabytes(tmp_path: Path) -> None:
-    from cltp.checkpoints.tac3d_llm import save_clip, save_tac3d_llm
+    from cltp.checkpoints.tac3d_llm import save_pretrained, save_tac3d_llm
     from cltp.encoder.clip_towers import small_clip
     from cltp.llm.causal_lm import Language, small_lm
     from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -472,7 +477,7 @@ def test_the_shipped_sizes_stay_within_twenty_megabytes(tmp_path: Path) -> None:
     words = Words.train(["a few words"] * 3, size=1024)
     encoder = TactileEncoder(EncoderConfig())
     save_encoder(tmp_path / "encoder", encoder, StateHeads(2 * encoder.config.dim))
-    save_clip(tmp_path / "clip", small_clip(words), words)
+    save_pretrained(tmp_path / "clip", small_clip(words), words)
     language = Language(small_lm(words), words=words)
     save_tac3d_llm(
         tmp_path,
