@@ -3,6 +3,8 @@
 The rule-based teacher, Tac3D-LLM and baselines; ``policies.extraction`` reads the action out of the
 words. Importing this package loads no torch. Not here: the loop that carries decisions out
 (``tacgrasp.loop``), and the training of the model (``cltp.train``, ``tacgrasp.lessons``).
+
+May import: cltp, policies.extraction, primitives.
 """
 
 from policies.errors import PolicyError

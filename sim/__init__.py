@@ -2,4 +2,6 @@
 
 They generate contacts to learn from and stand in for a robot in the closed loop. Not here: drivers
 of real devices (``tacgrasp.drivers``). No policy may see the truth of a simulated world.
+
+May import: nothing of ours.
 """

@@ -2,4 +2,6 @@
 
 Not here: training (``cltp.train``), the texts that it learns (``cltp.texts``, ``tacgrasp.lessons``)
 and decisions made of its replies (``policies``).
+
+May import: cltp, cltp.encoder, cltp.tactile, cltp.texts.
 """

@@ -6,4 +6,7 @@ state through a control channel (``process.control``); ``process.spawn`` starts 
 
 Not here: the drivers (``tacgrasp.drivers``), and the simulated devices without wire protocols
 (``sim.grasp``).
+
+May import: cltp, primitives, sim.emulators.dynamixel, sim.emulators.process, sim.emulators.taxels,
+sim.emulators.ur, sim.grasp.
 """

@@ -2,4 +2,6 @@
 
 Not here: the pressing bodies and objects (``sim.objects``, ``sim.grasp``, ``sim.starter``), sensor
 noise (``cltp.tactile.sensor_noise``).
+
+May import: cltp.tactile.
 """

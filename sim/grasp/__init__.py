@@ -2,4 +2,6 @@
 
 Friction, slip, bruises and the truth of an episode are here. Not here: emulated devices that speak
 the protocols of real ones (``sim.emulators``).
+
+May import: cltp, primitives, sim.gel, sim.objects.
 """

@@ -2,4 +2,6 @@
 
 The shipped weights were trained on it. Not here: objects of the catalogue (``sim.tcl3d``), files
 and worker processes (``tacgrasp.datasets``).
+
+May import: cltp.data, cltp.tactile, sim.gel, sim.grasp, sim.objects, sim.tcl3d.
 """

@@ -2,4 +2,9 @@
 
 Not here: the work of a command (the folder that its module imports), the dispatch and the exit
 codes of errors (``tacgrasp.__main__``).
+
+May import: cltp, policies, primitives, sim.emulators, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
+tacgrasp.bringup, tacgrasp.config, tacgrasp.datasets, tacgrasp.drivers, tacgrasp.episodes,
+tacgrasp.playback, tacgrasp.pretraining, tacgrasp.pretraining.report, tacgrasp.rig,
+tacgrasp.runtime, tacgrasp.training.
 """

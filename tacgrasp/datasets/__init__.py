@@ -2,4 +2,6 @@
 
 Not here: how one contact is simulated (``sim.tcl3d``, ``sim.starter``), and the files of a data set
 (``cltp.data``).
+
+May import: cltp, sim, tacgrasp, tacgrasp.base.
 """

@@ -3,4 +3,6 @@
 A driver imports its manufacturer's library where it uses it. An arm and a gripper keep the
 contracts of ``primitives.devices``, a sensor that of ``tacgrasp.rig.protocols``. Not here: a whole
 rig (``tacgrasp.rig.hardware``), emulated devices (``sim.emulators``).
+
+May import: cltp, primitives.
 """

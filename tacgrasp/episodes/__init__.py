@@ -1,6 +1,8 @@
 """Recorded episodes, one crash-safe MCAP file each: write, read, recover, list and plot them.
 
 Not here: replaying an episode (``tacgrasp.playback``), the loop itself (``tacgrasp.loop``).
+
+May import: cltp, policies, primitives.
 """
 
 from tacgrasp.episodes.errors import EpisodeError

@@ -1,4 +1,7 @@
 """Recorded and scripted behaviour: replay an episode, play a demo, describe a contact from a file.
 
 Not here: reading episodes (``tacgrasp.episodes``), the commands' flags (``tacgrasp.cli``).
+
+May import: cltp, policies, primitives, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.config,
+tacgrasp.episodes, tacgrasp.rig, tacgrasp.runtime.
 """

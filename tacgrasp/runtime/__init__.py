@@ -1,4 +1,6 @@
 """Parts of the loop: steps and their bounds, verification by lifting, ends, the safe shutdown.
 
 Not here: the order of a step's stages (``tacgrasp.loop``), the devices (``tacgrasp.rig``).
+
+May import: cltp, policies, primitives, tacgrasp.config, tacgrasp.episodes, tacgrasp.rig.
 """

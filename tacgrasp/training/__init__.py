@@ -1,4 +1,7 @@
 """The weights that the llm policy uses: their training, their evaluation and their model card.
 
 Not here: the comparison of encoders with the paper's methods (``tacgrasp.pretraining``).
+
+May import: cltp, policies, tacgrasp, tacgrasp.base, tacgrasp.datasets, tacgrasp.lessons,
+tacgrasp.pretraining.
 """

@@ -2,4 +2,6 @@
 
 Not here: the driver of such a gripper (``tacgrasp.drivers.dynamixel``), the gripped object
 (``sim.emulators.world``).
+
+May import: sim.emulators.process.
 """

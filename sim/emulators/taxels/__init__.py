@@ -2,4 +2,6 @@
 
 Not here: the driver of an array (``tacgrasp.drivers.taxels``), the packet format
 (``cltp.sensing.taxel_packets``).
+
+May import: cltp.sensing, sim.emulators.process.
 """

@@ -1,4 +1,6 @@
 """Presses of a gel at a sensor's own resolution, on finer and finer grids around the contact.
 
 Not here: the plain press on one grid (``sim.gel.layer``).
+
+May import: sim.gel.
 """

@@ -2,4 +2,7 @@
 
 Not here: the faults' effects on devices (``sim.emulators``), the reactions (``tacgrasp.drivers``,
 ``tacgrasp.runtime``).
+
+May import: cltp, primitives, sim.emulators, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
+tacgrasp.config, tacgrasp.drivers, tacgrasp.episodes, tacgrasp.rig, tacgrasp.runtime.
 """

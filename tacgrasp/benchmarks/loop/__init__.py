@@ -1,1 +1,7 @@
-"""Benchmarks of whole episodes, and of the rigs and drivers that they run on."""
+"""Benchmarks of whole episodes, and of the rigs and drivers that they run on.
+
+Not here: injected faults (``tacgrasp.benchmarks.faults``).
+
+May import: policies, primitives, sim.emulators, sim.grasp, tacgrasp, tacgrasp.base,
+tacgrasp.benchmarks, tacgrasp.config, tacgrasp.drivers, tacgrasp.rig, tacgrasp.runtime.
+"""

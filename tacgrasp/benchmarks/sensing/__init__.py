@@ -1,1 +1,7 @@
-"""Benchmarks of the gel, and of what is read from its shape, against truth and real frames."""
+"""Benchmarks of the gel, and of what is read from its shape, against truth and real frames.
+
+Not here: scores of learned models on data sets (``tacgrasp.training``).
+
+May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks, tacgrasp.bringup,
+tacgrasp.lessons, tacgrasp.playback.
+"""

@@ -2,4 +2,6 @@
 
 The force comes from a calibration file, measured with ``tacgrasp calibrate gripper``. Not here: the
 emulated servos (``sim.emulators.dynamixel``), and when a grasp closes or opens (``primitives``).
+
+May import: cltp, primitives, tacgrasp.base, tacgrasp.drivers.
 """

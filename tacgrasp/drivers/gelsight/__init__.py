@@ -2,4 +2,6 @@
 
 Not here: frames to heights (``cltp.sensing.photometric``), learning a unit's calibration
 (``tacgrasp calibrate gelsight-mini``).
+
+May import: cltp, tacgrasp.base, tacgrasp.drivers.
 """

@@ -2,4 +2,6 @@
 
 Not here: the packets (``cltp.sensing.taxel_packets``), the emulated array
 (``sim.emulators.taxels``).
+
+May import: cltp, primitives, tacgrasp.base, tacgrasp.drivers.
 """

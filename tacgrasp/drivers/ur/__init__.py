@@ -2,4 +2,6 @@
 
 Not here: the limits of a task, which are narrower (``primitives.limits``), and the emulated
 controller (``sim.emulators.ur``).
+
+May import: primitives, tacgrasp.base, tacgrasp.drivers.
 """

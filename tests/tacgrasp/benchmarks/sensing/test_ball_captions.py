@@ -59,7 +59,8 @@ def reading(depth_mm, **changed):
     known = {
         "name": "ball", "depth_mm": depth_mm, "fitted_mm": depth_mm, "x_mm": 0.0, "y_mm": 0.0,
         "measured_mm": depth_mm, "position_error_mm": 0.1, "text": "", "shape": Shape.SPHERE,
-        "depth": Depth.DEEP, "caption_mm": None, "heads_shape": Shape.ELLIPSOID, "heads_mm": -depth_mm,
+        "depth": Depth.DEEP, "caption_mm": None, "heads_shape": Shape.ELLIPSOID,
+        "heads_mm": -depth_mm,
     }  # fmt: skip
     return BallReading(**(known | changed))
 
