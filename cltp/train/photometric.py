@@ -116,15 +116,11 @@ def train_gradients(
         shape = profiles
         for count in steps[1:]:
             photometer = Photometer(model.numpy(), background, sensor)
+            slopes = [photometer.gradients(frames[i]) for i in used]
+            mm_per_px, deepest_mm = sensor.mm_per_px, float(profiles.depths_mm[-1])
             presses = [
-                fit_press(
-                    press,
-                    *photometer.gradients(frames[i]),
-                    profiles,
-                    mm_per_px=sensor.mm_per_px,
-                    max_depth_mm=float(profiles.depths_mm[-1]),
-                )
-                for i, press in zip(used, presses, strict=True)
+                fit_press(press, *gradients, profiles, mm_per_px=mm_per_px, max_depth_mm=deepest_mm)
+                for press, gradients in zip(presses, slopes, strict=True)
             ]
             train(shape, count)
     inputs, targets = _samples(changes, presses, shape, sensor, rng, far=0)

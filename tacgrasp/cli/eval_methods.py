@@ -136,7 +136,6 @@ def zero_shot(argv: Sequence[str]) -> None:
     json_path = _checked(flags)
     from cltp.evaluation.zero_shot import PROMPTINGS
     from tacgrasp.pretraining import evaluate
-    from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
     run, real = _evaluation_run(flags, "zero-shot", argv), _real_touches(flags)
     promptings = PROMPTINGS if real is None else PROMPTINGS[flags.ensemble :][:1]
@@ -144,9 +143,7 @@ def zero_shot(argv: Sequence[str]) -> None:
     results = evaluate.zero_shot(
         run, methods, real=real, promptings=promptings, predictions=flags.out
     )
-    print_results(results, json_path)
-    if real is not None:
-        print_real_results(results, flags.out)
+    _print(results, json_path, flags)
 
 
 def probe(argv: Sequence[str]) -> None:
@@ -156,7 +153,6 @@ def probe(argv: Sequence[str]) -> None:
     if min(flags.seeds, flags.views) < 1:
         raise UsageError("--seeds and --views must be at least 1")
     from tacgrasp.pretraining import evaluate
-    from tacgrasp.pretraining.report.print_results import print_real_results, print_results
 
     real = _real_touches(flags)
     results: list[Result] = []
@@ -165,9 +161,7 @@ def probe(argv: Sequence[str]) -> None:
         results += evaluate.probe(
             run, _names(flags.methods), views=flags.views, real=real, predictions=flags.out
         )
-    print_results(results, json_path)
-    if real is not None:
-        print_real_results(results, flags.out)
+    _print(results, json_path, flags)
 
 
 def retrieval(argv: Sequence[str]) -> None:
@@ -225,6 +219,14 @@ def _checked(flags: EvaluationFlags) -> Path | None:
     if flags.threads is not None and flags.threads < 1:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
     return writable(flags.json)
+
+
+def _print(results: Sequence[Result], json_path: Path | None, flags: RealTouchFlags) -> None:
+    from tacgrasp.pretraining.report.print_results import print_real_results, print_results
+
+    print_results(results, json_path)
+    if flags.real is not None:
+        print_real_results(results, flags.out)
 
 
 def _names(text: str) -> list[str]:
