@@ -1,11 +1,7 @@
 """The application: command line, run configuration, the loop, drivers, episodes, training.
 
-<<<<<<< HEAD
-No other package imports it. Importing it loads neither torch nor open3d nor a device's SDK.
-=======
 Importing it loads neither torch nor open3d nor a device's SDK. Not here: anything that another
 package needs, since none may import this one.
->>>>>>> main
 
 May import: cltp, policies, primitives, tacgrasp.base, tacgrasp.config, tacgrasp.episodes,
 tacgrasp.rig, tacgrasp.runtime.

@@ -1,10 +1,5 @@
 """Benchmarks of whole episodes, and of the rigs and drivers that they run on.
 
-<<<<<<< HEAD
-May import: cltp.tactile, policies, primitives, sim.emulators, sim.grasp, tacgrasp, tacgrasp.base,
-tacgrasp.benchmarks, tacgrasp.config, tacgrasp.drivers, tacgrasp.episodes, tacgrasp.rig,
-tacgrasp.runtime.
-=======
 Not here: injected faults (``tacgrasp.benchmarks.faults``).
 
 May import: cltp.tactile, policies, primitives, sim.emulators, sim.grasp, tacgrasp, tacgrasp.base,

@@ -1,10 +1,5 @@
 """Benchmarks of the gel, and of what is read from its shape, against truth and real frames.
 
-<<<<<<< HEAD
-May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks,
-tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.playback,
-tacgrasp.rig.
-=======
 Not here: scores of learned models on data sets (``tacgrasp.training``).
 
 May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks,
