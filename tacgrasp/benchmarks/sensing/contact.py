@@ -73,6 +73,7 @@ def run(settings: ContactSettings) -> bool:
     """
     closings, first, bodies = settings.closings, settings.first_seed, settings.bodies
     console = Console()
+    console = console if console.is_terminal else Console(width=160)
     ratios = map_seeds(console, "closings in air", largest_ratio, range(first, first + closings))
     figures = false_alarms(ratios, first)
     figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
