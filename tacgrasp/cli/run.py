@@ -50,7 +50,10 @@ def main(argv: Sequence[str]) -> int:
     if print_config:
         _print_config(config, sources)
         return 0
-    return _exit_code(_run(config), dry_run=config.dry_run)
+    outcome = _run(config)
+    if config.dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
+        return 0  # the one decision of a dry run was made
+    return EXIT_CODES.get(outcome.reason, 1)
 
 
 def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
@@ -97,12 +100,6 @@ def _run(config: RunConfig) -> Outcome:
     for line in end_lines(outcome):
         console.print(line)
     return outcome
-
-
-def _exit_code(outcome: Outcome, *, dry_run: bool) -> int:
-    if dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
-        return 0  # the one decision of a dry run was made
-    return EXIT_CODES.get(outcome.reason, 1)
 
 
 def _print_config(config: RunConfig, sources: Sources) -> None:
