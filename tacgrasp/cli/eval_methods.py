@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -233,8 +234,6 @@ def _names(text: str) -> list[str]:
 
 
 def _evaluation_run(flags: EvaluationFlags, command: str, argv: Sequence[str]) -> EvaluationRun:
-    import os
-
     import torch
     from transformers.utils.logging import disable_progress_bar
 

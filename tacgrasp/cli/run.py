@@ -109,10 +109,7 @@ def _print_config(config: RunConfig, sources: Sources) -> None:
     width = max(map(len, values))
     console = make_console()
     for path, value in values.items():
-        console.print(f"{path:{width}}  {_text(value)}  [{sources.get(path, 'default')}]")
-
-
-def _text(value: object) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(f'{v:g}' for v in value)}]"
-    return "none" if value is None else str(value)
+        text = "none" if value is None else str(value)
+        if isinstance(value, tuple):
+            text = f"[{', '.join(f'{v:g}' for v in value)}]"
+        console.print(f"{path:{width}}  {text}  [{sources.get(path, 'default')}]")
