@@ -23,6 +23,12 @@ def make_console() -> Console:
     return Console(soft_wrap=True, highlight=False, markup=False)
 
 
+def make_table_console() -> Console:
+    """A console of the terminal's width; without a terminal wide enough for the tables."""
+    console = Console()
+    return console if console.is_terminal else Console(width=160)
+
+
 def count_progress(console: Console | None = None) -> Progress:
     """A progress bar with counts; by default on standard error."""
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())

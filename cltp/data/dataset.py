@@ -169,10 +169,12 @@ class ContactDataset:
             TouchError: The stored bytes are damaged.
         """
         shard, offset = int(self._shard[index]), int(self._columns["offset"][index])
-        packed = self._map(shard)[offset : offset + int(self._columns["size"][index])]
+        path = self._index_files[shard].with_suffix(".heights")
+        if shard not in self._maps:
+            self._maps[shard] = np.memmap(path, dtype=np.uint8, mode="r")
+        packed = self._maps[shard][offset : offset + int(self._columns["size"][index])]
         if zlib.crc32(packed.data) != int(self._columns["crc32"][index]):
-            name = self._index_files[shard].with_suffix(".heights")
-            raise TouchError(f"contact {index} in {name} is damaged; generate the data again")
+            raise TouchError(f"contact {index} in {path} is damaged; generate the data again")
         return unpack_heights(
             packed.data, int(self._columns["rows"][index]), int(self._columns["columns"][index])
         )
@@ -215,12 +217,6 @@ class ContactDataset:
 
     def _row(self, index: int) -> dict[str, Any]:
         return {name: values[index] for name, values in self._columns.items()}
-
-    def _map(self, shard: int) -> NDArray[np.uint8]:
-        if shard not in self._maps:
-            path = self._index_files[shard].with_suffix(".heights")
-            self._maps[shard] = np.memmap(path, dtype=np.uint8, mode="r")
-        return self._maps[shard]
 
 
 def _numbers(row: Mapping[str, Any], columns: Mapping[str, str]) -> dict[str, Any]:

@@ -93,8 +93,13 @@ class DatasetWriter:
         blob = b"".join(packed)
         write_atomically(stem.with_suffix(".heights"), blob)
         digest = hashlib.sha256(blob).hexdigest()
-        schema = _schema_of(self._contacts)
-        table = pa.Table.from_pylist(rows, schema=schema.with_metadata({"heights_sha256": digest}))
+        parts = [SCHEMA]
+        if any(contact.unsure is not None for contact in self._contacts):
+            parts.append(SIMULATED)
+        if any(contact.measured for contact in self._contacts):
+            parts.append(IMPORTED)
+        schema = pa.unify_schemas(parts).with_metadata({"heights_sha256": digest})
+        table = pa.Table.from_pylist(rows, schema=schema)
         index = io.BytesIO()
         pq.write_table(table, index, compression="zstd")
         write_atomically(stem.with_suffix(".parquet"), index.getvalue())
@@ -107,15 +112,6 @@ class DatasetWriter:
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         if kind is None:
             self.flush()
-
-
-def _schema_of(contacts: list[Contact]) -> pa.Schema:
-    parts = [SCHEMA]
-    if any(contact.unsure is not None for contact in contacts):
-        parts.append(SIMULATED)
-    if any(contact.measured for contact in contacts):
-        parts.append(IMPORTED)
-    return pa.unify_schemas(parts)
 
 
 def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:

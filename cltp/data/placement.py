@@ -114,6 +114,32 @@ class _Footprint:
         positions = np.stack([self.x_mm[mask], self.y_mm[mask]])
         return np.asarray(positions @ load / load.sum())
 
+    def relabelled(
+        self, moved: FloatArray, state: ContactState, sensor: SensorSpec, placement: Placement
+    ) -> ContactState:
+        stays = self.stays(sensor, placement)
+        if not stays.any():
+            raise TouchError("the whole contact would leave the pad; move it less far")
+        x_mm, y_mm = placement.moved(state.x_mm, state.y_mm)
+        if stays.all():
+            # A contact that is cut loses more of itself in every move but none and half a turn.
+            turned = math.cos(placement.turn_rad) < 0
+            cut = frozenset(side.opposite for side in state.cut) if turned else state.cut
+            return _with(state, sensor, x_mm=x_mm, y_mm=y_mm, cut=cut)
+        shift_x, shift_y = self.centre(stays) - self.centre(np.ones_like(stays))
+        x_mm, y_mm = placement.moved(state.x_mm + shift_x, state.y_mm + shift_y)
+        pitch_mm = sensor.width_mm / moved.shape[1]
+        return _with(
+            state,
+            sensor,
+            depth_mm=min(state.depth_mm, float(moved.max())),
+            x_mm=x_mm,
+            y_mm=y_mm,
+            area_fraction=state.area_fraction * float(stays.mean()),
+            force_n=state.force_n * float(self.load[stays].sum() / self.load.sum()),
+            cut=cut_sides(moved > self.level_mm, least=round(CUT_MM / pitch_mm)),
+        )
+
 
 def move(
     height_mm: NDArray[np.floating], state: ContactState, sensor: SensorSpec, placement: Placement
@@ -139,7 +165,7 @@ def move(
     moved = heights_at(heights, x, y, sensor)
     if state.in_contact:
         footprint = _Footprint.of(heights, state, sensor)
-        state = _relabelled(footprint, moved, state, sensor, placement)
+        state = footprint.relabelled(moved, state, sensor, placement)
     return Moved(height_mm=moved.astype(np.float32), state=state)
 
 
@@ -191,37 +217,6 @@ def _at_rest_at_entry(heights: FloatArray, sensor: SensorSpec, placement: Placem
         (y < -half_y, heights[-1]),
     )
     return all(not beyond.any() or np.abs(edge).max() < REST_MM for beyond, edge in borders)
-
-
-def _relabelled(
-    footprint: _Footprint,
-    moved: FloatArray,
-    state: ContactState,
-    sensor: SensorSpec,
-    placement: Placement,
-) -> ContactState:
-    stays = footprint.stays(sensor, placement)
-    if not stays.any():
-        raise TouchError("the whole contact would leave the pad; move it less far")
-    x_mm, y_mm = placement.moved(state.x_mm, state.y_mm)
-    if stays.all():
-        # A contact that is cut loses more of itself in every move but none and half a turn.
-        turned = math.cos(placement.turn_rad) < 0
-        cut = frozenset(side.opposite for side in state.cut) if turned else state.cut
-        return _with(state, sensor, x_mm=x_mm, y_mm=y_mm, cut=cut)
-    shift_x, shift_y = footprint.centre(stays) - footprint.centre(np.ones_like(stays))
-    x_mm, y_mm = placement.moved(state.x_mm + shift_x, state.y_mm + shift_y)
-    pitch_mm = sensor.width_mm / moved.shape[1]
-    return _with(
-        state,
-        sensor,
-        depth_mm=min(state.depth_mm, float(moved.max())),
-        x_mm=x_mm,
-        y_mm=y_mm,
-        area_fraction=state.area_fraction * float(stays.mean()),
-        force_n=state.force_n * float(footprint.load[stays].sum() / footprint.load.sum()),
-        cut=cut_sides(moved > footprint.level_mm, least=round(CUT_MM / pitch_mm)),
-    )
 
 
 def _with(state: ContactState, sensor: SensorSpec, **changes: object) -> ContactState:

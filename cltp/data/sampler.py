@@ -30,6 +30,7 @@ class Batch:
         points: Shape (B, N, 3), float32, scaled, in lattice order; N is 1024 unless the sampler's
             ``sampling`` has another number of points.
         height_mm: Clean heights behind each cloud, mirrored and moved alike; for rendering.
+        sensors: Their sensors.
         states: Labels, mirrored and moved alike.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
         moved: Shape (B,), bool: shifted or turned after that.
@@ -38,6 +39,7 @@ class Batch:
     index: NDArray[np.int64]
     points: NDArray[np.float32]
     height_mm: list[NDArray[np.float32]]
+    sensors: list[SensorSpec]
     states: list[ContactState]
     mirror: NDArray[np.bool_]
     moved: NDArray[np.bool_]
@@ -94,7 +96,7 @@ class Sampler:
     def batch(self, indices: NDArray[np.int64], step: int) -> Batch:
         """The samples of some contacts; their variation depends on the seed and ``step``."""
         rng = np.random.default_rng([self.seed, step])
-        points, heights, states = [], [], []
+        points, heights, sensors, states = [], [], [], []
         mirror = rng.random((len(indices), 2)) < (0.5 if self.augmentation.mirror else 0.0)
         moved = np.zeros(len(indices), dtype=np.bool_)
         if self.moved > 0:  # else nothing is drawn: later draws must stay reproducible
@@ -111,11 +113,13 @@ class Sampler:
                 height_mm, state = result.height_mm, result.state
             points.append(self.cloud(height_mm, sensor, rng))
             heights.append(height_mm)
+            sensors.append(sensor)
             states.append(state)
         return Batch(
             index=np.asarray(indices),
             points=np.stack(points),
             height_mm=heights,
+            sensors=sensors,
             states=states,
             mirror=mirror,
             moved=moved,

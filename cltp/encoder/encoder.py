@@ -215,7 +215,15 @@ class TactileEncoder(nn.Module):
             TransformerBlock(dim, config.heads) for _ in range(config.depth)
         )
         self.norm = nn.LayerNorm(dim)
-        self.feature = _projection(2 * dim, config)
+        self.feature: nn.Module
+        if config.projection:
+            self.feature = nn.Sequential(
+                nn.Linear(2 * dim, config.projection),
+                nn.GELU(),
+                nn.Linear(config.projection, config.feature_dim, bias=False),
+            )
+        else:
+            self.feature = nn.Linear(2 * dim, config.feature_dim, bias=False)
 
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3), or pixels, where the variant takes images.
@@ -249,16 +257,6 @@ class TactileEncoder(nn.Module):
             x = block(x)
         normed: Tensor = self.norm(x)
         return normed
-
-
-def _projection(pooled_dim: int, config: EncoderConfig) -> nn.Module:
-    if config.projection == 0:
-        return nn.Linear(pooled_dim, config.feature_dim, bias=False)
-    return nn.Sequential(
-        nn.Linear(pooled_dim, config.projection),
-        nn.GELU(),
-        nn.Linear(config.projection, config.feature_dim, bias=False),
-    )
 
 
 class TransformerBlock(nn.Module):

@@ -25,7 +25,6 @@ from cltp.checkpoints.frozen import FrozenEncoder, noisy_frames
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Augmentation, Batch, Sampler
 from cltp.errors import TouchError
-from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import NUMBERS
 from cltp.train.stage import ProgressReport, silent
 from cltp.train.text_targets import class_numbers
@@ -156,7 +155,10 @@ def _encode_block(
 ) -> dict[str, Tensor]:
     parts = []
     for batch, step in numbered_batches(sampler, rows, first_step):
-        frames = _noisy_frames(sampler, batch, step) if encoder.sees_images else None
+        frames = None
+        if encoder.sees_images:
+            rng = np.random.default_rng([sampler.seed, 67, step])
+            frames = noisy_frames(batch.height_mm, batch.sensors, sampler.augmentation, rng)
         parts.append(_encode_batch(encoder, batch, frames))
     block = {key: torch.cat([part[key] for part in parts]).contiguous() for key in parts[0]}
     return block | {key: block[key].half() for key in ("pooled", "feature")}
@@ -178,10 +180,3 @@ def _joined(parts: Sequence[dict[str, Tensor]]) -> EncodedContacts:
     columns = {key: torch.cat([part[key] for part in parts]) for key in parts[0]}
     columns |= {key: columns[key].float() for key in ("pooled", "feature")}
     return EncodedContacts(**columns)
-
-
-def _noisy_frames(sampler: Sampler, batch: Batch, step: int) -> Tensor:
-    names = sampler.dataset.column("sensor")
-    sensors = [sensor_named(names[index]) for index in batch.index]
-    rng = np.random.default_rng([sampler.seed, 67, step])
-    return noisy_frames(batch.height_mm, sensors, sampler.augmentation, rng)

@@ -9,13 +9,11 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch
 from cltp.encoder.clip_towers import Towers
 from cltp.evaluation.features import EncodedContacts
-from cltp.tactile.render import render
-from cltp.tactile.sensors import sensor_named
 from cltp.texts.captions import caption
+from cltp.train.clip_feature_cache import rendered
 
 RANKS = (1, 5, 10)
 """Ranks k at which retrieval is counted."""
@@ -49,9 +47,7 @@ def score_retrieval(
     }
 
 
-def score_image_retrieval(
-    towers: Towers, data: ContactDataset, batches: Sequence[Batch]
-) -> dict[str, float]:
+def score_image_retrieval(towers: Towers, batches: Sequence[Batch]) -> dict[str, float]:
     """Retrieve images of the clean gel and captions among those of a batch, as CLIP is measured.
 
     Returns:
@@ -62,9 +58,7 @@ def score_image_retrieval(
     rows = []
     for batch in batches:
         texts, own = _different([caption(state) for state in batch.states])
-        sensors = [sensor_named(data.column("sensor")[index]) for index in batch.index]
-        images = [render(h, s) for h, s in zip(batch.height_mm, sensors, strict=True)]
-        cosines = towers.images(torch.stack(images)) @ towers.texts(texts).T
+        cosines = towers.images(rendered(batch)) @ towers.texts(texts).T
         of_images, of_texts = _hits(cosines, own, 1)
         same = (own[:, None] == own).double()
         rows.append([float(x.mean()) for x in (of_images, of_texts[own], same)] + [len(own)])

@@ -87,8 +87,7 @@ class Language:
         """Tokens between the touch and the reply."""
         if self.words:
             return prompt_ids(self.words, text)
-        ask = f"{text}\n<|im_end|>\n<|im_start|>assistant\n"
-        return self._stock_ids(ask)
+        return self._stock_ids(f"{text}\n<|im_end|>\n<|im_start|>assistant\n")
 
     def decode(self, ids: Sequence[int]) -> str:
         if self.words:

@@ -69,7 +69,13 @@ class StoredLm:
 
     def __init__(self, config: StoredConfig, state: Mapping[str, Tensor]) -> None:
         self.config = config
-        root = _tree(state)
+        root = SimpleNamespace()
+        for name, value in state.items():  # 'a.b.weight' as attributes
+            *path, last = name.split(".")
+            node = root
+            for part in path:
+                node = node.__dict__.setdefault(part, SimpleNamespace())
+            setattr(node, last, value)
         self.model = root.model
         layers = vars(root.model.layers)
         self.model.layers = [layers[str(n)] for n in range(config.num_hidden_layers)]
@@ -149,15 +155,3 @@ def _shapes(config: StoredConfig) -> dict[str, tuple[int, ...]]:
     for number in range(config.num_hidden_layers):
         shapes |= {f"model.layers.{number}.{name}": shape for name, shape in layer.items()}
     return shapes
-
-
-def _tree(state: Mapping[str, Tensor]) -> SimpleNamespace:
-    """'a.b.weight' as attributes."""
-    root = SimpleNamespace()
-    for name, value in state.items():
-        *path, last = name.split(".")
-        node = root
-        for part in path:
-            node = node.__dict__.setdefault(part, SimpleNamespace())
-        setattr(node, last, value)
-    return root

@@ -66,7 +66,14 @@ def question_answers(state: ContactState, sensor: SensorSpec, seed: int) -> list
             continue
         question = _OPEN[slot][draw_index(seed, slot, len(_OPEN[slot]))]
         pairs.append(QuestionAnswer(slot, question, numbers[slot]))
-        pairs.append(_yes_or_no(slot, word, seed))
+        suggested = word
+        if draw_index(seed, f"{slot}?", 2):
+            others = [other for other in DIMENSIONS[slot] if other != word]
+            suggested = others[draw_index(seed, f"{slot} other", len(others))]
+        truth = with_article(word) if slot == "shape" else word
+        question = _CLOSED[slot].format(word=suggested, a=with_article(suggested))
+        answer = "Yes." if suggested == word else f"No, it is {truth}."
+        pairs.append(QuestionAnswer(slot, question, answer))
     if math.isfinite(state.force_n):
         pairs.append(QuestionAnswer("force", "How hard is it pressed?", numbers["force"]))
     sides = " and ".join(sorted(state.cut))
@@ -88,13 +95,3 @@ def _in_numbers(state: ContactState, sensor: SensorSpec, within: Tolerances) -> 
         "area": f"The area is {state.area}: {area_mm2:.1f} ± {within.area_mm2:.1f} mm².",
         "force": f"With {state.force_n:.2f} ± {within.force_n:.2f} N.",
     }
-
-
-def _yes_or_no(slot: str, word: str, seed: int) -> QuestionAnswer:
-    suggested = word
-    if draw_index(seed, f"{slot}?", 2):
-        others = [other for other in DIMENSIONS[slot] if other != word]
-        suggested = others[draw_index(seed, f"{slot} other", len(others))]
-    truth = with_article(word) if slot == "shape" else word
-    question = _CLOSED[slot].format(word=suggested, a=with_article(suggested))
-    return QuestionAnswer(slot, question, "Yes." if suggested == word else f"No, it is {truth}.")

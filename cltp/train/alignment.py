@@ -113,7 +113,7 @@ def _terms(
     with workers.autocast():
         encoded = learner.encoder(torch.from_numpy(batch.points).to(device))
     feature = encoded.feature.float()
-    matches = matches_of_all(texts, device) if recipe.shares_texts else None
+    matches = matches_of_all(texts, device) if recipe.texts == "mixed" else None
     terms = loss(feature, language, images, matches)
     if recipe.prompt_weight > 0:
         classes = texts.classes.to(device)

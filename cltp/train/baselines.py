@@ -34,7 +34,6 @@ from cltp.encoder.heads import targets
 from cltp.encoder.losses import ContrastiveLoss
 from cltp.encoder.masked_modelling import PointBert, PointMae, ShapeWords, patch_size, patches
 from cltp.errors import TouchError
-from cltp.tactile.sensors import sensor_named
 from cltp.train.finite_check import check_batch
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, TRAINING_ORDER
 from cltp.train.prefetch import prefetched
@@ -175,15 +174,13 @@ def _train_vision(method: str, encoder: TactileEncoder, towers: Towers, work: _W
         )
     learner = _VisionLearner(encoder).to(work.run.workers.device)
     text_features: dict[str, Tensor] = {}
-    sensors = work.data.column("sensor")
 
     def losses(batch: Batch, step: int) -> dict[str, Tensor]:
         texts = surface_texts(method, work.data, batch)
         for text in texts:
             if text not in text_features:
                 text_features[text] = towers.texts([text])[0].cpu()
-        shown = [sensor_named(sensors[index]) for index in batch.index]
-        pixels = noisy_frames(batch.height_mm, shown, work.augmentation, work.rng(step))
+        pixels = noisy_frames(batch.height_mm, batch.sensors, work.augmentation, work.rng(step))
         vision = encoder(pixels.to(work.run.workers.device)).feature.float()
         language = torch.stack([text_features[text] for text in texts]).to(work.run.workers.device)
         numbers = torch.tensor([zlib.crc32(text.encode()) for text in texts], device=vision.device)

@@ -105,7 +105,7 @@ def train_clip(
     if stage.done and folder.exists():
         return folder
     sampler = Sampler(data, RENDERED, seed=seed)
-    batches = prefetched((batch, rendered(data, batch)) for batch in stage.batches(sampler))
+    batches = prefetched((batch, rendered(batch)) for batch in stage.batches(sampler))
     encode = partial(text_features, learner.clip, words)
 
     def losses(step: int) -> dict[str, Tensor]:
@@ -115,7 +115,7 @@ def train_clip(
         with workers.autocast():
             language = encode(texts.texts).float()
             images = image_features(learner.clip, pixels.to(workers.device)).float()
-        matching = matches_of_all(texts, workers.device) if recipe.shares_texts else None
+        matching = matches_of_all(texts, workers.device) if recipe.texts == "mixed" else None
         terms = {"contrast": learner.loss.contrast(images, language, matching)}
         if recipe.prompt_weight > 0:
             classes = texts.classes.to(workers.device)

@@ -83,26 +83,23 @@ class FrozenFeatures:
         mirror = torch.from_numpy(batch.mirror).long()
         rows = 4 * torch.from_numpy(batch.index) + 2 * mirror[:, 0] + mirror[:, 1]
         for index in batch.index[~self._computed[rows].numpy() & ~batch.moved]:
-            self._compute_images(int(index))
+            # The four mirror images of one contact, always these together: see ``texts``.
+            own = slice(4 * int(index), 4 * int(index) + 4)
+            if self._computed[own].all():
+                continue
+            heights = self.data.height_mm(int(index))
+            sensor = sensor_named(self.data.column("sensor")[index])
+            mirrored = [heights[:: 1 - 2 * y, :: 1 - 2 * x] for x in (0, 1) for y in (0, 1)]
+            pixels = torch.stack([render(height_mm, sensor) for height_mm in mirrored])
+            self._images[own] = self._towers.images(pixels).cpu().half()
+            self._computed[own] = True
+            self._note_change()
         features = self._images[rows].float()
         if batch.moved.any():
             moved = torch.from_numpy(batch.moved)
-            pixels = rendered(self.data, batch)[moved]
+            pixels = rendered(batch)[moved]
             features[moved] = self._towers.images(pixels).cpu().float()
         return features
-
-    def _compute_images(self, index: int) -> None:
-        """Compute the four mirror images of one contact, always these together: see ``texts``."""
-        rows = slice(4 * index, 4 * index + 4)
-        if self._computed[rows].all():
-            return
-        heights = self.data.height_mm(index)
-        sensor = sensor_named(self.data.column("sensor")[index])
-        mirrored = [heights[:: 1 - 2 * y, :: 1 - 2 * x] for x in (0, 1) for y in (0, 1)]
-        pixels = torch.stack([render(height_mm, sensor) for height_mm in mirrored])
-        self._images[rows] = self._towers.images(pixels).cpu().half()
-        self._computed[rows] = True
-        self._note_change()
 
     def save(self) -> None:
         """Write all features, where any are new."""
@@ -150,11 +147,6 @@ def fingerprint(towers: Towers) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def rendered(data: ContactDataset, batch: Batch) -> Tensor:
+def rendered(batch: Batch) -> Tensor:
     """Images of the clean gel of a batch, shape (B, 3, 64, 64)."""
-    sensors = data.column("sensor")
-    images = [
-        render(heights, sensor_named(sensors[index]))
-        for heights, index in zip(batch.height_mm, batch.index, strict=True)
-    ]
-    return torch.stack(images)
+    return torch.stack([render(h, s) for h, s in zip(batch.height_mm, batch.sensors, strict=True)])

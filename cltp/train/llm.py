@@ -28,7 +28,7 @@ from cltp.checkpoints.tac3d_llm import load_touching_encoder, save_tac3d_llm
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Sampler
-from cltp.encoder.encoder import Encoded, TactileEncoder
+from cltp.encoder.encoder import Encoded
 from cltp.encoder.heads import with_read_numbers
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -116,7 +116,8 @@ def train_llm(
     learner = _Learner(run, model, words, data, lessons, augmentation)
     identity = {
         "data": data.checksum(),
-        "encoder": _fingerprint(encoder),
+        # Tells encoders apart; a stage must not continue behind another one.
+        "encoder": float(sum(p.detach().double().abs().sum() for p in encoder.parameters())),
         "words": words.fingerprint(),
         "lm": f"{dim} {layers} {augmentation}",
     }
@@ -128,11 +129,6 @@ def train_llm(
         learner.train(Stage(name, run, learned, schedules[name], identity), number)
     save_tac3d_llm(run.out, model.cpu().eval())
     return run.out
-
-
-def _fingerprint(encoder: TactileEncoder) -> float:
-    """Tells encoders apart; a stage must not continue behind another one."""
-    return float(sum(p.detach().double().abs().sum() for p in encoder.parameters()))
 
 
 @dataclass(frozen=True, slots=True)

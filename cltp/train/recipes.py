@@ -43,11 +43,6 @@ class AlignmentRecipe:
             if part.name.endswith("_weight") and value < 0:
                 raise TouchError(f"{part.name} must be at least 0, got {value}")
 
-    @property
-    def shares_texts(self) -> bool:
-        """Whether a text belongs to every contact that it is true of, not to its own alone."""
-        return self.texts == "mixed"
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ClipRecipe(AlignmentRecipe):

@@ -136,9 +136,24 @@ class Stage:
         while not self.done:
             terms = losses(self.step)
             total = sum((t for t in terms.values() if t.requires_grad), torch.tensor(0.0))
-            self._descend(total)
+            if not torch.isfinite(total):
+                raise TouchError(
+                    f"{self.name}: the loss became {float(total.detach())} in step {self.step}; "
+                    "lower the learning rate or look at the data"
+                )
+            for group in self._optimiser.param_groups:
+                group["lr"] = self.schedule.rate(self.step)
+            self._optimiser.zero_grad(set_to_none=True)
+            total.backward()
+            averaged_gradients(self._parameters)
+            nn.utils.clip_grad_norm_(self._parameters, self.schedule.largest_gradient)
+            self._optimiser.step()
             self.step += 1
-            self._note({name: float(term.detach()) for name, term in terms.items()})
+            values = {name: float(term.detach()) for name, term in terms.items()}
+            for name, value in values.items():
+                self._means[name] = 0.95 * self._means.get(name, value) + 0.05 * value
+            if self._curve is not None:
+                self._curve.add(self.step, self.schedule.rate(self.step - 1), values)
             if self._workers.is_first and (self.step % 10 == 0 or self.done):
                 self._run.report(self.name, self.step, self.schedule.steps, self._means)
             if self._clock() - saved_s > self._run.checkpoint_s or self.done:
@@ -150,26 +165,6 @@ class Stage:
         """Draw the curves beside their CSV file."""
         if self.curves.exists():
             plot_curves(self.curves, self.curves.with_suffix(".png"))
-
-    def _note(self, terms: Mapping[str, float]) -> None:
-        for name, value in terms.items():
-            self._means[name] = 0.95 * self._means.get(name, value) + 0.05 * value
-        if self._curve is not None:
-            self._curve.add(self.step, self.schedule.rate(self.step - 1), terms)
-
-    def _descend(self, total: Tensor) -> None:
-        if not torch.isfinite(total):
-            raise TouchError(
-                f"{self.name}: the loss became {float(total.detach())} in step {self.step}; "
-                "lower the learning rate or look at the data"
-            )
-        for group in self._optimiser.param_groups:
-            group["lr"] = self.schedule.rate(self.step)
-        self._optimiser.zero_grad(set_to_none=True)
-        total.backward()
-        averaged_gradients(self._parameters)
-        nn.utils.clip_grad_norm_(self._parameters, self.schedule.largest_gradient)
-        self._optimiser.step()
 
     def save(self) -> None:
         """Write a checkpoint in the place of the last one."""

@@ -120,9 +120,15 @@ class ElasticLayer:
             raise ValueError(f"a gel computes in float32 or float64, got {dtype}")
         self.material, self.rows, self.columns, self.pitch_mm = material, rows, columns, pitch_mm
         self.dtype, self.device = dtype, torch.device(device)
-        self._modulus = (
-            None if body_modulus_mpa is None else self._checked_modulus(body_modulus_mpa)
-        )
+        self._modulus: Tensor | None = None
+        if body_modulus_mpa is not None:
+            modulus = torch.as_tensor(body_modulus_mpa, dtype=dtype, device=self.device)
+            if modulus.ndim > 1 or not bool((modulus > 0).all()):
+                raise ValueError(
+                    "body_modulus_mpa must be > 0, one number or (B,), "
+                    f"got {body_modulus_mpa}; None is a rigid body"
+                )
+            self._modulus = modulus.reshape(()) if modulus.numel() == 1 else modulus
         # Stiffness of the layer to a wave as long as its thickness (a half-space: as the grid), for
         # first guesses only.
         size = min(material.thickness_mm, 0.5 * pitch_mm * max(rows, columns))
@@ -256,8 +262,16 @@ class ElasticLayer:
         Raises:
             ValueError: A shape, sign or value is out of range.
         """
-        gap = self._checked_gap(gap_mm)
+        gap = self._as_grid(gap_mm, "gap_mm")
         name, batch = "force_n" if by_force else "depth_mm", len(gap)
+        if gap.stride(0) == 0:  # one body, expanded
+            gap = gap[:1]
+        if not bool((gap >= -1e-5).all()):
+            raise ValueError(
+                "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
+                f"own lowest point; the smallest is {gap.min().item()} mm"
+            )
+        gap = gap.clamp(max=NO_BODY_MM).expand(batch, -1, -1)
         loads = torch.as_tensor(load, dtype=self.dtype, device=self.device)
         if loads.ndim > 1 or loads.numel() not in (1, batch):
             raise ValueError(f"{name} must be one number or ({batch},), got {tuple(loads.shape)}")
@@ -290,15 +304,6 @@ class ElasticLayer:
         pressed = (start_mpa > 0).flatten(1).any(1)
         return torch.where(pressed[:, None, None], start_mpa, springs)
 
-    def _checked_modulus(self, modulus_mpa: float | Tensor) -> Tensor:
-        modulus = torch.as_tensor(modulus_mpa, dtype=self.dtype, device=self.device)
-        if modulus.ndim > 1 or not bool((modulus > 0).all()):
-            raise ValueError(
-                f"body_modulus_mpa must be > 0, one number or (B,), got {modulus_mpa}; "
-                "None is a rigid body"
-            )
-        return modulus.reshape(()) if modulus.numel() == 1 else modulus
-
     def _spectrum(self, material: GelMaterial | None) -> Spectrum:
         return spectrum_of(
             material, self.rows, self.columns, self.pitch_mm, self.dtype, self.device
@@ -327,19 +332,6 @@ class ElasticLayer:
                 f"{name} must have shape (B, {self.rows}, {self.columns}), got {tuple(grid.shape)}"
             )
         return grid
-
-    def _checked_gap(self, gap_mm: Tensor) -> Tensor:
-        gap = self._as_grid(gap_mm, "gap_mm")
-        batch = len(gap)
-        if gap.stride(0) == 0:  # one body, expanded
-            gap = gap[:1]
-        if not bool((gap >= -1e-5).all()):
-            raise ValueError(
-                "gap_mm must be >= 0 everywhere and not NaN: it is the body's height above its "
-                f"own lowest point; the smallest is {gap.min().item()} mm"
-            )
-        gap = gap.clamp(max=NO_BODY_MM)
-        return gap if len(gap) == batch else gap.expand(batch, -1, -1)
 
     def _springs_depth(self, gap: Tensor, target: Tensor) -> Tensor:
         """Depth at which springs of the guessed stiffness carry ``target``.

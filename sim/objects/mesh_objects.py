@@ -179,18 +179,13 @@ def _outline(vertices: FloatArray, faces: IntArray, normal: FloatArray) -> Shape
     main = int((bins > 0.08 * lengths.sum()).sum())
     if main >= 5:
         return Shape.DISC
-    if main == 3:
-        opposite = len(rim) % 2 == 0 and _is_symmetric(vertices, rim)
-        return Shape.HEXAGON if opposite else Shape.TRIANGLE
-    return None
-
-
-def _is_symmetric(vertices: FloatArray, rim: IntArray) -> bool:
-    """Whether an outline maps to itself when turned by 180°: a hexagon does, no triangle."""
+    if main != 3:
+        return None
+    # A hexagon maps to itself when turned by 180°, no triangle does.
     from scipy.spatial import cKDTree
 
-    corners = vertices[np.unique(rim)]
-    middle = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    turned = 2 * middle - corners
+    corners = vertices[names]
+    turned = corners.min(axis=0) + corners.max(axis=0) - corners
     distances, _ = cKDTree(corners).query(turned)
-    return float(distances.max()) < 0.05 * float(np.ptp(corners, axis=0).max())
+    is_symmetric = float(distances.max()) < 0.05 * float(np.ptp(corners, axis=0).max())
+    return Shape.HEXAGON if len(rim) % 2 == 0 and is_symmetric else Shape.TRIANGLE

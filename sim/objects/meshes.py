@@ -229,11 +229,7 @@ def _check_surface(vertices: FloatArray, faces: IntArray) -> None:
         raise TouchError(
             "neighbouring faces of the mesh turn both ways; make its normals consistent first"
         )
-    _check_outwards(vertices, faces)
-
-
-def _check_outwards(vertices: FloatArray, faces: IntArray) -> None:
-    """Check that normals of every part point outwards, those of a cavity in a part inwards."""
+    # Normals of every part point outwards, those of a cavity in a part inwards.
     links = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]]])
     number, part = connected_parts(links, len(vertices))
     volumes = np.bincount(part[faces[:, 0]], weights=_face_volumes(vertices, faces))

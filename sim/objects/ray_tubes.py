@@ -73,11 +73,6 @@ def _spread(clear: Tensor, finer: Tensor) -> Tensor:
     return spread[: finer.shape[1], : finer.shape[2]]
 
 
-def _points(origins: Tensor, travelled: Tensor, along: Tensor) -> Tensor:
-    """Ends (N, 3) of rays with origins (3, N)."""
-    return (origins + along[:, None] * travelled).T
-
-
 def _free(
     solid: Solid, middles: Tensor, along: Tensor, travelled: Tensor, radius: float, far_mm: float
 ) -> Tensor:
@@ -85,7 +80,7 @@ def _free(
     free = travelled.clone()
     index = torch.arange(len(free))
     for _ in range(_TUBE_STEPS):
-        distance = solid.distance(_points(middles, travelled, along))
+        distance = solid.distance((middles + along[:, None] * travelled).T)
         free_step = (distance / solid.max_slope - radius).clamp_(min=0)
         travelled = travelled + free_step
         free[index] = travelled
@@ -105,7 +100,7 @@ def _march(
     index = torch.nonzero(first < far_mm)[:, 0]
     origins, travelled = origins.index_select(1, index), first[index]
     for step in range(steps):
-        distance = solid.distance(_points(origins, travelled, along))
+        distance = solid.distance((origins + along[:, None] * travelled).T)
         if step == 0:
             travelled = travelled.masked_fill((distance < -NEAR_MM) & (travelled == 0), torch.nan)
         arrived = distance < NEAR_MM

@@ -148,7 +148,11 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
     relief = relief_mm(texture, rng, x, y, sensor)
     turn = rng.uniform(0, 2 * math.pi)
     if shape is Shape.PLANE:
-        x_mm, y_mm = _edge_of_plane(rng, turn, x, y)
+        # Over 80 % of the sensing area, not all: a smooth plane over the whole area could not be
+        # told from no contact, since the sensor does not measure a constant.
+        cos, sin = math.cos(turn), math.sin(turn)
+        end = float(np.quantile(x * cos + y * sin, rng.uniform(*_PLANE_FRACTION)))
+        x_mm, y_mm = end * cos, end * sin
     else:
         x_mm, y_mm = position_within(
             rng, np.array([sensor.width_mm, sensor.height_mm]) / 2
@@ -174,19 +178,6 @@ def _indenter_series(number: int, rng: np.random.Generator, sensor: SensorSpec) 
         shape=shape,
         texture=texture,
     )
-
-
-def _edge_of_plane(
-    rng: np.random.Generator, turn_rad: float, x_mm: FloatArray, y_mm: FloatArray
-) -> tuple[float, float]:
-    """Position [mm] of the edge of a plane that covers over 80 % of the sensing area, not all.
-
-    A smooth plane over the whole area could not be told from no contact, since the sensor does not
-    measure a constant.
-    """
-    cos, sin = math.cos(turn_rad), math.sin(turn_rad)
-    end = float(np.quantile(x_mm * cos + y_mm * sin, rng.uniform(*_PLANE_FRACTION)))
-    return end * cos, end * sin
 
 
 def _depths(

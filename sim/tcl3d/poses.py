@@ -134,7 +134,11 @@ def surface_pose(
     lean = _random_lean(math.tan(math.radians(CONE_DEG)) * math.sqrt(rng.random()), rng)
     face = _measure_face(obj, contact, frame) if flat else None
     even = EVEN_FRACTION * lightest_mm / (_PAD_MM if face is None else face.pad_span_mm)
-    lean = _limit_lean(lean, np.array(along), np.array(diagonal), even)
+    # Limited to what keeps the contact on the pad.
+    mixed = (diagonal[0] - diagonal[1]) / 2
+    values, vectors = np.linalg.eigh(np.array([[along[0], mixed], [mixed, along[1]]]))
+    limit = np.maximum(SHIFT_MM * values.clip(min=0), even)
+    lean = np.asarray(vectors @ np.clip(vectors.T @ lean, -limit, limit))
     if face is not None and face.end is not None and textured and rng.random() < 0.4:
         # A texture shows without an end of the face in view.
         face = _Face(span_mm=4 * _PAD_MM, centre=face.centre, end=None)
@@ -188,17 +192,6 @@ def _normal_curvature(
     return max(0.0, float((front - back) @ direction) / (2 * step_mm))
 
 
-def _limit_lean(
-    lean: FloatArray, along: FloatArray, diagonal: FloatArray, even: float
-) -> FloatArray:
-    """Lean (2,) as a slope, limited to what keeps the contact on the pad."""
-    mixed = (diagonal[0] - diagonal[1]) / 2
-    bending = np.array([[along[0], mixed], [mixed, along[1]]])
-    values, vectors = np.linalg.eigh(bending)
-    limit = np.maximum(SHIFT_MM * values.clip(min=0), even)
-    return np.asarray(vectors @ np.clip(vectors.T @ lean, -limit, limit))
-
-
 def _pose_on_pad(
     contact: SurfacePoint,
     face: _Face | None,
@@ -214,33 +207,26 @@ def _pose_on_pad(
     spin = rng.uniform(0, 2 * math.pi)
     cos, sin = math.cos(spin), math.sin(spin)
     turned = frame @ np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    position = _draw_position(rng, sensor, 0.0 if face is None else face.span_mm)
+    # Wide faces stay mostly inside.
+    margin = max(0.36 * (0.0 if face is None else face.span_mm), 0.6)
+    reach = np.array([sensor.width_mm, sensor.height_mm]) / 2 - margin
+    position = position_within(rng, reach.clip(min=0.5))
     if face is not None and face.end is not None:
-        position = _covering_position(face.end, spin, sensor, rng.uniform(*_COVERED_FRACTION))
+        fraction = rng.uniform(*_COVERED_FRACTION)  # of the sensing area, for a wide face
+        x, y = face.end
+        end = np.array([x * cos + y * sin, y * cos - x * sin])
+        length = max(float(np.hypot(*end)), 1e-6)
+        right, down = end / length
+        steps = (np.arange(64) + 0.5) / 64 - 0.5
+        along = steps[None] * sensor.width_mm * right + steps[:, None] * sensor.height_mm * down
+        position = (float(np.quantile(along, fraction)) - length) * (end / length)
     elif face is not None:
         point = point + frame[:, :2] @ face.centre
-    if lean is not None:
-        turned = _lean_rotation(frame, lean) @ turned
+    slope = 0.0 if lean is None else float(np.hypot(*lean))
+    if lean is not None and slope >= 1e-9:
+        axis = frame[:, :2] @ np.array([-lean[1], lean[0]]) / slope
+        turned = Rotation.from_rotvec(math.atan(slope) * axis).as_matrix() @ turned
     return PressPose(object_from_pad=turned, point=point - turned[:, :2] @ position, flat=flat)
-
-
-def _covering_position(
-    end: FloatArray, spin: float, sensor: SensorSpec, fraction: float
-) -> FloatArray:
-    """Position (2,) [mm] at which a wide face covers ``fraction`` of the sensing area."""
-    cos, sin = math.cos(spin), math.sin(spin)
-    turned = np.array([end[0] * cos + end[1] * sin, end[1] * cos - end[0] * sin])
-    length = max(float(np.hypot(*turned)), 1e-6)
-    direction = turned / length
-    x = (np.arange(64) + 0.5) / 64 - 0.5
-    along = x[None] * sensor.width_mm * direction[0] + x[:, None] * sensor.height_mm * direction[1]
-    return np.asarray((float(np.quantile(along, fraction)) - length) * direction)
-
-
-def _draw_position(rng: np.random.Generator, sensor: SensorSpec, span_mm: float) -> FloatArray:
-    """Position on the pad (2,) [mm]; wide faces stay mostly inside."""
-    reach = np.array([sensor.width_mm, sensor.height_mm]) / 2 - max(0.36 * span_mm, 0.6)
-    return position_within(rng, reach.clip(min=0.5))
 
 
 def position_within(rng: np.random.Generator, reach: FloatArray) -> FloatArray:
@@ -248,12 +234,3 @@ def position_within(rng: np.random.Generator, reach: FloatArray) -> FloatArray:
     if rng.random() < _CENTRED:
         return np.asarray(np.clip(rng.normal(0, _CENTRED_MM, 2), -reach, reach))
     return np.asarray(rng.uniform(-reach, reach))
-
-
-def _lean_rotation(frame: FloatArray, lean: FloatArray) -> FloatArray:
-    """Rotation (3, 3), object frame, that leans a frame's normal by a slope (2,)."""
-    slope = float(np.hypot(*lean))
-    if slope < 1e-9:
-        return np.eye(3)
-    axis = frame[:, :2] @ np.array([-lean[1], lean[0]]) / slope
-    return Rotation.from_rotvec(math.atan(slope) * axis).as_matrix()

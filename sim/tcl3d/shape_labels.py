@@ -92,7 +92,10 @@ def name_shape(contact: ContactGeometry) -> ShapeLabel:
 
 def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
     if len(bars) < 2:
-        return _one_bar(contact)
+        rectangle = contact.rectangle(contact.touching)
+        if rectangle.length < 1.8 * rectangle.width:
+            return _cap(contact).sure_if(False)
+        return ShapeLabel(Shape.LINE, rectangle.length > 2.2 * rectangle.width)
     directions, sizes = [], []
     for number in bars:
         rectangle = contact.rectangle((contact.cells == number) & contact.touching)
@@ -106,13 +109,6 @@ def _bars(contact: ContactGeometry, bars: list[int]) -> ShapeLabel:
     if apart > math.radians(30):
         return ShapeLabel(Shape.CROSS, not short and len(directions) == len(bars))
     return ShapeLabel(Shape.STRIPES, not short)
-
-
-def _one_bar(contact: ContactGeometry) -> ShapeLabel:
-    rectangle = contact.rectangle(contact.touching)
-    if rectangle.length < 1.8 * rectangle.width:
-        return _cap(contact).sure_if(False)
-    return ShapeLabel(Shape.LINE, rectangle.length > 2.2 * rectangle.width)
 
 
 def _several(

@@ -46,14 +46,13 @@ class CalibrateGelsightFlags:
 
 def main(argv: Sequence[str]) -> int:
     """Run the calibration named by the first argument."""
-    commands: dict[str, tuple[type[Any], Callable[[Any], None]]] = {
+    commands: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
         "gelsight-mini": (CalibrateGelsightFlags, _gelsight_mini),
         "background": (CalibrateBackgroundFlags, calibrate_background.run),
         "gripper": (CalibrateGripperFlags, calibrate_gripper.run),
         "pad-axes": (CalibratePadAxesFlags, calibrate_pad_axes.run),
     }
-    run_subcommand("calibrate", argv, commands)
-    return 0
+    return run_subcommand("calibrate", argv, commands) or 0
 
 
 def _gelsight_mini(flags: CalibrateGelsightFlags) -> None:

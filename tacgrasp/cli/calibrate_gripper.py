@@ -47,9 +47,14 @@ class CalibrateGripperFlags:
 
 def run(flags: CalibrateGripperFlags) -> None:
     """Measure, or fit the file of readings, and save the calibration."""
+    from primitives.errors import RobotError
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console
-    from tacgrasp.drivers.dynamixel.calibration import save_calibration
+    from tacgrasp.drivers.dynamixel.calibration import (
+        fit_calibration,
+        read_readings,
+        save_calibration,
+    )
 
     if not 3 <= flags.steps <= 50:
         raise UsageError(f"--steps must be 3 to 50, got {flags.steps}")
@@ -63,10 +68,15 @@ def run(flags: CalibrateGripperFlags) -> None:
     out = flags.out or settings.calibration
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")
-    if flags.readings is not None:
-        calibration = _fitted(flags, settings, flags.readings, date)
-    else:
+    if flags.readings is None:
         calibration = _measured(flags, settings, date, console)
+    else:
+        source = flags.source or flags.readings.name
+        try:
+            readings = read_readings(flags.readings)
+            calibration = fit_calibration(readings, settings, date=date, source=source)
+        except RobotError as error:
+            raise UsageError(f"--readings {flags.readings}: {error}") from None
     save_calibration(out, calibration)
     console.print(f"readings  {calibration.num_readings}, up to {calibration.max_force_n:.2f} N")
     console.print(
@@ -86,20 +96,6 @@ def parse_date(text: str) -> datetime.date:
         return datetime.date.fromisoformat(text) if text else datetime.date.today()
     except ValueError:
         raise UsageError(f"--date must be like 2026-01-31, got {text}") from None
-
-
-def _fitted(
-    flags: CalibrateGripperFlags, settings: DynamixelSettings, readings: Path, date: datetime.date
-) -> GripperCalibration:
-    from primitives.errors import RobotError
-    from tacgrasp.drivers.dynamixel.calibration import fit_calibration, read_readings
-
-    try:
-        return fit_calibration(
-            read_readings(readings), settings, date=date, source=flags.source or readings.name
-        )
-    except RobotError as error:
-        raise UsageError(f"--readings {readings}: {error}") from None
 
 
 def _measured(

@@ -46,22 +46,20 @@ def run(flags: CalibratePadAxesFlags) -> None:
     """Find the axes and print the lines of the rig's file."""
     if flags.rig is not None and (flags.right or flags.palm):
         raise UsageError("give --rig to measure, or --right and --palm, not both")
-    from tacgrasp.bringup.pad_axes import as_yaml
+    from tacgrasp.bringup.pad_axes import as_yaml, axes_named
     from tacgrasp.console import make_console
 
     console = make_console()
-    axes = _named_axes(flags) if flags.rig is None else _measured_axes(flags, flags.rig)
+    if flags.rig is not None:
+        axes = _measured_axes(flags, flags.rig)
+    else:
+        right = flags.right or _ask("Which axis of the TCP points to the pad's right (+x ... -z)? ")
+        axes = axes_named(
+            right, flags.palm or _ask("Which points from the fingertip to the palm? ")
+        )
     console.print("for the rig's file:")
     for line in as_yaml(axes):
         console.print(line)
-
-
-def _named_axes(flags: CalibratePadAxesFlags) -> execution.PadAxes:
-    from tacgrasp.bringup.pad_axes import axes_named
-
-    right = flags.right or _ask("Which axis of the TCP points to the pad's right (+x ... -z)? ")
-    palm = flags.palm or _ask("Which points from the fingertip to the palm? ")
-    return axes_named(right, palm)
 
 
 def _ask(question: str) -> str:

@@ -5,14 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from tacgrasp.cli.flags import parse
-
-if TYPE_CHECKING:
-    from rich.console import Console
-
-    from tacgrasp.drivers.check import Finding
 
 
 @dataclass(frozen=True)
@@ -36,12 +30,7 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.console import make_console
 
     config, _ = load(flags.task, flags.rig, os.environ)
-    findings = rig_findings(config)
-    _print(make_console(), findings)
-    return 0 if all(finding.ok for finding in findings) else 1
-
-
-def _print(out: Console, findings: Sequence[Finding]) -> None:
+    findings, out = rig_findings(config), make_console()
     if out.is_terminal:
         from rich.table import Table
         from rich.text import Text
@@ -64,3 +53,4 @@ def _print(out: Console, findings: Sequence[Finding]) -> None:
         if num_failed
         else f"all {len(findings)} findings are ok"
     )
+    return 1 if num_failed else 0

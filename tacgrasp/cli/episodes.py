@@ -5,14 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import tyro
 
 from tacgrasp.cli.flags import run_subcommand
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 
 @dataclass(frozen=True)
@@ -65,26 +62,27 @@ class PlotFlags:
 
 def main(argv: Sequence[str]) -> int:
     """Run one of the four subcommands."""
-    commands: dict[str, tuple[type[Any], Callable[[Any], None]]] = {
+    commands: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
         "ls": (ListFlags, _list),
         "info": (InfoFlags, _info),
         "recover": (RecoverFlags, _recover),
         "plot": (PlotFlags, _plot),
     }
-    run_subcommand("episodes", argv, commands)
-    return 0
+    return run_subcommand("episodes", argv, commands) or 0
 
 
 def _list(flags: ListFlags) -> None:
+    from tacgrasp.console import make_table_console
     from tacgrasp.episodes.listing import list_episodes, table
 
-    _table_console().print(table(list_episodes(flags.folder)))
+    make_table_console().print(table(list_episodes(flags.folder)))
 
 
 def _info(flags: InfoFlags) -> None:
+    from tacgrasp.console import make_table_console
     from tacgrasp.episodes.listing import info
 
-    _table_console().print(info(flags.episode))
+    make_table_console().print(info(flags.episode))
 
 
 def _recover(flags: RecoverFlags) -> None:
@@ -101,11 +99,3 @@ def _plot(flags: PlotFlags) -> None:
     png = flags.out or flags.episode.with_suffix(".png")
     plot_episode(flags.episode, png)
     make_console().print(f"drawn: {png}")
-
-
-def _table_console() -> Console:
-    """A console of the terminal's width; without a terminal wide enough for the tables."""
-    from rich.console import Console
-
-    console = Console()
-    return console if console.is_terminal else Console(width=160)

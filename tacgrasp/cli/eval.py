@@ -25,9 +25,8 @@ def main(argv: Sequence[str]) -> int:
     json_path = writable(request.json)
     import json
 
-    from rich.console import Console
-
     from cltp.train.progress import Bar
+    from tacgrasp.console import make_table_console
     from tacgrasp.policy_factory import default_weights
     from tacgrasp.training.evaluate import evaluate
     from tacgrasp.training.model_card import show, write_scores
@@ -35,8 +34,7 @@ def main(argv: Sequence[str]) -> int:
     weights = request.weights or default_weights()
     with Bar(line_s=10.0) as report:
         scores = evaluate(weights, request, report)
-    console = Console()
-    show(scores, console if console.is_terminal else Console(width=160))
+    show(scores, make_table_console())
     if json_path is not None:
         json_path.write_text(json.dumps(scores, indent=1) + "\n", encoding="utf-8")
     if request.card:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -168,8 +169,7 @@ def retrieval(argv: Sequence[str]) -> None:
     """Contacts by text (--text), texts by contact (--contact N), or all against all."""
     flags = parse(RetrievalFlags, argv, prog="tacgrasp eval retrieval")
     json_path = _checked(flags)
-    from rich.console import Console
-
+    from tacgrasp.console import make_table_console
     from tacgrasp.pretraining import evaluate
     from tacgrasp.pretraining.report.print_results import print_results
     from tacgrasp.pretraining.retrieval_demo import find_matches, print_matches, write_page
@@ -183,8 +183,8 @@ def retrieval(argv: Sequence[str]) -> None:
     matches = find_matches(
         run, text=flags.text, contact=flags.contact, count=flags.count, method=method
     )
-    console = Console()
-    print_matches(matches, console if console.is_terminal else Console(width=160))
+    console = make_table_console()
+    print_matches(matches, console)
     if flags.page is not None:
         write_page(flags.data, matches, flags.page)
         console.print(str(flags.page), markup=False, highlight=False, soft_wrap=True)
@@ -234,8 +234,6 @@ def _names(text: str) -> list[str]:
 
 
 def _evaluation_run(flags: EvaluationFlags, command: str, argv: Sequence[str]) -> EvaluationRun:
-    import os
-
     import torch
     from transformers.utils.logging import disable_progress_bar
 

@@ -59,7 +59,9 @@ def _problem(event: tyro_errors.ParseErrorEvent, flags: object) -> str:
     """Error message of a refused command line; ``flags`` is the model or dataclass to be filled."""
     match event:
         case tyro_errors.UnrecognizedArgs(tokens=tokens):
-            matches = get_close_matches(tokens[0].split("=")[0], _names(flags), n=1)
+            names = [field.name for field in fields(flags)] if is_dataclass(flags) else []
+            paths = leaves(flags) if isinstance(flags, SettingsBase) else names
+            matches = get_close_matches(tokens[0].split("=")[0], map(flag_of, paths), n=1)
             hint = f"; did you mean {matches[0]}?" if matches else ""
             return f"unknown arguments: {' '.join(tokens)}{hint}"
         case tyro_errors.MissingArgs(missing_arguments=missing):
@@ -85,12 +87,6 @@ def _name(argument: Any) -> str:
     if argument.is_positional():
         return str(argument.field.extern_name).upper()
     return "/".join(argument.lowered.name_or_flags)
-
-
-def _names(flags: object) -> list[str]:
-    if isinstance(flags, SettingsBase):
-        return [flag_of(path) for path in leaves(flags)]
-    return [flag_of(field.name) for field in fields(flags)] if is_dataclass(flags) else []
 
 
 def subcommand(

@@ -45,7 +45,7 @@ def main(argv: Sequence[str]) -> int:
     for flag, value in (("--policy", flags.policy), ("--weights", flags.weights)):
         if value is not None and not flags.decide:
             raise UsageError(f"{flag} needs --decide")
-    from tacgrasp.console import make_console
+    from tacgrasp.console import StepPrinter, make_console, truth_text
     from tacgrasp.episodes import read_episode
 
     episode = read_episode(flags.episode)
@@ -56,12 +56,6 @@ def main(argv: Sequence[str]) -> int:
         return _decide(episode, flags, console)
     if flags.execute:
         return _execute(episode, flags.episode, console)
-    return _show(episode, console)
-
-
-def _show(episode: Episode, console: Console) -> int:
-    from tacgrasp.console import StepPrinter, truth_text
-
     header, end = episode.header, episode.end
     console.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
     print_step = StepPrinter(console)

@@ -50,7 +50,10 @@ def main(argv: Sequence[str]) -> int:
     if print_config:
         _print_config(config, sources)
         return 0
-    return _exit_code(_run(config), dry_run=config.dry_run)
+    outcome = _run(config)
+    if config.dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
+        return 0  # the one decision of a dry run was made
+    return EXIT_CODES.get(outcome.reason, 1)
 
 
 def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
@@ -99,12 +102,6 @@ def _run(config: RunConfig) -> Outcome:
     return outcome
 
 
-def _exit_code(outcome: Outcome, *, dry_run: bool) -> int:
-    if dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
-        return 0  # the one decision of a dry run was made
-    return EXIT_CODES.get(outcome.reason, 1)
-
-
 def _print_config(config: RunConfig, sources: Sources) -> None:
     from tacgrasp.console import make_console
 
@@ -112,10 +109,7 @@ def _print_config(config: RunConfig, sources: Sources) -> None:
     width = max(map(len, values))
     console = make_console()
     for path, value in values.items():
-        console.print(f"{path:{width}}  {_text(value)}  [{sources.get(path, 'default')}]")
-
-
-def _text(value: object) -> str:
-    if isinstance(value, tuple):
-        return f"[{', '.join(f'{v:g}' for v in value)}]"
-    return "none" if value is None else str(value)
+        text = "none" if value is None else str(value)
+        if isinstance(value, tuple):
+            text = f"[{', '.join(f'{v:g}' for v in value)}]"
+        console.print(f"{path:{width}}  {text}  [{sources.get(path, 'default')}]")

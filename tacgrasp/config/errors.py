@@ -74,13 +74,9 @@ def _explain(details: ErrorDetails, name: str) -> str:
         return f"{name} must be the path of a file, got {got!r}"
     message = re.sub(r"^\w+ should | after validation.*", "", details["msg"])
     message = message.replace("a valid tuple", "a list")
-    unit = _unit_of(path_of(loc))
-    return f"{name} must {message}{f' [{unit}]' if unit else ''}, got {got!r}"
-
-
-def _unit_of(path: str) -> str:
-    endings = [ending for ending in UNITS if path.endswith(f"_{ending}")]
-    return UNITS[max(endings, key=len)] if endings else ""
+    endings = [ending for ending in UNITS if path_of(loc).endswith(f"_{ending}")]
+    unit = f" [{UNITS[max(endings, key=len)]}]" if endings else ""
+    return f"{name} must {message}{unit}, got {got!r}"
 
 
 def _known_fields(loc: Location) -> str:

@@ -6,6 +6,7 @@ Not here: the fields and their ranges (``tacgrasp.config.schema``).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from importlib import resources
 from pathlib import Path
 from typing import Any
@@ -71,7 +72,9 @@ def load_with_limits(
         _merge(merged, fields, source, sources)
     hard = _hard_limits(merged)
     for variable, value in sorted(variables.items()):
-        layer: Any = _yaml_value(value)
+        layer: Any = value
+        with suppress(yaml.YAMLError):
+            layer = yaml.safe_load(value)
         keys = variable.removeprefix(ENV_PREFIX).lower().split("__")
         if keys[0] == "hardware":
             raise UsageError(
@@ -137,13 +140,6 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
         if field in fields:
             raise UsageError(f"{source}: {field} can't be set in a file; give --{field} instead")
     return source, fields, folder
-
-
-def _yaml_value(text: str) -> Any:
-    try:
-        return yaml.safe_load(text)
-    except yaml.YAMLError:
-        return text
 
 
 def _merge(merged: dict[str, Any], layer: dict[str, Any], source: str, sources: Sources) -> None:

@@ -41,7 +41,10 @@ def contact_card(data: ContactDataset, index: int) -> Image.Image:
     for column, image in enumerate(pair):
         card.paste(Image.fromarray(image), (column * (PICTURE_PX + 2), 0))
     draw = ImageDraw.Draw(card)
-    _draw_thirds(draw, PICTURE_PX, height)
+    for third in (1, 2):  # the grid of the nine positions over the depth map
+        x, y = PICTURE_PX + 2 + third * PICTURE_PX // 3, third * height // 3
+        draw.line([(x, 0), (x, height)], fill=(70, 76, 90))
+        draw.line([(PICTURE_PX + 2, y), (2 * PICTURE_PX + 2, y)], fill=(70, 76, 90))
     texts = texts_of(data, index)
     head = f"{index}  {data.column('object')[index]}  {data.column('split')[index]}"
     if ambiguous := ambiguous_dimensions(data, index):
@@ -84,14 +87,6 @@ def ambiguous_dimensions(data: ContactDataset, index: int) -> list[str]:
     if "unsure" not in data.column_names:
         return []
     return str(data.column("unsure")[index] or "").split()
-
-
-def _draw_thirds(draw: ImageDraw.ImageDraw, width: int, height: int) -> None:
-    """Draw the grid of the nine positions over the depth map."""
-    for third in (1, 2):
-        x, y = width + 2 + third * width // 3, third * height // 3
-        draw.line([(x, 0), (x, height)], fill=(70, 76, 90))
-        draw.line([(width + 2, y), (2 * width + 2, y)], fill=(70, 76, 90))
 
 
 @lru_cache(maxsize=4)

@@ -52,7 +52,9 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     _open(out, plan.about())
     _clear(out, numbers)
     jobs = [
-        (out, number, sizes[number]) for number in numbers if not _index_of(out, number).exists()
+        (out, number, sizes[number])
+        for number in numbers
+        if not (out / f"shard-{_part(number)}-00000.parquet").exists()
     ]
     with count_progress(console) as progress:
         bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
@@ -189,7 +191,3 @@ def _clear(out: Path, numbers: list[int]) -> None:
 
 def _part(shard: int) -> str:
     return f"s{shard:05d}"
-
-
-def _index_of(out: Path, shard: int) -> Path:
-    return out / f"shard-{_part(shard)}-00000.parquet"

@@ -125,7 +125,12 @@ def _rows(labels: Path) -> list[_Row]:
         with labels.open(encoding="utf-8-sig", newline="") as file:
             reader = csv.DictReader(file, strict=True)
             header = [name.strip().lower() for name in reader.fieldnames or ()]
-            _check_header(labels, header)
+            unknown = [name for name in header if name not in COLUMNS]
+            if "file" not in header or unknown or len(set(header)) != len(header):
+                raise UsageError(
+                    f"--labels {labels} needs a header with the column file and any of "
+                    f"{', '.join(COLUMNS[1:])}, each once; got {', '.join(header) or 'nothing'}"
+                )
             reader.fieldnames = header
             rows = [_row(reader.line_num, dict(cells)) for cells in reader]
     except OSError as error:
@@ -141,15 +146,6 @@ def _row(line: int, cells: dict[str | None, Any]) -> _Row:
     has_extra_cells = cells.pop(None, None) is not None  # csv puts them under None
     named = {str(name): value.strip() for name, value in cells.items() if value and value.strip()}
     return _Row(line, named, has_extra_cells)
-
-
-def _check_header(labels: Path, header: list[str]) -> None:
-    unknown = [name for name in header if name not in COLUMNS]
-    if "file" not in header or unknown or len(set(header)) != len(header):
-        raise UsageError(
-            f"--labels {labels} needs a header with the column file and any of "
-            f"{', '.join(COLUMNS[1:])}, each once; got {', '.join(header) or 'nothing'}"
-        )
 
 
 def _write(

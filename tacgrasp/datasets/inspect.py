@@ -16,6 +16,9 @@ from tacgrasp.datasets.stats import UNKNOWN
 
 _SHADES = " .:-=+*#%@"
 _MAP_COLUMNS, _MAP_ROWS = 64, 24
+_LABELS = frozenset({*NUMBER_COLUMNS.values(), *DIMENSIONS, "cut", "unsure"})
+_ORIGIN = frozenset({"sensor", "object", "series", "split", "seed"})
+_BYTES = frozenset({"offset", "size", "crc32", "rows", "columns"})
 
 
 def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
@@ -36,7 +39,7 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
         )
     else:
         yield "gel       unknown: a real contact"
-    yield f"labels    {_word(state.texture)} {_word(state.shape)}"
+    yield f"labels    {state.texture or UNKNOWN} {state.shape or UNKNOWN}"
     yield (
         f"          depth {state.depth or 'none'}, position {state.position or 'none'}, "
         f"area {state.area or 'none'}, cut {' '.join(sorted(state.cut)) or 'no'}"
@@ -46,7 +49,9 @@ def lines_of(data: ContactDataset, index: int) -> Iterator[str]:
         f"{state.area_fraction:.2%} of the sensing area, {state.force_n:.3f} N"
     )
     yield f"ambiguous {' '.join(ambiguous_dimensions(data, index)) or 'no'}"
-    yield from _other_columns(data, index)
+    for name in data.column_names:  # those without a line of their own
+        if name not in _LABELS | _ORIGIN | _BYTES and not name.startswith("gel_"):
+            yield f"{name:9} {data.column(name)[index]}"
     yield (
         f"heights   {heights.shape[0]} × {heights.shape[1]}, {heights.min():+.3f} to "
         f"{heights.max():+.3f} mm, {int(data.column('size')[index]):,} bytes stored"
@@ -70,19 +75,3 @@ def height_lines(height_mm: NDArray[np.floating], sensor: SensorSpec) -> list[st
     # The square root makes a contact of a tenth of the range visible.
     shade = (np.sqrt(coarse.clip(0, 1)) * len(_SHADES)).astype(int).clip(0, len(_SHADES) - 1)
     return ["".join(_SHADES[value] for value in row).rstrip() for row in shade]
-
-
-def _word(label: str | None) -> str:
-    return UNKNOWN if label is None else str(label)
-
-
-_LABELS = frozenset({*NUMBER_COLUMNS.values(), *DIMENSIONS, "cut", "unsure"})
-_ORIGIN = frozenset({"sensor", "object", "series", "split", "seed"})
-_BYTES = frozenset({"offset", "size", "crc32", "rows", "columns"})
-
-
-def _other_columns(data: ContactDataset, index: int) -> Iterator[str]:
-    """Columns without a line of their own."""
-    for name in data.column_names:
-        if name not in _LABELS | _ORIGIN | _BYTES and not name.startswith("gel_"):
-            yield f"{name:9} {data.column(name)[index]}"

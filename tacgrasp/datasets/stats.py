@@ -116,7 +116,11 @@ def show(counts: DataStats, console: Console) -> None:
     groups = {**counts.classes, "split": counts.splits, "sensor": counts.sensors}
     for name, group in groups.items():
         console.print(_bars(name, group, counts.contacts))
-    console.print(_objects(counts))
+    sizes = np.array(list(counts.objects.values()))
+    console.print(
+        f"objects   {len(sizes)}, contacts of each: {sizes.min():,} to {sizes.max():,}, "
+        f"median {np.median(sizes):,.0f}"
+    )
     console.print(_numbers(counts))
     ambiguous = "not marked in this data"
     if counts.ambiguous is not None:
@@ -170,14 +174,6 @@ def _bars(title: str, counts: Mapping[str, int], total: int) -> Group:
         low = "red" if count < MIN_CLASS_FRACTION * total else "cyan"
         table.add_row(f"  {name}", Text(bar.ljust(_BAR), low), f"{count:,}", f"{count / total:.1%}")
     return Group(Text(title, style="bold"), table)
-
-
-def _objects(counts: DataStats) -> str:
-    sizes = np.array(list(counts.objects.values()))
-    return (
-        f"objects   {len(sizes)}, contacts of each: {sizes.min():,} to {sizes.max():,}, "
-        f"median {np.median(sizes):,.0f}"
-    )
 
 
 def _numbers(counts: DataStats) -> Table:

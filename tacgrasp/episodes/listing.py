@@ -61,6 +61,8 @@ def info(path: Path) -> Table:
     episode = read_episode(path)
     header, end = episode.header, episode.end
     started = datetime.fromtimestamp(header.stamp.wall_s, tz=UTC)
+    executed = [step.executed.primitive for step in episode.steps if step.executed is not None]
+    actions = Counter(primitive.value for primitive in executed if primitive is not None)
     recover = f"`tacgrasp episodes recover {path}` makes a finished file of it"
     rows = {
         "file": f"{path} ({_size(path.stat().st_size)})",
@@ -75,7 +77,7 @@ def info(path: Path) -> Table:
         "started": f"{started:%Y-%m-%d %H:%M:%S} UTC",
         "duration": f"{duration_s(episode):.2f} s",
         "steps": _steps_text(episode),
-        "actions": _actions_text(episode),
+        "actions": ", ".join(f"{count} × {name}" for name, count in actions.items()),
         "end": end.reason if end else "not recorded: the run was killed or crashed",
         "message": end.message if end else "",
         "declared success": _YES_NO[end.declared_success] if end else "",
@@ -126,12 +128,6 @@ def _steps_text(episode: Episode) -> str:
     num_steps = _num_loop_steps(episode)
     num_checks = len(episode.steps) - num_steps
     return f"{num_steps}" + (f" and {num_checks} of the verification" if num_checks else "")
-
-
-def _actions_text(episode: Episode) -> str:
-    executed = [step.executed.primitive for step in episode.steps if step.executed is not None]
-    counts = Counter(primitive.value for primitive in executed if primitive is not None)
-    return ", ".join(f"{count} × {name}" for name, count in counts.items())
 
 
 def _truth_text(end: EpisodeEnd | None) -> str:

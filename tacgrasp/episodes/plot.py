@@ -52,7 +52,9 @@ def plot_episode(path: Path, png_path: Path) -> None:
 
 def draw_episode(episode: Episode, name: str) -> Figure:
     """The picture of an episode with at least one step; ``name`` goes into the title."""
-    drawn = _thinned(episode.steps)
+    num_steps = len(episode.steps)
+    shown = np.linspace(0, num_steps - 1, min(num_steps, MAX_PICTURES)).round().astype(int)
+    drawn = [episode.steps[i] for i in shown]
     rows = math.ceil(len(drawn) / _COLUMNS)
     height_in = 1.0 + 1.75 * rows + 4.2
     figure = Figure(figsize=(13, height_in))
@@ -70,12 +72,6 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     _draw_curves(figure, curves, episode, contacts)
     _draw_path(figure.add_subplot(curves[:, 1]), episode, contacts)
     return figure
-
-
-def _thinned(steps: Sequence[StepRecord]) -> list[StepRecord]:
-    if len(steps) <= MAX_PICTURES:
-        return list(steps)
-    return [steps[i] for i in np.linspace(0, len(steps) - 1, MAX_PICTURES).round().astype(int)]
 
 
 def _contact(cloud: TactileCloud) -> FloatArray:

@@ -39,7 +39,9 @@ def recover(path: Path, out: Path | None = None) -> str:
     """
     scan = scan_file(path)
     check_format(path, scan)
-    num_steps = _num_steps(scan)
+    records = list(scan.records)
+    states = {r.id for r in records if isinstance(r, Channel) and r.topic == Topic.STATE}
+    num_steps = sum(isinstance(r, Message) and r.channel_id in states for r in records)
     if scan.finished:
         return f"{path} is finished already ({num_steps} steps); left as it is"
     _refuse_while_recording(path)
@@ -54,12 +56,6 @@ def recover(path: Path, out: Path | None = None) -> str:
     except OSError as error:
         raise EpisodeError(refusal(target, "write", error)) from None
     return f"{target}: {num_steps} steps recovered; {path.name}: {scan.problem}; kept as {original}"
-
-
-def _num_steps(scan: Scan) -> int:
-    records = list(scan.records)
-    states = {r.id for r in records if isinstance(r, Channel) and r.topic == Topic.STATE}
-    return sum(isinstance(r, Message) and r.channel_id in states for r in records)
 
 
 def _refuse_while_recording(path: Path) -> None:

@@ -72,7 +72,15 @@ class EpisodeWriter:
         Raises:
             EpisodeError: The directory is missing, read-only or full, or the file exists.
         """
-        header = self._json(self._header)
+        header = self._header
+        message = self._json(header)
+        metadata = {
+            "format": FORMAT,
+            "task": header.task,
+            "policy": header.policy,
+            "sensor": header.sensor.name,
+            "seed": "" if header.seed is None else str(header.seed),
+        }
         try:
             self._file = _create(self.path)
         except OSError as error:
@@ -82,9 +90,9 @@ class EpisodeWriter:
         try:
             with self._durably("its header"):
                 self._mcap = start_mcap(self._file)
-                self._mcap.add_metadata(METADATA_NAME, _metadata(self._header))
+                self._mcap.add_metadata(METADATA_NAME, metadata)
                 self._register()
-                self._add(self._header.stamp, {Topic.EPISODE: header})
+                self._add(header.stamp, {Topic.EPISODE: message})
             sync_directory(self.path.parent)
         except BaseException:
             self._drop()
@@ -220,13 +228,3 @@ def start_mcap(file: BufferedWriter) -> Writer:
 
 def _create(path: Path) -> BufferedWriter:
     return path.open("xb")
-
-
-def _metadata(header: EpisodeHeader) -> dict[str, str]:
-    return {
-        "format": FORMAT,
-        "task": header.task,
-        "policy": header.policy,
-        "sensor": header.sensor.name,
-        "seed": "" if header.seed is None else str(header.seed),
-    }

@@ -25,7 +25,7 @@ from cltp.texts.exchange_packing import Exchange
 from policies.goal import Goal
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.instructions import Instruction, draw_instruction, draw_instruction_near
+from tacgrasp.lessons.instructions import draw_instruction, draw_instruction_near
 from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
 
 ADVICE_PER_CONTACT = 3
@@ -81,13 +81,6 @@ def advice_reply(state: ContactState, goal: Goal, reading: ContactState | None =
     return f"{contact} {goal_text(goal)} Action: {action}. {reason}"
 
 
-def advice_exchange(
-    state: ContactState, instruction: Instruction, reading: ContactState | None = None
-) -> Exchange:
-    """An instruction and D_t."""
-    return Exchange(prompt=instruction.text, reply=advice_reply(state, instruction.goal, reading))
-
-
 def meaning_exchange(rng: np.random.Generator) -> Exchange:
     """A question about the force that an instruction means, and that force as in D_t."""
     instruction = draw_instruction(rng)
@@ -126,9 +119,14 @@ class TouchLessons:
             draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
             for _ in range(ADVICE_PER_CONTACT)
         ]
-        exchanges = [advice_exchange(state, instruction, reading) for instruction in instructions]
+        exchanges = [
+            Exchange(
+                prompt=BLIND if self._blind else each.text,
+                reply=advice_reply(state, each.goal, reading),
+            )
+            for each in instructions
+        ]
         if self._blind:
-            exchanges = [Exchange(prompt=BLIND, reply=e.reply) for e in exchanges]
             return [first, *exchanges]
         return [first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
 

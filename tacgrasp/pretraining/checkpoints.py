@@ -85,9 +85,12 @@ def find_method(method: str, out: Path) -> TrainedMethod:
     try:
         about = json.loads(path.read_text(encoding="utf-8"))
         budget = Budget(steps=int(about["steps"]), batch_size=int(about["batch_size"]))
+        usual = asdict(CltpRecipe())  # older trainings stored entries that a recipe has no more
+        recipe = (about["recipe"] or {}).items()
+        changed = [f"{k}={v}" for k, v in recipe if k in usual and v != usual[k]]
         return TrainedMethod(
             folder=folder,
-            variant=_variant(about["preset"], about["recipe"] or {}, also="also" in about),
+            variant="+".join([about["preset"], *changed, *(["also"] if "also" in about else [])]),
             budget=budget if budget.steps else None,
             data=about["data"],
             device=about.get("device"),
@@ -142,9 +145,3 @@ def find_method_of_data(method: str, out: Path, data: str) -> TrainedMethod:
             f"{data[:12]}: test contacts could have been learned from; name the same data"
         )
     return trained
-
-
-def _variant(preset: str, recipe: dict[str, object], *, also: bool) -> str:
-    usual = asdict(CltpRecipe())  # a stored recipe may have more entries, which older trainings had
-    changed = [f"{k}={v}" for k, v in recipe.items() if k in usual and v != usual[k]]
-    return "+".join([preset, *changed, *(["also"] if also else [])])

@@ -8,6 +8,7 @@ geometric baseline, which needs no encoder, is measured with them
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -63,10 +64,8 @@ def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, Tra
         return {method: find_method_of_data(method, run.weights, checksum) for method in methods}
     available = {}
     for method in TRAINING_ORDER:
-        try:
+        with suppress(UsageError):
             available[method] = find_method_of_data(method, run.weights, checksum)
-        except UsageError:
-            continue
     if not available:
         raise UsageError(f"no method was trained in {run.weights}; see `tacgrasp train --help`")
     return available
@@ -242,7 +241,5 @@ def captions_of(data: ContactDataset, encoded: EncodedContacts) -> list[str]:
 
 def _aligned_methods(run: EvaluationRun, methods: Sequence[str]) -> Mapping[str, TrainedMethod]:
     """The methods named, or all aligned ones that were trained."""
-    if methods:
-        return trained_methods(run, methods)
-    available = trained_methods(run, ())
-    return {name: available[name] for name in ALIGNED_METHODS if name in available}
+    trained = trained_methods(run, methods)
+    return {name: trained[name] for name in methods or ALIGNED_METHODS if name in trained}

@@ -63,10 +63,10 @@ class RealTouches:
         if sampling == EVEN:
             return torch.from_numpy(np.stack([encoder_input(cloud) for cloud in self.clouds]))
         rng = np.random.default_rng(0)
-        points = []
-        for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True):
-            points_mm = sampled(heights_mm, cloud.sensor, sampling, rng)
-            points.append(scaled(points_mm, cloud.sensor))
+        points = [
+            scaled(sampled(heights_mm, cloud.sensor, sampling, rng), cloud.sensor)
+            for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True)
+        ]
         return torch.from_numpy(np.stack(points))
 
     def encode(self, encoder: FrozenEncoder) -> EncodedContacts:

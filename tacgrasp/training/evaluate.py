@@ -118,7 +118,7 @@ def evaluate(
         "instruction_pairs": {kind: cases.pairs(request.pairs, kind) for kind in KINDS},
         "paraphrases": {kind: cases.paraphrases(request.per_wording, kind) for kind in KINDS},
         "zero_shot": _plain(score_classes(prompted, encoded.classes).accuracy),
-        "clip_retrieval": _plain(score_image_retrieval(towers, data, described)),
+        "clip_retrieval": _plain(score_image_retrieval(towers, described)),
     }
 
 
@@ -214,16 +214,14 @@ class _CaseEvaluation:
         """By decider, whether each case is answered correctly."""
         right: dict[str, list[bool]] = {name: [] for name in self._deciders}
         for number, case in enumerate(cases, start=1):
-            cloud = self._cloud(case.index)
+            # noise of the contact's own, the same under every instruction
+            batch = self._sampler.batch(np.array([case.index]), case.index)
+            sensor = sensor_named(self._data.column("sensor")[case.index])
+            cloud = unscaled(batch.points[0], sensor)
             for name, answer in self._deciders.items():
                 right[name].append(answer(cloud, case) == case.answer)
             self._report(stage, number, len(cases), {})
         return {name: np.array(values, dtype=bool) for name, values in right.items()}
-
-    def _cloud(self, index: int) -> TactileCloud:
-        """The contact with noise of its own, the same under every instruction."""
-        batch = self._sampler.batch(np.array([index]), index)
-        return unscaled(batch.points[0], sensor_named(self._data.column("sensor")[index]))
 
 
 def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | None:

@@ -105,18 +105,16 @@ class DynamixelEmulator:
     def _run(self) -> None:
         request_real_time(inherited=False)
         while not self._ended.is_set():
-            data = self._wire.read(self._wait_s())
+            longest_s = _BUSY_S if self._fingers.busy else _IDLE_S
+            now_s = time.monotonic()
+            wait_s = min([longest_s, *(due_s - now_s for due_s, _ in self._late)])
+            data = self._wire.read(max(0.0, wait_s))
             if not self._wire.plugged:
                 self._ended.wait(_IDLE_S)
             with self._lock:
                 self._pass_time()
                 if data:
                     self._receive(data)
-
-    def _wait_s(self) -> float:
-        now_s = time.monotonic()
-        wait_s = _BUSY_S if self._fingers.busy else _IDLE_S
-        return max(0.0, min([wait_s, *(due_s - now_s for due_s, _ in self._late)]))
 
     def _pass_time(self) -> None:
         now_s = time.monotonic()

@@ -123,7 +123,8 @@ class EmulatedServo:
 
     def _move(self, dt_s: float) -> None:
         goal, blocked = float(self.table[at.GOAL_POSITION]), False
-        if self._is_stopped_by_watchdog():
+        watchdog_tripped = self.table[at.WATCHDOG] == 0xFF
+        if watchdog_tripped and self.model.watchdog_stops and self.stop is None:
             goal = self.position
         if self.stop is not None and self.closing * (goal - self.stop) > 0:
             goal, blocked = self.stop, True
@@ -149,9 +150,6 @@ class EmulatedServo:
         target = max(-fastest, min(fastest, _APPROACH_PER_S * distance))
         change = _ACCELERATION * dt_s
         return self._velocity + max(-change, min(change, target - self._velocity))
-
-    def _is_stopped_by_watchdog(self) -> bool:
-        return self.table[at.WATCHDOG] == 0xFF and self.model.watchdog_stops and self.stop is None
 
     def publish(self) -> None:
         table = self.table

@@ -136,11 +136,6 @@ class Controller:
             self.outputs["output_int_register_0"] = 0
             self.robot.halt(PROGRAM_STOP_M_S2)
 
-    def stop_line(self, deceleration_m_s2: float) -> None:
-        """Run a one-line ``stopl`` script: it replaces the program and brings the arm to rest."""
-        self.stop_program("a one-line script replaced it")
-        self.robot.halt(deceleration_m_s2)
-
     def safety_stop(self, mode: int) -> None:
         """Stop the arm.
 

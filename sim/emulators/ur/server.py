@@ -197,7 +197,12 @@ class Server:
         client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         session: Session | None = None
         if not (self.link.mute or self.link.garbage):
-            session = self._session(port)
+            if port == RTDE_PORT:
+                session = RtdeSession(self._controller, self.version, self._taken)
+            elif port == DASHBOARD_PORT:
+                session = DashboardSession(self._controller, self.version)
+            else:
+                session = ScriptSession(self._controller)
         connection = _Connection(client, port, session)
         self._connections.append(connection)
         self._selector.register(client, selectors.EVENT_READ, connection)
@@ -205,13 +210,6 @@ class Server:
             self._send(connection, GARBAGE)
         elif isinstance(session, DashboardSession):
             self._send(connection, DashboardSession.GREETING)
-
-    def _session(self, port: int) -> Session:
-        if port == RTDE_PORT:
-            return RtdeSession(self._controller, self.version, self._taken)
-        if port == DASHBOARD_PORT:
-            return DashboardSession(self._controller, self.version)
-        return ScriptSession(self._controller)
 
     def _receive(self, connection: _Connection) -> None:
         if self.link.deaf:

@@ -158,7 +158,8 @@ class ScriptSession(Session):
             return
         stop = re.fullmatch(r"stop[lj]\(\s*(?:a\s*=\s*)?([0-9.]+)\s*\)", line)
         if stop is not None and float(stop[1]) > 0:
-            self._controller.stop_line(float(stop[1]))
+            self._controller.stop_program("a one-line script replaced it")
+            self._controller.robot.halt(float(stop[1]))
         elif line:
             self._controller.stop_program(f"replaced by {line[:40]!r}")
 

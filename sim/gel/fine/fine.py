@@ -14,8 +14,6 @@ Not here: how one grid is solved (``sim.gel.fine.levels``), materials and the pl
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import torch
 from torch import Tensor
 from torch.nn.functional import interpolate
@@ -38,15 +36,24 @@ class FineLayer:
 
     def __init__(self, finest: ElasticLayer) -> None:
         self.finest = finest
-        factors = _factors(finest.rows, finest.columns)
-        self._layers = [*(finest.coarsened(factor) for factor in factors), finest]
+        shortest = min(finest.rows, finest.columns)
+        self._layers = [
+            *(
+                finest.coarsened(factor)
+                for factor in (4, 2)
+                if finest.rows % factor == finest.columns % factor == 0
+                and shortest // factor >= _FEWEST_CELLS
+            ),
+            finest,
+        ]
 
     def press_to_depth(self, gap_mm: Tensor, depth_mm: Tensor | float) -> Press:
         """Press a body to a given depth; see ``ElasticLayer.press_to_depth``."""
         gap, depths = self.finest.check_inputs(gap_mm, depth_mm, by_force=False)
-        gaps = [self._reachable(gap)]
+        # No mean may include parts further away than the gel is thick.
+        gaps = [torch.where(gap < self.finest.material.thickness_mm, gap, NO_BODY_MM)]
         for _ in self._layers[1:]:
-            gaps.insert(0, _per_body(_coarser, gaps[0]))
+            gaps.insert(0, _coarser(gaps[0]))
         coarsest = self._layers[0]
         if len(self._layers) == 1:
             return coarsest.press_to_depth(gap, depths, tol=TOLERANCE)
@@ -59,13 +66,10 @@ class FineLayer:
         for layer, finer in zip(self._layers[1:], gaps[1:], strict=True):
             level = GridLevel(layer=layer, moduli_mpa=moduli)
             boxes = boxes_around(pressure > 0)
-            solved = level.solve(boxes, finer, depths, _finer(pressure))
+            start = interpolate(pressure[:, None], scale_factor=2, mode="bilinear").squeeze(1)
+            solved = level.solve(boxes, finer, depths, start)
             pressure = solved.pressure_mpa
         return _whole_surface(level, gap, depths, boxes, solved)
-
-    def _reachable(self, gap: Tensor) -> Tensor:
-        """Gap without parts further away than the gel is thick, which no mean may include."""
-        return torch.where(gap < self.finest.material.thickness_mm, gap, NO_BODY_MM)
 
 
 def _whole_surface(
@@ -87,30 +91,15 @@ def _whole_surface(
     return level.layer.press_of(solved, height)
 
 
-def _factors(rows: int, columns: int) -> list[int]:
-    """How many times coarser the coarser grids are, coarsest first."""
-    return [
-        factor
-        for factor in (4, 2)
-        if rows % factor == 0
-        and columns % factor == 0
-        and min(rows, columns) // factor >= _FEWEST_CELLS
-    ]
-
-
-def _per_body(change: Callable[[Tensor], Tensor], gap: Tensor) -> Tensor:
-    """Apply ``change`` to gaps (B, H, W), once where they are one body's, expanded."""
-    if gap.stride(0) != 0:
-        return change(gap)
-    return change(gap[:1]).expand(len(gap), -1, -1)
-
-
 def _coarser(gap: Tensor) -> Tensor:
     """Mean gap of two by two elements, of those with a body: a thin body must not be lost."""
+    batch = len(gap)
+    if gap.stride(0) == 0:  # one body, expanded
+        gap = gap[:1]
     covered = gap < NO_BODY_MM
     count = _sum_of_four(covered.to(gap.dtype))
     mean = _sum_of_four(gap.masked_fill(~covered, 0)) / count.clamp(min=1)
-    return torch.where(count > 0, mean, NO_BODY_MM)
+    return torch.where(count > 0, mean, NO_BODY_MM).expand(batch, -1, -1)
 
 
 def _sum_of_four(field: Tensor) -> Tensor:
@@ -118,7 +107,3 @@ def _sum_of_four(field: Tensor) -> Tensor:
     upper, lower = field[:, ::2], field[:, 1::2]
     total = upper[..., ::2] + upper[..., 1::2]
     return total.add_(lower[..., ::2]).add_(lower[..., 1::2])
-
-
-def _finer(pressure: Tensor) -> Tensor:
-    return interpolate(pressure[:, None], scale_factor=2, mode="bilinear").squeeze(1)

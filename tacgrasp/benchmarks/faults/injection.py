@@ -108,8 +108,6 @@ class FaultBench:
             for device in ("ur", "dynamixel", "taxels"):
                 self._emulators.control.clear(device)
 
-    # -- start -----------------------------------------------------------------------------------
-
     def _at_start(self, case: FaultCase) -> InjectionResult:
         before = self._truth()
         self._inject(case)
@@ -126,7 +124,6 @@ class FaultBench:
         )
 
     def _connect_device(self, device: str) -> None:
-        """Connect the one device that has the fault, and disconnect it."""
         if device == "ur":
             from tacgrasp.drivers.ur.arm import connect_arm
 
@@ -155,8 +152,6 @@ class FaultBench:
         frame = np.full((sensor.rows, sensor.columns, 3), 128, dtype=np.uint8)
         background = Background(frame=frame, unit="mine", taken=taken, num_frames=20)
         save_background(self._background, background)
-
-    # -- motion ----------------------------------------------------------------------------------
 
     def _in_motion(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
@@ -252,8 +247,6 @@ class FaultBench:
                 return True
         return False
 
-    # -- the rig ---------------------------------------------------------------------------------
-
     def _connect(self, stack: ExitStack) -> HardwareRig:
         """Connect the rig, in several attempts: a controller that restarts needs some seconds."""
         for attempt in range(_MAX_ATTEMPTS):
@@ -269,7 +262,6 @@ class FaultBench:
         return rig
 
     def _far_side(self, rig: HardwareRig) -> Pose:
-        """Pose at the far side of the workspace."""
         pose = rig.arm.pose()
         x_m, y_m, z_m = pose.position_m
         far_x_m = _HIGH_X_M if x_m - _LOW_X_M < _HIGH_X_M - x_m else _LOW_X_M

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
 from contextlib import closing
 from dataclasses import asdict
 
@@ -11,9 +10,9 @@ from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.faults.cases import CASES, FaultCase, InjectionPhase
+from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
-from tacgrasp.benchmarks.faults.table import FaultRow, markdown_of, row_of, table_of
+from tacgrasp.benchmarks.faults.table import markdown_of, row_of, table_of
 from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
@@ -45,7 +44,12 @@ def run(settings: FaultsSettings) -> bool:
         task = progress.add_task("faults", total=len(cases) * repeats)
         with closing(FaultBench(config, config.hardware, emulators)) as bench:
             for case in cases:
-                rows.append(_row(bench, case, repeats, lambda: progress.advance(task)))
+                results = []
+                for repeat in range(repeats):
+                    in_episode = repeat == repeats - 1 and case.phase is not InjectionPhase.START
+                    results.append(bench.inject(case, in_episode=in_episode))
+                    progress.advance(task)
+                rows.append(row_of(case, results))
     console.print(table_of(rows))
     passed = sum(row.passed for row in rows)
     console.print(f"{passed} of {len(rows)} faults met the requirements in every repeat")
@@ -54,12 +58,3 @@ def run(settings: FaultsSettings) -> bool:
         command = f"tacgrasp bench faults --repeats {repeats}"
         settings.markdown.write_text(markdown_of(rows, command), encoding="utf-8")
     return passed == len(rows)
-
-
-def _row(bench: FaultBench, case: FaultCase, repeats: int, advance: Callable[[], None]) -> FaultRow:
-    results = []
-    for repeat in range(repeats):
-        in_episode = repeat == repeats - 1 and case.phase is not InjectionPhase.START
-        results.append(bench.inject(case, in_episode=in_episode))
-        advance()
-    return row_of(case, results)

@@ -152,13 +152,10 @@ def _show(
     columns = list(next(iter(encoders.values())))
     table = number_table(title, ["", *(column.replace("_", " ") for column in columns)])
     for name, figures in encoders.items():
-        table.add_row(name, *(_number(figures[column]) for column in columns))
+        values = [figures[column] for column in columns]
+        table.add_row(name, *(f"{v:,.0f}" if v >= 1000 else f"{v:.3g}" for v in values))
     console.print(table)
     table = number_table("one cloud, fps: median ms", ("", "ours ms", "plain ms"))
     for name, figures in scaling.items():
         table.add_row(name, *(f"{value:.2f}" for value in figures.values()))
     console.print(table)
-
-
-def _number(value: float) -> str:
-    return f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"

@@ -195,15 +195,11 @@ def run(settings: Tcl3dSettings) -> bool:
     if settings.tacto is not None:
         figures |= tacto_frame(settings.tacto)
     _print(figures, device, limit)
-    made = [_plain(each) for each in times]
+    made = [asdict(each) for each in times]
+    for each in made:
+        each["transforms"] = [[*size, n] for size, n in sorted(each["transforms"].items())]
     write_figures(settings.json, {"device": device, "made": made, **figures})
     return rate >= limit
-
-
-def _plain(times: StageTimes) -> dict[str, object]:
-    plain = asdict(times)
-    plain["transforms"] = [[*size, count] for size, count in sorted(times.transforms.items())]
-    return plain
 
 
 def _print(f: dict[str, float], device: str, limit: float) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
+from itertools import product
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from cltp.tactile.states import CLASSES
 from tacgrasp.pretraining.report.pages import PagePlot
 from tacgrasp.pretraining.report.paper_numbers import PAPER
-from tacgrasp.pretraining.report.store import TITLES, Groups, Result, means
+from tacgrasp.pretraining.report.store import TITLES, Groups, means
 from tacgrasp.pretraining.report.tables import COLUMNS
 
 _TABLES = {"zero_shot": "zero-shot", "probe": "frozen encoder and MLP"}
@@ -19,30 +20,26 @@ _TABLES = {"zero_shot": "zero-shot", "probe": "frozen encoder and MLP"}
 
 def bars(groups: Groups) -> Iterator[PagePlot]:
     """Every method, dimension by dimension, with the paper's figures as lines."""
-    for table in _TABLES:
-        for split in COLUMNS:
-            rows = {k[1:3]: same for k, same in groups.items() if (k[0], k[3]) == (table, split)}
-            if rows:
-                yield _bars(rows, table, split)
-
-
-def _bars(rows: dict[tuple[str, str], Sequence[Result]], table: str, split: str) -> PagePlot:
-    figure = Figure(figsize=(11, 3.6), layout="constrained")
-    axes = figure.subplots()
-    width = 0.8 / len(rows)
-    for number, ((method, variant), same) in enumerate(rows.items()):
-        offset = (number - len(rows) / 2 + 0.5) * width
-        centres = [column + offset for column in range(len(CLASSES))]
-        heights = [means(same).get(dimension) or 0.0 for dimension in CLASSES]
-        axes.bar(centres, heights, width, label=f"{TITLES[method]} ({variant})")
-        for x, value in zip(centres, PAPER.get((table, method, split), ()), strict=False):
-            axes.plot([x - width / 2, x + width / 2], [value, value], color="black", lw=1.5)
-    axes.set_xticks(range(len(CLASSES)), list(CLASSES))
-    axes.set_ylabel("right, %")
-    title = f"{_TABLES[table]}, {split}"
-    axes.set_title(f"{title}; black: the paper's")
-    figure.legend(fontsize=7, ncols=4, loc="outside lower center")
-    return _plot(figure, f"{table}-{split}", f"{title}, every method")
+    for table, split in product(_TABLES, COLUMNS):
+        rows = {k[1:3]: same for k, same in groups.items() if (k[0], k[3]) == (table, split)}
+        if not rows:
+            continue
+        figure = Figure(figsize=(11, 3.6), layout="constrained")
+        axes = figure.subplots()
+        width = 0.8 / len(rows)
+        for number, ((method, variant), same) in enumerate(rows.items()):
+            offset = (number - len(rows) / 2 + 0.5) * width
+            centres = [column + offset for column in range(len(CLASSES))]
+            heights = [means(same).get(dimension) or 0.0 for dimension in CLASSES]
+            axes.bar(centres, heights, width, label=f"{TITLES[method]} ({variant})")
+            for x, value in zip(centres, PAPER.get((table, method, split), ()), strict=False):
+                axes.plot([x - width / 2, x + width / 2], [value, value], color="black", lw=1.5)
+        axes.set_xticks(range(len(CLASSES)), list(CLASSES))
+        axes.set_ylabel("right, %")
+        title = f"{_TABLES[table]}, {split}"
+        axes.set_title(f"{title}; black: the paper's")
+        figure.legend(fontsize=7, ncols=4, loc="outside lower center")
+        yield _plot(figure, f"{table}-{split}", f"{title}, every method")
 
 
 def confusions(groups: Groups) -> Iterator[PagePlot]:

@@ -29,15 +29,12 @@ from tacgrasp.pretraining.report.tables import budgets, detail_tables, paper_tab
 TITLE = "Pre-training: our results beside the paper's"
 
 
-def report(
-    results: Path, out: Path, name: str = "pretraining", *, weights: Path | None = None
-) -> list[Path]:
-    """Write ``out/name.md`` with its plots in ``out/name-plots``, and ``out/name.html``.
+def report(results: Path, out: Path, *, weights: Path | None = None) -> list[Path]:
+    """Write ``pretraining.md`` with its plots in ``pretraining-plots``, and ``pretraining.html``.
 
     Args:
         results: Folder of results and failures.
         out: Folder for the pages.
-        name: Name of the pages.
         weights: Folder of all methods, whose training curves are shown too.
 
     Raises:
@@ -45,13 +42,11 @@ def report(
         TouchError: Results are damaged or of different data.
     """
     sections = _sections(results, weights)
-    plots = out / f"{name}-plots"
-    content = {"sections": sections, "plots": plots.name, "html_page": f"{name}.html"}
+    plots, html_page = out / "pretraining-plots", "pretraining.html"
+    content = {"sections": sections, "plots": plots.name, "html_page": html_page}
     pages = {
-        f"{name}{ending}": render_page(
-            f"pretraining/templates/report{template}", title=TITLE, **content
-        )
-        for ending, template in ((".md", ".md.txt"), (".html", ".html"))
+        file: render_page(f"pretraining/templates/{template}", title=TITLE, **content)
+        for file, template in (("pretraining.md", "report.md.txt"), (html_page, "report.html"))
     }
     try:
         plots.mkdir(parents=True, exist_ok=True)

@@ -9,6 +9,8 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
@@ -194,11 +196,8 @@ def grouped(results: Iterable[Result]) -> Groups:
         row = TABLES.index(result.table), order.index(result.method)
         return *row, is_other, result.variant, result.split, result.seed
 
-    groups: dict[Key, list[Result]] = {}
-    for result in sorted(results, key=rank):
-        key = (result.table, result.method, result.variant, result.split)
-        groups.setdefault(key, []).append(result)
-    return groups
+    ranked = groupby(sorted(results, key=rank), attrgetter("table", "method", "variant", "split"))
+    return {key: list(rows) for key, rows in ranked}
 
 
 def means(rows: Sequence[Result]) -> dict[str, float | None]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
 
 from cltp.evaluation.splits import EVALUATION_SPLITS
 from cltp.tactile.states import CLASSES
@@ -81,36 +82,34 @@ def budgets(results: Iterable[Result]) -> str:
 def detail_tables(groups: Groups) -> Iterator[PageSection]:
     """Every table and evaluation split by itself, with the spread over seeds."""
     about = {split.name: split.about for split in EVALUATION_SPLITS} | {"real": "real touches"}
-    for table in TABLE_TITLES:
-        for split in about:
-            of_split = {k: same for k, same in groups.items() if (k[0], k[3]) == (table, split)}
-            if of_split:
-                yield _detail(table, split, about[split], of_split)
-
-
-def _detail(table: str, split: str, about: str, groups: Groups) -> PageSection:
-    first = next(iter(groups.values()))[0]
-    columns = list(first.values)
-    has_paper = any((table, method, split) in PAPER for method in TITLES)
-    names = (name.replace("coverage_", "inside: ").replace("percent", "%") for name in columns)
-    head = ["", *(name.replace("_", " ") for name in names)]
-    if has_paper:
-        head += [f"paper: {slot}" for slot in CLASSES]
-    head += ["encoder", "steps × batch", "seeds"]
-    rows = []
-    for (_, method, variant, _), same in groups.items():
-        cells = [_cell([row.values.get(column) for row in same]) for column in columns]
+    for table, (split, contents) in product(TABLE_TITLES, about.items()):
+        of_split = {k[1:3]: same for k, same in groups.items() if (k[0], k[3]) == (table, split)}
+        if not of_split:
+            continue
+        first = next(iter(of_split.values()))[0]
+        columns = list(first.values)
+        has_paper = any((table, method, split) in PAPER for method in TITLES)
+        names = (name.replace("coverage_", "inside: ").replace("percent", "%") for name in columns)
+        head = ["", *(name.replace("_", " ") for name in names)]
         if has_paper:
-            paper = PAPER.get((table, method, split))
-            cells += [f"{v:.1f}" for v in paper] if paper else ["–"] * len(CLASSES)
-        budget = str(same[0].budget or "–")
-        rows.append([TITLES[method], *cells, variant, budget, str(len(same))])
-    note = f"{split}: {about}; {first.contacts} contacts. ± is half of the range over seeds."
-    if has_paper and split == "physics":
-        note += " The paper's columns are its real-world ones."
-    return PageSection(
-        title=f"{TABLE_TITLES[table]} – {split}", table=PageTable(head=head, rows=rows), note=note
-    )
+            head += [f"paper: {slot}" for slot in CLASSES]
+        head += ["encoder", "steps × batch", "seeds"]
+        rows = []
+        for (method, variant), same in of_split.items():
+            cells = [_cell([row.values.get(column) for row in same]) for column in columns]
+            if has_paper:
+                paper = PAPER.get((table, method, split))
+                cells += [f"{v:.1f}" for v in paper] if paper else ["–"] * len(CLASSES)
+            budget = str(same[0].budget or "–")
+            rows.append([TITLES[method], *cells, variant, budget, str(len(same))])
+        note = f"{split}: {contents}; {first.contacts} contacts. ± is half of the range over seeds."
+        if has_paper and split == "physics":
+            note += " The paper's columns are its real-world ones."
+        yield PageSection(
+            title=f"{TABLE_TITLES[table]} – {split}",
+            table=PageTable(head=head, rows=rows),
+            note=note,
+        )
 
 
 def _cell(values: Sequence[float | None]) -> str:

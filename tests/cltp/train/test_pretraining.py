@@ -123,7 +123,7 @@ def test_features_are_computed_once_and_read_again(
     other = again.images(mirrored)
     assert not computed
     assert not torch.equal(other, images)
-    pixels = rendered(data, batch)  # mirrored by the sampler, not by us
+    pixels = rendered(batch)  # mirrored by the sampler, not by us
     torch.testing.assert_close(towers.images(pixels), images, rtol=0, atol=1e-3)
 
 
@@ -143,7 +143,7 @@ def test_images_of_moved_contacts_are_those_of_where_they_came_to(
     features = FrozenFeatures(towers, data)
     images = features.images(moved)
     assert not features._computed.any()  # nothing of them is kept
-    torch.testing.assert_close(images, towers.images(rendered(data, moved)), rtol=0, atol=1e-5)
+    torch.testing.assert_close(images, towers.images(rendered(moved)), rtol=0, atol=1e-5)
     half = dataclasses.replace(moved, moved=np.arange(8) < 4)
     torch.testing.assert_close(features.images(half)[:4], images[:4], rtol=0, atol=1e-5)
     torch.testing.assert_close(features.images(half)[4:], features.images(stayed)[4:])
