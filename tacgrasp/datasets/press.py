@@ -124,8 +124,11 @@ def _read(
         texture=Texture.SMOOTH,
     )
     rng = np.random.default_rng(request.seed)
-    unit = _unit(request.noise, sensor, rng)
-    seen_mm = None
+    unit = seen_mm = None
+    if request.noise != "none":
+        spread = spread_of(sensor)
+        ratio = spread.gain_log_ratio if request.noise == "uncalibrated" else 0.0
+        unit = NoiseUnit.draw(rng, gain_log_ratio=ratio, spread=spread)
     if sensor.markers is not None:
         cloud = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
     else:
@@ -236,14 +239,6 @@ def _object(
             gap = np.where(mask, view.gap_mm, np.inf)
             return _Surface(gap_mm=gap, shape=None, cells=cells, modulus_mpa=obj.modulus_mpa)
     raise _missed(request, sensor, f"none of {_POSES} poses brings it to the pad")
-
-
-def _unit(noise: str, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit | None:
-    if noise == "none":
-        return None
-    spread = spread_of(sensor)
-    ratio = spread.gain_log_ratio if noise == "uncalibrated" else 0.0
-    return NoiseUnit.draw(rng, gain_log_ratio=ratio, spread=spread)
 
 
 def run(request: PressRequest) -> None:

@@ -156,7 +156,6 @@ def _locations(data: ContactDataset) -> tuple[list[str], list[int]]:
 
 
 def _contact(data: ContactDataset, index: int) -> Iterator[str]:
-    """Errors of one contact."""
     row = {name: data.column(name)[index] for name in ("sensor", "cut", "series", *DIMENSIONS)}
     outside = list(_outside_vocabulary(row))
     yield from outside

@@ -204,11 +204,10 @@ def _state(sample: dict[str, tuple[float, ...]], settings: UrSettings) -> Iterat
     x, y, z = sample["actual_TCP_pose"][:3]
     position = f"at ({x:.3f}, {y:.3f}, {z:.3f}) m"
     configured = [*settings.tcp_offset_m, *settings.tcp_offset_rad]
-    if np.allclose(sample.get("tcp_offset", np.nan), configured, atol=1e-5):
-        yield _finding("TCP", True, f"as set, {position}")
-    else:
+    detail = f"as set, {position}"
+    if not np.allclose(sample.get("tcp_offset", np.nan), configured, atol=1e-5):
         detail = f"another one is set now, {position}; {configured} set when connected"
-        yield _finding("TCP", True, detail)
+    yield _finding("TCP", True, detail)
     if "payload" in sample:
         kg = sample["payload"][0]
         setting = "as set" if abs(kg - settings.payload_kg) < 1e-3 else "set when connected"
