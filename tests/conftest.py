@@ -5,8 +5,9 @@ import pytest
 import torch
 from hypothesis import settings
 
-settings.register_profile("untimed", deadline=None)  # how busy a machine is fails no test
-settings.load_profile("untimed")
+# A busy machine fails no test. The same code meets the same examples: a red test is the change's.
+settings.register_profile("repeatable", deadline=None, derandomize=True)
+settings.load_profile("repeatable")
 
 
 @pytest.fixture(scope="session", autouse=True)
