@@ -41,7 +41,8 @@ class GelSense:
         self._sensor = sensor
         self.survive: Callable[[TouchError, int], None] = _raise
         self._untouched: UntouchedGel | None = None
-        self._cloud: TactileCloud | None = None
+        self._cloud: TactileCloud | None = None  # the last one tested, with its result
+        self._in_contact: bool | None = None
 
     def for_executor(self) -> ContactSense:
         """The functions that the executor is given."""
@@ -79,8 +80,11 @@ class GelSense:
 
     def in_contact(self, cloud: TactileCloud) -> bool | None:
         """Whether something touches the gel in a cloud; None before the first reference."""
-        self._cloud = cloud
-        return None if self._untouched is None else self._untouched.test(cloud).in_contact
+        if cloud is not self._cloud:  # the observation and the executor ask about the same frame
+            gel = self._untouched
+            self._in_contact = None if gel is None else gel.test(cloud).in_contact
+            self._cloud = cloud
+        return self._in_contact
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
         """Force that a cloud suggests [N]; None without contact."""

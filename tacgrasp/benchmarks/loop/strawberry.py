@@ -7,25 +7,22 @@ touch was needed. Rates have Wilson intervals.
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Callable, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import lru_cache, partial
-from multiprocessing import get_context
 from pathlib import Path
 from statistics import median
 from typing import Any
 
 import numpy as np
 from rich.console import Console
-from rich.progress import Progress
 
 from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.figures import number_table, one_thread, write_figures
+from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig, VerifyConfig
@@ -209,7 +206,11 @@ def run(settings: StrawberrySettings) -> None:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
         contestants += [(name, force_n) for force_n in forces]
     console = Console()
-    results = _all_episodes(console, config, contestants, range(first_seed, first_seed + episodes))
+    seeds = range(first_seed, first_seed + episodes)
+    by_seed = map_seeds(console, "episodes", partial(run_seed, config, contestants), seeds)
+    results = {
+        contestant: [each[i] for each in by_seed] for i, contestant in enumerate(contestants)
+    }
     figures: dict[str, Any] = {}
     details: dict[str, list[dict[str, Any]]] = {}
     sweep: dict[str, float] = {}
@@ -229,23 +230,6 @@ def run(settings: StrawberrySettings) -> None:
     }
     _print(console, figures, sweep, episodes, first_seed)
     write_figures(settings.json, report)
-
-
-def _all_episodes(
-    console: Console, config: RunConfig, contestants: Sequence[Contestant], seeds: range
-) -> dict[Contestant, list[EpisodeResult]]:
-    results: dict[Contestant, list[EpisodeResult]] = {contestant: [] for contestant in contestants}
-    # spawned, not forked: torch's threads don't survive a fork
-    with (
-        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=one_thread) as pool,
-        Progress(console=console, disable=not console.is_terminal) as progress,
-    ):
-        task = progress.add_task("episodes", total=len(seeds))
-        for seed_results in pool.map(partial(run_seed, config, contestants), seeds):
-            for contestant, result in zip(contestants, seed_results, strict=True):
-                results[contestant].append(result)
-            progress.advance(task)
-    return results
 
 
 def _flat(result: EpisodeResult) -> dict[str, Any]:
