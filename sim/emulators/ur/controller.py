@@ -37,6 +37,7 @@ SAFETY_BITS = {
     ROBOT_STOP: 1 << 6 | 1 << 7 | 1 << 10,
 }
 STOPPED, PLAYING, PAUSED = 1, 2, 4
+PROGRAM_STATES = {STOPPED: "STOPPED", PLAYING: "PLAYING", PAUSED: "PAUSED"}
 
 
 def _registers(side: str) -> dict[str, float]:
@@ -80,6 +81,10 @@ class Controller:
     def advance(self) -> None:
         now_s = self._clock()
         self.robot.advance(now_s)
+        if self.robot.out_of_reach:
+            self.robot.out_of_reach = False
+            if self.safety_mode == NORMAL:
+                self.protective_stop()
         if self.program is None:
             return
         if not self._paused:
@@ -157,6 +162,12 @@ class Controller:
         """Reset safety to normal, end the program, switch power on."""
         self.stop_program("unlocked after a safety stop")
         self.safety_mode, self.robot_mode = NORMAL, RUNNING
+
+    def power_off(self) -> None:
+        """End the program and switch power off; the brakes hold the arm."""
+        self.stop_program("power off")
+        self.robot.halt(SAFETY_STOP_M_S2)
+        self.robot_mode = POWER_OFF
 
     def restart(self) -> None:
         """Restart: power goes off, brakes hold the arm, settings are lost."""

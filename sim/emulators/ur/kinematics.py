@@ -26,6 +26,9 @@ CLOSE_ENOUGH = 1e-9
 
 MAX_STEPS = 60
 
+LARGEST = 1e3
+"""Largest number of a pose or of joint angles [m, rad]; beyond it sines lose their digits."""
+
 READY_Q = np.array([2.6, -1.6, 2.0, -1.95, -math.pi / 2, 4.2])
 """Posture from which the first pose is solved [rad]: elbow up, tool pointing down."""
 
@@ -38,6 +41,18 @@ def matrix(rotvec_rad: Floats) -> Floats:
 def rotvec(rotation: Floats) -> Floats:
     """Rotation matrix (3, 3) to rotation vector (3,) [rad], of length 0 to pi."""
     return Rotation.from_matrix(rotation).as_rotvec()
+
+
+def checked_pose(pose: Floats) -> Floats:
+    """A copy of a UR pose (6,) [m, rad].
+
+    Raises:
+        ValueError: A number is not finite, or beyond any pose of an arm.
+    """
+    checked = np.array(pose, dtype=np.float64)
+    if checked.shape != (6,) or not (np.abs(checked) <= LARGEST).all():  # False for NaN
+        raise ValueError(f"a pose is six finite numbers within {LARGEST:g}, got {checked.tolist()}")
+    return checked
 
 
 def as_frame(pose: Floats) -> Floats:

@@ -24,6 +24,24 @@ def norm(vector: Floats) -> float:
     return math.sqrt(float(vector @ vector))
 
 
+RATES = (1e-6, 1e3)
+"""Least and largest speed or acceleration of a motion [m/s, rad/s, m/s², rad/s²].
+
+A real arm accepts less. Beyond these the times of a motion leave the numbers of a computer.
+"""
+
+
+def checked_rate(value: float) -> float:
+    """A speed or an acceleration.
+
+    Raises:
+        ValueError: Not within ``RATES``.
+    """
+    if not RATES[0] <= value <= RATES[1]:  # False for NaN
+        raise ValueError(f"a speed or an acceleration lies within {RATES}, got {value}")
+    return value
+
+
 @dataclass(frozen=True, slots=True)
 class ToolState:
     """Pose and velocity of the tool centre point.
@@ -102,11 +120,13 @@ class Line:
         """Plan the line; speed [m/s] and acceleration [m/s²], in rad where the tool only turns.
 
         Raises:
-            ValueError: A number is not finite, or speed or acceleration is not above 0.
+            ValueError: A number is not finite, or speed or acceleration is not within ``RATES``.
         """
-        numbers = (*position_m.tolist(), *rotation.ravel().tolist(), speed, acceleration)
-        if not (all(math.isfinite(v) for v in numbers) and speed > 0 and acceleration > 0):
-            raise ValueError(f"a line needs finite numbers and a speed above 0, got {numbers}")
+        numbers = (*position_m.tolist(), *rotation.ravel().tolist())
+        if not all(math.isfinite(v) for v in numbers):
+            raise ValueError(f"a line needs finite numbers, got {numbers}")
+        checked_rate(speed)
+        checked_rate(acceleration)
         self._start, self._end = start, ToolState(position_m, rotation, AT_REST)
         self._by = start.path_to(position_m, rotation)
         self._length = norm(self._by[:3]) or norm(self._by[3:])
@@ -138,9 +158,10 @@ class Ramp:
         """Change from the present twist to ``twist`` (6,) within ``seconds``; end at ``until_s``.
 
         Raises:
-            ValueError: A number is not finite.
+            ValueError: A number is not finite, or a speed beyond ``RATES``.
         """
-        if not (np.isfinite(twist).all() and math.isfinite(seconds) and seconds >= 0):
+        fits = (np.abs(twist) <= RATES[1]).all()  # False for NaN
+        if not (fits and math.isfinite(seconds) and seconds >= 0):
             raise ValueError(f"a speed must be finite, got {twist.tolist()} within {seconds} s")
         self._start, self._twist, self._seconds = start, twist, seconds
         self.duration_s = until_s
@@ -171,6 +192,10 @@ def run_at(start: ToolState, twist: Floats, acceleration: float, until_s: float)
     return Ramp(start, twist, size / acceleration, until_s)
 
 
+LOOKAHEAD_S = (0.03, 0.2)
+"""Range of the look-ahead time of ``servoj`` [s]. Source: URScript manual."""
+
+
 class ServoMotion:
     """An exponential approach to a goal, as ``servoj`` makes with its look-ahead time."""
 
@@ -180,7 +205,7 @@ class ServoMotion:
         self, start: ToolState, position_m: Floats, rotation: Floats, lookahead_s: float
     ) -> None:
         self._start, self._by = start, start.path_to(position_m, rotation)
-        self._tau_s = max(0.01, lookahead_s)
+        self._tau_s = min(LOOKAHEAD_S[1], max(LOOKAHEAD_S[0], lookahead_s))
 
     def at(self, t_s: float) -> ToolState:
         remaining = math.exp(-t_s / self._tau_s)

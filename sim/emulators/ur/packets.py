@@ -1,9 +1,9 @@
 """RTDE on the controller's side: packets, and types of the variables.
 
 Big-endian; a u16 size that includes the three bytes of header, a u8 type, the payload. Not here:
-connections (``sim.emulators.ur.sessions``), values (``sim.emulators.ur.controller``).
+connections (``sim.emulators.ur.rtde_session``), values (``sim.emulators.ur.controller``).
 
-Source: universal-robots.com, 'Real-Time Data Exchange (RTDE) Guide', protocol version 2.
+Source: universal-robots.com, 'Real-Time Data Exchange (RTDE) Guide', protocol versions 1 and 2.
 """
 
 from __future__ import annotations
@@ -17,6 +17,9 @@ OUTPUTS, INPUTS, DATA, START, PAUSE = ord("O"), ord("I"), ord("U"), ord("S"), or
 HEADER = struct.Struct(">HB")
 LARGEST = 4096
 """Longest accepted packet [bytes]; recipes of the library stay far below."""
+
+ERROR_LEVEL = 1
+"""Level of a text message: 0 exception, 1 error, 2 warning, 3 information."""
 
 FORMATS = {
     "BOOL": "?",
@@ -82,6 +85,10 @@ INPUT_TYPES: Mapping[str, str] = {
 }
 
 
+class StreamLostError(ValueError):
+    """A client sent bytes after which its next command can't be found; it is disconnected."""
+
+
 def packet(kind: int, payload: bytes = b"") -> bytes:
     """A complete packet."""
     return HEADER.pack(HEADER.size + len(payload), kind) + payload
@@ -91,18 +98,31 @@ def split(buffer: bytearray) -> list[tuple[int, bytes]]:
     """Remove all complete packets from a buffer; returns (type, payload) of each.
 
     Raises:
-        ValueError: An impossible size; the stream is lost.
+        StreamLostError: An impossible size.
     """
     packets = []
     while len(buffer) >= HEADER.size:
         size, kind = HEADER.unpack_from(buffer)
         if not HEADER.size <= size <= LARGEST:
-            raise ValueError(f"an RTDE packet of {size} bytes")
+            raise StreamLostError(f"an RTDE packet of {size} bytes")
         if len(buffer) < size:
             break
         packets.append((kind, bytes(buffer[HEADER.size : size])))
         del buffer[:size]
     return packets
+
+
+def text_message(version: int, text: str, level: int = ERROR_LEVEL) -> bytes:
+    """A text message to the client, in the layout of a protocol version.
+
+    Version 1: level, text. Version 2: length and text, length and source, level.
+    """
+    line = text.encode("ascii", "replace")[:255]
+    if version == 1:
+        return packet(MESSAGE, bytes([level]) + line)
+    source = b"RTDE"
+    body = bytes([len(line)]) + line + bytes([len(source)]) + source + bytes([level])
+    return packet(MESSAGE, body)
 
 
 def names_in(payload: bytes) -> list[str]:

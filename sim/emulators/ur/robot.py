@@ -12,10 +12,13 @@ from dataclasses import replace
 import numpy as np
 
 from sim.emulators.ur.kinematics import (
+    A_M,
+    D_M,
     READY_Q,
     Floats,
     as_frame,
     base_from_flange,
+    checked_pose,
     jacobian,
     joints_of,
     matrix,
@@ -35,6 +38,15 @@ from sim.emulators.ur.motion import (
 STILL_M_S = 1e-3
 """Speed below which the tool counts as stopped."""
 
+ARM_M = sum(map(abs, (*A_M, *D_M)))
+"""Distance from the base that no posture exceeds [m]."""
+
+LONGEST_TOOL_M = 2.0
+"""Longest accepted TCP offset [m]. Our choice."""
+
+SERVO_M_S2 = 1.0
+"""Acceleration reported for a segment without a commanded one [m/s²]. Our choice."""
+
 FORCE_BIAS_N = (0.8, -0.5, 2.0, 0.0, 0.0, 0.0)
 """Reading of the force sensor without a load until it is zeroed [N, N m]; not 0, as a real one."""
 
@@ -51,6 +63,8 @@ class Robot:
         tcp_offset: Flange to tool centre point, UR pose (6,) [m, rad].
         contact: External wrench on the tool (6,) [N, N m, base].
         speed_fraction: Speed slider, 0 to 1; it scales the speed of motions.
+        out_of_reach: A motion led to where no posture is; the arm stands, and must be stopped. A
+            real one stops itself there (a protective stop).
     """
 
     def __init__(
@@ -61,7 +75,8 @@ class Robot:
         Raises:
             ValueError: No posture reaches the pose.
         """
-        self.tcp_offset = np.array(tcp_offset, dtype=np.float64)
+        checked_pose(tcp)
+        self.tcp_offset = checked_pose(tcp_offset)
         self.tool = ToolState(np.array(tcp[:3]), matrix(tcp[3:]), AT_REST)
         self.contact = np.zeros(6)
         self.speed_fraction = 1.0
@@ -72,8 +87,10 @@ class Robot:
         self._since_s, self._now_s, self._stopping = 0.0, now_s, False
         self._segment_start: tuple[ToolState, float, float] | None = None
         self._followed: Callable[[], bool] = lambda: True
+        self.out_of_reach = False
         self._q = joints_of(self._flange(), READY_Q)
         self._q_of = self.tool
+        self._peak_m_s = 0.0
         self._watched_from_s = now_s
         self._watched_speed = 0.0
         self.stopped_after_s: float | None = None
@@ -95,6 +112,7 @@ class Robot:
         """Change to a motion that begins now; the numbers are for the listener."""
         if self._segment_start is None:
             self._segment_start = (self.tool, speed_m_s, acceleration)
+            self._peak_m_s = 0.0
         self._motion, self._since_s, self._stopping = motion, 0.0, False
         self.advance(self._now_s)
 
@@ -121,7 +139,12 @@ class Robot:
         scale = 1.0 if self._stopping else self.speed_fraction
         earlier_s = self._since_s
         self._since_s += passed_s * scale
-        self.tool = self._state_at(self._since_s, scale)
+        tool = self._state_at(self._since_s, scale)
+        if not self._within_reach(tool.position_m):
+            self._lose_posture()
+            return
+        self.tool = tool
+        self._peak_m_s = max(self._peak_m_s, self.speed_m_s)
         if self.stopped_after_s is None and self.speed_m_s < STILL_M_S and self._watched_speed > 0:
             at_s = self._crossing(earlier_s, self._since_s, scale)
             when_s = before_s + (at_s - earlier_s) / scale if scale > 0 else self._now_s
@@ -158,6 +181,9 @@ class Robot:
         self._segment_start = None
         if self._listener is not None:
             path = start.path_to(self.tool.position_m, self.tool.rotation)
+            # A motion without a commanded speed (servoing) is reported with the one it reached.
+            speed_m_s = speed_m_s if speed_m_s > 0 else max(self._peak_m_s, STILL_M_S)
+            acceleration = acceleration if acceleration > 0 else SERVO_M_S2
             segment = MotionSegment(path[:3], path[3:], speed_m_s, acceleration)
             self._followed = self._listener(segment)
 
@@ -166,23 +192,31 @@ class Robot:
         return [*self.tool.position_m.tolist(), *rotvec(self.tool.rotation).tolist()]
 
     def set_tcp(self, offset: Floats) -> None:
-        """Change the tool: the joints stay, the tool centre point moves."""
+        """Change the tool: the joints stay, the tool centre point moves.
+
+        Raises:
+            ValueError: No UR pose, or too far from the flange.
+        """
+        offset = checked_pose(offset)
+        if norm(offset[:3]) > LONGEST_TOOL_M:
+            raise ValueError(f"a tool reaches at most {LONGEST_TOOL_M} m, got {offset.tolist()}")
+        if self.in_motion:
+            self._arrive()
         flange = self._flange()
-        self.tcp_offset = np.array(offset, dtype=np.float64)
+        self.tcp_offset = offset
         tip = flange @ as_frame(self.tcp_offset)
         self.tool = ToolState(tip[:3, 3], tip[:3, :3], AT_REST)
         self._q_of = self.tool
         self._motion = Rest(self.tool)
 
     def joints(self) -> Floats:
-        """Joint angles (6,) [rad].
-
-        Raises:
-            ValueError: No posture reaches the tool's pose.
-        """
+        """Joint angles (6,) [rad]: the last ones when no posture reaches the tool's pose."""
         if self._q_of is not self.tool:
-            self._q = joints_of(self._flange(), self._q)
             self._q_of = self.tool
+            try:
+                self._q = joints_of(self._flange(), self._q)
+            except ValueError:
+                self._lose_posture()
         return self._q
 
     def joint_speeds(self) -> Floats:
@@ -193,7 +227,12 @@ class Robot:
         lever = base_from_flange(q)[:3, 3] - self.tool.position_m
         twist = self.tool.twist.copy()
         twist[:3] += np.cross(twist[3:], lever)
-        return np.asarray(np.linalg.solve(jacobian(q) + 1e-9 * np.eye(6), twist), dtype=np.float64)
+        try:
+            speeds = np.linalg.solve(jacobian(q) + 1e-9 * np.eye(6), twist)
+        except np.linalg.LinAlgError:  # exactly singular
+            self._lose_posture()
+            return np.zeros(6)
+        return np.asarray(speeds, dtype=np.float64)
 
     def force(self) -> list[float]:
         """Reading of the force sensor, 6 numbers [N, N m, base]."""
@@ -202,6 +241,17 @@ class Robot:
     def zero_force(self) -> None:
         """Make the present reading the sensor's zero."""
         self._zeroed = self._bias + self.contact
+
+    def _within_reach(self, position_m: Floats) -> bool:
+        """Whether a TCP's position is finite and not beyond the outstretched arm."""
+        return norm(position_m) <= ARM_M + norm(self.tcp_offset[:3])  # False for NaN
+
+    def _lose_posture(self) -> None:
+        self.out_of_reach = True
+        self.tool = replace(self.tool, twist=AT_REST)
+        self._q_of = self.tool
+        if self.in_motion:
+            self._arrive()
 
     def _flange(self) -> Floats:
         frame = np.eye(4)

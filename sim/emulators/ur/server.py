@@ -1,5 +1,10 @@
 """The sockets of an emulated controller: one thread serves all clients and advances the controller.
 
+No client can take it from the others. Each gets a turn of a few kilobytes; a stream that is not
+read loses packets (as the RTDE guide says of a controller without time); unread answers and
+connections beyond a number end the connection. These limits are our choice. An error of the
+emulation itself is logged, and ends only the connection that met it.
+
 It also emulates the faults of the link: a controller that accepts and is silent, garbage for an
 answer, a frozen stream, connections that drop. Ports are those of a real controller, so every
 emulator has its own loopback address.
@@ -8,22 +13,24 @@ emulator has its own loopback address.
 from __future__ import annotations
 
 import contextlib
+import logging
 import selectors
 import socket
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TypeGuard
 
 from sim.emulators.process.lifetime import request_real_time
 from sim.emulators.ur.controller import Controller
+from sim.emulators.ur.dashboard_session import DashboardSession
+from sim.emulators.ur.packets import StreamLostError
+from sim.emulators.ur.rtde_session import RtdeSession
 from sim.emulators.ur.sessions import (
     DASHBOARD_PORT,
     PORTS,
     RTDE_PORT,
-    DashboardSession,
-    RtdeSession,
     ScriptSession,
     Session,
 )
@@ -33,6 +40,14 @@ CYCLE_S = 0.004
 
 IDLE_S = 0.02
 GARBAGE = bytes(range(256)) * 2
+TURN_BYTES = 4096
+"""Most bytes that are taken from a client before it is another one's turn."""
+
+MAX_CLIENTS = 64
+MAX_UNSENT = 1 << 20
+"""Most bytes of answers that wait for a client to read them."""
+
+_log = logging.getLogger(__name__)
 
 
 @dataclass(slots=True)
@@ -151,13 +166,29 @@ class Server:
                 for key, _ in ready:
                     if isinstance(key.data, _Connection):
                         if key.data in self._connections:
-                            self._receive(key.data)
+                            self._guarded(key.data, self._receive)
                     elif key.data in self._listening:
                         self._accept(key.data)
-                self._controller.advance()
-                self._stream(time.monotonic())
+                self._advance()
+                for connection in list(self._connections):
+                    self._guarded(connection, self._stream)
             if self.link.deaf and ready:
                 time.sleep(CYCLE_S)  # unread input keeps the selector awake
+
+    def _guarded(self, connection: _Connection, serve: Callable[[_Connection], None]) -> None:
+        """Serve one connection; an error of the emulation ends this connection alone."""
+        try:
+            serve(connection)
+        except Exception:
+            _log.exception("the UR emulator failed on port %d: a bug of it", connection.port)
+            self._hang_up(connection)
+
+    def _advance(self) -> None:
+        try:
+            self._controller.advance()
+        except Exception:
+            _log.exception("the emulated UR failed: a bug of it; its program ends")
+            self._controller.program = None
 
     def _pause_s(self) -> float:
         with self.lock:
@@ -193,6 +224,9 @@ class Server:
             client, _ = self._listening[port].accept()
         except OSError:
             return
+        if len(self._connections) >= MAX_CLIENTS:
+            client.close()
+            return
         client.setblocking(False)
         client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         session: Session | None = None
@@ -215,7 +249,7 @@ class Server:
         if self.link.deaf:
             return
         try:
-            data = connection.socket.recv(65536)
+            data = connection.socket.recv(TURN_BYTES)
         except BlockingIOError:
             return
         except OSError:
@@ -225,20 +259,25 @@ class Server:
         elif connection.session is not None:
             try:
                 self._send(connection, connection.session.receive(data))
-            except ValueError:
+            except StreamLostError:
+                self._hang_up(connection)
+                return
+            if connection.session.ended:
                 self._hang_up(connection)
         elif self.link.garbage:
             self._send(connection, GARBAGE)
 
-    def _stream(self, now_s: float) -> None:
-        for connection in list(self._connections):
-            session = connection.session
-            if _is_streaming(session) and now_s >= connection.due_s:
-                period_s = max(session.period_s, 1.0 / self.fastest_hz)
-                late = now_s - connection.due_s > period_s
-                connection.due_s = (now_s if late else connection.due_s) + period_s
-                if not self.link.frozen:
-                    self._send(connection, session.data())
+    def _stream(self, connection: _Connection) -> None:
+        """Send what still waits, and the next packet of a stream when it is due."""
+        session, now_s = connection.session, time.monotonic()
+        if connection.unsent:
+            self._send(connection, b"")
+        if _is_streaming(session) and now_s >= connection.due_s:
+            period_s = max(session.period_s, 1.0 / self.fastest_hz)
+            late = now_s - connection.due_s > period_s
+            connection.due_s = (now_s if late else connection.due_s) + period_s
+            if not (self.link.frozen or connection.unsent):
+                self._send(connection, session.data())
 
     def _send(self, connection: _Connection, data: bytes) -> None:
         if self.link.frozen:
@@ -247,11 +286,13 @@ class Server:
         try:
             sent = connection.socket.send(connection.unsent) if connection.unsent else 0
         except BlockingIOError:
-            return
+            sent = 0
         except OSError:
             self._hang_up(connection)
             return
         del connection.unsent[:sent]
+        if len(connection.unsent) > MAX_UNSENT:
+            self._hang_up(connection)
 
     def _hang_up(self, connection: _Connection) -> None:
         if connection in self._connections:

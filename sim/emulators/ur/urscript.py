@@ -15,8 +15,15 @@ from collections.abc import Callable, MutableMapping
 
 import numpy as np
 
-from sim.emulators.ur.kinematics import Floats, as_frame, base_from_flange, jacobian, matrix
-from sim.emulators.ur.motion import Line, ServoMotion, run_at
+from sim.emulators.ur.kinematics import (
+    Floats,
+    as_frame,
+    base_from_flange,
+    checked_pose,
+    jacobian,
+    matrix,
+)
+from sim.emulators.ur.motion import Line, ServoMotion, checked_rate, run_at
 from sim.emulators.ur.robot import Robot
 
 READY, DONE = 1, 2
@@ -27,6 +34,8 @@ PROTECTIVE_STOP, STOP_L, STOP_J, WATCHDOG, GET_TCP, STEADY, TARGET_PAYLOAD, END 
 )  # fmt: skip
 REALTIME = (FORCE, SPEED_J, SPEED_L, SERVO_J, SERVO_L)
 FORCE_ACCELERATION = 0.5
+LARGEST_KG = 100.0
+"""Largest accepted payload [kg]; our choice, above that of any UR."""
 
 
 class Program:
@@ -76,9 +85,19 @@ class Program:
         self._out["output_int_register_2"] = bits
 
     def read_inputs(self) -> None:
+        """Carry out the command in the registers; arguments that it can't take end the script.
+
+        A real script ends so too: by a runtime error of the function that it called.
+        """
         if not self.running or self._awaits_rest:
             return
-        command = int(self._in["input_int_register_0"])
+        try:
+            self._read_command(int(self._in["input_int_register_0"]))
+        except ValueError:
+            self.running = False
+            self._repeated_motion = None
+
+    def _read_command(self, command: int) -> None:
         if command in REALTIME:
             self._execute_realtime(command)
             self._out["output_int_register_0"] = READY
@@ -87,10 +106,7 @@ class Program:
             self._out["output_int_register_0"] = READY
         elif not self._executing:
             self._executing = True
-            try:
-                self._execute(command)
-            except ValueError:
-                self.running = False  # a runtime error ends a script
+            self._execute(command)
             if self.running and not self._awaits_rest:
                 self._out["output_int_register_0"] = DONE
 
@@ -111,14 +127,15 @@ class Program:
     def _execute_realtime(self, command: int) -> None:
         first = self._doubles(0)
         if command in (SPEED_L, SPEED_J):
-            acceleration = self._in["input_double_register_6"]
-            if not (np.isfinite(first).all() and math.isfinite(acceleration) and acceleration > 0):
-                return
+            acceleration = checked_rate(self._in["input_double_register_6"])
+            if not np.isfinite(first).all():
+                raise ValueError(f"a speed must be finite, got {first.tolist()}")
             # The script repeats speedl: its time argument does not end the motion.
             self._repeat(
                 "speed", lambda: self._speed(first, acceleration, joints=command == SPEED_J)
             )
         elif command in (SERVO_L, SERVO_J):
+            first = checked_pose(first)
             if command == SERVO_J:
                 goal = base_from_flange(first) @ as_frame(self._robot.tcp_offset)
                 position, rotation = goal[:3, 3], goal[:3, :3]
@@ -134,7 +151,7 @@ class Program:
         else:
             selected = [int(self._in[f"input_int_register_{i}"]) for i in range(2, 8)]
             wrench, limits = self._doubles(6), self._doubles(12)
-            frame = matrix(first[3:])
+            frame = matrix(checked_pose(first)[3:])
             self._repeat("force", lambda: self._force(np.array(selected), wrench, limits, frame))
 
     def _repeat(self, name: str, motion: Callable[[], None]) -> None:
@@ -161,7 +178,10 @@ class Program:
         elif command == ZERO_FT:
             self._robot.zero_force()
         elif command in (PAYLOAD, TARGET_PAYLOAD):
-            self.payload_kg = self._in["input_double_register_0"]
+            payload_kg = self._in["input_double_register_0"]
+            if not 0 <= payload_kg <= LARGEST_KG:
+                raise ValueError(f"a payload is 0 to {LARGEST_KG} kg, got {payload_kg}")
+            self.payload_kg = payload_kg
             self.payload_cog_m = self._doubles(1, 3).tolist()
         elif command == TCP:
             self._robot.set_tcp(self._doubles(0))
@@ -181,14 +201,12 @@ class Program:
     def _move_or_stop(self, command: int) -> None:
         asynchronous = int(self._in["input_int_register_1"]) == 1
         if command == MOVE_L:
-            pose = self._doubles(0)
+            pose = checked_pose(self._doubles(0))
             speed, acceleration = self._doubles(6, 2).tolist()
             line = Line(self._robot.tool, pose[:3], matrix(pose[3:]), speed, acceleration)
             self._robot.begin(line, speed, acceleration)
         else:
-            deceleration = self._in["input_double_register_0"]
-            if not (math.isfinite(deceleration) and deceleration > 0):
-                raise ValueError(f"a stop needs a deceleration above 0, got {deceleration}")
+            deceleration = checked_rate(self._in["input_double_register_0"])
             mode = {SPEED_STOP: "speed", SERVO_STOP: "servo", FORCE_STOP: "force"}.get(command)
             if mode is not None and mode == self._realtime_mode:
                 self._realtime_mode = self._repeated_motion = None
