@@ -7,22 +7,30 @@ servos. A ``GripLoad`` stands for the gripped object; the default is a block on 
 
 from __future__ import annotations
 
+import logging
 import threading
 import time
 from contextlib import closing
 
 from sim.emulators.dynamixel import control_table as at
-from sim.emulators.dynamixel import packets as protocol
-from sim.emulators.dynamixel.control_table import BAUDS, MODELS
+from sim.emulators.dynamixel.bus import ServoBus
+from sim.emulators.dynamixel.control_table import MODELS
 from sim.emulators.dynamixel.faults import BusFaults
 from sim.emulators.dynamixel.fingers import Fingers, GripLoad, Linkage, SpringLoad
 from sim.emulators.dynamixel.options import DynamixelOptions, ServoOptions
-from sim.emulators.dynamixel.servo import EmulatedServo
+from sim.emulators.dynamixel.packets import PacketReader
+from sim.emulators.dynamixel.servo import EmulatedServo, Written
 from sim.emulators.dynamixel.wire import Wire
 from sim.emulators.process.control import Facts
 from sim.emulators.process.lifetime import request_real_time, serve
 
 _BUSY_S, _IDLE_S = 0.002, 0.010
+
+BROKEN_OFF_S = 0.05
+"""Silence after which a packet that is not complete is dropped [s]. Our choice: a host that has
+waited for its answer in vain must be understood again."""
+
+_log = logging.getLogger(__name__)
 
 
 class DynamixelEmulator:
@@ -49,8 +57,10 @@ class DynamixelEmulator:
         ]
         self._fingers = Fingers(self._servos, linkage, load or SpringLoad(), self._lock)
         self._fingers.step(time.monotonic())
-        self._wire, self._reader = Wire(), protocol.PacketReader()
+        self._wire, self._reader = Wire(), PacketReader()
         self._faults = BusFaults(self._servos, self._wire)
+        self._bus = ServoBus(self._servos, self._faults.is_silent, self._on_written)
+        self._received_s = 0.0
         self._late: list[tuple[float, bytes]] = []
         self._instructions = 0
         self._ended = threading.Event()
@@ -112,9 +122,13 @@ class DynamixelEmulator:
             if not self._wire.plugged:
                 self._ended.wait(_IDLE_S)
             with self._lock:
-                self._pass_time()
-                if data:
-                    self._receive(data)
+                try:
+                    self._pass_time()
+                    if data:
+                        self._receive(data)
+                except Exception:
+                    _log.exception("the Dynamixel emulator failed: a bug of it; it goes on")
+                    self._reader.forget()
 
     def _pass_time(self) -> None:
         now_s = time.monotonic()
@@ -127,78 +141,25 @@ class DynamixelEmulator:
             self._wire.write(reply)
 
     def _receive(self, data: bytes) -> None:
-        if self._wire.baud() != BAUDS[self._servos[0].table[at.BAUD]]:
+        baud, now_s = self._wire.baud(), time.monotonic()
+        if not self._bus.hearing(baud):
             self._wire.write(self._faults.noise(data))
             return
+        if now_s - self._received_s > BROKEN_OFF_S:
+            self._reader.forget()
+        self._received_s = now_s
         for instruction in self._reader.feed(data):
             self._instructions += 1
-            for servo in self._servos:
-                servo.feed_watchdog(time.monotonic())
-            for reply in self._execute(instruction):
+            for reply in self._bus.execute(instruction, baud):
                 delay_s, output = self._faults.apply(reply)
                 if delay_s > 0:
                     self._late.append((time.monotonic() + delay_s, output))
                 else:
                     self._wire.write(output)
 
-    def _execute(self, instruction: protocol.PacketInstruction) -> list[bytes]:
-        code, parameters = instruction.code, instruction.parameters
-        addressed = [servo for servo in self._servos if servo.id == instruction.servo_id]
-        if instruction.servo_id != protocol.BROADCAST:
-            if not instruction.intact:
-                return [self._status(servo, protocol.BAD_CRC) for servo in addressed]
-            return [self._answer(servo, code, parameters) for servo in addressed]
-        if not instruction.intact:
-            return []
-        if code == protocol.PING:
-            return [self._answer(servo, code, parameters) for servo in self._servos]
-        if code in (protocol.SYNC_READ, protocol.FAST_SYNC_READ) and len(parameters) > 4:
-            return self._sync_read(code, parameters)
-        if code == protocol.SYNC_WRITE and len(parameters) > 4:
-            self._sync_write(parameters)
-        return []
-
-    def _answer(self, servo: EmulatedServo, code: int, parameters: bytes) -> bytes:
-        error, data, written = servo.execute(code, parameters)
-        if written:
-            self._fingers.on_written(written)
-            self._fingers.step(time.monotonic())
-        return self._status(servo, error, data)
-
-    def _status(self, servo: EmulatedServo, error: int, data: bytes = b"") -> bytes:
-        if self._faults.is_silent(servo.id):
-            return b""
-        return protocol.status(servo.id, self._with_alert(servo, error), data)
-
-    def _with_alert(self, servo: EmulatedServo, error: int) -> int:
-        return error | (protocol.ALERT if servo.table[at.HARDWARE_ERROR] else 0)
-
-    def _sync_read(self, code: int, parameters: bytes) -> list[bytes]:
-        """Answer in the order of the ids; the servos after a missing one stay silent."""
-        address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
-        parts = []
-        for servo_id in parameters[4:]:
-            servo = next((s for s in self._servos if s.id == servo_id), None)
-            if servo is None or self._faults.is_silent(servo_id):
-                break
-            error, data = servo.table.read(address, length)
-            parts.append((servo_id, self._with_alert(servo, error), data))
-        if code == protocol.FAST_SYNC_READ:
-            complete = len(parts) == len(parameters[4:])
-            return [protocol.fast_sync_status(parts)] if complete else []
-        return [protocol.status(servo_id, error, data) for servo_id, error, data in parts]
-
-    def _sync_write(self, parameters: bytes) -> None:
-        """Write to several servos at once; none of them answers, not even with a refusal."""
-        address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
-        written: frozenset[int] = frozenset()
-        for start in range(4, len(parameters), 1 + length):
-            data = parameters[start + 1 : start + 1 + length]
-            for servo in self._servos:
-                if servo.id == parameters[start] and len(data) == length:
-                    written |= servo.write(address, data)[2]
-        if written:
-            self._fingers.on_written(written)
+    def _on_written(self, written: Written) -> None:
+        self._fingers.on_written(written)
+        self._fingers.step(time.monotonic())
 
 
 def run(options: DynamixelOptions) -> None:

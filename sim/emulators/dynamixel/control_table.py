@@ -13,12 +13,18 @@ from sim.emulators.dynamixel.packets import BAD_LENGTH, BEYOND_LIMIT, NO_ACCESS,
 MODEL, FIRMWARE, ID, BAUD, MODE = 0, 6, 7, 8, 11
 MOVING_THRESHOLD, MAX_TEMPERATURE, MAX_VOLTAGE, MIN_VOLTAGE = 24, 31, 32, 34
 CURRENT_LIMIT, VELOCITY_LIMIT, MAX_POSITION, MIN_POSITION, SHUTDOWN = 38, 44, 48, 52, 63
-TORQUE, HARDWARE_ERROR, WATCHDOG = 64, 70, 98
+TORQUE, STATUS_RETURN, REGISTERED, HARDWARE_ERROR, WATCHDOG = 64, 68, 69, 70, 98
 GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, PROFILE_VELOCITY, GOAL_POSITION = 100, 102, 104, 112, 116
 MOVING, PRESENT_CURRENT, PRESENT_VELOCITY, PRESENT_POSITION = 122, 126, 128, 132
 VOLTAGE, TEMPERATURE = 144, 146
 
-CURRENT_BASED_POSITION = 5
+POSITION, CURRENT_BASED_POSITION = 3, 5
+MODES = (0, 1, POSITION, 4, CURRENT_BASED_POSITION, 16)
+"""Operating modes; only the emulated fingers' one, 5, limits the current to the goal current."""
+
+GOALS = (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION)
+FACTORY_ID, FACTORY_BAUD = 1, 57600
+WATCHDOG_TRIPPED = 0xFF
 
 BAUDS = (9600, 57600, 115200, 1000000, 2000000, 3000000, 4000000)
 """Baud rates [bit/s], by the value of the baud rate register."""
@@ -49,7 +55,9 @@ class Register:
 
 _R, _E, _W = RegisterAccess.READ_ONLY, RegisterAccess.EEPROM, RegisterAccess.RAM
 _REGISTERS: dict[int, Register] = {
-    **dict.fromkeys((FIRMWARE, 69, HARDWARE_ERROR, MOVING, 123, TEMPERATURE), Register(1, _R)),
+    **dict.fromkeys(
+        (FIRMWARE, REGISTERED, HARDWARE_ERROR, MOVING, 123, TEMPERATURE), Register(1, _R)
+    ),
     **dict.fromkeys((MODEL, 120, VOLTAGE), Register(2, _R)),
     **dict.fromkeys((2, 136, 140), Register(4, _R)),
     ID: Register(1, _E, 0, 252),
@@ -68,7 +76,7 @@ _REGISTERS: dict[int, Register] = {
     VELOCITY_LIMIT: Register(4, _E, 0, 2047),
     **dict.fromkeys((MAX_POSITION, MIN_POSITION), Register(4, _E, 0, 4095)),
     **dict.fromkeys((TORQUE, 65), Register(1, _W, 0, 1)),
-    68: Register(1, _W, 0, 2),
+    STATUS_RETURN: Register(1, _W, 0, 2),
     **dict.fromkeys((76, 78, 80, 82, 84, 88, 90), Register(2, _W, 0, 16383)),
     WATCHDOG: Register(1, _W, 0, 127),
     GOAL_PWM: Register(2, _W, -885, 885),
@@ -178,8 +186,16 @@ class ControlTable:
 
     def start_up(self) -> None:
         """Reset the volatile registers, as after switching on."""
-        self[68], self[GOAL_PWM] = 2, 885
-        for address in (TORQUE, HARDWARE_ERROR, WATCHDOG, GOAL_VELOCITY, PROFILE_VELOCITY, 108):
+        self[STATUS_RETURN], self[GOAL_PWM] = 2, 885
+        for address in (
+            TORQUE,
+            REGISTERED,
+            HARDWARE_ERROR,
+            WATCHDOG,
+            GOAL_VELOCITY,
+            PROFILE_VELOCITY,
+            108,
+        ):
             self[address] = 0
         if GOAL_CURRENT in self._registers:
             self[GOAL_CURRENT] = self[CURRENT_LIMIT]
@@ -198,9 +214,15 @@ class ControlTable:
         self._memory[address : address + register.size] = raw
 
     def read(self, address: int, length: int) -> tuple[int, bytes]:
-        """Error number and bytes; a read may cover addresses without a register."""
-        if length == 0 or address + length > _SIZE:
-            return OUT_OF_RANGE, b""
+        """Error number and bytes.
+
+        A read may cover addresses without a register, as a whole control table is read. Our choice:
+        the manual gives an access error to an undefined address, and does not speak of gaps.
+        """
+        if length == 0:
+            return BAD_LENGTH, b""
+        if address + length > _SIZE:
+            return NO_ACCESS, b""
         return OK, bytes(self._memory[address : address + length])
 
     def write(self, address: int, data: bytes) -> tuple[int, frozenset[int]]:
@@ -226,11 +248,13 @@ class ControlTable:
     def _refusal(self, address: int, value: int) -> int:
         register = self._registers[address]
         locked = register.access is _R or (register.access is _E and self[TORQUE])
-        is_goal = address in (GOAL_PWM, GOAL_CURRENT, GOAL_VELOCITY, GOAL_POSITION)
-        if locked or (is_goal and self[WATCHDOG] == 0xFF):
+        if locked:
             return NO_ACCESS
-        if not register.low <= value <= register.high:
+        if not register.low <= value <= register.high or (address == MODE and value not in MODES):
             return OUT_OF_RANGE
+        if self[WATCHDOG] == WATCHDOG_TRIPPED and (address in GOALS or address == WATCHDOG):
+            # Range error: the manual's word for goals. Only 0 clears it, as the manual says.
+            return OK if address == WATCHDOG and value == 0 else OUT_OF_RANGE
         if address == GOAL_CURRENT and abs(value) > self[CURRENT_LIMIT]:
             return BEYOND_LIMIT
         return OK

@@ -7,10 +7,14 @@ inside instruction or parameters is followed by a stuffed FD.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-PING, READ, WRITE, REBOOT = 0x01, 0x02, 0x03, 0x08
+PING, READ, WRITE, REG_WRITE, ACTION = 0x01, 0x02, 0x03, 0x04, 0x05
+FACTORY_RESET, REBOOT, CLEAR = 0x06, 0x08, 0x10
 SYNC_READ, SYNC_WRITE, FAST_SYNC_READ = 0x82, 0x83, 0x8A
+BULK_READ, BULK_WRITE, FAST_BULK_READ = 0x92, 0x93, 0x9A
+GROUP_READS = (SYNC_READ, FAST_SYNC_READ, BULK_READ, FAST_BULK_READ)
 STATUS = 0x55
 BROADCAST = 0xFE
 
@@ -22,6 +26,7 @@ ALERT = 0x80
 
 _HEADER = b"\xff\xff\xfd"
 _LONGEST = 1024
+_NO_IDS = (0xFD, 0xFF)
 
 
 def _crc_table() -> tuple[int, ...]:
@@ -67,12 +72,17 @@ def status(servo_id: int, error: int, parameters: bytes = b"") -> bytes:
     return packet(servo_id, bytes([STATUS, error]) + parameters)
 
 
-def fast_sync_status(parts: list[tuple[int, int, bytes]]) -> bytes:
+def fast_length(lengths: Sequence[int]) -> int:
+    """Length field of the one answer to a fast read of so many data bytes of each servo."""
+    return (1 + sum(4 + length for length in lengths)) & 0xFFFF
+
+
+def fast_status(parts: Sequence[tuple[int, int, bytes]], length: int) -> bytes:
     """The one answer packet of several servos; each part is (id, error, data).
 
-    Every servo adds its error, id, data and a CRC over all bytes before; data are not stuffed.
+    Every servo adds its error, id, data and a CRC over all bytes before; data are not stuffed. The
+    first one writes the length of the whole packet; when a servo is missing, the packet breaks off.
     """
-    length = 1 + sum(4 + len(data) for _, _, data in parts)
     line = _HEADER + bytes([0, BROADCAST]) + length.to_bytes(2, "little") + bytes([STATUS])
     for servo_id, error, data in parts:
         line += bytes([error, servo_id]) + data
@@ -91,7 +101,11 @@ class PacketInstruction:
 
 
 class PacketReader:
-    """Cuts a stream of bytes into instruction packets; other bytes between them are skipped."""
+    """Cuts a stream of bytes into instruction packets; other bytes between them are skipped.
+
+    An instruction inside the bytes that a damaged header announces is lost, as on a real line,
+    where the host repeats it; ``forget`` is called after a silence.
+    """
 
     def __init__(self) -> None:
         self._buffer = b""
@@ -104,6 +118,10 @@ class PacketReader:
                 instructions.append(packet)
         return instructions
 
+    def forget(self) -> None:
+        """Drop a packet that has broken off."""
+        self._buffer = b""
+
     def _next(self) -> PacketInstruction | None:
         while True:
             start = self._buffer.find(_HEADER)
@@ -114,7 +132,8 @@ class PacketReader:
             if len(self._buffer) < 8:
                 return None
             length = u16(self._buffer[5:])
-            if self._buffer[3] == 0xFD or not 3 <= length <= _LONGEST:
+            is_packet = self._buffer[3] != 0xFD and self._buffer[4] not in _NO_IDS
+            if not (is_packet and 3 <= length <= _LONGEST):
                 self._buffer = self._buffer[3:]
                 continue
             if len(self._buffer) < 7 + length:

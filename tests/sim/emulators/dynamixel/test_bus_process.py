@@ -378,7 +378,7 @@ def test_the_bus_watchdog_trips_makes_goals_read_only_and_is_cleared_by_0(bus):
     line.write(at.TORQUE, 1, 1)
     line.write(at.WATCHDOG, 1, 3)
     assert eventually(lambda: emulator.facts()["bus_watchdog"] == 0xFF)
-    assert line.write(at.GOAL_POSITION, 4, 2000) == (0, 7)
+    assert line.write(at.GOAL_POSITION, 4, 2000) == (0, 4)  # the manual: a range error
     assert line.write(at.WATCHDOG, 1, 0) == (0, 0)
     assert line.write(at.GOAL_POSITION, 4, 2000) == (0, 0)
 
