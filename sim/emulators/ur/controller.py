@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from sim.emulators.ur.kinematics import Floats
+from sim.emulators.ur.options import UNLOCK_AFTER_S
 from sim.emulators.ur.robot import Robot, SegmentListener
 from sim.emulators.ur.urscript import Program
 
@@ -53,6 +54,7 @@ class Controller:
         program: The running control script; None without one.
         robot_mode, safety_mode: As RTDE numbers them.
         remote: The pendant is in remote control.
+        unlock_after_s: Least time from a protective stop to its release [s].
         scripts_start: False for a version that accepts a script and never runs it.
         end_reason: Reason for which the last program ended; '' before the first end.
     """
@@ -70,6 +72,8 @@ class Controller:
         self.program: Program | None = None
         self.robot_mode, self.safety_mode, self.remote = RUNNING, NORMAL, True
         self.scripts_start = True
+        self.unlock_after_s = UNLOCK_AFTER_S
+        self._stopped_s = self._began_s
         self.end_reason = ""
         self.num_programs = 0
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
@@ -147,7 +151,7 @@ class Controller:
         Protective and safeguard stop pause the program, emergency stops end it. Our choice.
         """
         self.robot.advance(self._clock())
-        self.safety_mode = mode
+        self.safety_mode, self._stopped_s = mode, self._clock()
         self.robot.halt(SAFETY_STOP_M_S2)
         if mode in (PROTECTIVE, SAFEGUARD):
             self._paused = self.program is not None
@@ -157,6 +161,11 @@ class Controller:
 
     def protective_stop(self) -> None:
         self.safety_stop(PROTECTIVE)
+
+    @property
+    def may_unlock(self) -> bool:
+        """Whether a protective stop, if there is one, is old enough to be released."""
+        return self._clock() - self._stopped_s >= self.unlock_after_s
 
     def unlock(self) -> None:
         """Reset safety to normal, end the program, switch power on."""

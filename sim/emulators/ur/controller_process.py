@@ -57,6 +57,7 @@ class UrEmulator:
             None if follow is None else self._queue_segment,
             time.monotonic,
         )
+        self.controller.unlock_after_s = options.unlock_after_s
         self.server = Server(options.host, self.controller, self._version, options.stream_hz)
         self._faults: dict[str, Callable[..., None]] = {
             "mute": lambda: self._link(mute=True),

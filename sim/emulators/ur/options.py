@@ -13,6 +13,9 @@ START_TCP: Pose6 = (0.45, -0.10, 0.20, math.pi, 0.0, 0.0)
 TCP_OFFSET: Pose6 = (0.0, 0.0, 0.15, 0.0, 0.0, 0.0)
 """Flange to tool centre point at the start [m, rad]."""
 
+UNLOCK_AFTER_S = 5.0
+"""Least time from a protective stop to its release [s]. Source: the dashboard's documentation."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class UrOptions:
@@ -24,6 +27,7 @@ class UrOptions:
         stream_hz: fastest rate of the data stream [Hz]
         start_tcp: pose of the tool centre point at the start [m, rad]
         tcp_offset: flange to tool centre point at the start [m, rad]
+        unlock_after_s: least time from a protective stop to its release [s]
         world_port: local TCP port of a world that follows the arm; without one, no world follows
     """
 
@@ -32,4 +36,5 @@ class UrOptions:
     stream_hz: float = 125.0
     start_tcp: Pose6 = START_TCP
     tcp_offset: Pose6 = TCP_OFFSET
+    unlock_after_s: float = UNLOCK_AFTER_S
     world_port: int | None = None

@@ -11,8 +11,13 @@ from sim.emulators.ur.sessions import LONGEST_SCRIPT, ScriptSession
 
 
 @pytest.fixture
-def controller():
-    return Controller(np.array(START_TCP), np.array(TCP_OFFSET), None, lambda: 0.0)
+def clock():
+    return [0.0]
+
+
+@pytest.fixture
+def controller(clock):
+    return Controller(np.array(START_TCP), np.array(TCP_OFFSET), None, lambda: clock[0])
 
 
 @pytest.fixture
@@ -108,10 +113,14 @@ def test_a_safety_stop_has_its_name(controller, session, mode, name):
     assert ask(session, "safetymode") == f"Safetymode: {name}"
 
 
-def test_a_paused_program_is_neither_stopped_nor_playing(controller, session):
+def test_a_paused_program_is_neither_stopped_nor_playing(controller, session, clock):
     controller.start_program()
     controller.safety_stop(PROTECTIVE)
     assert ask(session, "programState") == "PAUSED rtde_control"
+    clock[0] += 4.9
+    assert ask(session, "unlock protective stop").startswith("Cannot unlock protective stop until")
+    assert ask(session, "safetystatus") == "Safetystatus: PROTECTIVE_STOP"
+    clock[0] += 0.2
     assert ask(session, "unlock protective stop") == "Protective stop releasing"
     assert ask(session, "safetystatus") == "Safetystatus: NORMAL"
     assert ask(session, "programState") == "STOPPED <none>"

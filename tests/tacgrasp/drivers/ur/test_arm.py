@@ -60,7 +60,7 @@ def loopback(row):
 
 @pytest.fixture(scope="module")
 def emulator():
-    with EmulatorProcess("ur", "--host", loopback(43)) as running:
+    with EmulatorProcess("ur", "--host", loopback(43), "--unlock-after-s", "0") as running:
         yield running
 
 
