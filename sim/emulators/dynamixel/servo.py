@@ -128,6 +128,7 @@ class EmulatedServo:
         """Start up anew: torque off, volatile registers reset, the turn count lost."""
         self.table.start_up()
         self.position %= 4096
+        self.table[at.GOAL_POSITION] = round(self.position)
 
     def _register(self, parameters: bytes) -> tuple[int, bytes, Written]:
         """Keep a write for the next action; it is checked when it is carried out."""
