@@ -9,6 +9,7 @@ compliant objects, baud rates (any is understood), status return levels.
 
 from __future__ import annotations
 
+import contextlib
 import os
 import pty
 import select
@@ -148,6 +149,8 @@ class ServoPeer:
             os.close(descriptor)
 
     def _run(self) -> None:
+        with contextlib.suppress(OSError):  # a servo does not wait for other work
+            os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(5))
         unread = b""
         while True:
             ready, _, _ = select.select([self._host, self._end_out], [], [], 0.005)
@@ -248,11 +251,10 @@ class ServoPeer:
             return 7
         if name == "torque" and value == 1 and self["hardware error"] & self["shutdown"]:
             return 7
-        if not field.low <= value <= field.high:
-            # the one limit that a register of its own sets
-            return 6 if name == "goal current" and abs(value) > self["current limit"] else 4
         if name == "goal current" and abs(value) > self["current limit"]:
-            return 6
+            return 6  # the one limit that a register of its own sets
+        if not field.low <= value <= field.high:
+            return 4
         if name == "mode" and value not in MODES:
             return 4
         tripped = self["watchdog"] == 0xFF
