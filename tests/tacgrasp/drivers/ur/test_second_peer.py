@@ -4,18 +4,24 @@ What holds on one fake alone may be that fake's habit. Left out by the peer: see
 """
 
 import os
+import struct
 import time
 from concurrent.futures import ThreadPoolExecutor
+from random import Random
 
 import numpy as np
 import pytest
 
 from primitives.devices import Pose
 from primitives.errors import LimitError, RobotError
+from sim.emulators.ur.controller import Controller
+from sim.emulators.ur.options import START_TCP, TCP_OFFSET
+from sim.emulators.ur.rtde_session import RtdeSession
 from tacgrasp.drivers.ur.arm import UrArm
 from tacgrasp.drivers.ur.preflight import check
 from tests.fakes.emulated_arm import emulated_arm
-from tests.fakes.peers.ur_peer import UrPeer
+from tests.fakes.peers.ur_cell import Cell
+from tests.fakes.peers.ur_peer import RtdeProtocol, UrPeer
 
 pytest.importorskip("rtde_control")
 
@@ -124,3 +130,46 @@ def test_a_second_control_client_is_refused_while_the_registers_are_taken(arm, s
     with pytest.raises(RobotError, match="not ready"):
         UrArm(settings).start()
     arm.pose()
+
+
+class Wire:
+    """A transport that keeps what is written."""
+
+    def __init__(self):
+        self.data = b""
+
+    def write(self, data):
+        self.data += data
+
+
+def rtde_stream(rng):
+    """A set-up as a client may send it, of names that both know or neither does."""
+    outputs = ["timestamp", "actual_TCP_pose", "robot_mode", "runtime_state", "payload_cog"]
+    outputs += ["output_int_register_7", "output_double_register_3", "safety_status_bits", "none"]
+    inputs = ["input_int_register_0", "input_int_register_5", "input_double_register_2"]
+    inputs += ["input_double_register_9", "external_force_torque", "no_such_input"]
+    for _ in range(12):
+        kind = rng.choice("VOOIISP")
+        names = rng.sample(outputs if kind == "O" else inputs, rng.randrange(1, 5))
+        text = ",".join(names).encode() + rng.choice((b"", b","))
+        body = {"O": struct.pack(">d", rng.choice((10.0, 125.0))) + text, "I": text,
+                "V": struct.pack(">H", rng.choice((2, 2, 3, 9)))}.get(kind, b"")  # fmt: skip
+        yield struct.pack(">HB", 3 + len(body), ord(kind)) + body
+
+
+def test_peer_and_emulator_answer_the_same_set_up_with_the_same_bytes():
+    for seed in range(300):
+        cell, machine = Cell(), Controller(np.array(START_TCP), np.array(TCP_OFFSET), None, float)
+        taken = {}
+        ours = [RtdeSession(machine, (5, 12), taken) for _ in range(2)]
+        theirs = [RtdeProtocol(cell) for _ in range(2)]
+        for one in theirs:
+            one.transport = Wire()
+        for session in ours:
+            session.receive(b"\x00\x05V\x00\x02")
+        rng = Random(seed)
+        for line in rtde_stream(rng):
+            which = rng.randrange(2)
+            theirs[which].transport.data = b""
+            theirs[which].data_received(line)
+            assert ours[which].receive(line) == theirs[which].transport.data, (seed, line)
