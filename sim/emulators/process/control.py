@@ -85,7 +85,7 @@ class _Requests(socketserver.StreamRequestHandler):
                 return {"facts": dict(emulated.facts())}
             else:
                 raise ValueError(f"expected inject, clear or facts, got {action!r}")
-        except (ValueError, KeyError, TypeError) as error:
+        except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
             return {"error": f"{error}"}
         return {}
 

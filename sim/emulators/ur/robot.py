@@ -181,8 +181,10 @@ class Robot:
         self._segment_start = None
         if self._listener is not None:
             path = start.path_to(self.tool.position_m, self.tool.rotation)
-            # A motion without a commanded speed (servoing) is reported with the one it reached.
-            speed_m_s = speed_m_s if speed_m_s > 0 else max(self._peak_m_s, STILL_M_S)
+            # Servoing has no commanded speed, and a faster motion may have taken over.
+            if self._peak_m_s > 1.01 * speed_m_s:
+                speed_m_s = self._peak_m_s
+            speed_m_s = max(speed_m_s, STILL_M_S)
             acceleration = acceleration if acceleration > 0 else SERVO_M_S2
             segment = MotionSegment(path[:3], path[3:], speed_m_s, acceleration)
             self._followed = self._listener(segment)

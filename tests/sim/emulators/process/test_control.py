@@ -1,6 +1,8 @@
 """The control channel of an emulator, and the process around it."""
 
+import json
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -71,6 +73,21 @@ def test_an_unknown_fault_or_device_is_refused_with_the_known_names(client):
         client.inject("lamp", "loud")
     with pytest.raises(ValueError, match="no emulated device 'horn' here; known: lamp"):
         client.facts("horn")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [b"", b"[]", b"7", b"\xff\xfe", b"{", b'{"device": []}', b"[" * 100_000, b'{"do": 1e999}'],
+    ids=["empty", "list", "number", "no text", "broken", "list as name", "deep", "infinite"],
+)
+def test_a_line_that_is_no_request_is_answered_and_the_next_one_understood(lamp, line):
+    server = ControlServer({"lamp": lamp})
+    with socket.create_connection(("127.0.0.1", server.port), timeout=5) as raw:
+        raw.sendall(line + b"\n" + b'{"do": "facts", "device": "lamp"}\n')
+        with raw.makefile("rb") as answers:
+            assert "error" in json.loads(answers.readline())
+            assert json.loads(answers.readline())["facts"]["lit"] is True
+    server.close()
 
 
 def test_two_clients_ask_at_the_same_time(lamp):

@@ -267,6 +267,20 @@ def test_a_moved_stretch_is_reported_as_covered_and_the_move_ends_when_the_world
     assert not machine.outputs["output_int_register_2"] & 0x8000
 
 
+def test_a_segment_without_a_commanded_speed_is_reported_with_the_one_it_reached():
+    clock, segments = Clock(), []
+    machine = controller(clock, lambda segment: segments.append(segment) or (lambda: True))
+    machine.start_program()
+    send(machine, 24, [*(START + np.array([0, 0, 0.01, 0, 0, 0])), 0, 0, 0.002, 0.1, 300])
+    for _ in range(20):
+        wait(machine, clock, 0.02)
+    send(machine, 16, [10.0])  # servoStop
+    wait(machine, clock, 1)
+    assert segments[0].by_base_m[2] == pytest.approx(0.01, abs=1e-3)
+    assert 0.01 < segments[0].speed_m_s < 0.101  # 10 mm within a look-ahead of 0.1 s
+    assert segments[0].acceleration_m_s2 > 0
+
+
 def test_a_line_cut_short_is_reported_with_what_was_really_covered():
     clock, segments = Clock(), []
     machine = controller(clock, lambda segment: segments.append(segment) or (lambda: True))
