@@ -60,7 +60,7 @@ def mutated(rng: Random, packets: Sequence[bytes]) -> bytes:
         elif kind == 1:
             stream[at] = stream[at][: rng.randrange(len(stream[at]) + 1)]
         elif kind == 2:
-            stream[at] = stream[at] * rng.choice((2, 2, 3, 40))
+            stream[at] = (stream[at] * rng.choice((2, 2, 3, 40)))[:LONGEST]
         elif kind == 3:
             other = rng.choice(stream)
             stream[at] = stream[at][: len(stream[at]) // 2] + other[len(other) // 2 :]

@@ -16,7 +16,7 @@ OUTPUTS, INPUTS, DATA, START, PAUSE = ord("O"), ord("I"), ord("U"), ord("S"), or
 
 HEADER = struct.Struct(">HB")
 LARGEST = 4096
-"""Longest accepted packet [bytes]; recipes of the library stay far below."""
+"""Longest accepted packet [bytes]. Our choice: the guide allows 2048 bytes of variables' names."""
 
 ERROR_LEVEL = 1
 """Level of a text message: 0 exception, 1 error, 2 warning, 3 information."""
