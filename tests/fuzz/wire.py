@@ -45,6 +45,9 @@ BAUD = 1_000_000
 LONGEST = 1 << 16
 """Bytes of a case: more than the buffer of any port holds."""
 
+MOST_PIECES = 500
+"""Steps of emulated time in a case of servos, each of which moves the fingers."""
+
 _EXTREMES = (0, 1, 2, 3, 0x7F, 0x80, 0xFD, 0xFE, 0xFF)
 _NUMBERS = (0.0, -0.0, 1.0, 0.1, -3.2, 1e-320, 1e-9, 1e6, 1e150, 1e308, float("inf"), float("nan"))
 
@@ -240,7 +243,7 @@ def _read_instructions(data: bytes) -> object:
     bus = ServoBus(servos, lambda _: False, fingers.on_written, lambda: now[0])
     reader, answers = dxl.PacketReader(), 0
     try:
-        for piece in pieces(data[1:], 1 + side):
+        for piece in pieces(data[1:], max(1 + side, len(data) // MOST_PIECES)):
             for instruction in reader.feed(piece):
                 answers += sum(map(len, bus.execute(instruction, BAUD)))
             now[0] += 0.01
