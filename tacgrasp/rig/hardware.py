@@ -31,7 +31,6 @@ from tacgrasp.rig.protocols import WatchedSensor
 
 if TYPE_CHECKING:
     from sim.grasp.rig import Truth
-    from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper
 
 _SensorDriver = tuple[Callable[..., WatchedSensor], Callable[[], Sequence[Finding]]]
 
@@ -66,7 +65,9 @@ class HardwareRig:
         start_pose: Pose of the first grasp.
         first_force_n: Largest commanded force of a first grasp until something is felt [N].
         force_step_n: Least change of the commanded force that the gripper makes [N].
-        fault_counts: Returns the counts of the transient faults of gripper and sensor, as text.
+        fault_counts: Returns the counts of the transient faults of gripper and sensor, and of the
+            arm's holds, as text.
+        guard: Holds the arm while readings are stale; None in tests without one.
     """
 
     arm: Arm
@@ -78,6 +79,7 @@ class HardwareRig:
     first_force_n: float
     fault_counts: Callable[[], str]
     force_step_n: float = 0.0
+    guard: GuardedArm | None = None
 
     def expect_untouched(self) -> None:
         try:
@@ -120,13 +122,11 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(sensor.disconnect)
         gripper = connect_gripper(hardware.gripper)
         stack.callback(gripper.disconnect)
-        gripper.fail_fast_while(lambda: False)  # no arm moves yet: a busy computer is no fault
         _check_forces(config, gripper.max_force_n)
         arm = connect_arm(hardware.arm)
         stack.callback(arm.disconnect)
-        guarded = GuardedArm(arm, [lambda: _check_gripper(gripper), sensor.check_alive])
+        guarded = GuardedArm(arm, [gripper.check_alive, sensor.check_alive])
         stack.callback(guarded.disconnect)
-        gripper.fail_fast_while(guarded.is_moving)
         logged = LoggedArm(guarded, log, lambda: arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
@@ -139,7 +139,11 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         start_pose=start,
         first_force_n=first_force_n,
         force_step_n=gripper.force_step_n,
-        fault_counts=lambda: f"gripper: {gripper.transients}; sensor: {sensor.counts()}",
+        fault_counts=lambda: (
+            f"gripper: {gripper.transients}; sensor: {sensor.counts()}; arm: held "
+            f"{guarded.num_holds} times"
+        ),
+        guard=guarded,
     )
 
 
@@ -183,11 +187,6 @@ def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
     from tacgrasp.drivers.taxels import connect as taxels
 
     return partial(taxels.connect_taxels, settings), partial(taxels.check, settings)
-
-
-def _check_gripper(gripper: DynamixelGripper) -> None:
-    if gripper.fault:
-        raise RobotError(gripper.fault)
 
 
 def _check_forces(config: RunConfig, device_n: float) -> None:

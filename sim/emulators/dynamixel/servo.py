@@ -21,6 +21,7 @@ _ACCELERATION = 60_000.0  # ticks/s²
 _APPROACH_PER_S = 80.0  # speed towards a goal per remaining tick
 _CURRENT_RISE_S = 0.010
 _ARRIVED_TICKS = 0.3
+_MOST_UNITS = 2047  # largest current of any model; a mode without a goal current presses with it
 
 
 class EmulatedServo:
@@ -59,7 +60,7 @@ class EmulatedServo:
     @property
     def goal_current_ma(self) -> float:
         if self.table[at.MODE] != at.CURRENT_BASED_POSITION or at.GOAL_CURRENT not in self.table:
-            return math.inf
+            return _MOST_UNITS * self.model.unit_ma
         return abs(self.table[at.GOAL_CURRENT]) * self.model.unit_ma
 
     @property
@@ -73,8 +74,7 @@ class EmulatedServo:
             model = bytes(self.table.read(at.MODEL, 2)[1])
             return protocol.OK, model + bytes([self.table[at.FIRMWARE]]), nothing
         if code == protocol.REBOOT:
-            self.table.start_up()
-            self.position %= 4096  # the turn count is lost
+            self.restart()
             return protocol.OK, b"", frozenset({at.TORQUE})
         if code == protocol.READ and len(parameters) == 4:
             address, length = protocol.u16(parameters), protocol.u16(parameters[2:])
@@ -99,6 +99,11 @@ class EmulatedServo:
         self.table[at.HARDWARE_ERROR] = self.table[at.HARDWARE_ERROR] | bits
         if self.table[at.SHUTDOWN] & bits:
             self.table[at.TORQUE] = 0
+
+    def restart(self) -> None:
+        """Start up anew: torque off, volatile registers reset, the turn count lost."""
+        self.table.start_up()
+        self.position %= 4096
 
     def feed_watchdog(self, now_s: float) -> None:
         self._fed_s = now_s

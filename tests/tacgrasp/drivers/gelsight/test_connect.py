@@ -149,10 +149,10 @@ def test_a_stall_is_an_error_in_bounded_time(sensor, camera):
     with pytest.raises(TouchError, match=r"no fresh frame within 1 s; the last one is \d\.\d+ s"):
         sensor.read()
     assert time.monotonic() - began < 3
-    with pytest.raises(TouchError, match=r"no fresh frame within 0\.2 s"):
-        sensor.check_alive()
+    assert "gave no fresh frame within 0." in sensor.check_alive()
     camera.stalled = False
     sensor.read()
+    assert sensor.check_alive() == ""
 
 
 def test_a_frozen_picture_is_no_touch(sensor, camera):
@@ -376,7 +376,7 @@ def test_a_folder_can_be_repeated_and_played_like_a_camera(files, folder):
     gelsight = connect_gelsight(settings)
     depths = {contact_state(gelsight.read()).depth_mm for _ in range(8)}
     assert len(depths) > 1 and gelsight.counts().frames > 3
-    gelsight.check_alive()
+    assert gelsight.check_alive() == ""
     gelsight.disconnect()
 
 
