@@ -6,6 +6,7 @@ of program and safety stops and the state of the program after them: Universal R
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 from sim.emulators.ur.kinematics import Floats
@@ -52,6 +53,7 @@ class Controller:
         program: The running control script; None without one.
         robot_mode, safety_mode: As RTDE numbers them.
         remote: The pendant is in remote control.
+        not_finite: Output variables that read NaN, as from a damaged sensor.
         scripts_start: False for a version that accepts a script and never runs it.
         end_reason: Reason for which the last program ended; '' before the first end.
     """
@@ -69,6 +71,7 @@ class Controller:
         self.program: Program | None = None
         self.robot_mode, self.safety_mode, self.remote = RUNNING, NORMAL, True
         self.scripts_start = True
+        self.not_finite: set[str] = set()
         self.end_reason = ""
         self.num_programs = 0
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
@@ -169,7 +172,8 @@ class Controller:
         """Numbers of an output variable; empty for one that is not emulated (currents and such)."""
         if name in self.outputs:
             return [self.outputs[name]]
-        return self._readers[name]() if name in self._readers else []
+        numbers = self._readers[name]() if name in self._readers else []
+        return [math.nan] * len(numbers) if name in self.not_finite else numbers
 
     def _variables(self) -> Mapping[str, Callable[[], list[float]]]:
         robot = self.robot

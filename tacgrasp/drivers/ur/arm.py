@@ -40,6 +40,9 @@ log = logging.getLogger(__name__)
 HANG_S = 0.25
 """Longest time without a round of a live worker [s]; by then the watchdog has stopped the arm."""
 
+NOTICE_S = 0.04
+"""Longest wait for the method of the worker's stop before its fault is raised [s]."""
+
 STOP_S = 1.0
 END_S = 2.0
 REACTION_S = 2.0
@@ -248,7 +251,7 @@ class UrArm:
         ended, now_s = worker.has_ended, time.monotonic()
         state = worker.read()
         if state.phase != WorkerPhase.READY:
-            worker.wait(HANG_S)  # the worker brakes the arm now, and publishes the method
+            worker.wait(NOTICE_S)  # the worker brakes the arm now, and publishes the method
             self._latch(worker.read().text)
         if ended:
             self._latch(worker.exit_message(state))
@@ -266,13 +269,17 @@ class UrArm:
             raise LimitError(f"the arm starts where it may not be: {reason}. Jog it at the pendant")
 
     def _latch(self, reason: str) -> None:
-        """Latch a fault, stop the arm by any method that is left, and raise the fault."""
+        """Latch a fault and raise it; meanwhile stop the arm by any method that is left.
+
+        A dead link makes stopping slow, and nobody should learn of the fault so late. ``stop``
+        waits for it.
+        """
         with self._lock:
             if not self._fault:
                 advice = "Look at the arm, clear the cause, then reset it."
                 self._fault, self._unsafe = f"UR arm: {reason}. {advice}", True
                 log.error("%s", self._fault)
-        self._make_safe()
+                threading.Thread(target=self._make_safe, name="ur stop", daemon=True).start()
         raise RobotError(self._fault)
 
     def _make_safe(self) -> None:

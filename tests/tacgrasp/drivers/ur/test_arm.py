@@ -12,6 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from primitives import LimitError, RobotError
@@ -367,6 +369,10 @@ MOTION_FAULTS = [
     ("program_stopped", {}, "program"),
     ("controller_restart", {"down_s": 0.3}, "dropped"),
     ("contact_force", {"force_n": 40.0}, "contact force"),
+    ("not_finite", {}, "reports a force that is not finite"),
+    ("not_finite", {"variable": "actual_TCP_pose"}, "reports a pose that is not finite"),
+    ("not_finite", {"variable": "actual_TCP_speed"}, "reports a speed that is not finite"),
+    ("not_finite", {"variable": "target_speed_fraction"}, "speed slider that is not finite"),
 ]
 
 
@@ -431,6 +437,7 @@ def test_a_worker_that_hangs_is_noticed_and_the_arm_stops(arm, emulator):
     raised = in_motion(arm, emulator, hang)
     assert "hung" in raised[0]
     assert stopped_after_ms(emulator) < STOP_MS
+    arm.stop()  # returns when the stop from outside is confirmed
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)  # and it is gone, not left behind
 
@@ -589,6 +596,33 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
     link.kick()  # says that all is well
     assert not link.connected
     assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in calls}
+
+
+NUMBERS = [f"{name}{i}" for name in ("pose", "speed", "force") for i in range(6)]
+NUMBERS += ["stamp_s", "speed_fraction"]
+
+
+@given(
+    st.lists(st.sampled_from(NUMBERS), min_size=1, unique=True),
+    st.sampled_from([math.nan, math.inf, -math.inf]),
+)
+def test_a_sample_with_a_number_that_is_not_finite_is_a_fault_in_itself(names, value):
+    fields = {
+        name: tuple(value if f"{name}{i}" in names else 0.0 for i in range(6))
+        for name in ("pose", "speed", "force")
+    }
+    single = {name: value if name in names else 1.0 for name in ("stamp_s", "speed_fraction")}
+    with pytest.raises(RobotError, match="not finite"):
+        ur_link.RtdeSample(robot_mode=7, runtime_state=2, safety_bits=1, **fields, **single)
+
+
+def test_an_arm_whose_force_is_not_finite_is_not_ready(kept, emulator, settings):
+    kept.disconnect()
+    emulator.control.inject("ur", "not_finite")
+    with pytest.raises(RobotError, match="not finite"):
+        preflight(settings)
+    emulator.control.clear("ur")
+    eventually(kept.reset)
 
 
 def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set():
