@@ -14,7 +14,7 @@ from dataclasses import dataclass
 REAL_TIME_PRIORITY = 9
 """SCHED_FIFO priority of a driver's thread; below the arm's worker."""
 
-NICE = -15
+NICE, USER_NICE = -15, -10
 MIN_CORES = 2
 """One core for the drivers, one for everything else."""
 
@@ -67,6 +67,16 @@ def request_priority() -> Granted:
         os.setpriority(os.PRIO_PROCESS, thread, NICE)
     nice = os.getpriority(os.PRIO_PROCESS, thread)
     return Granted(real_time=False, nice=nice, cores=_num_cores())
+
+
+def request_nice() -> None:
+    """Prefer the calling thread, and those that it starts, to other ordinary work.
+
+    For the thread that uses the drivers: while it holds Python's lock and waits for a processor, no
+    driver's thread can run, whatever its own priority.
+    """
+    with suppress(OSError, AttributeError):
+        os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), USER_NICE)
 
 
 def granted() -> Granted:

@@ -5,6 +5,7 @@ The same drivers run on emulators (``tacgrasp.rig.emulated``). Not here: the dri
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
@@ -21,9 +22,10 @@ from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
+from tacgrasp.drivers.scheduling import ADVICE, granted, request_nice
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.guard import GuardedArm
@@ -33,6 +35,8 @@ if TYPE_CHECKING:
     from sim.grasp.rig import Truth
 
 _SensorDriver = tuple[Callable[..., WatchedSensor], Callable[[], Sequence[Finding]]]
+
+log = logging.getLogger(__name__)
 
 AT_START_MM = 0.5
 """Largest distance from the start pose at which the arm needs no move to it."""
@@ -111,7 +115,11 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     from tacgrasp.drivers.dynamixel.gripper import connect_gripper
     from tacgrasp.drivers.ur.arm import connect_arm
 
-    log = CommandLog(time.monotonic)
+    rights = granted()
+    if rights.problem:
+        log.warning("this computer may be late: %s (%s)", rights.problem, rights)
+    request_nice()
+    commands = CommandLog(time.monotonic)
     with ExitStack() as stack:
         try:
             sensor = connect_sensor(hardware.sensor, config)
@@ -127,15 +135,15 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(arm.disconnect)
         guarded = GuardedArm(arm, [gripper.check_alive, sensor.check_alive])
         stack.callback(guarded.disconnect)
-        logged = LoggedArm(guarded, log, lambda: arm.sent)
+        logged = LoggedArm(guarded, commands, lambda: arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
     return HardwareRig(
         arm=logged,
-        gripper=LoggedGripper(gripper, log, lambda: gripper.sent),
+        gripper=LoggedGripper(gripper, commands, lambda: gripper.sent),
         sensor=sensor,
         clock=RealClock(),
-        command_log=log,
+        command_log=commands,
         start_pose=start,
         first_force_n=first_force_n,
         force_step_n=gripper.force_step_n,
@@ -171,7 +179,14 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
     _, check_sensor = _sensor_driver(hardware.sensor)
     arm_findings = preflight.check(hardware.arm)
     gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
-    return [*arm_findings, *gripper_findings, *check_sensor()]
+    return [_computer(), *arm_findings, *gripper_findings, *check_sensor()]
+
+
+def _computer() -> Finding:
+    """What the operating system grants the drivers' threads."""
+    rights = granted()
+    detail = f"{rights}: {rights.problem}" if rights.problem else f"{rights}"
+    return finding("computer", "priority and cores", not rights.problem, detail, ADVICE)
 
 
 def _sensor_driver(settings: SensorSettings) -> _SensorDriver:

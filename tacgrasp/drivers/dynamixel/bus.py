@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from primitives.errors import RobotError
+from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.dynamixel.errors import (
     STATUS_ERRORS,
     BusError,
@@ -250,10 +251,12 @@ class Bus:
                 f"{name} answered with a wrong CRC or half a packet",
                 timed_out=1000 * duration_s >= timeout_ms,
             )
+        advice = f"check power, cable, id and baud ({self._settings.baud})"
+        if self._settings.is_emulated:
+            advice = EMULATOR_ADVICE
         return BusError(
             BusFault.SILENT,
-            f"{name} does not answer within {timeout_ms:g} ms: check power, cable, id and baud "
-            f"({self._settings.baud})",
+            f"{name} does not answer within {timeout_ms:g} ms: {advice}",
             timed_out=True,
         )
 

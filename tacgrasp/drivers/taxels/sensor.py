@@ -29,6 +29,7 @@ from cltp.sensing.taxel_packets import (
 from cltp.sensing.touch_files import ASPECT_TOLERANCE
 from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SensorSpec, sensor_named
+from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
 from tacgrasp.drivers.scheduling import request_priority
 from tacgrasp.drivers.stamps import real_stamp
@@ -242,13 +243,15 @@ class TaxelArray:
 
     def _no_frame_error(self, waited_s: float) -> TouchError:
         counts, newest = self.counts(), self._latest.newest()
+        advice = "check cable and port, and power the array off and on"
+        if self._settings.is_emulated:
+            advice = EMULATOR_ADVICE
         if newest is not None:
             age_s = time.monotonic() - newest.stamp.monotonic_s
             problem = (
                 f"no fresh frame within {waited_s:.2g} s; the last one came "
                 f"{age_s:.2f} s ago with mark {newest.frame.mark} ({counts.damaged} damaged so "
-                "far); expected a steady stream that repeats the host's marks: check the cable, "
-                "and power the array off and on"
+                f"far); expected a steady stream that repeats the host's marks: {advice}"
             )
         elif self._parser.counts.foreign:
             problem = (
@@ -262,10 +265,7 @@ class TaxelArray:
                 f"{self._settings.baud}?"
             )
         else:
-            problem = (
-                f"silent for {waited_s:g} s; expected a steady stream of frames: check its power, "
-                "and that the port is the array's"
-            )
+            problem = f"silent for {waited_s:.2g} s; expected a steady stream of frames: {advice}"
         return TouchError(f"{self._name}: {problem}")
 
     def _capture(self) -> None:

@@ -105,6 +105,20 @@ def test_silence_is_known_after_two_timeouts_and_says_what_to_check(bus, servos)
     assert time.monotonic() - began < 1.0  # 50 ms when nothing else runs
 
 
+def test_a_silent_emulator_is_called_what_it_is(servos):
+    emulated = servos.settings.for_emulator()
+    assert emulated.is_emulated and not servos.settings.is_emulated
+    bus = Bus(emulated)
+    bus.patience_s = 0.0
+    bus.open()
+    servos.emulator.inject("silence")
+    try:
+        with pytest.raises(BusError, match="within 25 ms: it is an emulator on this computer"):
+            bus.read(1, reg.MODEL, 2)
+    finally:
+        bus.close()
+
+
 def test_a_pause_is_waited_out(bus, servos):
     servos.emulator.inject("silence")
     threading.Timer(0.15, servos.emulator.clear).start()
