@@ -25,7 +25,7 @@ from sim.emulators.ur.child import UrChild
 from sim.emulators.world import SharedWorld
 from sim.grasp.rig import build
 
-TAXEL_RATE_HZ = 50.0
+TAXEL_RATE_HZ = 60.0
 
 GRIPPER = ServoOptions(model="XM540-W270")
 FINGERS = Linkage(newtons_per_ma=0.0026, friction_ma=54.0)

@@ -17,7 +17,7 @@ from primitives.devices import Arm, Pose
 from primitives.errors import RobotError
 from tacgrasp.drivers.scheduling import request_priority
 
-POLL_S = 0.002
+POLL_S = 0.001
 """Interval of the checks of the other devices during a move [s]."""
 
 HOLD_S = 1.0
