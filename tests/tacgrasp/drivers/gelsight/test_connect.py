@@ -1,12 +1,15 @@
 """The driver of a GelSight Mini: fresh frames from a camera, recordings, and clear errors."""
 
 import datetime
+import math
 import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
 from PIL import Image
 
 from cltp.errors import TouchError
@@ -119,6 +122,28 @@ def test_a_pressed_ball_is_felt_where_and_as_deep_as_it_is(sensor, camera):
     state = contact_state(sensor.read())
     assert state.depth_mm == pytest.approx(0.8, abs=0.1)
     assert (state.x_mm, state.y_mm) == pytest.approx((4.0, -3.0), abs=0.3)
+
+
+@given(
+    st.integers(0, SENSOR.rows - 1),
+    st.integers(0, SENSOR.columns - 1),
+    st.sampled_from([math.nan, math.inf, -math.inf]),
+)
+@settings(
+    max_examples=20, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
+)
+def test_one_height_that_is_not_finite_is_no_touch(sensor, row, column, value):
+    class Photometer:
+        sensor = SENSOR
+
+        def heights(self, frame):
+            heights = np.zeros((SENSOR.rows, SENSOR.columns))
+            heights[row, column] = value
+            return heights
+
+    sensor._photometer = Photometer()
+    with pytest.raises(TouchError, match="NaN or infinite"):
+        sensor.read()
 
 
 def test_a_frame_exposed_before_the_call_is_not_returned(sensor, camera):

@@ -4,6 +4,7 @@ motion, and each pitfall of the library that was measured."""
 import math
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
@@ -23,6 +24,7 @@ from sim.emulators.ur.child import UrChild
 from tacgrasp.drivers.ur import arm as ur
 from tacgrasp.drivers.ur import rtde_link as ur_link
 from tacgrasp.drivers.ur.arm import UrArm, connect_arm
+from tacgrasp.drivers.ur.dashboard import Rtde
 from tacgrasp.drivers.ur.motion_limits import (
     expected_duration_s,
     nearest_rotvec,
@@ -614,6 +616,20 @@ def test_a_sample_with_a_number_that_is_not_finite_is_a_fault_in_itself(names, v
     single = {name: value if name in names else 1.0 for name in ("stamp_s", "speed_fraction")}
     with pytest.raises(RobotError, match="not finite"):
         ur_link.RtdeSample(robot_mode=7, runtime_state=2, safety_bits=1, **fields, **single)
+
+
+@given(
+    st.lists(st.floats(), min_size=13, max_size=13).filter(
+        lambda numbers: not all(map(math.isfinite, numbers))
+    )
+)
+def test_the_preflight_takes_no_number_that_is_not_finite(numbers):
+    rtde = Rtde.__new__(Rtde)
+    rtde._layout = struct.Struct(">13d")
+    rtde._sizes = {"timestamp": 1, "actual_TCP_pose": 6, "actual_TCP_force": 6}
+    rtde._next = lambda kind: b"\x01" + struct.pack(">13d", *numbers)
+    with pytest.raises(RobotError, match="not finite"):
+        rtde.sample()
 
 
 def test_an_arm_whose_force_is_not_finite_is_not_ready(kept, emulator, settings):
