@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -43,6 +44,7 @@ class Granted:
         return "the drivers have no priority over other work"
 
     def __str__(self) -> str:
+        """Priority and cores, for people."""
         priority = "real-time priority" if self.real_time else f"nice {self.nice}"
         return f"{priority}, {self.cores} cores"
 
@@ -86,6 +88,16 @@ def granted() -> Granted:
     thread.start()
     thread.join()
     return results[0]
+
+
+def lateness_s(num_sleeps: int = 30, sleep_s: float = 0.008) -> float:
+    """Longest time by which the calling thread woke too late from some short sleeps [s]."""
+    worst_s = 0.0
+    for _ in range(num_sleeps):
+        due_s = time.monotonic() + sleep_s
+        time.sleep(sleep_s)
+        worst_s = max(worst_s, time.monotonic() - due_s)
+    return worst_s
 
 
 def _num_cores() -> int:

@@ -25,7 +25,7 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
-from tacgrasp.drivers.scheduling import ADVICE, granted, request_nice
+from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.guard import GuardedArm
@@ -185,7 +185,8 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
 def _computer() -> Finding:
     """What the operating system grants the drivers' threads."""
     rights = granted()
-    detail = f"{rights}: {rights.problem}" if rights.problem else f"{rights}"
+    detail = f"{rights}, wakes up at most {1e3 * lateness_s():.1f} ms late"
+    detail += f": {rights.problem}" if rights.problem else ""
     return finding("computer", "priority and cores", not rights.problem, detail, ADVICE)
 
 

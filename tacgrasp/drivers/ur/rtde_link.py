@@ -165,13 +165,13 @@ class UrLink:
         # The first asynchronous stop switches stopL from joint space to a straight line.
         self.stop()
 
-    def arm_watchdog(self) -> None:
-        """Arm the watchdog: from now on the program ends unless ``kick`` is called.
+    def arm_watchdog(self, least_hz: float) -> None:
+        """Arm the watchdog: from now on the program ends unless ``kick`` is called so often [Hz].
 
         Raises:
             RobotError: The controller did not accept it.
         """
-        _check_accepted(self._control.setWatchdog(self._settings.watchdog_hz), "watchdog")
+        _check_accepted(self._control.setWatchdog(least_hz), "watchdog")
 
     @property
     def connected(self) -> bool:

@@ -32,6 +32,9 @@ from tacgrasp.drivers.ur.shared_state import (
 MAX_DATA_AGE_S = 0.03
 """With older data the library's stop would only hang [s]."""
 
+UNREAD_S = 0.2
+"""Largest age of data while newer ones wait to be read by the library's thread [s]."""
+
 SETTLE_S = 0.3
 """Longest time from the end of a move to rest on its target [s]."""
 
@@ -113,7 +116,7 @@ class Supervisor:
             raise RobotError("the link to the controller dropped")
         self._read_sample(now_s)
         stale_s, limit_s = now_s - self._data_s, self._settings.stale_ms / 1e3
-        if stale_s > 2 * limit_s or (stale_s > limit_s and not self._link.has_unread()):
+        if stale_s > UNREAD_S or (stale_s > limit_s and not self._link.has_unread()):
             raise RobotError(f"no new data from the controller for {1e3 * stale_s:.0f} ms")
         if problem := self._sample.problem():
             raise RobotError(f"{problem}{self._own_pause(now_s)}")

@@ -42,6 +42,7 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerPhase,
     WorkerState,
 )
+from tacgrasp.drivers.ur.worker import patient
 from tests.fakes.emulated_arm import emulated_arm
 
 pytest.importorskip("rtde_control")
@@ -598,6 +599,18 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
     link.kick()  # says that all is well
     assert not link.connected
     assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in calls}
+
+
+@pytest.mark.parametrize(
+    ("is_real_time", "late_s", "watchdog_hz", "stale_ms"),
+    [(True, 1.0, 25, 60), (False, 0.001, 25, 60), (False, 0.02, 10, 120)],
+)
+def test_a_busy_computer_without_priority_is_given_more_time(
+    is_real_time, late_s, watchdog_hz, stale_ms
+):
+    settings = emulated_arm("h")
+    adapted = patient(settings, is_real_time=is_real_time, late_s=lambda: late_s)
+    assert (adapted.watchdog_hz, adapted.stale_ms) == (watchdog_hz, stale_ms)
 
 
 NUMBERS = [f"{name}{i}" for name in ("pose", "speed", "force") for i in range(6)]
