@@ -220,8 +220,10 @@ class FaultBench:
             counts = rig.fault_counts()
         is_transient = case.phase is InjectionPhase.TRANSIENT
         outcome = episode.result[0].message if episode.result is not None else ""
-        message = self._anonymised(counts if is_transient else outcome)
         is_fault = episode.result is not None and episode.result[0].reason is EndReason.FAULT
+        message = self._anonymised(counts if is_transient else outcome)
+        if is_transient and is_fault:
+            message = f"{self._anonymised(outcome)}; {message}"
         return InjectionResult(
             detected=is_expected(case, message),
             message=message,
@@ -240,6 +242,7 @@ class FaultBench:
             speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
             if isinstance(speed, float) and speed > 0.01:
                 return True
+            time.sleep(0.005)  # without a pause the questions would keep the emulators busy
         return False
 
     def _connect(self, stack: ExitStack) -> HardwareRig:

@@ -39,7 +39,7 @@ class FaultRow:
             fault; for a transient fault, until the next good value [ms].
         spurious: Number of repeats in which another fault was reported than the injected one.
         load: Whether all cores were kept busy.
-        told: Last message to the operator.
+        told: Last message to the operator, or that of the first repeat that was not as expected.
         episode: State of recorded episodes: 'intact', 'none begun', or their problem.
     """
 
@@ -89,7 +89,9 @@ def row_of(case: FaultCase, results: Sequence[InjectionResult], *, load: bool = 
         moved=sum(r.moved for r in results),
         noticed_ms_p50=median(noticed),
         noticed_ms_max=max(noticed),
-        told=results[-1].message,
+        told=next(
+            (r.message for r in results if r.spurious or not r.detected), results[-1].message
+        ),
         episode="; ".join(sorted(problems)) or no_problem,
         spurious=sum(r.spurious for r in results),
         load=load,
