@@ -55,8 +55,8 @@ SPEED_M_S, ACCELERATION_M_S2 = 0.4, 2.5
 
 _MAX_ATTEMPTS = 6
 _LOW_X_M, _HIGH_X_M = 0.37, 0.53
-_DELAY_S = (0.17, 0.30)
-"""Range of times from the beginning of a move to the injection [s]: the arm is at full speed."""
+_DELAY_S = (0.0, 0.12)
+"""Range of times from full speed to the injection [s]: half of the way at full speed."""
 
 
 class FaultBench:
@@ -147,7 +147,7 @@ class FaultBench:
             if case.holding:
                 rig.gripper.grip(GRIP_N)
             move = _start_move(rig, self._far_side(rig))
-            time.sleep(float(self._rng.uniform(*_DELAY_S)))
+            self._wait_at_speed(move)
             early = move.error if move.wait(0) else ""
             injected_s = self._inject(case)
             hung = not move.wait(HUNG_S)
@@ -170,7 +170,7 @@ class FaultBench:
             rig = self._connect(stack)
             target = self._far_side(rig)
             move = _start_move(rig, target)
-            time.sleep(float(self._rng.uniform(*_DELAY_S)))
+            self._wait_at_speed(move)
             before = rig.fault_counts()
             injected_s = self._inject(case)
             error, invented = "", False
@@ -244,6 +244,15 @@ class FaultBench:
                 return True
             time.sleep(0.005)  # without a pause the questions would keep the emulators busy
         return False
+
+    def _wait_at_speed(self, move: BackgroundCall[Pose]) -> None:
+        """Wait until the tool is at full speed, or its move has ended, and some time more."""
+        until_s = time.monotonic() + CONNECT_S
+        while time.monotonic() < until_s and not move.wait(0.01):
+            speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
+            if isinstance(speed, float) and speed > 0.95 * SPEED_M_S:
+                break
+        time.sleep(float(self._rng.uniform(*_DELAY_S)))
 
     def _connect(self, stack: ExitStack) -> HardwareRig:
         """Connect the rig, in several attempts: a controller that restarts needs some seconds."""

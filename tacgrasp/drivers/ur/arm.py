@@ -37,8 +37,12 @@ from tacgrasp.drivers.ur.worker_process import POLL_S, WorkerProcess
 
 log = logging.getLogger(__name__)
 
-HANG_S = 0.25
-"""Longest time without a round of a live worker [s]; by then the watchdog has stopped the arm."""
+HANG_S = 0.12
+"""Longest time without a round of a live worker [s]; longer than any watchdog of the controller, so
+that the arm is stopped by then."""
+
+BRAKE_S = 0.25
+"""Longest wait for a worker that brakes the arm itself [s]."""
 
 NOTICE_S = 0.04
 """Longest wait for the method of the worker's stop before its fault is raised [s]."""
@@ -288,7 +292,7 @@ class UrArm:
             if not self._unsafe:
                 return
             if self._worker is not None:
-                self._worker.wait(HANG_S)  # the worker brakes the arm itself
+                self._worker.wait(BRAKE_S)  # the worker brakes the arm itself
                 self._worker.kill()
             method = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
             self._unsafe = method != CONFIRMED
