@@ -79,7 +79,7 @@ CASES: tuple[FaultCase, ...] = (
     _start("UR: speed slider at 0", "ur", "speed_slider", "speed"),
     _start("UR: register in use", "ur", "register_in_use", "in use", "another"),
     _motion("UR: link drop", "ur", "link_drop", "lost", "link", "connection"),
-    _motion("UR: freeze", "ur", "freeze", "old", "stale", "data", "frozen"),
+    _motion("UR: freeze", "ur", "freeze", "old", "stale", "data", "frozen", "hung"),
     _motion("UR: protective stop", "ur", "protective_stop", "protective"),
     _motion("UR: safeguard stop", "ur", "safeguard_stop", "safeguard"),
     _motion("UR: emergency stop", "ur", "emergency_stop", "emergency"),
