@@ -19,13 +19,13 @@ from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import Linkage
 from sim.emulators.dynamixel.options import ServoOptions
 from sim.emulators.options import RigOptions
-from sim.emulators.process.lifetime import serve
+from sim.emulators.process.lifetime import WORLD_PRIORITY, request_real_time, serve
 from sim.emulators.taxels.array import TaxelEmulator
 from sim.emulators.ur.child import UrChild
 from sim.emulators.world import SharedWorld
 from sim.grasp.rig import build
 
-TAXEL_RATE_HZ = 50.0
+TAXEL_RATE_HZ = 60.0
 
 GRIPPER = ServoOptions(model="XM540-W270")
 FINGERS = Linkage(newtons_per_ma=0.0026, friction_ma=54.0)
@@ -62,6 +62,9 @@ def run(options: RigOptions) -> None:
         )
         if options.held:
             simulated.gripper.grip(simulated.first_force_n)
+        # From here on for all threads: one that holds Python's lock while ordinary work has the
+        # processor keeps the devices from answering, by more than a second on a busy machine.
+        request_real_time(priority=WORLD_PRIORITY)
         world = stack.enter_context(closing(SharedWorld(simulated)))
         arm = stack.enter_context(closing(_arm(options.host, world)))
         gripper = stack.enter_context(closing(DynamixelEmulator(world, GRIPPER, FINGERS)))

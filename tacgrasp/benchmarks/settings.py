@@ -162,11 +162,21 @@ class FaultsSettings(BenchmarkSettings):
         repeats: Number of injections of each fault.
         only: Part of the names of the faults to inject. Default: all faults.
         markdown: File to write the table to, in the form of docs/faults.md.
+        load: Keep all processor cores busy with child processes; the arm must then be at rest
+            within 250 ms instead of 150.
+        fault_free: Number of short episodes to run without any fault, in place of the injections;
+            each fault among them is spurious. An earlier file of --json is gone on with.
     """
 
     repeats: int = 20
     only: str = ""
     markdown: Path | None = None
+    load: bool = False
+    fault_free: int = 0
+
+    def __post_init__(self) -> None:
+        if self.fault_free < 0:
+            raise UsageError(f"--fault-free must be 0 or more episodes, got {self.fault_free}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from primitives.errors import RobotError
 from primitives.execution import PadAxes
+from tacgrasp.bringup.soak import soak_findings
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
@@ -22,8 +23,12 @@ LIBRARIES = {
 """Library of each device, and the start of the versions that its driver was tested with."""
 
 
-def rig_findings(config: RunConfig) -> Sequence[Finding]:
+def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]:
     """Check the rig of a configuration: its file, the libraries, then every device.
+
+    Args:
+        config: The configuration.
+        soak_s: Time for which the devices are then read side by side [s]; 0 for not at all.
 
     Raises:
         RobotError: The emulators of an emulated rig did not start.
@@ -34,8 +39,13 @@ def rig_findings(config: RunConfig) -> Sequence[Finding]:
         return [*findings, finding("rig", "devices", True, detail)]
     findings += _library_findings()
     if config.devices == "hardware":
-        return [*findings, *device_findings(config.hardware, config.gripper.first_force_n)]
-    return [*findings, *_emulated_findings(config, config.hardware)]
+        devices = device_findings(config.hardware, config.gripper.first_force_n)
+        return [*findings, *devices, *_soak(config, config.hardware, soak_s)]
+    return [*findings, *_emulated_findings(config, config.hardware, soak_s)]
+
+
+def _soak(config: RunConfig, hardware: HardwareConfig, seconds: float) -> list[Finding]:
+    return soak_findings(hardware, config, seconds) if seconds > 0 else []
 
 
 def _file_findings(config: RunConfig) -> list[Finding]:
@@ -63,7 +73,7 @@ def _library_findings() -> list[Finding]:
     return findings
 
 
-def _emulated_findings(config: RunConfig, hardware: HardwareConfig) -> list[Finding]:
+def _emulated_findings(config: RunConfig, hardware: HardwareConfig, soak_s: float) -> list[Finding]:
     from sim.emulators.process.spawn import EmulatorProcess
     from tacgrasp.rig.emulated import settings_for
 
@@ -78,6 +88,7 @@ def _emulated_findings(config: RunConfig, hardware: HardwareConfig) -> list[Find
             if first_force_n is None:
                 first_force_n = float(str(emulators.ready["first_force_n"]))
             devices = device_findings(settings, first_force_n)
+            devices += _soak(config, settings, soak_s)
             return [finding("rig", "emulators", True, ready), *devices]
     except RobotError as error:
         advice = "see the message; python -m sim.emulators rig shows all of it"

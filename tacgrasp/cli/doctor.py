@@ -6,7 +6,10 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
+
+MAX_SOAK_S = 3600.0
 
 
 @dataclass(frozen=True)
@@ -16,10 +19,17 @@ class DoctorFlags:
     Attributes:
         rig: Name of a rig, or path of its YAML file.
         task: Task whose limits are shown.
+        soak: Seconds for which all devices are then read side by side, for the success rate and
+            the jitter of each. Default: not at all.
     """
 
     rig: str = "sim"
     task: str = "strawberry"
+    soak: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not 0 <= self.soak <= MAX_SOAK_S:
+            raise UsageError(f"--soak must be 0 to {MAX_SOAK_S:g} seconds, got {self.soak}")
 
 
 def main(argv: Sequence[str]) -> int:
@@ -30,7 +40,7 @@ def main(argv: Sequence[str]) -> int:
     from tacgrasp.console import make_console
 
     config, _ = load(flags.task, flags.rig, os.environ)
-    findings, out = rig_findings(config), make_console()
+    findings, out = rig_findings(config, soak_s=flags.soak), make_console()
     if out.is_terminal:
         from rich.table import Table
         from rich.text import Text

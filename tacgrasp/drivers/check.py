@@ -8,6 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+EMULATOR_ADVICE = (
+    "it is an emulator on this computer, which had no time for it or has ended it: end other work "
+    "and start again"
+)
+"""What to do about a silent device that is emulated: it has no cable."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finding:

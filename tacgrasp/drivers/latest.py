@@ -10,6 +10,10 @@ from cltp.errors import TouchError
 
 T = TypeVar("T")
 
+STALE_MARGIN_S = 0.02
+"""A reading is stale after two of its sensor's periods and this time [s]. Our choice: one lost
+reading, and the longest pause that an ordinary computer makes, are no reason to stop an arm."""
+
 
 class Latest(Generic[T]):
     """Holds one item; a reported failure stays for good."""

@@ -95,9 +95,9 @@ def settings_for(
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
-            "arm": hardware.arm.model_copy(update={"host": str(ready["host"])}),
-            "gripper": hardware.gripper.model_copy(update=gripper),
-            "sensor": hardware.sensor.model_copy(update={"port": str(ready["sensor_port"])}),
+            "arm": hardware.arm.for_emulator(host=str(ready["host"])),
+            "gripper": hardware.gripper.for_emulator(**gripper),
+            "sensor": hardware.sensor.for_emulator(port=str(ready["sensor_port"])),
         }
     )
 

@@ -5,6 +5,7 @@ The same drivers run on emulators (``tacgrasp.rig.emulated``). Not here: the dri
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
@@ -21,9 +22,10 @@ from primitives.errors import LimitError, RobotError
 from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.drivers.check import Finding
+from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
+from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
 from tacgrasp.rig.guard import GuardedArm
@@ -31,9 +33,10 @@ from tacgrasp.rig.protocols import WatchedSensor
 
 if TYPE_CHECKING:
     from sim.grasp.rig import Truth
-    from tacgrasp.drivers.dynamixel.gripper import DynamixelGripper
 
 _SensorDriver = tuple[Callable[..., WatchedSensor], Callable[[], Sequence[Finding]]]
+
+log = logging.getLogger(__name__)
 
 AT_START_MM = 0.5
 """Largest distance from the start pose at which the arm needs no move to it."""
@@ -66,7 +69,9 @@ class HardwareRig:
         start_pose: Pose of the first grasp.
         first_force_n: Largest commanded force of a first grasp until something is felt [N].
         force_step_n: Least change of the commanded force that the gripper makes [N].
-        fault_counts: Returns the counts of the transient faults of gripper and sensor, as text.
+        fault_counts: Returns the counts of the transient faults of gripper and sensor, and of the
+            arm's holds, as text.
+        guard: Holds the arm while readings are stale; None in tests without one.
     """
 
     arm: Arm
@@ -78,6 +83,7 @@ class HardwareRig:
     first_force_n: float
     fault_counts: Callable[[], str]
     force_step_n: float = 0.0
+    guard: GuardedArm | None = None
 
     def expect_untouched(self) -> None:
         try:
@@ -109,7 +115,11 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     from tacgrasp.drivers.dynamixel.gripper import connect_gripper
     from tacgrasp.drivers.ur.arm import connect_arm
 
-    log = CommandLog(time.monotonic)
+    rights = granted()
+    if rights.problem:
+        log.warning("this computer may be late: %s (%s)", rights.problem, rights)
+    request_nice()
+    commands = CommandLog(time.monotonic)
     with ExitStack() as stack:
         try:
             sensor = connect_sensor(hardware.sensor, config)
@@ -120,26 +130,28 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         stack.callback(sensor.disconnect)
         gripper = connect_gripper(hardware.gripper)
         stack.callback(gripper.disconnect)
-        gripper.fail_fast_while(lambda: False)  # no arm moves yet: a busy computer is no fault
         _check_forces(config, gripper.max_force_n)
         arm = connect_arm(hardware.arm)
         stack.callback(arm.disconnect)
-        guarded = GuardedArm(arm, [lambda: _check_gripper(gripper), sensor.check_alive])
+        guarded = GuardedArm(arm, [gripper.check_alive, sensor.check_alive])
         stack.callback(guarded.disconnect)
-        gripper.fail_fast_while(guarded.is_moving)
-        logged = LoggedArm(guarded, log, lambda: arm.sent)
+        logged = LoggedArm(guarded, commands, lambda: arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
     return HardwareRig(
         arm=logged,
-        gripper=LoggedGripper(gripper, log, lambda: gripper.sent),
+        gripper=LoggedGripper(gripper, commands, lambda: gripper.sent),
         sensor=sensor,
         clock=RealClock(),
-        command_log=log,
+        command_log=commands,
         start_pose=start,
         first_force_n=first_force_n,
         force_step_n=gripper.force_step_n,
-        fault_counts=lambda: f"gripper: {gripper.transients}; sensor: {sensor.counts()}",
+        fault_counts=lambda: (
+            f"gripper: {gripper.transients}; sensor: {sensor.counts()}; arm: held "
+            f"{guarded.num_holds} times"
+        ),
+        guard=guarded,
     )
 
 
@@ -167,7 +179,15 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
     _, check_sensor = _sensor_driver(hardware.sensor)
     arm_findings = preflight.check(hardware.arm)
     gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
-    return [*arm_findings, *gripper_findings, *check_sensor()]
+    return [_computer(), *arm_findings, *gripper_findings, *check_sensor()]
+
+
+def _computer() -> Finding:
+    """What the operating system grants the drivers' threads."""
+    rights = granted()
+    detail = f"{rights}, wakes up at most {1e3 * lateness_s():.1f} ms late"
+    detail += f": {rights.problem}" if rights.problem else ""
+    return finding("computer", "priority and cores", not rights.problem, detail, ADVICE)
 
 
 def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
@@ -183,11 +203,6 @@ def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
     from tacgrasp.drivers.taxels import connect as taxels
 
     return partial(taxels.connect_taxels, settings), partial(taxels.check, settings)
-
-
-def _check_gripper(gripper: DynamixelGripper) -> None:
-    if gripper.fault:
-        raise RobotError(gripper.fault)
 
 
 def _check_forces(config: RunConfig, device_n: float) -> None:

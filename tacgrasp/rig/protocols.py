@@ -49,11 +49,11 @@ class TactileSensor(Protocol):
 class WatchedSensor(TactileSensor, Protocol):
     """A sensor of a real rig, which can be checked while the arm moves."""
 
-    def check_alive(self) -> None:
-        """Return at once when frames are coming, without waiting for one.
+    def check_alive(self) -> str:
+        """Return at once: why the last frame is too old to move by; empty while frames come.
 
         Raises:
-            TouchError: No frames are coming.
+            TouchError: The sensor has failed.
         """
 
     def expect_untouched(self) -> None:

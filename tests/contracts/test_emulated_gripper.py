@@ -24,7 +24,6 @@ class TestEmulatedGripper(GripperContract):
             emulator.serial_port, tmp_path, model=self.model, num_servos=self.num_servos
         )
         gripper = connect_gripper(settings, folder=tmp_path)
-        gripper.fail_fast_while(lambda: False)  # no arm moves: a busy computer must fail no test
         yield gripper
         gripper.disconnect()
         emulator.close()

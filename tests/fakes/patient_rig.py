@@ -17,7 +17,7 @@ def fields() -> dict:
     hardware = rig["hardware"]
     hardware["arm"] |= {"stale_ms": 400, "watchdog_hz": 10, "start_timeout_s": 30}
     hardware["gripper"] |= {"reply_timeout_ms": 100, "settle_timeout_s": 20}
-    hardware["sensor"] |= {"stale_s": 2, "read_timeout_s": 5, "connect_timeout_s": 10}
+    hardware["sensor"] |= {"read_timeout_s": 5, "connect_timeout_s": 10}
     return rig
 
 

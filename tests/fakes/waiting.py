@@ -14,7 +14,6 @@ def poll(condition, seconds=5.0):
 
 def is_alive(sensor):
     try:
-        sensor.check_alive()
+        return sensor.check_alive() == ""
     except TouchError:
         return False
-    return True

@@ -24,6 +24,7 @@ FAULTS = {
     "alert": "a hardware error that leaves torque on; bit: 8, the encoder",
     "overload": "overload: torque goes off",
     "over_temperature": "too hot: torque goes off; celsius: 85",
+    "reboot": "the servo restarts and lets go, as after a dip of its supply; silent_ms: 0, id: all",
     "register": "a register is changed; address, value, id: all",
 }
 """Names and effects of the faults, with the defaults of their details."""
@@ -41,6 +42,7 @@ class BusFaults:
         self._injected_s: float | None = None
         self.active: set[str] = set()
         self._silent_ids: set[int] = set()
+        self._restarting_until_s: dict[int, float] = {}
         self._next_replies: list[tuple[str, float]] = []
         self._garbage = False
         self._original_values: list[tuple[EmulatedServo, int, int]] = []
@@ -74,6 +76,7 @@ class BusFaults:
     def clear(self) -> None:
         self.active.clear()
         self._silent_ids.clear()
+        self._restarting_until_s.clear()
         self._next_replies.clear()
         self._garbage = False
         for servo, address, value in reversed(self._original_values):
@@ -89,7 +92,8 @@ class BusFaults:
         return None if self._injected_s is None else 1000 * (time.monotonic() - self._injected_s)
 
     def is_silent(self, servo_id: int) -> bool:
-        return servo_id in self._silent_ids
+        restarted_s = self._restarting_until_s.get(servo_id, 0.0)
+        return servo_id in self._silent_ids or time.monotonic() < restarted_s
 
     def noise(self, data: bytes) -> bytes:
         """Answer at a wrong baud rate: nothing, or as much garbage as was received."""
@@ -117,6 +121,10 @@ class BusFaults:
                 self._set(servo, at.MODEL, int(values.get("model", 1060)))
             elif fault == "alert":
                 servo.fail(int(values.get("bit", ENCODER_BIT)))
+            elif fault == "reboot":
+                servo.restart()
+                silent_s = values.get("silent_ms", 0.0) / 1000
+                self._restarting_until_s[servo.id] = time.monotonic() + silent_s
             elif fault == "overload":
                 servo.fail(OVERLOAD_BIT)
             elif fault == "over_temperature":

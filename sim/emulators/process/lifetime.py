@@ -17,13 +17,16 @@ from types import FrameType
 
 from sim.emulators.process.control import ControlServer, Emulated
 
-REAL_TIME_PRIORITY = 11
+REAL_TIME_PRIORITY, WORLD_PRIORITY = 11, 1
+"""Real-time priorities of an emulated device, and of the world that is solved for it: below every
+device and driver, above ordinary work, which a real world would not have to share a computer with.
+"""
 
 Ready = Mapping[str, str | float]
 """What the parent process has to know: addresses and ports, by name."""
 
 
-def request_real_time(*, inherited: bool = True) -> None:
+def request_real_time(*, inherited: bool = True, priority: int = REAL_TIME_PRIORITY) -> None:
     """Run this thread before ordinary work, where the system allows it.
 
     A device answers in real time; an emulated one on a busy machine would show that machine's
@@ -32,10 +35,11 @@ def request_real_time(*, inherited: bool = True) -> None:
     Args:
         inherited: Threads that this one starts get the same priority. Set it to False where one of
             them solves contacts.
+        priority: Priority among the real-time threads of this machine.
     """
     with suppress(OSError, AttributeError):
         reset = 0 if inherited else os.SCHED_RESET_ON_FORK
-        os.sched_setscheduler(0, os.SCHED_FIFO | reset, os.sched_param(REAL_TIME_PRIORITY))
+        os.sched_setscheduler(0, os.SCHED_FIFO | reset, os.sched_param(priority))
 
 
 def serve(devices: Mapping[str, Emulated], ready: Ready) -> None:

@@ -6,6 +6,7 @@ of program and safety stops and the state of the program after them: Universal R
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 
 from sim.emulators.ur.kinematics import Floats
@@ -55,6 +56,7 @@ class Controller:
         robot_mode, safety_mode: As RTDE numbers them.
         remote: The pendant is in remote control.
         unlock_after_s: Least time from a protective stop to its release [s].
+        not_finite: Output variables that read NaN, as from a damaged sensor.
         scripts_start: False for a version that accepts a script and never runs it.
         end_reason: Reason for which the last program ended; '' before the first end.
     """
@@ -74,6 +76,7 @@ class Controller:
         self.scripts_start = True
         self.unlock_after_s = UNLOCK_AFTER_S
         self._stopped_s = self._began_s
+        self.not_finite: set[str] = set()
         self.end_reason = ""
         self.num_programs = 0
         self.payload_kg, self.payload_cog_m = 0.0, [0.0, 0.0, 0.0]
@@ -189,7 +192,8 @@ class Controller:
         """Numbers of an output variable; empty for one that is not emulated (currents and such)."""
         if name in self.outputs:
             return [self.outputs[name]]
-        return self._readers[name]() if name in self._readers else []
+        numbers = self._readers[name]() if name in self._readers else []
+        return [math.nan] * len(numbers) if name in self.not_finite else numbers
 
     def _variables(self) -> Mapping[str, Callable[[], list[float]]]:
         robot = self.robot

@@ -74,6 +74,7 @@ class UrEmulator:
             "program_stopped": lambda: self.controller.stop_program("stopped at the pendant"),
             "controller_restart": self._restart,
             "contact_force": self._contact_force,
+            "not_finite": self._not_finite,
         }
 
     def close(self) -> None:
@@ -105,6 +106,7 @@ class UrEmulator:
             controller.remote, controller.scripts_start = True, True
             controller.robot.speed_fraction = 1.0
             controller.robot.contact = np.zeros(6)
+            controller.not_finite.clear()
             self.server.version = self._version
             self.server.reserve(_REGISTERS, taken=False)
             self.server.restore()
@@ -137,6 +139,9 @@ class UrEmulator:
 
     def _link(self, *, mute: bool = False, garbage: bool = False) -> None:
         self.server.link.mute, self.server.link.garbage = mute, garbage
+
+    def _not_finite(self, variable: str = "actual_TCP_force") -> None:
+        self.controller.not_finite.add(variable)
 
     def _wrong_version(self, version: str = "10.8") -> None:
         major, minor = (int(part) for part in version.split("."))

@@ -35,6 +35,7 @@ class FaultCase:
         expected: Words, one of which must be in the message to the operator; for a transient fault,
             in the driver's fault counts.
         details: Details of the fault for the emulator.
+        holding: Whether the fingers grip the object when the fault comes.
     """
 
     name: str
@@ -43,10 +44,17 @@ class FaultCase:
     fault: str
     expected: tuple[str, ...]
     details: Mapping[str, float | str]
+    holding: bool = False
 
 
 def _case(
-    phase: InjectionPhase, name: str, device: str, fault: str, *expected: str, **details: float
+    phase: InjectionPhase,
+    name: str,
+    device: str,
+    fault: str,
+    *expected: str,
+    holding: bool = False,
+    **details: float,
 ) -> FaultCase:
     return FaultCase(
         name=name,
@@ -55,6 +63,7 @@ def _case(
         fault=fault,
         expected=expected,
         details=MappingProxyType(details),
+        holding=holding,
     )
 
 
@@ -70,7 +79,7 @@ CASES: tuple[FaultCase, ...] = (
     _start("UR: speed slider at 0", "ur", "speed_slider", "speed"),
     _start("UR: register in use", "ur", "register_in_use", "in use", "another"),
     _motion("UR: link drop", "ur", "link_drop", "lost", "link", "connection"),
-    _motion("UR: freeze", "ur", "freeze", "old", "stale", "data", "frozen"),
+    _motion("UR: freeze", "ur", "freeze", "old", "stale", "data", "frozen", "hung"),
     _motion("UR: protective stop", "ur", "protective_stop", "protective"),
     _motion("UR: safeguard stop", "ur", "safeguard_stop", "safeguard"),
     _motion("UR: emergency stop", "ur", "emergency_stop", "emergency"),
@@ -78,7 +87,8 @@ CASES: tuple[FaultCase, ...] = (
     _motion(
         "UR: controller restart", "ur", "controller_restart", "lost", "link", "mode", "restart"
     ),
-    _motion("UR: contact force", "ur", "contact_force", "force"),
+    _motion("UR: contact force", "ur", "contact_force", "contact force"),
+    _motion("UR: force not a number", "ur", "not_finite", "not finite"),
     _start("gripper: wrong model", "dynamixel", "wrong_model", "model"),
     _start("gripper: wrong baud", "dynamixel", "wrong_baud", "baud", garbage=1),
     _start("gripper: port taken", "dynamixel", "port_taken", "another program", "taken", "lock"),
@@ -86,6 +96,10 @@ CASES: tuple[FaultCase, ...] = (
     _motion("gripper: alert", "dynamixel", "alert", "hardware error"),
     _motion("gripper: overload shutdown", "dynamixel", "overload", "overload"),
     _motion("gripper: over-temperature", "dynamixel", "over_temperature", "heat", "hot", "°C"),
+    _motion(
+        "gripper: truncated replies", "dynamixel", "partial_reply", "half a packet", count=1000
+    ),
+    _motion("gripper: restart while holding", "dynamixel", "reboot", "restarted", holding=True),
     _motion("gripper: unplugged", "dynamixel", "unplug", "gone", "unplugged"),
     _transient("gripper: single CRC error", "dynamixel", "bad_crc", "corrupt"),
     _transient("gripper: late reply", "dynamixel", "late_reply", "late"),

@@ -12,7 +12,6 @@ import logging
 import tempfile
 import time
 from contextlib import ExitStack, closing
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +23,15 @@ from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
+from tacgrasp.benchmarks.faults.reaction import (
+    LOADED_MS,
+    RECOVERED_MS,
+    REFUSED_S,
+    InjectionResult,
+    is_expected,
+    noticed_s,
+    read_device,
+)
 from tacgrasp.benchmarks.faults.threads import BackgroundCall, Episode, check_episode
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
 from tacgrasp.config.schema import RunConfig
@@ -31,60 +39,40 @@ from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.emulated import settings_for
 from tacgrasp.rig.hardware import HardwareRig, connect, connect_sensor
 from tacgrasp.run import run_recorded
+from tacgrasp.runtime.outcome import EndReason
 
 log = logging.getLogger(__name__)
 
 FloatArray = NDArray[np.float64]
 
-REFUSED_S = 2.0
-STOPPED_MS = 150.0
-RECOVERED_MS = 100.0
-"""Longest permitted times: refusal at the start, rest in motion, recovery of a transient fault."""
-
 HUNG_S, CONNECT_S, EPISODE_S = 6.0, 10.0, 60.0
 """Times after which a move, connecting and an episode count as hung [s]."""
+
+GRIP_N = 1.0
+"""Force of a grip during which a fault is injected [N]."""
 
 SPEED_M_S, ACCELERATION_M_S2 = 0.4, 2.5
 
 _MAX_ATTEMPTS = 6
 _LOW_X_M, _HIGH_X_M = 0.37, 0.53
-_DELAY_S = (0.17, 0.30)
-"""Range of times from the beginning of a move to the injection [s]: the arm is at full speed."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class InjectionResult:
-    """The reaction to one injected fault.
-
-    Attributes:
-        detected: The driver reported the fault as expected, in time.
-        message: Message to the operator.
-        noticed_ms: Time from the injection until the program noticed [ms]; for a fault at the start
-            the time of the refusal, for a transient fault, the time to the next good value.
-        stop_ms: Time from the injection until the arm was at rest [ms], by the emulator; None
-            without a motion.
-        moved: Arm or fingers moved although they must not, or did not stop.
-        hung: A call did not return.
-        invented: A value was returned that was not measured.
-        episode: State of the recorded episode; '' without one.
-    """
-
-    detected: bool
-    message: str
-    noticed_ms: float
-    stop_ms: float | None = None
-    moved: bool = False
-    hung: bool = False
-    invented: bool = False
-    episode: str = ""
+_DELAY_S = (0.0, 0.06)
+"""Range of times from full speed to the injection [s]: a quarter of the way at full speed."""
 
 
 class FaultBench:
     """Injects faults into one emulated rig, one after the other."""
 
-    def __init__(self, config: RunConfig, hardware: HardwareConfig, emulators: EmulatorProcess):
+    def __init__(
+        self,
+        config: RunConfig,
+        hardware: HardwareConfig,
+        emulators: EmulatorProcess,
+        *,
+        is_loaded: bool = False,
+    ) -> None:
         """Use running emulators; calibration and episodes are kept until ``close``."""
         self._config, self._rig_file, self._emulators = config, hardware, emulators
+        self._recovered_ms = LOADED_MS if is_loaded else RECOVERED_MS
         self._folder = tempfile.TemporaryDirectory(prefix="tacgrasp-faults-")
         self._background = Path(self._folder.name) / "background.png"
         settings = settings_for(hardware, emulators, Path(self._folder.name))
@@ -102,11 +90,22 @@ class FaultBench:
             if case.phase is InjectionPhase.START:
                 return self._at_start(case)
             if case.phase is InjectionPhase.MOTION:
-                return self._in_motion(case)
+                for _ in range(_MAX_ATTEMPTS):
+                    result = self._in_motion(case)
+                    if result.stop_ms is not None or not self._is_at_rest():
+                        break
+                    self._clear()  # the move had ended before the fault came: no trial
+                return result
             return self._transient(case)
         finally:
-            for device in ("ur", "dynamixel", "taxels"):
-                self._emulators.control.clear(device)
+            self._clear()
+
+    def _clear(self) -> None:
+        for device in ("ur", "dynamixel", "taxels"):
+            self._emulators.control.clear(device)
+
+    def _is_at_rest(self) -> bool:
+        return self._emulators.control.facts("ur")["tcp_speed_m_s"] == 0.0
 
     def _at_start(self, case: FaultCase) -> InjectionResult:
         before = self._truth()
@@ -116,7 +115,7 @@ class FaultBench:
         hung = not call.wait(CONNECT_S)
         refused_s, message = time.monotonic() - began_s, self._anonymised(call.error)
         return InjectionResult(
-            detected=_is_expected(case, message) and refused_s < REFUSED_S,
+            detected=is_expected(case, message) and refused_s < REFUSED_S,
             message=message,
             noticed_ms=1e3 * refused_s,
             moved=bool(np.abs(np.subtract(self._truth(), before)).max() > 1e-6),
@@ -156,20 +155,25 @@ class FaultBench:
     def _in_motion(self, case: FaultCase) -> InjectionResult:
         with ExitStack() as stack:
             rig = self._connect(stack)
+            if case.holding:
+                rig.gripper.grip(GRIP_N)
             move = _start_move(rig, self._far_side(rig))
-            time.sleep(float(self._rng.uniform(*_DELAY_S)))
+            self._wait_at_speed(move)
+            early = move.error if move.wait(0) else ""
             injected_s = self._inject(case)
             hung = not move.wait(HUNG_S)
             stop_ms = self._stop_ms()
             invented = False if hung else self._has_invented(rig, case)
+            noticed_ms = 1e3 * (noticed_s(rig, injected_s, move.ended_s) - injected_s)
         return InjectionResult(
-            detected=_is_expected(case, move.error),
+            detected=is_expected(case, move.error),
             message=self._anonymised(move.error),
-            noticed_ms=1e3 * (move.ended_s - injected_s),
+            noticed_ms=noticed_ms,
             stop_ms=stop_ms,
             moved=stop_ms is None,
             hung=hung,
             invented=invented,
+            spurious=bool(early) or bool(move.error and not is_expected(case, move.error)),
         )
 
     def _transient(self, case: FaultCase) -> InjectionResult:
@@ -177,12 +181,12 @@ class FaultBench:
             rig = self._connect(stack)
             target = self._far_side(rig)
             move = _start_move(rig, target)
-            time.sleep(float(self._rng.uniform(*_DELAY_S)))
+            self._wait_at_speed(move)
             before = rig.fault_counts()
             injected_s = self._inject(case)
             error, invented = "", False
             try:
-                value, good_s = _read(rig, case.device), time.monotonic()
+                value, good_s = read_device(rig, case.device), time.monotonic()
                 invented = self._is_wrong(case.device, value)
             except (RobotError, TouchError) as failure:
                 error, good_s = str(failure), time.monotonic()
@@ -195,8 +199,8 @@ class FaultBench:
         return InjectionResult(
             detected=not error
             and after != before
-            and _is_expected(case, after)
-            and recovered_ms < RECOVERED_MS,
+            and is_expected(case, after)
+            and recovered_ms < self._recovered_ms,
             message=self._anonymised(error or move.error or f"nothing, it is counted: {after}"),
             noticed_ms=recovered_ms,
             moved=not arrived,
@@ -227,15 +231,19 @@ class FaultBench:
             counts = rig.fault_counts()
         is_transient = case.phase is InjectionPhase.TRANSIENT
         outcome = episode.result[0].message if episode.result is not None else ""
+        is_fault = episode.result is not None and episode.result[0].reason is EndReason.FAULT
         message = self._anonymised(counts if is_transient else outcome)
+        if is_transient and is_fault:
+            message = f"{self._anonymised(outcome)}; {message}"
         return InjectionResult(
-            detected=_is_expected(case, message),
+            detected=is_expected(case, message),
             message=message,
             noticed_ms=1e3 * (episode.ended_s - injected_s),
             stop_ms=stop_ms,
             moved=not moving,
             hung=hung,
             episode=check_episode(episode, expect_fault=not is_transient),
+            spurious=is_fault and (is_transient or not is_expected(case, message)),
         )
 
     def _wait_for_motion(self, episode: BackgroundCall[Episode]) -> bool:
@@ -245,7 +253,17 @@ class FaultBench:
             speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
             if isinstance(speed, float) and speed > 0.01:
                 return True
+            time.sleep(0.005)  # without a pause the questions would keep the emulators busy
         return False
+
+    def _wait_at_speed(self, move: BackgroundCall[Pose]) -> None:
+        """Wait until the tool is at full speed, or its move has ended, and some time more."""
+        until_s = time.monotonic() + CONNECT_S
+        while time.monotonic() < until_s and not move.wait(0.01):
+            speed = self._emulators.control.facts("ur")["tcp_speed_m_s"]
+            if isinstance(speed, float) and speed > 0.95 * SPEED_M_S:
+                break
+        time.sleep(float(self._rng.uniform(*_DELAY_S)))
 
     def _connect(self, stack: ExitStack) -> HardwareRig:
         """Connect the rig, in several attempts: a controller that restarts needs some seconds."""
@@ -272,11 +290,12 @@ class FaultBench:
         control = self._emulators.control
         if case.device != "ur":  # the arm's emulator measures from its own injections on
             control.inject("ur", "contact_force", force_n=0.0)
+        began_s = time.monotonic()
         if case.device == "gelsight":
             self._save_stale_background()
         else:
             control.inject(case.device, case.fault, **case.details)
-        return time.monotonic()
+        return began_s
 
     def _anonymised(self, message: str) -> str:
         """A message with names in place of addresses, which differ from run to run."""
@@ -304,7 +323,7 @@ class FaultBench:
     def _has_invented(self, rig: HardwareRig, case: FaultCase) -> bool:
         """The failed device still returns values, and they are not the true ones."""
         try:
-            value = _read(rig, case.device)
+            value = read_device(rig, case.device)
         except (RobotError, TouchError):
             return False
         return self._is_wrong(case.device, value)
@@ -320,16 +339,3 @@ class FaultBench:
 def _start_move(rig: HardwareRig, target: Pose) -> BackgroundCall[Pose]:
     speeds = {"speed_m_s": SPEED_M_S, "acceleration_m_s2": ACCELERATION_M_S2}
     return BackgroundCall(lambda: rig.arm.move_to(target, **speeds))
-
-
-def _read(rig: HardwareRig, device: str) -> FloatArray:
-    """Measured values of a device: position of the tool [m], opening [m], or heights [mm]."""
-    if device == "ur":
-        return rig.arm.pose().position_m
-    if device == "dynamixel":
-        return np.array([rig.gripper.state().width_m])
-    return np.array(rig.sensor.read().points_mm[:, 2], dtype=np.float64)
-
-
-def _is_expected(case: FaultCase, message: str) -> bool:
-    return any(word.lower() in message.lower() for word in case.expected)

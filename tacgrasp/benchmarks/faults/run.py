@@ -10,13 +10,16 @@ from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.faults import fault_free
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
+from tacgrasp.benchmarks.faults.load import busy_cores
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of, table_of
 from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.console import make_console
+from tacgrasp.drivers.scheduling import granted
 
 
 def run(settings: FaultsSettings) -> bool:
@@ -40,21 +43,30 @@ def run(settings: FaultsSettings) -> bool:
         raise UsageError("rigs/emulated.yaml names no hardware")
     console, rows = make_console(), []
     logging.getLogger("tacgrasp.drivers").setLevel(logging.CRITICAL)  # faults are intended here
-    with EmulatorProcess("rig") as emulators, Progress(console=console, transient=True) as progress:
+    console.print(f"granted to the drivers: {granted()}")
+    if settings.fault_free:
+        with busy_cores(settings.load):
+            return fault_free.run(settings, console)
+    with (
+        busy_cores(settings.load),
+        EmulatorProcess("rig") as emulators,
+        Progress(console=console, transient=True) as progress,
+    ):
         task = progress.add_task("faults", total=len(cases) * repeats)
-        with closing(FaultBench(config, config.hardware, emulators)) as bench:
+        bench = FaultBench(config, config.hardware, emulators, is_loaded=settings.load)
+        with closing(bench):
             for case in cases:
                 results = []
                 for repeat in range(repeats):
                     in_episode = repeat == repeats - 1 and case.phase is not InjectionPhase.START
                     results.append(bench.inject(case, in_episode=in_episode))
                     progress.advance(task)
-                rows.append(row_of(case, results))
+                rows.append(row_of(case, results, load=settings.load))
     console.print(table_of(rows))
     passed = sum(row.passed for row in rows)
     console.print(f"{passed} of {len(rows)} faults met the requirements in every repeat")
     write_figures(settings.json, {"faults": [asdict(row) for row in rows]})
     if settings.markdown is not None:
-        command = f"tacgrasp bench faults --repeats {repeats}"
+        command = f"tacgrasp bench faults --repeats {repeats}{' --load' * settings.load}"
         settings.markdown.write_text(markdown_of(rows, command), encoding="utf-8")
     return passed == len(rows)

@@ -1,9 +1,9 @@
 """Transactions with Dynamixel servos over the manufacturer's SDK, with the checks that it lacks.
 
 Every reply is checked for its length: a late reply to an earlier read would pass for this one.
-After a missing reply, stray bytes are drained before the next read. A failed read is repeated once.
-An unacknowledged write is read back. A stuck or lost port is rebuilt. A value is either what the
-servo sent or an error, never a substitute.
+After a missing reply, stray bytes are drained before the next read. A failed read is repeated, once
+at least, until ``patience_ms`` are over. An unacknowledged write is read back. A stuck or lost port
+is rebuilt. A value is either what the servo sent or an error, never a substitute.
 
 Not thread-safe: only the thread that owns the port (``poller``) calls it.
 """
@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from primitives.errors import RobotError
+from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.dynamixel.errors import (
     STATUS_ERRORS,
     BusError,
@@ -44,8 +45,7 @@ class Bus:
     Attributes:
         counts: Transient faults since the start.
         path: Path of the port; empty before the first ``open``.
-        arm_is_moving: Returns whether the arm moves, so that silence must be reported at once.
-            Always False until it is set.
+        patience_s: Time for which a silent or corrupt servo is asked again [s].
     """
 
     def __init__(self, settings: DynamixelSettings) -> None:
@@ -53,7 +53,7 @@ class Bus:
         self._port: ClaimedPort | None = None
         self._sdk: Any = None
         self.counts = BusFaultCounts()
-        self.arm_is_moving: Callable[[], bool] = lambda: False
+        self.patience_s = settings.patience_ms / 1000
         self.path = ""
 
     def open(self, baud: int | None = None) -> None:
@@ -125,7 +125,7 @@ class Bus:
             except BusError as error:
                 if error.kind in (BusFault.REFUSED, BusFault.LOST):
                     raise
-                self._recover(servo, error)
+                self._recover(servo, error, time.monotonic())
                 if self.read(servo, address, len(data)).data == data:
                     return
                 if attempt == 2:
@@ -153,38 +153,45 @@ class Bus:
                 self.write(servo, address, values)  # succeeds, or raises the servo's refusal
 
     def _read_with_retry(self, servo: int, read: Callable[[], BusReply]) -> BusReply:
-        try:
-            return read()
-        except BusError as error:
-            if error.kind not in (BusFault.SILENT, BusFault.CORRUPT):
-                raise
-            self._recover(servo, error)
-            return read()
+        began_s, is_repeated = time.monotonic(), False
+        while True:
+            try:
+                return read()
+            except BusError as error:
+                over = is_repeated and time.monotonic() - began_s >= self.patience_s
+                if error.kind not in (BusFault.SILENT, BusFault.CORRUPT) or over:
+                    raise
+                self._recover(servo, error, began_s)
+                is_repeated = True
 
-    def _recover(self, servo: int, error: BusError) -> None:
-        """After a bad reply: ping the servo at once, then drain the line.
+    def _recover(self, servo: int, error: BusError, began_s: float) -> None:
+        """After a bad reply: ping the servo until it replies, then drain the line.
 
         The reply to a ping has a length that none of our reads has, so that a ping is safe before
-        the drain ends. A lost servo is known after two time-outs.
+        the drain ends.
+
+        Args:
+            servo: Id of the servo.
+            error: The bad reply.
+            began_s: Start of the transaction; the patience is counted from it [s].
 
         Raises:
-            BusError: The servo does not reply to the ping either.
+            BusError: The servo does not reply to pings either.
         """
-        failed_s = time.monotonic()
         if error.kind is BusFault.CORRUPT:
             self.counts.corrupt += 1
         else:
             self.counts.silent += 1
-        replied = self._ping_until_reply(servo, failed_s)
+        replied = self._ping_until_reply(servo, began_s)
         drain_s = self._settings.drain_ms / 1000 if error.timed_out else _QUIET_S
         if self._drain(time.monotonic() + drain_s) and replied:
             self.counts.late += 1
 
-    def _ping_until_reply(self, servo: int, failed_s: float) -> bool:
+    def _ping_until_reply(self, servo: int, began_s: float) -> bool:
         """Ping until bytes arrive; returns whether they were the ping's own reply.
 
         Raises:
-            BusError: Nothing arrives: at once while the arm moves, else after ``patience_ms``.
+            BusError: Nothing arrives until the patience is over.
         """
         while True:
             try:
@@ -193,8 +200,8 @@ class Bus:
             except BusError as error:
                 if error.kind is BusFault.CORRUPT:
                     return False
-                over = 1000 * (time.monotonic() - failed_s) > self._settings.patience_ms
-                if error.kind is not BusFault.SILENT or over or self.arm_is_moving():
+                over = time.monotonic() - began_s >= self.patience_s
+                if error.kind is not BusFault.SILENT or over:
                     raise
 
     def _drain(self, until_s: float) -> bool:
@@ -244,10 +251,12 @@ class Bus:
                 f"{name} answered with a wrong CRC or half a packet",
                 timed_out=1000 * duration_s >= timeout_ms,
             )
+        advice = f"check power, cable, id and baud ({self._settings.baud})"
+        if self._settings.is_emulated:
+            advice = EMULATOR_ADVICE
         return BusError(
             BusFault.SILENT,
-            f"{name} does not answer within {timeout_ms:g} ms: check power, cable, id and baud "
-            f"({self._settings.baud})",
+            f"{name} does not answer within {timeout_ms:g} ms: {advice}",
             timed_out=True,
         )
 

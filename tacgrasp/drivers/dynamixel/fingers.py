@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import logging
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
-from tacgrasp.drivers.dynamixel.poller import PollSample, ServoPoller, ServoSample
+from tacgrasp.drivers.dynamixel.poller import PollSample, ServoPoller
+from tacgrasp.drivers.dynamixel.servo_state import ServoCommand, ServoSample
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings, ServoSettings
 from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
 from tacgrasp.drivers.serial_ports import adapter_serial
@@ -43,8 +44,11 @@ class ServoFingers:
         sent: The last command on the wire, in the servos' words; empty before the first.
     """
 
-    def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
-        self.settings, self.bus, self.poller = settings, bus, ServoPoller(bus, settings)
+    def __init__(
+        self, bus: Bus, settings: DynamixelSettings, commanded: Mapping[int, ServoCommand]
+    ) -> None:
+        self.settings, self.bus = settings, bus
+        self.poller = ServoPoller(bus, settings, commanded)
         self.unit_ma = reg.MODELS[settings.model].unit_ma
         self.adapter = adapter_serial(bus.path)
         self.sent = ""
@@ -55,14 +59,11 @@ class ServoFingers:
         """Read the opening between the fingers [m].
 
         Raises:
-            RobotError: A servo does not reply, or the gripper has a fault or is disconnected.
+            RobotError: A servo does not reply or is not as it was commanded, or the gripper has a
+                fault or is disconnected.
         """
-
-        def positions(bus: Bus) -> list[int]:
-            address, ids = reg.PRESENT_POSITION, self.settings.ids
-            return [bus.read_number(servo, address, 4, signed=True) for servo in ids]
-
-        return self._width_m(self._call(positions))
+        self._check_connected()
+        return self._width_m([servo.position for servo in self.poller.read_now().servos])
 
     def squeeze(self, current_ma: float) -> float:
         """Close with a current until the fingers rest; returns the opening [m].
@@ -80,21 +81,32 @@ class ServoFingers:
         goals = [servo.closed_ticks for servo in self.settings.servos]
         number = self._send(units, goals)
 
-        def pressing(servo: ServoSample, goal: int) -> bool:
+        def presses(servo: int, sample: ServoSample) -> bool:
             tolerance = max(_CURRENT_TOLERANCE_UNITS, _CURRENT_TOLERANCE * units)
-            return _at_goal(servo, goal) or abs(abs(servo.current) - units) <= tolerance
+            at_goal = abs(sample.position - goals[servo]) <= _AT_GOAL_TICKS
+            return at_goal or abs(abs(sample.current) - units) <= tolerance
 
-        return self._settled(number, goals, pressing, f"to press with {current_ma:.0f} mA")
+        return self._settled(number, presses, f"to press with {current_ma:.0f} mA")
 
     def open_to(self, width_m: float) -> float:
-        """Open, or close without pressing hard, to a width within the travel; returns it [m].
+        """Open to a width within the travel, or a little beyond it; returns the width [m].
+
+        Fingers that rest wider than asked are open: play and friction of the linkage may hold them
+        there. Fingers that rest narrower are not.
 
         Raises:
             RobotError: They do not get there in time, or the gripper has a fault.
         """
-        goals = [self._ticks(servo, width_m) for servo in self.settings.servos]
+        servos = self.settings.servos
+        goals = [self._ticks(servo, width_m) for servo in servos]
         number = self._send(max(1, round(self.settings.open_current_ma / self.unit_ma)), goals)
-        return self._settled(number, goals, _at_goal, f"to open to {1000 * width_m:.1f} mm")
+        opens_up = [servo.open_ticks > servo.closed_ticks for servo in servos]
+
+        def is_open(servo: int, sample: ServoSample) -> bool:
+            beyond = sample.position - goals[servo]
+            return (beyond if opens_up[servo] else -beyond) >= -_AT_GOAL_TICKS
+
+        return self._settled(number, is_open, f"to open to {1000 * width_m:.1f} mm")
 
     def freeze(self) -> None:
         """Stop moving fingers at their present position; a grip at rest stays as it is.
@@ -109,6 +121,8 @@ class ServoFingers:
                 velocity = int.from_bytes(motion[:4], "little", signed=True)
                 if abs(velocity) > _REST_VELOCITY:
                     bus.write(servo.id, reg.GOAL_POSITION, motion[4:])
+                    position = int.from_bytes(motion[4:], "little", signed=True)
+                    self.poller.expect(servo.id, goal_position=position)
                     self.sent = "goal position: where it is"
                     self._num_stops += 1
 
@@ -127,6 +141,7 @@ class ServoFingers:
         def switch_watchdog_off(bus: Bus) -> None:
             for servo in self.settings.servos:
                 bus.write(servo.id, reg.WATCHDOG, b"\0")
+                self.poller.expect(servo.id, watchdog=0)
 
         try:
             self.poller.call(switch_watchdog_off, despite_fault=True)
@@ -136,9 +151,12 @@ class ServoFingers:
         self.bus.close()
 
     def _call(self, job: Callable[[Bus], list[int] | None]) -> list[int]:
+        self._check_connected()
+        return self.poller.call(job) or []
+
+    def _check_connected(self) -> None:
         if not self._connected:
             raise RobotError("the gripper is disconnected")
-        return self.poller.call(job) or []
 
     def _send(self, units: int, goals: Sequence[int]) -> int:
         """Write current, speed and goal at once; returns the number of the last sample before."""
@@ -159,6 +177,8 @@ class ServoFingers:
 
         def write(bus: Bus) -> list[int]:
             bus.write_all(reg.GOAL_CURRENT, data)
+            for servo, goal in zip(self.settings.servos, goals, strict=True):
+                self.poller.expect(servo.id, goal_current=units, goal_position=goal)
             return [self.poller.num_polls]
 
         return self._call(write)[0]
@@ -166,11 +186,16 @@ class ServoFingers:
     def _settled(
         self,
         number: int,
-        goals: Sequence[int],
-        is_done: Callable[[ServoSample, int], bool],
+        is_done: Callable[[int, ServoSample], bool],
         purpose: str,
     ) -> float:
-        """Wait until all servos are at rest and done, ``settle_polls`` samples in a row."""
+        """Wait until all servos are at rest and done, ``settle_polls`` samples in a row.
+
+        Args:
+            number: Number of the last sample before the command.
+            is_done: Whether a servo, by its place in the settings, has done what was asked.
+            purpose: What was asked, for the message.
+        """
         deadline_s = time.monotonic() + self.settings.settle_timeout_s
         num_still, previous, num_stops = 0, None, self._num_stops
         while num_still < self.settings.settle_polls:
@@ -184,7 +209,7 @@ class ServoFingers:
                 )
             sample = self.poller.next_sample(number)
             at_rest = previous is not None and _at_rest(previous, sample)
-            done = all(is_done(s, goal) for s, goal in zip(sample.servos, goals, strict=True))
+            done = all(is_done(index, servo) for index, servo in enumerate(sample.servos))
             num_still = num_still + 1 if at_rest and done else 0
             previous, number = sample, sample.number
         positions = [servo.position for servo in sample.servos]
@@ -224,10 +249,6 @@ class ServoFingers:
         return max(1, round(ticks_s / reg.VELOCITY_TICKS_S))
 
 
-def _at_goal(servo: ServoSample, goal: int) -> bool:
-    return abs(servo.position - goal) <= _AT_GOAL_TICKS
-
-
 def _at_rest(previous: PollSample, sample: PollSample) -> bool:
     return all(
         not servo.moving
@@ -253,17 +274,18 @@ def connect_fingers(settings: DynamixelSettings) -> ServoFingers:
             first = failed[0]
             more = f" (and {len(failed) - 1} more; see tacgrasp doctor)" if failed[1:] else ""
             raise RobotError(f"the gripper's {first.name}: {first.detail}; {first.advice}{more}")
-        for servo in settings.servos:
-            _hold(bus, settings, servo)
+        commanded = {servo.id: _hold(bus, settings, servo) for servo in settings.servos}
     except BaseException:
         bus.close()
         raise
-    bus.arm_is_moving = lambda: True  # from here on the arm may move, as far as this driver knows
-    return ServoFingers(bus, settings)
+    return ServoFingers(bus, settings, commanded)
 
 
-def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> None:
-    """Switch torque on without a jump, and set the bus watchdog."""
+def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> ServoCommand:
+    """Switch torque on without a jump, and set the bus watchdog; returns what the servo holds.
+
+    A grip kept by an earlier run has goals of that run, which are read.
+    """
     bus.write(servo.id, reg.WATCHDOG, b"\0")  # clears a watchdog that tripped in an earlier run
     if not bus.read_number(servo.id, reg.TORQUE, 1):
         position = bus.read(servo.id, reg.PRESENT_POSITION, 4).data
@@ -273,3 +295,10 @@ def _hold(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> None:
         bus.write(servo.id, reg.TORQUE, b"\1")
     watchdog = round(settings.bus_watchdog_ms / 1000 / reg.WATCHDOG_UNIT_S)
     bus.write(servo.id, reg.WATCHDOG, bytes([watchdog]))
+    return ServoCommand(
+        torque=1,
+        mode=reg.CURRENT_BASED_POSITION,
+        watchdog=watchdog,
+        goal_current=bus.read_number(servo.id, reg.GOAL_CURRENT, 2, signed=True),
+        goal_position=bus.read_number(servo.id, reg.GOAL_POSITION, 4, signed=True),
+    )

@@ -28,6 +28,7 @@ from tacgrasp.drivers.dynamixel.calibration import (
 )
 from tacgrasp.drivers.dynamixel.errors import BusFaultCounts
 from tacgrasp.drivers.dynamixel.fingers import ServoFingers, connect_fingers
+from tacgrasp.drivers.dynamixel.servo_state import STATE_LENGTH
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.dynamixel.startup_checks import startup_findings
 from tacgrasp.drivers.serial_ports import adapter_serial
@@ -74,16 +75,13 @@ class DynamixelGripper:
         """The last command on the wire, in the servos' words; empty for none."""
         return self._fingers.sent
 
-    def fail_fast_while(self, arm_is_moving: Callable[[], bool]) -> None:
-        """Treat a servo's silence as a fault at once only while the arm moves.
+    def check_alive(self) -> str:
+        """Return at once: why the arm must hold still; empty while the servos reply.
 
-        Without this call it always is: after two missed replies, about 60 ms. While the arm stands
-        still, silence is waited out (``patience_ms``), so that a busy computer ends no episode.
-
-        Args:
-            arm_is_moving: Called from the I/O thread when a reply is missing; must return fast.
+        Raises:
+            RobotError: The gripper has a fault.
         """
-        self._fingers.bus.arm_is_moving = arm_is_moving
+        return self._fingers.poller.check_alive()
 
     def state(self) -> GripperState:
         return self._state(self._fingers.width_m())
@@ -187,7 +185,7 @@ _finding = partial(finding, "gripper")
 def _latency(bus: Bus, settings: DynamixelSettings) -> Finding:
     servo = settings.servos[0].id
     p50, p99, longest = read_durations_ms(
-        lambda: bus.read(servo, reg.PRESENT, reg.PRESENT_LENGTH), LATENCY_READS
+        lambda: bus.read(servo, reg.TORQUE, STATE_LENGTH), LATENCY_READS
     )
     return _finding(
         "latency",

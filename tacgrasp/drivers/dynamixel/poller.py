@@ -3,6 +3,9 @@
 Polling never pauses, whatever the rest of the program does, also while the arm moves: a fault is
 detected within a few polls and latched. Polling also feeds the servos' bus watchdog.
 
+Every poll reads torque, operating mode, bus watchdog, hardware error and goals of every servo, and
+compares them with what was commanded (``servo_state``).
+
 Source: our notes on the SDK: two threads on one port get error -1000; a sync read drops the alert
 bit, hence single reads and register 70.
 """
@@ -11,50 +14,37 @@ from __future__ import annotations
 
 import logging
 import queue
-import struct
 import threading
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Future
 from concurrent.futures import TimeoutError as FutureTimeoutError
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.dynamixel import registers as reg
 from tacgrasp.drivers.dynamixel.bus import Bus
 from tacgrasp.drivers.dynamixel.errors import BusError, BusFault
+from tacgrasp.drivers.dynamixel.servo_state import STATE_LENGTH, ServoCommand, ServoSample
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
+from tacgrasp.drivers.scheduling import request_priority
 
 T = TypeVar("T")
 
 CALL_S = 2.0
 """Longest wait for a job to end [s]; the thread is busy for about 0.1 s at most."""
 
-_WATCHDOG_POLLS = 10
 _NUM_WAITS = 4
-_PRESENT = struct.Struct("<B3xhii10xB")
-"""Registers 122, 126, 128, 132 and 146 from ``reg.PRESENT`` on, as in ``ServoSample``."""
-
 _log = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True, slots=True)
-class ServoSample:
-    """State of one servo at one poll; current in the model's units, signed like the position."""
-
-    moving: bool
-    current: int
-    velocity: int
-    position: int
-    temperature_c: int
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PollSample:
-    """State of all servos at one poll; ``number`` counts the polls."""
+    """State of all servos at one poll; ``number`` counts the polls, ``at_s`` is its end [s]."""
 
     number: int
+    at_s: float
     servos: Sequence[ServoSample]
 
 
@@ -66,8 +56,19 @@ class ServoPoller:
         num_polls: Number of the last sample; 0 before the first.
     """
 
-    def __init__(self, bus: Bus, settings: DynamixelSettings) -> None:
-        self._bus, self._settings = bus, settings
+    def __init__(
+        self, bus: Bus, settings: DynamixelSettings, commanded: Mapping[int, ServoCommand]
+    ) -> None:
+        """Start polling.
+
+        Args:
+            bus: The open bus; used by this thread alone from now on.
+            settings: The gripper's section of the rig's file.
+            commanded: What each servo was set to, by its id.
+        """
+        self._bus, self._settings, self._commanded = bus, settings, dict(commanded)
+        self._unit_ma = reg.MODELS[settings.model].unit_ma
+        self._began_s = time.monotonic()
         self._jobs: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
         self._changed = threading.Condition()
         self.fault = ""
@@ -76,6 +77,39 @@ class ServoPoller:
         self._closed = False
         self._thread = threading.Thread(target=self._run, name="gripper", daemon=True)
         self._thread.start()
+
+    def expect(self, servo: int, **registers: int) -> None:
+        """Note what a job has just written to a servo; called by that job, on the I/O thread."""
+        self._commanded[servo] = replace(self._commanded[servo], **registers)
+
+    def check_alive(self) -> str:
+        """Return at once: why the last sample is too old to move by; empty while it is fresh.
+
+        Raises:
+            RobotError: The gripper has a fault.
+        """
+        sample = self._sample
+        if self.fault:
+            raise RobotError(self.fault)
+        age_s = time.monotonic() - (self._began_s if sample is None else sample.at_s)
+        if age_s <= self._settings.stale_s:
+            return ""
+        return f"the gripper's last whole reply is {1e3 * age_s:.0f} ms old"
+
+    def read_now(self) -> PollSample:
+        """Poll at once, with every check of a poll.
+
+        Raises:
+            RobotError: As ``call``; or a servo is not as it was commanded, which is latched.
+        """
+
+        def poll(_: Bus) -> PollSample:
+            self._poll()
+            if self.fault or self._sample is None:
+                raise RobotError(self.fault or "the gripper gave no sample")
+            return self._sample
+
+        return self.call(poll)
 
     def call(self, job: Callable[[Bus], T], *, despite_fault: bool = False) -> T:
         """Run a job on the I/O thread and return its result.
@@ -138,6 +172,7 @@ class ServoPoller:
             self._thread.join(timeout=CALL_S)
 
     def _run(self) -> None:
+        request_priority()
         period_s = self._settings.poll_ms / 1000
         due_s = time.monotonic()
         while True:
@@ -165,42 +200,30 @@ class ServoPoller:
             return
         with self._changed:
             self.num_polls += 1
-            self._sample = PollSample(number=self.num_polls, servos=servos)
+            now_s = time.monotonic()
+            self._sample = PollSample(number=self.num_polls, at_s=now_s, servos=servos)
             self._changed.notify_all()
 
     def _poll_servo(self, servo: int) -> ServoSample:
-        reply = self._bus.read(servo, reg.PRESENT, reg.PRESENT_LENGTH)
-        error = self._bus.read_number(servo, reg.HARDWARE_ERROR, 1)
-        if error or reply.alert:
-            torque = self._bus.read_number(servo, reg.TORQUE, 1)
-            raise RobotError(_hardware_error_message(servo, error, bool(torque)))
-        moving, *numbers = _PRESENT.unpack(reply.data)
-        sample = ServoSample(bool(moving), *numbers)
+        mode = self._bus.read(servo, reg.OPERATING_MODE, 1)
+        reply = self._bus.read(servo, reg.TORQUE, STATE_LENGTH)
+        sample = ServoSample.unpacked(mode.data[0], reply.data)
+        if problem := sample.problem(
+            servo,
+            self._commanded[servo],
+            alert=mode.alert or reply.alert,
+            unit_ma=self._unit_ma,
+        ):
+            raise RobotError(problem)
         if sample.temperature_c > self._settings.max_temperature_c:
             raise RobotError(
                 f"servo {servo} of the gripper is {sample.temperature_c} °C hot, beyond "
                 f"{self._settings.max_temperature_c:g} °C; let it cool, and grip with less force "
                 "or for less time"
             )
-        if self._settings.bus_watchdog_ms and self.num_polls % _WATCHDOG_POLLS == 0:
-            watchdog = self._bus.read_number(servo, reg.WATCHDOG, 1)
-            if watchdog == reg.WATCHDOG_TRIPPED:
-                raise RobotError(
-                    f"the bus watchdog of servo {servo} has tripped: this program was stalled for "
-                    f"more than {self._settings.bus_watchdog_ms} ms; start the run again"
-                )
         return sample
 
     def _latch_fault(self, fault: str) -> None:
         with self._changed:
             self.fault = self.fault or fault
             self._changed.notify_all()
-
-
-def _hardware_error_message(servo: int, error: int, torque: bool) -> str:
-    text = reg.hardware_error_text(error) or "a hardware error that was gone when it was read"
-    grip = "it still holds" if torque else "its torque is off: what was held has been let go"
-    return (
-        f"servo {servo} of the gripper reports: {text} (hardware error {error:#04x}); {grip}. "
-        "Remove the cause, then reboot the servo or switch its power off and on"
-    )

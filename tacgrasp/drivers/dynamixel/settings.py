@@ -12,8 +12,11 @@ from pydantic import Field, model_validator
 
 from tacgrasp.base.settings import Number, SettingsBase
 from tacgrasp.drivers.dynamixel.registers import MODELS, WATCHDOG_UNIT_S
+from tacgrasp.drivers.dynamixel.servo_state import STATE_BYTES
+from tacgrasp.drivers.latest import STALE_MARGIN_S
 
 BAUDS = (9600, 57600, 115200, 1_000_000, 2_000_000, 3_000_000, 4_000_000)
+_BITS_PER_BYTE = 10  # start and stop bit
 
 
 class ServoSettings(SettingsBase):
@@ -63,8 +66,8 @@ class DynamixelSettings(SettingsBase):
         bus_watchdog_ms: Silence after which the servo refuses goals [ms]; 0 turns it off.
         poll_ms: Period of polling [ms].
         reply_timeout_ms: Longest wait for a reply [ms].
-        patience_ms: Longest silence of a servo that is waited out while the arm stands still [ms];
-            while the arm moves, two missing replies are a fault.
+        patience_ms: Longest silence of a servo, or series of corrupt replies, that is waited out
+            [ms]; a moving arm is held meanwhile, from ``stale_s`` on.
         drain_ms: Time for which stray bytes are discarded after a missing reply [ms].
         settle_polls: Number of polls in a row in which resting fingers must be at rest.
         settle_timeout_s: Longest closing or opening [s].
@@ -87,7 +90,7 @@ class DynamixelSettings(SettingsBase):
     bus_watchdog_ms: int = Field(default=500, ge=0, le=2540, strict=True)
     poll_ms: Number = Field(default=15.0, ge=2, le=100)
     reply_timeout_ms: Number = Field(default=25.0, ge=5, le=100)
-    patience_ms: Number = Field(default=400.0, ge=0, le=1000)
+    patience_ms: Number = Field(default=1000.0, ge=0, le=1000)
     drain_ms: Number = Field(default=60.0, ge=60, le=500)
     settle_polls: int = Field(default=4, ge=2, le=50, strict=True)
     settle_timeout_s: Number = Field(default=4.0, ge=0.5, le=30)
@@ -115,6 +118,12 @@ class DynamixelSettings(SettingsBase):
             if is_wrong:
                 raise ValueError(message)
         return self
+
+    @property
+    def stale_s(self) -> float:
+        """Age of the last sample from which on the arm is held [s]: two polls, and 20 ms."""
+        wire_s = len(self.servos) * STATE_BYTES * _BITS_PER_BYTE / self.baud
+        return 2 * max(self.poll_ms / 1000, wire_s) + STALE_MARGIN_S
 
     @property
     def ids(self) -> tuple[int, ...]:

@@ -58,7 +58,7 @@ def _model(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> _Chec
 
 def _search_other_bauds(bus: Bus, settings: DynamixelSettings, servo: ServoSettings) -> str:
     """Advice for a silent servo: ping it at the other baud rates, without patience for each."""
-    bus.arm_is_moving = lambda: True
+    bus.patience_s = 0.0
     for baud in BAUDS:
         if baud == settings.baud:
             continue

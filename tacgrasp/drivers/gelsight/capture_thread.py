@@ -18,10 +18,15 @@ from cltp.errors import TouchError
 from cltp.sensing.frames import Frame
 from cltp.tactile.cloud import Stamp
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
-from tacgrasp.drivers.latest import Latest
+from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
+from tacgrasp.drivers.scheduling import request_priority
 from tacgrasp.drivers.stamps import real_stamp
 
 _NUM_GAPS = 50  # intervals for the median, the camera's own interval
+_MIN_GAPS = 5  # intervals from which on the median is taken
+UNKNOWN_INTERVAL_S = 0.1
+"""Interval that is assumed until it is known [s]: that of a slow camera in the dark."""
+
 _LATE_FACTOR = 1.5  # an interval above so many medians means dropped frames
 
 
@@ -86,6 +91,13 @@ class CaptureThread:
             interval_ms=1e3 * statistics.median(gaps) if len(gaps) > 1 else float("nan"),
         )
 
+    @property
+    def stale_s(self) -> float:
+        """Age from which on the last frame is too old to move by [s]: two intervals, and 20 ms."""
+        gaps = list(self._gaps)
+        interval_s = statistics.median(gaps) if len(gaps) >= _MIN_GAPS else UNKNOWN_INTERVAL_S
+        return 2 * interval_s + STALE_MARGIN_S
+
     def end(self, reason: str) -> None:
         """End the capture. A hanging camera keeps its thread, which is waited for 1 s only."""
         self.latest.fail(reason)
@@ -93,6 +105,7 @@ class CaptureThread:
         self._thread.join(timeout=1)
 
     def _run(self) -> None:
+        request_priority()
         reason, source = "the capture ended without a reason; this is a bug", None
         try:
             source = self._opener()
@@ -122,7 +135,7 @@ class CaptureThread:
         return captured
 
     def _count_dropped(self, gap_s: float) -> None:
-        if len(self._gaps) >= 5:
+        if len(self._gaps) >= _MIN_GAPS:
             usual_s = statistics.median(self._gaps)
             if gap_s > _LATE_FACTOR * usual_s:
                 self._dropped += round(gap_s / usual_s) - 1

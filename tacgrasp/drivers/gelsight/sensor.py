@@ -142,14 +142,15 @@ class GelSightMini:
         if reason := mismatch(self._fresh_frame().frame, self._background):
             raise TouchError(f"{self._settings.source}: {reason}")
 
-    def check_alive(self) -> None:
+    def check_alive(self) -> str:
         if self._thread is None:
             self._check_connected()
-            return
-        newest = self._thread.latest.newest()
-        if newest is None or self._age_s(newest) > self._settings.stale_s:
-            raise TouchError(self._no_frame_message(self._settings.stale_s))
+            return ""
+        newest, stale_s = self._thread.latest.newest(), self._thread.stale_s
+        if newest is None or self._age_s(newest) > stale_s:
+            return self._no_frame_message(stale_s)
         self._check(newest)
+        return ""
 
     def disconnect(self) -> None:
         self._disconnected = True

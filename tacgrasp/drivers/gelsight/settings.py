@@ -30,7 +30,6 @@ class GelSightSettings(SettingsBase):
             gsrobotics cuts a seventh, which gives the 0.0634 mm per pixel of the map.
         frame_age_s: Largest age of a camera's frame at arrival: exposure and transfer [s].
         read_timeout_s: Longest wait for a frame captured after the call [s].
-        stale_s: Largest time without a frame from a live camera [s].
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
@@ -49,7 +48,6 @@ class GelSightSettings(SettingsBase):
     crop_share: Number = Field(default=1 / 7, ge=0, le=0.4)
     frame_age_s: Number = Field(default=0.08, ge=0, le=1)
     read_timeout_s: Number = Field(default=0.5, ge=0.05, le=5)
-    stale_s: Number = Field(default=0.2, ge=0.02, le=5)
     connect_timeout_s: Number = Field(default=5.0, ge=0.1, le=30)
 
     @model_validator(mode="after")

@@ -82,9 +82,10 @@ class RecordedSensor:
         """
         self.check_alive()
 
-    def check_alive(self) -> None:
+    def check_alive(self) -> str:
         if self._disconnected:
             raise TouchError(f"the recording {self._name} is disconnected; connect it again")
+        return ""
 
     def expect_untouched(self) -> None:
         """Nothing to compare: a recording has no untouched gel."""

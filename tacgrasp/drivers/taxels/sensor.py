@@ -29,8 +29,11 @@ from cltp.sensing.taxel_packets import (
 from cltp.sensing.touch_files import ASPECT_TOLERANCE
 from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from tacgrasp.drivers.latest import Latest
+from tacgrasp.drivers.check import EMULATOR_ADVICE
+from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
+from tacgrasp.drivers.scheduling import request_priority
 from tacgrasp.drivers.stamps import real_stamp
+from tacgrasp.drivers.taxels.intervals import FrameIntervals
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 
 if TYPE_CHECKING:
@@ -59,6 +62,8 @@ class LineCounts:
         repeated: Frames that arrived twice; the second is dropped.
         restarts: Restarts of the array.
         garbage_bytes: Bytes that belong to no packet.
+        stalls: Gaps between frames in which the array itself paused, by its own clock.
+        delays_here: Gaps in which the array went on: this computer, or the line, was late.
     """
 
     frames: int
@@ -67,6 +72,8 @@ class LineCounts:
     repeated: int
     restarts: int
     garbage_bytes: int
+    stalls: int
+    delays_here: int
 
 
 class _StampedFrame(NamedTuple):
@@ -95,6 +102,7 @@ class TaxelArray:
         self._spec = sensor_named(settings.sensor)
         self._latest: Latest[_StampedFrame] = Latest()
         self._parser, self._numbers = PacketParser(), SequenceCount()
+        self._intervals = FrameIntervals()
         self._ending = threading.Event()
         self._sending = threading.Lock()
         self._mark = 0
@@ -116,6 +124,8 @@ class TaxelArray:
             repeated=numbers.repeated,
             restarts=numbers.restarts,
             garbage_bytes=wire.garbage_bytes,
+            stalls=self._intervals.stalls,
+            delays_here=self._intervals.delays_here,
         )
 
     def wait_until_alive(self) -> None:
@@ -161,13 +171,14 @@ class TaxelArray:
             raise TouchError(f"{self._name} sends grids of different sizes: connect it again")
         self._reference_mm = np.mean(frames_mm, axis=0, dtype=np.float32)
 
-    def check_alive(self) -> None:
-        newest = self._latest.newest()
-        since_s = self._opened_s if newest is None else newest.stamp.monotonic_s
-        if time.monotonic() - since_s > self._settings.stale_s:
-            raise self._no_frame_error(self._settings.stale_s)
+    def check_alive(self) -> str:
+        newest, stale_s = self._latest.newest(), self._intervals.stale_s
         if newest is not None and newest.problem:
             raise TouchError(f"{self._name}: {newest.problem}")
+        since_s = self._opened_s if newest is None else newest.stamp.monotonic_s
+        if time.monotonic() - since_s > stale_s + (STALE_MARGIN_S if self._has_unread else 0.0):
+            return str(self._no_frame_error(stale_s))
+        return ""
 
     def expect_untouched(self) -> None:
         """Nothing to compare: taxels have no background."""
@@ -177,6 +188,16 @@ class TaxelArray:
         self._ending.set()
         if self._thread is not threading.current_thread():
             self._thread.join(timeout=2)
+
+    @property
+    def _has_unread(self) -> bool:
+        """Bytes wait to be read: this computer is late, not the array."""
+        from serial import SerialException
+
+        try:
+            return self._port.in_waiting > 0
+        except (SerialException, OSError, TypeError):  # closed by its thread
+            return False
 
     @property
     def _name(self) -> str:
@@ -222,13 +243,15 @@ class TaxelArray:
 
     def _no_frame_error(self, waited_s: float) -> TouchError:
         counts, newest = self.counts(), self._latest.newest()
+        advice = "check cable and port, and power the array off and on"
+        if self._settings.is_emulated:
+            advice = EMULATOR_ADVICE
         if newest is not None:
             age_s = time.monotonic() - newest.stamp.monotonic_s
             problem = (
-                f"no fresh frame within {waited_s:g} s; the last one came "
+                f"no fresh frame within {waited_s:.2g} s; the last one came "
                 f"{age_s:.2f} s ago with mark {newest.frame.mark} ({counts.damaged} damaged so "
-                "far); expected a steady stream that repeats the host's marks: check the cable, "
-                "and power the array off and on"
+                f"far); expected a steady stream that repeats the host's marks: {advice}"
             )
         elif self._parser.counts.foreign:
             problem = (
@@ -242,22 +265,22 @@ class TaxelArray:
                 f"{self._settings.baud}?"
             )
         else:
-            problem = (
-                f"silent for {waited_s:g} s; expected a steady stream of frames: check its power, "
-                "and that the port is the array's"
-            )
+            problem = f"silent for {waited_s:.2g} s; expected a steady stream of frames: {advice}"
         return TouchError(f"{self._name}: {problem}")
 
     def _capture(self) -> None:
         """Read until the end, and latch its reason."""
         from serial import SerialException
 
+        request_priority()
         reason = "its reader ended without a reason; this is a bug"
         try:
             while not self._ending.is_set():
                 for packet in self._parser.feed(self._port.read(max(1, self._port.in_waiting))):
                     if isinstance(packet, TaxelFrame) and self._numbers.is_new(packet.sequence):
-                        self._latest.put(_StampedFrame(packet, real_stamp(), _problem(packet)))
+                        stamp = real_stamp()
+                        self._intervals.add(packet, stamp.monotonic_s)
+                        self._latest.put(_StampedFrame(packet, stamp, _problem(packet)))
             reason = "it is disconnected"
         except (SerialException, OSError) as error:
             reason = f"it was unplugged, or its port failed: {error}; plug it in and start again"

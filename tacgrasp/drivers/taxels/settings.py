@@ -19,7 +19,6 @@ class TaxelSettings(SettingsBase):
         baud: Baud rate; USB arrays ignore it [bit/s].
         sensor: Sensor whose sensing area the grid of taxels covers.
         read_timeout_s: Longest wait for a frame captured after the call [s].
-        stale_s: Largest time without a frame from a live array [s].
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
@@ -29,7 +28,6 @@ class TaxelSettings(SettingsBase):
     baud: int = Field(default=921_600, ge=9600, le=12_000_000, strict=True)
     sensor: str = "gelsight_mini"
     read_timeout_s: Number = Field(default=0.5, ge=0.05, le=5)
-    stale_s: Number = Field(default=0.15, ge=0.02, le=5)
     connect_timeout_s: Number = Field(default=1.5, ge=0.1, le=10)
 
     @property

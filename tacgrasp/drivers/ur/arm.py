@@ -37,8 +37,15 @@ from tacgrasp.drivers.ur.worker_process import POLL_S, WorkerProcess
 
 log = logging.getLogger(__name__)
 
-HANG_S = 0.25
-"""Longest time without a round of a live worker [s]; by then the watchdog has stopped the arm."""
+HANG_S = 0.12
+"""Longest time without a round of a live worker [s]; longer than any watchdog of the controller, so
+that the arm is stopped by then."""
+
+BRAKE_S = 0.25
+"""Longest wait for a worker that brakes the arm itself [s]."""
+
+NOTICE_S = 0.04
+"""Longest wait for the method of the worker's stop before its fault is raised [s]."""
 
 STOP_S = 1.0
 END_S = 2.0
@@ -248,7 +255,7 @@ class UrArm:
         ended, now_s = worker.has_ended, time.monotonic()
         state = worker.read()
         if state.phase != WorkerPhase.READY:
-            worker.wait(HANG_S)  # the worker brakes the arm now, and publishes the method
+            worker.wait(NOTICE_S)  # the worker brakes the arm now, and publishes the method
             self._latch(worker.read().text)
         if ended:
             self._latch(worker.exit_message(state))
@@ -266,13 +273,17 @@ class UrArm:
             raise LimitError(f"the arm starts where it may not be: {reason}. Jog it at the pendant")
 
     def _latch(self, reason: str) -> None:
-        """Latch a fault, stop the arm by any method that is left, and raise the fault."""
+        """Latch a fault and raise it; meanwhile stop the arm by any method that is left.
+
+        A dead link makes stopping slow, and nobody should learn of the fault so late. ``stop``
+        waits for it.
+        """
         with self._lock:
             if not self._fault:
                 advice = "Look at the arm, clear the cause, then reset it."
                 self._fault, self._unsafe = f"UR arm: {reason}. {advice}", True
                 log.error("%s", self._fault)
-        self._make_safe()
+                threading.Thread(target=self._make_safe, name="ur stop", daemon=True).start()
         raise RobotError(self._fault)
 
     def _make_safe(self) -> None:
@@ -281,7 +292,7 @@ class UrArm:
             if not self._unsafe:
                 return
             if self._worker is not None:
-                self._worker.wait(HANG_S)  # the worker brakes the arm itself
+                self._worker.wait(BRAKE_S)  # the worker brakes the arm itself
                 self._worker.kill()
             method = stop_from_outside(self.settings.host, self.settings.stop_deceleration_m_s2)
             self._unsafe = method != CONFIRMED

@@ -9,6 +9,7 @@ Source: Universal Robots' dashboard server documentation and RTDE guide, protoco
 
 from __future__ import annotations
 
+import math
 import socket
 import struct
 from collections.abc import Sequence
@@ -170,7 +171,13 @@ class Rtde:
         body = self._next("U")[1:]
         if len(body) != self._layout.size:
             raise RobotError(f"an RTDE sample of {len(body)} bytes, expected {self._layout.size}")
-        numbers = iter(self._layout.unpack(body))
+        values = self._layout.unpack(body)
+        if not all(map(math.isfinite, values)):
+            raise RobotError(
+                "the controller sends a number that is not finite: a sensor or its cable is "
+                "damaged; see the controller's log, and restart it"
+            )
+        numbers = iter(values)
         return {name: tuple(islice(numbers, size)) for name, size in self._sizes.items()}
 
     def close(self) -> None:

@@ -8,13 +8,21 @@ Not here: the sequence of calls (``supervisor``).
 
 from __future__ import annotations
 
+import fcntl
 import math
+import os
+import socket
+import termios
 import time
+from array import array
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from primitives.errors import RobotError
+from tacgrasp.drivers.ur.dashboard import RTDE_PORT
 from tacgrasp.drivers.ur.preflight import safety_text
 from tacgrasp.drivers.ur.settings import UrSettings
 
@@ -40,6 +48,9 @@ class RtdeSample:
         pose, speed, force: Of the TCP, six numbers each [m, rad; m/s, rad/s; N, N m].
         robot_mode, runtime_state, safety_bits: In RTDE's numbering.
         speed_fraction: Position of the speed slider, 0 to 1.
+
+    Raises:
+        RobotError: A number is not finite: no comparison with a limit would notice.
     """
 
     stamp_s: float
@@ -50,6 +61,21 @@ class RtdeSample:
     runtime_state: int
     safety_bits: int
     speed_fraction: float
+
+    def __post_init__(self) -> None:
+        single = (self.stamp_s, self.speed_fraction)
+        for name, unit, numbers in (
+            ("pose", "m, rad", self.pose),
+            ("speed", "m/s, rad/s", self.speed),
+            ("force", "N, N m", self.force),
+            ("time and speed slider", "s, 0 to 1", single),
+        ):
+            if not all(map(math.isfinite, numbers)):
+                raise RobotError(
+                    f"the controller reports a {name} that is not finite: {list(numbers)} "
+                    f"({unit}); a sensor or its cable is damaged: see the controller's log, and "
+                    "restart it"
+                )
 
     @property
     def speed_m_s(self) -> float:
@@ -107,6 +133,7 @@ class UrLink:
             raise RobotError(
                 f"ur_rtde can't connect to {settings.host}: {error}. See tacgrasp doctor"
             ) from None
+        self._sockets = _sockets_to(RTDE_PORT)
 
     def set_up(self, report_step: Callable[[str], None]) -> None:
         """Set payload, TCP, zero of the force sensor and stop mode, at rest, and read them back.
@@ -126,7 +153,9 @@ class UrLink:
         _check_accepted(control.setPayload(settings.payload_kg, cog_m), "payload")
         _check_accepted(control.setTcp(tcp), "TCP")
         offset = control.getTCPOffset()
-        if len(offset) != 6 or any(abs(a - b) > 1e-6 for a, b in zip(offset, tcp, strict=True)):
+        if len(offset) != 6 or not all(
+            abs(a - b) <= 1e-6 for a, b in zip(offset, tcp, strict=True)
+        ):
             raise RobotError(f"the controller took the TCP offset as {offset}, not {tcp}")
         self._wait_for_payload()
         report_step("zeroing the force sensor")
@@ -136,21 +165,35 @@ class UrLink:
         # The first asynchronous stop switches stopL from joint space to a straight line.
         self.stop()
 
-    def arm_watchdog(self) -> None:
-        """Arm the watchdog: from now on the program ends unless ``kick`` is called.
+    def arm_watchdog(self, least_hz: float) -> None:
+        """Arm the watchdog: from now on the program ends unless ``kick`` is called so often [Hz].
 
         Raises:
             RobotError: The controller did not accept it.
         """
-        _check_accepted(self._control.setWatchdog(self._settings.watchdog_hz), "watchdog")
+        _check_accepted(self._control.setWatchdog(least_hz), "watchdog")
 
     @property
     def connected(self) -> bool:
         """Whether both connections stand; the library's other calls return True even if not."""
         return bool(self._control.isConnected() and self._receive.isConnected())
 
+    def has_unread(self) -> bool:
+        """Whether data of the controller wait to be read: then this computer is late, not it."""
+        waiting = array("i", [0])
+        for connection in self._sockets:
+            with suppress(OSError):
+                fcntl.ioctl(connection.fileno(), termios.FIONREAD, waiting)
+                if waiting[0] > 0:
+                    return True
+        return False
+
     def sample(self) -> RtdeSample:
-        """The controller's last data; may be old: compare stamps."""
+        """The controller's last data; may be old: compare stamps.
+
+        Raises:
+            RobotError: A number is not finite.
+        """
         receive = self._receive
         return RtdeSample(
             stamp_s=receive.getTimestamp(),
@@ -209,6 +252,25 @@ class UrLink:
                 return
             time.sleep(0.01)
         raise RobotError(f"{failure} (waited 1 s)")
+
+
+def _sockets_to(port: int) -> list[socket.socket]:
+    """Duplicates of this process's connections to a port; the library shows none of its own."""
+    sockets = []
+    for path in Path("/proc/self/fd").iterdir():
+        try:
+            found = socket.socket(fileno=os.dup(int(path.name)))
+        except OSError:  # closed by now, or no socket
+            continue
+        try:
+            is_sought = found.getpeername()[1] == port
+        except (OSError, IndexError):  # not connected, or of another family
+            is_sought = False
+        if is_sought:
+            sockets.append(found)
+        else:
+            found.close()
+    return sockets
 
 
 def _check_accepted(result: object, name: str) -> None:

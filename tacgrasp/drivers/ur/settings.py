@@ -31,8 +31,8 @@ class UrSettings(SettingsBase):
         max_contact_force_n: Largest force on the tool in motion; a larger one is a fault [N]. The
             force sensor is zeroed at rest when the arm is connected.
         watchdog_hz: The controller ends the program after 1 / watchdog_hz without a signal [Hz].
-            20, not the library's usual 10: with a dead link, 100 ms of waiting and 40 ms of braking
-            from 0.4 m/s would leave nothing of 150 ms.
+            25, not the library's usual 10: with a dead link, 40 ms of waiting and 40 ms of braking
+            from 0.4 m/s stay within 100 ms.
         supervision_hz: Rate of data and of supervision [Hz].
         stale_ms: Largest age of data; older data are a fault [ms].
         min_speed_fraction: Lowest position of the speed slider, 0 to 1.
@@ -55,7 +55,7 @@ class UrSettings(SettingsBase):
     max_turn_rad: Number = Field(default=0.5, ge=0, le=3.1)
     stop_deceleration_m_s2: Number = Field(default=10.0, ge=2, le=30)
     max_contact_force_n: Number = Field(default=30.0, gt=0, le=150)
-    watchdog_hz: Number = Field(default=20.0, ge=10, le=100)
+    watchdog_hz: Number = Field(default=25.0, ge=10, le=100)
     supervision_hz: Number = Field(default=125.0, ge=50, le=500)
     stale_ms: Number = Field(default=60.0, ge=20, le=500)
     min_speed_fraction: Number = Field(default=0.05, gt=0, le=1)

@@ -32,6 +32,9 @@ from tacgrasp.drivers.ur.shared_state import (
 MAX_DATA_AGE_S = 0.03
 """With older data the library's stop would only hang [s]."""
 
+UNREAD_S = 0.2
+"""Largest age of data while newer ones wait to be read by the library's thread [s]."""
+
 SETTLE_S = 0.3
 """Longest time from the end of a move to rest on its target [s]."""
 
@@ -84,7 +87,7 @@ class Supervisor:
         self.state = WorkerState()
         self._unread = b""
         self._sample = link.sample()
-        self._data_s = time.monotonic()
+        self._data_s = self._kicked_s = time.monotonic()
         self._active: ActiveCommand | None = None
 
     def run(self) -> NoReturn:
@@ -101,6 +104,8 @@ class Supervisor:
             now_s = time.monotonic()
             if previous_s is not None:
                 self._block.count(PERIOD, now_s - previous_s)
+            if now_s - due_s > period_s:  # this process was paused: nobody looked for data
+                self._data_s += now_s - due_s
             previous_s = now_s
             self._round(now_s)
             due_s = max(due_s + period_s, now_s)
@@ -110,11 +115,11 @@ class Supervisor:
         if not self._link.connected:
             raise RobotError("the link to the controller dropped")
         self._read_sample(now_s)
-        stale_s = now_s - self._data_s
-        if stale_s > self._settings.stale_ms / 1e3:
+        stale_s, limit_s = now_s - self._data_s, self._settings.stale_ms / 1e3
+        if stale_s > UNREAD_S or (stale_s > limit_s and not self._link.has_unread()):
             raise RobotError(f"no new data from the controller for {1e3 * stale_s:.0f} ms")
         if problem := self._sample.problem():
-            raise RobotError(problem)
+            raise RobotError(f"{problem}{self._own_pause(now_s)}")
         force_n, limit_n = self._sample.force_n, self._settings.max_contact_force_n
         if self._active is not None and force_n > limit_n:
             raise RobotError(
@@ -126,9 +131,20 @@ class Supervisor:
             self._track(self._active, now_s)
         self.publish(now_s)
 
+    def _own_pause(self, now_s: float) -> str:
+        """Remark on a pause of this computer that was long enough for the controller's watchdog."""
+        pause_ms, limit_ms = 1e3 * (now_s - self._kicked_s), 1e3 / self._settings.watchdog_hz
+        if pause_ms < limit_ms:
+            return ""
+        return (
+            f"; this computer paused for {pause_ms:.0f} ms, and the watchdog allows "
+            f"{limit_ms:.0f}: end other work, and see tacgrasp doctor"
+        )
+
     def _kick(self) -> None:
         try:
             self._link.kick()
+            self._kicked_s = time.monotonic()
         except RobotError:
             # The library has the fault before its data: wait a moment for their explanation.
             until_s = time.monotonic() + REASON_WAIT_S
@@ -247,9 +263,15 @@ class Supervisor:
             return ""
         braking_s = self._sample.speed_m_s / self._settings.stop_deceleration_m_s2
         until_s = time.monotonic() + braking_s + LIBRARY_STOP_S
-        while time.monotonic() < until_s and self._link.sample().speed_m_s > REST_M_S:
+        while time.monotonic() < until_s and not self._is_at_rest():
             time.sleep(0.004)
         return "stopL"
+
+    def _is_at_rest(self) -> bool:
+        try:
+            return self._link.sample().speed_m_s <= REST_M_S
+        except RobotError:  # not finite: nobody knows
+            return False
 
 
 def returned_within(seconds: float, call: Callable[[], None]) -> bool:

@@ -15,8 +15,10 @@ from sim.emulators.__main__ import MODULES
 from sim.emulators.options import OPTIONS
 from sim.emulators.process.control import ControlClient
 from tacgrasp.__main__ import main
+from tacgrasp.benchmarks.faults import fault_free
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
-from tacgrasp.benchmarks.faults.injection import InjectionResult
+from tacgrasp.benchmarks.faults.load import busy_cores
+from tacgrasp.benchmarks.faults.reaction import InjectionResult
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of
 from tacgrasp.benchmarks.loop.rigs import RigEnd, RigPair
 from tests.fakes.patient_rig import fields, patient_rig
@@ -198,10 +200,47 @@ def test_a_row_counts_what_its_repeats_came_to():
         {"invented": True},
         {"moved": True},
         {"episode": "it has no end"},
+        {"spurious": True},
     ],
 )
 def test_one_bad_repeat_spoils_its_row(wrong):
     assert not row_of(STALL, [a_trial(), a_trial(**wrong)]).passed
+
+
+def test_with_all_cores_busy_the_arm_has_250_ms_and_the_row_says_how_late_the_latest_was():
+    results = [a_trial(stop_ms=float(ms)) for ms in range(100, 201)]
+    row = row_of(STALL, results, load=True)
+    assert row.passed and not row_of(STALL, results).passed
+    assert (row.stop_ms_p95, row.noticed_ms_max, row.spurious) == (195.0, 20.0, 0)
+    assert not row_of(STALL, [a_trial(stop_ms=251.0)], load=True).passed
+
+
+def test_fault_free_episodes_are_gone_on_with_and_every_fault_among_them_is_told(
+    tmp_path, capsys, monkeypatch
+):
+    ends = iter([("success", "", 2), ("fault", "seed 5000001: no frame", 0), ("success", "", 0)])
+    monkeypatch.setattr(fault_free, "_episode", lambda config, seed: next(ends))
+    path = tmp_path / "counts.json"
+    argv = ["bench", "faults", "--json", str(path), "--fault-free"]
+    assert main([*argv, "1"]) == 0
+    assert main([*argv, "3"]) == 1
+    printed = capsys.readouterr().out
+    assert "0 spurious faults in 1 fault-free episodes" in printed
+    assert "1 spurious faults in 3 fault-free episodes" in printed
+    assert "seed 5000001: no frame" in printed
+    counts = json.loads(path.read_text())["fault_free"]
+    assert (counts["episodes"], counts["spurious"], counts["holds"]) == (3, 1, 2)
+    assert main([*argv, "4", "--load"]) == 2
+    assert "counted without --load" in capsys.readouterr().err
+
+
+def test_a_load_ends_with_the_benchmark():
+    with busy_cores(True) as spinners:
+        assert len(spinners) >= 2
+        assert all(spinner.poll() is None for spinner in spinners)
+    assert all(spinner.poll() is not None for spinner in spinners)
+    with busy_cores(False) as spinners:
+        assert not spinners
 
 
 def test_the_page_names_every_fault_with_what_was_told_and_no_row_is_broken():
@@ -209,7 +248,7 @@ def test_the_page_names_every_fault_with_what_was_told_and_no_row_is_broken():
     page = markdown_of(rows, "tacgrasp bench faults")
     table = [line for line in page.splitlines() if line.startswith("| ")]
     assert len(table) == len(CASES) + 1
-    assert {line.count("|") for line in table} == {9}
+    assert {line.count("|") for line in table} == {10}
     assert page.count("“gone”") == len(CASES)
 
 

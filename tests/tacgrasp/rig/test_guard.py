@@ -14,7 +14,7 @@ HERE = Pose(position_m=np.array([0.4, 0.0, 0.2]), rotvec_rad=np.array([np.pi, 0.
 
 
 class SlowArm:
-    """Moves until it is stopped or told that it has arrived."""
+    """Moves until it is stopped or told that it has arrived; a later move arrives at once."""
 
     def __init__(self):
         self.started, self.ended = threading.Event(), threading.Event()
@@ -26,6 +26,8 @@ class SlowArm:
 
     def move_to(self, pose, *, speed_m_s=0.05, acceleration_m_s2=0.5):
         self.moves += 1
+        if self.stops:
+            return pose
         self.started.set()
         assert self.ended.wait(20)
         if self.error is not None:
@@ -42,14 +44,15 @@ class SlowArm:
 
 
 class Device:
-    """Fails when it is told to."""
+    """Fails, or is silent, when it is told to."""
 
     def __init__(self):
-        self.error = None
+        self.error, self.stale = None, ""
 
     def check(self):
         if self.error is not None:
             raise self.error
+        return self.stale
 
 
 @pytest.fixture
@@ -107,3 +110,66 @@ def test_a_device_that_fails_between_moves_stops_nothing(guarded, arm, device):
     device.error = RobotError("gone")
     threading.Event().wait(0.05)
     assert arm.stops == 0
+
+
+def silence_after_start(arm, device, seconds):
+    def be_silent():
+        arm.started.wait(20)
+        device.stale = "the last frame is 61 ms old"
+        if seconds is not None:
+            threading.Event().wait(seconds)
+            device.stale = ""
+
+    threading.Thread(target=be_silent, daemon=True).start()
+
+
+def test_a_device_that_is_silent_for_60_ms_holds_the_arm_which_then_arrives(guarded, arm, device):
+    silence_after_start(arm, device, 0.06)
+    assert guarded.move_to(HERE) is HERE
+    assert (arm.stops, arm.moves, guarded.num_holds) == (1, 2, 1)
+
+
+def test_a_device_that_stays_silent_is_a_fault_at_the_deadline_of_the_motion(guarded, arm, device):
+    silence_after_start(arm, device, None)
+    with pytest.raises(
+        RobotError, match=r"61 ms old; nothing newer came within 1\.0 s; the arm was stopped"
+    ):
+        guarded.move_to(HERE)
+    assert (arm.stops, arm.moves) == (1, 1)
+
+
+def test_a_device_that_fails_while_the_arm_is_held_ends_the_hold_at_once(guarded, arm, device):
+    silence_after_start(arm, device, None)
+    threading.Timer(0.1, lambda: setattr(device, "error", RobotError("unplugged"))).start()
+    with pytest.raises(RobotError, match="unplugged; the arm was stopped"):
+        guarded.move_to(HERE)
+    assert arm.moves == 1
+
+
+def test_a_stop_ends_a_hold_and_the_move_does_not_go_on(guarded, arm, device):
+    silence_after_start(arm, device, 0.3)
+    threading.Timer(0.1, guarded.stop).start()
+    with pytest.raises(RobotError, match="cut short by a stop"):
+        guarded.move_to(HERE)
+    assert arm.moves == 1
+
+
+def test_a_stale_device_before_a_move_is_waited_for(guarded, arm, device):
+    device.stale = "old"
+    arm.ended.set()
+    threading.Timer(0.05, lambda: setattr(device, "stale", "")).start()
+    assert guarded.move_to(HERE) is HERE
+    assert arm.stops == 0
+
+
+def test_a_line_that_holds_the_arm_again_and_again_is_a_fault(guarded, arm, device, monkeypatch):
+    def stopped(pose, **_):
+        device.stale = "old"
+        assert arm.ended.wait(20)
+        arm.ended.clear()
+        device.stale = ""
+        raise RobotError("the move was cut short by a stop")
+
+    monkeypatch.setattr(arm, "move_to", stopped)
+    with pytest.raises(RobotError, match="held 30 times in one move, the last time because old"):
+        guarded.move_to(HERE)

@@ -196,20 +196,100 @@ def test_heat_is_noticed_before_the_servo_lets_go(servos):
     assert servos.emulator.facts()["torque"]
 
 
+@pytest.mark.parametrize("is_gripping", [True, False])
+@pytest.mark.parametrize(
+    ("address", "value", "text"),
+    [
+        (
+            reg.TORQUE,
+            0,
+            "torque of servo 1 of the gripper reads 0, set was 1: what was held has been let go",
+        ),
+        (reg.OPERATING_MODE, 3, "operating mode of servo 1 of the gripper reads 3, set was 5"),
+        (reg.WATCHDOG, 0, "bus watchdog of servo 1 of the gripper reads 0, set was 25"),
+        (reg.WATCHDOG, reg.WATCHDOG_TRIPPED, "bus watchdog of servo 1 has tripped"),
+        (reg.GOAL_CURRENT, 909, "what it holds is pressed with up to 909 mA"),
+        (reg.GOAL_POSITION, 2000, "goal position of servo 1 of the gripper reads 2000"),
+        (reg.HARDWARE_ERROR, 0x01, "input voltage out of its limits"),
+    ],
+)
+def test_a_register_other_than_commanded_is_a_fault_within_two_polls(
+    servos, gripper, address, value, text, is_gripping
+):
+    if is_gripping:
+        gripper.grip(1.0)
+    before = gripper._fingers.poller.num_polls
+    servos.poke(address, value)
+    assert eventually(lambda: gripper.fault)
+    assert text in gripper.fault
+    assert gripper._fingers.poller.num_polls - before <= 2
+    for call in (gripper.state, gripper.check_alive, lambda: gripper.grip(1.0)):
+        with pytest.raises(RobotError, match="servo 1"):
+            call()
+
+
+@pytest.mark.parametrize("silent_ms", [0, 300])
+def test_a_servo_that_restarts_while_it_holds_is_a_fault_and_says_what_became_of_the_grip(
+    servos, gripper, load, silent_ms
+):
+    gripper.grip(1.0)
+    servos.emulator.inject("reboot", silent_ms=silent_ms)
+    assert eventually(lambda: gripper.fault)
+    assert "has restarted: its torque is off" in gripper.fault
+    assert "what was held has been let go" in gripper.fault
+    assert load.releases == 1
+    with pytest.raises(RobotError, match="has restarted"):
+        gripper.state()
+
+
+def test_a_state_asked_for_right_after_a_restart_is_never_made_up(servos, gripper):
+    gripper.grip(1.0)
+    servos.emulator.inject("reboot")
+    with pytest.raises(RobotError, match="has restarted"):
+        gripper.state()
+
+
+@pytest.mark.parametrize("ticks", [6, 15])
+def test_fingers_that_rest_wider_than_asked_are_open(servos, gripper, monkeypatch, ticks):
+    gripper.grip(1.0)
+    servo, asked_m = servos.emulator._servos[0], gripper.state().width_m + 0.005
+    publish = servo.publish
+
+    def publish_wider():
+        publish()
+        servo.table[reg.PRESENT_POSITION] -= servo.closing * ticks
+
+    monkeypatch.setattr(servo, "publish", publish_wider)
+    assert gripper.open_by(0.005).width_m > asked_m
+
+
 def test_a_tripped_watchdog_is_noticed(servos):
     gripper = servos.gripper()
     servos.poke(reg.WATCHDOG, reg.WATCHDOG_TRIPPED)
     assert eventually(lambda: "bus watchdog of servo 1 has tripped" in gripper.fault)
 
 
-def test_while_the_arm_moves_silence_is_a_fault_within_two_answers(servos, gripper):
-    gripper.fail_fast_while(lambda: True)
+def test_silence_is_told_at_once_and_is_a_fault_only_when_patience_ends(servos, gripper):
+    assert eventually(lambda: gripper.check_alive() == "")
     servos.emulator.inject("silence")
-    assert eventually(lambda: gripper.fault)
-    assert servos.emulator.facts()["injected_ago_ms"] < 350  # about 60 when nothing else runs
+    assert eventually(lambda: "last whole reply is" in gripper.check_alive(), 0.9)
+    assert gripper.fault == ""
+    assert eventually(lambda: "does not answer" in gripper.fault)
+    with pytest.raises(RobotError, match="does not answer"):
+        gripper.check_alive()
 
 
-def test_while_the_arm_stands_there_is_time(servos, gripper):
+def test_a_bus_that_stalls_for_60_ms_is_no_fault(servos, gripper):
+    for fault in ("silence", "partial_reply"):
+        servos.emulator.inject(fault, count=3)
+        threading.Timer(0.06, servos.emulator.clear).start()
+        time.sleep(0.3)
+        assert eventually(lambda: gripper.check_alive() == "")
+    assert gripper.fault == ""
+    assert gripper.grip(1.0).force_n == 1.0
+
+
+def test_a_pause_of_the_bus_is_waited_out(servos, gripper):
     servos.emulator.inject("silence")
     threading.Timer(0.15, servos.emulator.clear).start()
     assert eventually(lambda: gripper.transients.silent == 1)

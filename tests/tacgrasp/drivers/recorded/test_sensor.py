@@ -105,7 +105,7 @@ def test_frames_are_read_with_the_background_beside_them(tmp_path):
 
 def test_a_disconnected_recording_plays_no_more(folder):
     sensor = connect_recorded(RecordedSettings(path=folder))
-    sensor.check_alive()
+    assert sensor.check_alive() == ""
     sensor.disconnect(), sensor.disconnect()
     for call in (sensor.read, sensor.check_alive):
         with pytest.raises(TouchError, match="disconnected"):

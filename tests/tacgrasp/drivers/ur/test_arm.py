@@ -4,6 +4,7 @@ motion, and each pitfall of the library that was measured."""
 import math
 import os
 import signal
+import struct
 import subprocess
 import sys
 import threading
@@ -12,6 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from primitives import LimitError, RobotError
@@ -21,6 +24,7 @@ from sim.emulators.ur.child import UrChild
 from tacgrasp.drivers.ur import arm as ur
 from tacgrasp.drivers.ur import rtde_link as ur_link
 from tacgrasp.drivers.ur.arm import UrArm, connect_arm
+from tacgrasp.drivers.ur.dashboard import Rtde
 from tacgrasp.drivers.ur.motion_limits import (
     expected_duration_s,
     nearest_rotvec,
@@ -38,6 +42,7 @@ from tacgrasp.drivers.ur.shared_state import (
     WorkerPhase,
     WorkerState,
 )
+from tacgrasp.drivers.ur.worker import patient
 from tests.fakes.emulated_arm import emulated_arm
 
 pytest.importorskip("rtde_control")
@@ -367,6 +372,10 @@ MOTION_FAULTS = [
     ("program_stopped", {}, "program"),
     ("controller_restart", {"down_s": 0.3}, "dropped"),
     ("contact_force", {"force_n": 40.0}, "contact force"),
+    ("not_finite", {}, "reports a force that is not finite"),
+    ("not_finite", {"variable": "actual_TCP_pose"}, "reports a pose that is not finite"),
+    ("not_finite", {"variable": "actual_TCP_speed"}, "reports a speed that is not finite"),
+    ("not_finite", {"variable": "target_speed_fraction"}, "speed slider that is not finite"),
 ]
 
 
@@ -431,6 +440,7 @@ def test_a_worker_that_hangs_is_noticed_and_the_arm_stops(arm, emulator):
     raised = in_motion(arm, emulator, hang)
     assert "hung" in raised[0]
     assert stopped_after_ms(emulator) < STOP_MS
+    arm.stop()  # returns when the stop from outside is confirmed
     with pytest.raises(ProcessLookupError):
         os.kill(worker, 0)  # and it is gone, not left behind
 
@@ -589,6 +599,59 @@ def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_
     link.kick()  # says that all is well
     assert not link.connected
     assert not {"reconnect", "reuploadScript", "speedL"} & {name for name, *_ in calls}
+
+
+@pytest.mark.parametrize(
+    ("is_real_time", "late_s", "watchdog_hz", "stale_ms"),
+    [(True, 1.0, 25, 60), (False, 0.001, 25, 60), (False, 0.02, 10, 120)],
+)
+def test_a_busy_computer_without_priority_is_given_more_time(
+    is_real_time, late_s, watchdog_hz, stale_ms
+):
+    settings = emulated_arm("h")
+    adapted = patient(settings, is_real_time=is_real_time, late_s=lambda: late_s)
+    assert (adapted.watchdog_hz, adapted.stale_ms) == (watchdog_hz, stale_ms)
+
+
+NUMBERS = [f"{name}{i}" for name in ("pose", "speed", "force") for i in range(6)]
+NUMBERS += ["stamp_s", "speed_fraction"]
+
+
+@given(
+    st.lists(st.sampled_from(NUMBERS), min_size=1, unique=True),
+    st.sampled_from([math.nan, math.inf, -math.inf]),
+)
+def test_a_sample_with_a_number_that_is_not_finite_is_a_fault_in_itself(names, value):
+    fields = {
+        name: tuple(value if f"{name}{i}" in names else 0.0 for i in range(6))
+        for name in ("pose", "speed", "force")
+    }
+    single = {name: value if name in names else 1.0 for name in ("stamp_s", "speed_fraction")}
+    with pytest.raises(RobotError, match="not finite"):
+        ur_link.RtdeSample(robot_mode=7, runtime_state=2, safety_bits=1, **fields, **single)
+
+
+@given(
+    st.lists(st.floats(), min_size=13, max_size=13).filter(
+        lambda numbers: not all(map(math.isfinite, numbers))
+    )
+)
+def test_the_preflight_takes_no_number_that_is_not_finite(numbers):
+    rtde = Rtde.__new__(Rtde)
+    rtde._layout = struct.Struct(">13d")
+    rtde._sizes = {"timestamp": 1, "actual_TCP_pose": 6, "actual_TCP_force": 6}
+    rtde._next = lambda kind: b"\x01" + struct.pack(">13d", *numbers)
+    with pytest.raises(RobotError, match="not finite"):
+        rtde.sample()
+
+
+def test_an_arm_whose_force_is_not_finite_is_not_ready(kept, emulator, settings):
+    kept.disconnect()
+    emulator.control.inject("ur", "not_finite")
+    with pytest.raises(RobotError, match="not finite"):
+        preflight(settings)
+    emulator.control.clear("ur")
+    eventually(kept.reset)
 
 
 def test_a_safeguard_stop_is_wrong_though_no_emergency_or_protective_bit_is_set():
