@@ -161,7 +161,8 @@ def _cloud_of(array: NDArray[np.float64], sensor: SensorSpec) -> TactileCloud:
             f"expected a cloud (N, 3) or a height map (H, W), got an array of shape {array.shape}"
         )
     if array.shape[1] == 3:
-        return TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
+        with np.errstate(over="ignore"):  # beyond float32 is beyond any sensor, and refused as such
+            return TactileCloud(points_mm=array.astype(np.float32), sensor=sensor)
     rows, columns = array.shape
     expected = sensor.columns / sensor.rows
     if rows == 0 or columns == 0 or abs(columns / rows / expected - 1) > ASPECT_TOLERANCE:

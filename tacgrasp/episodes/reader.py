@@ -29,6 +29,9 @@ from tacgrasp.episodes.record import (
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.touch_message import decode_cloud
 
+MAX_JSON_BYTES = 2_000_000
+"""Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
+
 
 def read_episode(path: Path) -> Episode:
     """Read the episode in ``path``; clouds and numbers are bit for bit those that were recorded.
@@ -113,4 +116,12 @@ def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
 
 def _parse(topic: Topic, group: Mapping[str, bytes]) -> Any:
     """The message on a JSON channel as its dataclass; None when the group has none."""
-    return from_json(JSON_MESSAGES[topic][1], json.loads(group[topic])) if topic in group else None
+    if topic not in group:
+        return None
+    data = group[topic]
+    if len(data) > MAX_JSON_BYTES:
+        raise ValueError(f"{topic} has {len(data)} bytes; at most {MAX_JSON_BYTES} are read")
+    try:
+        return from_json(JSON_MESSAGES[topic][1], json.loads(data))
+    except RecursionError:
+        raise ValueError(f"{topic} is nested too deep") from None
