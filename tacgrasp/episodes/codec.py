@@ -107,7 +107,9 @@ def _expect(valid: bool, data: object, expected: str, path: str) -> Any:
 
 
 def _scalar(hint: type, data: Any, path: str) -> object:
-    if hint is float and type(data) is int and abs(data) < 1 << 1000:
+    if type(data) is int and abs(data) >= 1 << 64:
+        raise ValueError(f"{path}: expected a number of 64 bits, got one of {data.bit_length()}")
+    if hint is float and type(data) is int:
         return float(data)
     valid = type(data) is hint and not (isinstance(data, float) and not math.isfinite(data))
     return _expect(valid, data, _SCALARS[hint], path)

@@ -22,6 +22,7 @@ from tacgrasp.episodes.record import (
     JSON_MESSAGES,
     METADATA_NAME,
     Episode,
+    EpisodeHeader,
     StepRecord,
     StepState,
     Topic,
@@ -31,6 +32,9 @@ from tacgrasp.episodes.touch_message import decode_cloud
 
 MAX_JSON_BYTES = 2_000_000
 """Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
+
+END_OF_TIME_S = 253_402_300_800.0
+"""Start of the year 10000, in seconds since 1970: no calendar of Python's goes further."""
 
 
 def read_episode(path: Path) -> Episode:
@@ -76,8 +80,9 @@ def check_format(path: Path, scan: Scan) -> None:
             f"{METADATA_NAME!r}); open it with the program that wrote it"
         )
     if metadata and metadata[0].get("format") != FORMAT:
+        stated = " ".join(metadata[0].get("format", "nothing").split())
         raise EpisodeError(
-            f"{path} is of format {metadata[0].get('format', 'nothing')}, this tacgrasp reads "
+            f"{path} is of format {stated:.60}, this tacgrasp reads "
             f"{FORMAT}; use the version that wrote it"
         )
     if not any(isinstance(record, Message) for record in scan.records):
@@ -91,7 +96,9 @@ def _episode(messages: dict[int, dict[str, bytes]], scan: Scan) -> Episode:
     by_topic = {topic: data for group in messages.values() for topic, data in group.items()}
     if Topic.EPISODE not in by_topic:
         raise ValueError(f"no message on {Topic.EPISODE}")
-    header = _parse(Topic.EPISODE, by_topic)
+    header: EpisodeHeader = _parse(Topic.EPISODE, by_topic)
+    if not 0 <= header.stamp.wall_s < END_OF_TIME_S:
+        raise ValueError(f"EpisodeHeader.stamp.wall_s: {header.stamp.wall_s} is no time of a start")
     groups = [group for _, group in sorted(messages.items()) if Topic.STATE in group]
     return Episode(
         header=header,

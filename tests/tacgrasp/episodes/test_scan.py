@@ -101,6 +101,7 @@ def test_a_file_larger_than_any_episode_is_not_read(tmp_path: Path) -> None:
         (b"[" * 100_000, "nested too deep"),
         (b"[" + b"1," * 1_500_000 + b"1]", "at most 2000000 are read"),
         (b"9" * 5000, "can't be understood"),
+        (b'{"seed": ' + b"9" * 40 + b"}", "field 'task' is missing"),
         (b'{"task": "' + b"x" * 3000 + b'"}', "is missing"),
     ],
 )
