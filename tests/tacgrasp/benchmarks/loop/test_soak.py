@@ -10,6 +10,11 @@ from tacgrasp.benchmarks.loop import soak
 from tacgrasp.benchmarks.settings import SoakSettings
 
 
+@pytest.fixture(autouse=True)
+def threads_stay_as_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(soak, "one_thread", lambda: None)
+
+
 def figures(path: Path) -> dict[str, object]:
     return dict(json.loads(path.read_text()))
 
