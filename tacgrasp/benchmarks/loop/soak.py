@@ -23,7 +23,7 @@ from tacgrasp.benchmarks.figures import one_thread, write_figures
 from tacgrasp.benchmarks.settings import SoakSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.console import StepPrinter
+from tacgrasp.console import SafeConsole, StepPrinter
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.factory import make_rig
 from tacgrasp.run import run_recorded
@@ -101,7 +101,7 @@ def _soak(figures: SoakFigures, settings: SoakSettings, config: RunConfig, polic
     done = figures.episodes
     figures.processes += done < settings.episodes
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
-        observers = [StepPrinter(Console(file=nowhere))]
+        observers = [StepPrinter(SafeConsole(file=nowhere))]
         for number in range(done, settings.episodes):
             began = time.monotonic()
             seeded = config.model_copy(update={"seed": settings.first_seed + number})
