@@ -15,12 +15,14 @@ the right shape, and no other; the projector names the tokenizer that it was tra
 from __future__ import annotations
 
 import dataclasses
+import errno
 import os
 import shutil
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from safetensors import SafetensorError
 from torch import nn
 
 from cltp.atomic_write import write_atomically
@@ -233,10 +235,14 @@ def save_pretrained(folder: Path, model: Any, words: Words) -> None:
     """Write a model in transformers' layout, beside its tokenizer."""
     part = folder.with_name(f"{folder.name}.{os.getpid()}.part")
     state = {name: value.clone() for name, value in model.state_dict().items()}
-    model.half().save_pretrained(part)
-    model.float().load_state_dict(state)
-    words.save(part)
-    write_manifest(part)
+    try:
+        model.half().save_pretrained(part)
+        words.save(part)
+        write_manifest(part)
+    except SafetensorError as error:  # how its writer tells of a full disk
+        raise OSError(errno.EIO, f"weights can't be written ({error})", str(part)) from None
+    finally:
+        model.float().load_state_dict(state)
     shutil.rmtree(folder, ignore_errors=True)
     part.replace(folder)
 

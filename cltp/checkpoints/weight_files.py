@@ -10,10 +10,10 @@ from typing import Any
 
 import torch
 from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
+from safetensors.torch import load_file, save
 from torch import Tensor, nn
 
-from cltp.atomic_write import replacing, write_atomically
+from cltp.atomic_write import write_atomically
 from cltp.checkpoints.manifest import MANIFEST, WeightsError, write_manifest
 
 CONFIG, WEIGHTS = "config.json", "model.safetensors"
@@ -38,8 +38,7 @@ def save_weights(
     """
     folder.mkdir(parents=True, exist_ok=True)
     (folder / MANIFEST).unlink(missing_ok=True)
-    with replacing(folder / WEIGHTS) as part:
-        save_file({name: value.contiguous() for name, value in state.items()}, part)
+    write_atomically(folder / WEIGHTS, save({name: v.contiguous() for name, v in state.items()}))
     write_atomically(folder / CONFIG, json.dumps(dict(config), indent=2) + "\n")
     write_manifest(folder, trained_with=trained_with)
 

@@ -2,5 +2,5 @@
 
 Not here: anything that knows a device, an episode or a policy.
 
-May import: nothing of ours.
+May import: cltp.
 """

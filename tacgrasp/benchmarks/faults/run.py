@@ -10,6 +10,7 @@ from rich.progress import Progress
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import write_result
 from tacgrasp.benchmarks.faults.cases import CASES, InjectionPhase
 from tacgrasp.benchmarks.faults.injection import FaultBench
 from tacgrasp.benchmarks.faults.table import markdown_of, row_of, table_of
@@ -56,5 +57,5 @@ def run(settings: FaultsSettings) -> bool:
     write_figures(settings.json, {"faults": [asdict(row) for row in rows]})
     if settings.markdown is not None:
         command = f"tacgrasp bench faults --repeats {repeats}"
-        settings.markdown.write_text(markdown_of(rows, command), encoding="utf-8")
+        write_result(settings.markdown, markdown_of(rows, command), flag="--markdown")
     return passed == len(rows)
