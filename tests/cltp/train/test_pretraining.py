@@ -73,13 +73,13 @@ def killed(data: Path, weights: Path, last_step: int) -> int:
     return training(data, weights, last_step).wait(200)
 
 
-KILLS, STEPS = 20, 1500
+KILLS, STEPS = 20, 400
 """Kills of the long test; steps of its training, more than are done between two kills."""
 
 
 def killed_after_a_checkpoint(data: Path, weights: Path, wait_s: float) -> int:
     """Kill a training some time after it wrote a checkpoint of its own; the step it had reached."""
-    checkpoint = weights / ".training" / "cltp.pt"
+    checkpoint = weights / ".training" / "cltp.checkpoint"
     before_ns = checkpoint.stat().st_mtime_ns if checkpoint.exists() else 0
     with training(data, weights, -1, STEPS) as process:
         try:
