@@ -1,6 +1,7 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
 # make test-all  the same with the slow tests
+# make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
 # make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
 
@@ -9,7 +10,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test test-all weights setup clean
+.PHONY: run test test-all fuzz weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -23,6 +24,13 @@ test: setup
 
 test-all: test
 	$(BIN)/python -m pytest -m "slow and not hardware and not gpu"
+
+CASES ?= 1000
+PARSER ?= all
+SEED ?= 0
+
+fuzz: setup
+	$(BIN)/python -m tests.fuzz --cases $(CASES) --parser $(PARSER) --seed $(SEED)
 
 weights: setup
 	$(BIN)/tacgrasp data generate --out runs/tcl3d --seed 0

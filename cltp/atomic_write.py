@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -17,9 +18,14 @@ def replacing(path: Path, *, suffix: str = ".part") -> Iterator[Path]:
         suffix: Ending of the temporary name, for writers that go by it (``.part.png``).
 
     Raises:
-        OSError: The file can't be written. What stood at ``path`` before still stands there, and
+        OSError: The file can't be written, or something stands there that is no regular file (a
+            device would be replaced by it). What stood at ``path`` before still stands there, and
             the temporary file is removed, as after any other error.
     """
+    if path.exists() and not path.is_file():
+        code = errno.EISDIR if path.is_dir() else errno.EINVAL
+        reason = "it is a folder" if path.is_dir() else "it is a device or pipe, not a file"
+        raise OSError(code, reason, str(path))
     part = path.with_name(f"{path.name}.{os.getpid()}{suffix}")
     try:
         yield part

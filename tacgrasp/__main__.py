@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import importlib
 import os
 import sys
@@ -24,6 +25,12 @@ COMMANDS = {
     "jog": "move a rig by keyboard in small limited steps, and show the contact",
     "bench": "measure and print figures: strawberry, latency, gel, balls, faults, ...",
 }
+
+FILE_ERRORS = (
+    *(errno.EACCES, errno.EDQUOT, errno.EFBIG, errno.EINVAL, errno.EIO, errno.EISDIR),
+    *(errno.ENOENT, errno.ENOSPC, errno.ENOTDIR, errno.EPERM, errno.EROFS),
+)
+"""Errors of the operating system that are no bugs of ours: a disk or folder refused a file."""
 
 EXIT_CODES = """\
 Exit codes:
@@ -84,6 +91,10 @@ def _dispatch(command: str, argv: Sequence[str]) -> int:
         raise
     except Exception as error:
         code = _exit_code(error)
+        if isinstance(error, OSError) and error.errno in FILE_ERRORS:
+            place = f"{error.filename} can't be used: " if error.filename else ""
+            _print_error(f"{place}{error.strerror}; free space, or name another file or folder")
+            return 2
         if code is None:  # a bug: show where
             import traceback
 
@@ -110,7 +121,9 @@ def _print(text: str) -> None:
 
 
 def _print_error(message: str) -> None:
-    sys.stderr.write(f"tacgrasp: {' '.join(message.split())}\n")
+    from tacgrasp.base.printable import printable
+
+    sys.stderr.write(f"tacgrasp: {printable(' '.join(message.split()))}\n")
 
 
 if __name__ == "__main__":

@@ -5,12 +5,16 @@ Not here: measuring the contact (``cltp.tactile.measure``), deciding (``policies
 
 from __future__ import annotations
 
-from rich.console import Console
+from collections.abc import Iterable
+
+from rich.console import Console, ConsoleOptions, RenderableType
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+from rich.segment import Segment
 from rich.text import Text
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
+from tacgrasp.base.printable import printable
 from tacgrasp.episodes.record import PHASE_LABELS, StepRecord, TruthFacts
 from tacgrasp.runtime.outcome import EndReason, Outcome
 
@@ -18,15 +22,26 @@ COMPLETED = "Grasp completed successfully"
 """Final line of Algorithm 1; printed for a verified grasp only."""
 
 
+class SafeConsole(Console):
+    """A console on which text from files and devices can't steer the terminal."""
+
+    def render(
+        self, renderable: RenderableType, options: ConsoleOptions | None = None
+    ) -> Iterable[Segment]:
+        for segment in super().render(renderable, options):
+            text = segment.text if segment.control else printable(segment.text)
+            yield segment if text == segment.text else Segment(text, segment.style)
+
+
 def make_console() -> Console:
     """A console that never wraps a line."""
-    return Console(soft_wrap=True, highlight=False, markup=False)
+    return SafeConsole(soft_wrap=True, highlight=False, markup=False)
 
 
 def make_table_console() -> Console:
     """A console of the terminal's width; without a terminal wide enough for the tables."""
-    console = Console()
-    return console if console.is_terminal else Console(width=160)
+    console = SafeConsole()
+    return console if console.is_terminal else SafeConsole(width=160)
 
 
 def count_progress(console: Console | None = None) -> Progress:

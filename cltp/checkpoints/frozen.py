@@ -18,10 +18,10 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
-from cltp.checkpoints.tac3d_llm import load_encoder, random_encoder
+from cltp.checkpoints.manifest import WeightsError, check_manifest
+from cltp.checkpoints.tac3d_llm import check_room, load_encoder, random_encoder
 from cltp.checkpoints.weight_files import (
     CONFIG,
-    WeightsError,
     digest,
     load_weights,
     read_config,
@@ -119,9 +119,11 @@ def load_frozen(folder: Path) -> Frozen:
     """
     if not (folder / CONFIG).exists():
         raise WeightsError(f"{folder} holds no encoder; train it with `tacgrasp train`")
+    check_manifest(folder)
     config = read_config(folder / CONFIG)
     if config.get("format") != FORMAT:
         return frozen(load_encoder(folder)[0])
+    check_room(folder, config)
     encoder = random_encoder(folder, config)
     load_weights(folder, encoder)
     return frozen(encoder)

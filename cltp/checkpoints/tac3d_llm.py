@@ -7,6 +7,7 @@
       projector/        config.json, model.safetensors
       lm/               transformers' Qwen2 with tokenizer.json
 
+and in each of the four a manifest.json (``cltp.checkpoints.manifest``), checked before it is read.
 Numbers are stored in 16 bits and computed in 32. Loading is strict: every weight must be there, of
 the right shape, and no other; the projector names the tokenizer that it was trained with.
 """
@@ -14,19 +15,27 @@ the right shape, and no other; the projector names the tokenizer that it was tra
 from __future__ import annotations
 
 import dataclasses
+import errno
 import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from safetensors import SafetensorError
 from torch import nn
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.manifest import (
+    WeightsError,
+    check_manifest,
+    check_partners,
+    write_manifest,
+)
 from cltp.checkpoints.weight_files import (
     CONFIG,
     WEIGHTS,
-    WeightsError,
+    check_sizes,
     load_weights,
     read_config,
     save_weights,
@@ -65,6 +74,7 @@ def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
         WeightsError: Missing, damaged, or of another shape.
     """
     config = _config(folder)
+    check_room(folder, config)
     encoder = random_encoder(folder, config)
     heads = StateHeads(2 * encoder.config.dim)
     load_weights(folder, _EncoderWithHeads(encoder, heads))
@@ -79,8 +89,27 @@ def random_encoder(folder: Path, config: Mapping[str, Any]) -> TactileEncoder:
     """
     try:
         return TactileEncoder(EncoderConfig(**config["encoder"]))
-    except (KeyError, TypeError, TouchError) as error:
+    except (KeyError, TypeError, ArithmeticError, RuntimeError, TouchError) as error:
         raise WeightsError(f"{folder}/{CONFIG} describes no encoder: {error}") from error
+
+
+def check_room(folder: Path, config: Mapping[str, Any]) -> None:
+    """Refuse a configuration of more weights than the file beside it can hold, before any is made.
+
+    Raises:
+        WeightsError: The layers alone need more bytes in 16 bits than the file has.
+    """
+    sizes = config.get("encoder")
+    sizes = sizes if isinstance(sizes, dict) else {}
+    dim, depth = sizes.get("dim", 0), sizes.get("depth", 0)
+    if not all(isinstance(size, int) for size in (dim, depth)):
+        return  # no sizes at all: the encoder's own check says so
+    needed, held = 24 * dim * dim * depth, (folder / WEIGHTS).stat().st_size
+    if needed > held:
+        raise WeightsError(
+            f"{folder}/{CONFIG} describes an encoder of {depth} layers of width {dim}, at least "
+            f"{needed} bytes; {WEIGHTS} has {held}: they don't belong together"
+        )
 
 
 def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
@@ -102,14 +131,25 @@ def load_clip(folder: Path) -> Towers:
     """Read towers, frozen.
 
     Raises:
-        TouchError: As ``cltp.encoder.clip_towers.load_towers``.
+        TouchError: As ``cltp.encoder.clip_towers.load_towers``; or it is one of ours, by its
+            tokenizer, without a manifest.
     """
     _require_files(folder)
-    return load_towers(folder)
+    check_manifest(folder, required=False)
+    check_sizes(folder)
+    towers = load_towers(folder)
+    if isinstance(towers.words, Words):
+        check_manifest(folder)
+    return towers
 
 
 def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
-    """Write projector and language model into ``folder``; not its encoder (``save_encoder``)."""
+    """Write projector and language model into ``folder``, beside their encoder.
+
+    Raises:
+        WeightsError: ``save_encoder`` has not written the encoder, or the language model is another
+            program's.
+    """
     words = model.language.words
     if words is None:
         raise WeightsError("a stock checkpoint is used from its own directory and not written")
@@ -119,8 +159,8 @@ def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
         "lm_dim": model.projector.lm_dim,
         "tokenizer_sha256": words.fingerprint(),
     }
-    _save(folder / "projector", config, model.projector)
     save_pretrained(folder / "lm", model.lm, words)
+    _save(folder / "projector", config, model.projector, trained_with=("encoder", "lm"))
 
 
 def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
@@ -139,8 +179,11 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     config = _config(folder / "projector", PROJECTOR_VERSION)
     if lm_folder is None:
         _require_files(folder / "lm")
+        check_manifest(folder / "lm")
         language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
     else:
+        check_manifest(lm_folder, required=False)
+        check_sizes(lm_folder)
         language = load_language(lm_folder)
     words = language.words
     if words is not None and words.fingerprint() != config.get("tokenizer_sha256"):
@@ -154,6 +197,8 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
             f"the projector in {folder} joins widths {sizes}, encoder and language model have "
             f"{(encoder.config.dim, language.dim)}"
         )
+    if lm_folder is None:
+        check_partners(folder / "projector")
     projector = Projector(encoder.config.dim, language.dim)
     load_weights(folder / "projector", projector)
     return Tac3dLlm(encoder, heads, projector, language).eval()
@@ -178,19 +223,26 @@ def write_card(folder: Path, facts: Mapping[str, str]) -> None:
     write_atomically(Path(folder) / "README.md", "\n".join(lines) + "\n")
 
 
-def _save(folder: Path, config: Mapping[str, Any], module: nn.Module) -> None:
+def _save(
+    folder: Path, config: Mapping[str, Any], module: nn.Module, trained_with: Iterable[str] = ()
+) -> None:
     state = module.state_dict()
     halved = {name: v.half() if v.is_floating_point() else v for name, v in state.items()}
-    save_weights(folder, config, halved)
+    save_weights(folder, config, halved, trained_with=trained_with)
 
 
 def save_pretrained(folder: Path, model: Any, words: Words) -> None:
     """Write a model in transformers' layout, beside its tokenizer."""
     part = folder.with_name(f"{folder.name}.{os.getpid()}.part")
     state = {name: value.clone() for name, value in model.state_dict().items()}
-    model.half().save_pretrained(part)
-    model.float().load_state_dict(state)
-    words.save(part)
+    try:
+        model.half().save_pretrained(part)
+        words.save(part)
+        write_manifest(part)
+    except SafetensorError as error:  # how its writer tells of a full disk
+        raise OSError(errno.EIO, f"weights can't be written ({error})", str(part)) from None
+    finally:
+        model.float().load_state_dict(state)
     shutil.rmtree(folder, ignore_errors=True)
     part.replace(folder)
 
@@ -206,6 +258,7 @@ def _require_files(folder: Path) -> None:
 
 def _config(folder: Path, version: int = VERSION) -> dict[str, Any]:
     _require_files(folder)
+    check_manifest(folder)
     config = read_config(Path(folder) / CONFIG)
     if config.get("version") != version:
         raise WeightsError(f"{folder} holds weights of another version than {version}; train again")

@@ -15,7 +15,14 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor
 
-from cltp.checkpoints.weight_files import CONFIG, WeightsError, digest, read_config, require_finite
+from cltp.checkpoints.manifest import WeightsError, check_manifest
+from cltp.checkpoints.weight_files import (
+    CONFIG,
+    check_sizes,
+    digest,
+    read_config,
+    require_finite,
+)
 from cltp.data.sampler import Batch
 from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
@@ -82,6 +89,8 @@ def load_vision_checkpoint(folder: Path) -> VisionCheckpoint:
         WeightsError: It is missing, of another kind, damaged, or its weights are not finite or not
             those of its configuration.
     """
+    check_manifest(folder, required=False)
+    check_sizes(folder)
     config = read_config(folder / CONFIG)
     kind = config.get("model_type")
     if kind not in KINDS:

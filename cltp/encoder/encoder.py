@@ -106,6 +106,22 @@ VARIANTS: Mapping[str, EncoderVariant] = {
 """By the name of the tokenizer in an encoder's configuration."""
 
 
+_SIZES = {
+    "dim": (1, 2048),
+    "depth": (0, 64),
+    "heads": (1, 128),
+    "num_groups": (1, 4096),
+    "group_size": (1, 1024),
+    "stem_dim": (1, 1024),
+    "stem_blocks": (0, 16),
+    "feature_dim": (1, 4096),
+    "bearing": (0, 1024),
+    "projection": (0, 4096),
+    "grades": (0, 1024),
+}
+"""Smallest and largest size of any encoder; the largest published one is a third of it."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class EncoderConfig:
     """Sizes of an encoder, under the names of its stored ``config.json``.
@@ -143,6 +159,12 @@ class EncoderConfig:
     grades: int = field(default=0, repr=False)  # see ``identity``
 
     def __post_init__(self) -> None:
+        for name, (least, most) in _SIZES.items():
+            size = getattr(self, name)
+            if type(size) is not int or not least <= size <= most:
+                raise TouchError(
+                    f"{name} must be a whole number of {least} to {most}, got {size!r:.40}"
+                )
         if self.tokenizer not in VARIANTS:
             raise TouchError(f"unknown tokenizer {self.tokenizer!r}; known: {', '.join(VARIANTS)}")
         if self.dim % self.heads:
@@ -151,9 +173,6 @@ class EncoderConfig:
         if counts is not None and self.num_groups not in counts:
             several = ", ".join(map(str, counts))
             raise TouchError(f"{self.tokenizer} has {several} groups, got {self.num_groups}")
-        if min(self.bearing, self.projection, self.grades) < 0:
-            sizes = f"{self.bearing}, {self.projection} and {self.grades}"
-            raise TouchError(f"bearing, projection and grades are 0 or more, got {sizes}")
         if self.grades and not self.bearing:
             raise TouchError(f"{self.grades} grades need height quantiles, got a bearing of 0")
         if self.bearing and not self.variant.is_lattice:

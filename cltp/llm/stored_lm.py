@@ -54,6 +54,18 @@ class StoredConfig:
     rms_norm_eps: float
     rope_theta: float
 
+    def __post_init__(self) -> None:
+        for part in fields(self):
+            value = getattr(self, part.name)
+            most = 200 if part.name == "num_hidden_layers" else 1_000_000
+            whole = part.type == "int"
+            if type(value) not in ((int,) if whole else (int, float)) or not 0 < value <= most:
+                kind = "whole number" if whole else "number"
+                raise ValueError(f"{part.name} must be a {kind} up to {most}, got {value!r:.40}")
+        heads, keys = self.num_attention_heads, self.num_key_value_heads
+        if self.hidden_size % heads or heads % keys:
+            raise ValueError(f"{heads} heads with {keys} of keys don't divide {self.hidden_size}")
+
     @property
     def head_dim(self) -> int:
         return self.hidden_size // self.num_attention_heads
@@ -106,7 +118,7 @@ def load_stored_lm(folder: Path) -> StoredLm:
     config = _config(folder / "config.json")
     try:
         state = load_file(folder / "model.safetensors")
-    except (OSError, SafetensorError) as error:
+    except (OSError, SafetensorError, ValueError, KeyError) as error:
         raise TouchError(f"no language model could be read from {folder}: {error}") from error
     shapes = _shapes(config)
     wrong = sorted(set(shapes) ^ set(state))
@@ -126,10 +138,10 @@ def _config(path: Path) -> StoredConfig:
         other = {k: stored.get(k) for k, v in SMALL_LM_SETTINGS.items() if stored.get(k) != v}
         rope = stored["rope_parameters"]
         if other or rope["rope_type"] != "default":
-            raise TouchError(f"{path} describes no language model of ours: {other or rope}")
+            raise TouchError(f"{path} describes no language model of ours: {other or rope!r:.200}")
         sizes = {**stored, "rope_theta": rope["rope_theta"]}
         return StoredConfig(**{part.name: sizes[part.name] for part in fields(StoredConfig)})
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise TouchError(f"{path} describes no language model: {error!r}") from error
 
 

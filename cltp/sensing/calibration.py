@@ -8,6 +8,7 @@ Not here: making one (``cltp.train.photometric``), using one (``cltp.sensing.pho
 from __future__ import annotations
 
 import datetime
+import hashlib
 import json
 import math
 from dataclasses import asdict, dataclass, fields
@@ -25,6 +26,11 @@ VERSION = 1
 
 _KEY = "tacgrasp_calibration"
 _MAX_BYTES = 1_000_000  # ours has 8 kB; a file far beyond that is something else
+
+SHIPPED_SHA256 = {
+    "gelsight_mini": "22195a618ee7f0a3d3931814cce7de4c8a4b612768976a0baefc18a88ba9b6e8",
+}
+"""SHA-256 of the shipped calibrations: a damaged one would give wrong heights in silence."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,11 +85,13 @@ def default_calibration(sensor: SensorSpec) -> Path:
     """File of the shipped calibration of a sensor's model: another unit's, so heights are rough.
 
     Raises:
-        TouchError: None ships for this model.
+        TouchError: None ships for this model, or the file is not the one that shipped.
     """
     path = Path(__file__).parent / "calibrations" / f"{sensor.name}.safetensors"
-    if not path.is_file():
+    if sensor.name not in SHIPPED_SHA256 or not path.is_file():
         raise TouchError(f"no calibration ships for {sensor.name}; make one and give its file")
+    if hashlib.sha256(path.read_bytes()).hexdigest() != SHIPPED_SHA256[sensor.name]:
+        raise TouchError(f"{path} is damaged: it is not the file that shipped; install again")
     return path
 
 

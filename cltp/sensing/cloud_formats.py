@@ -1,18 +1,27 @@
 """Readers of three small formats of point clouds: PLY, PCD and plain columns of x, y and z.
 
-They return points as written, (N, 3) float64; ``cltp.sensing.touch_files`` checks them.
+They return points as written, (N, 3) float64; ``cltp.sensing.touch_files`` checks them. What a
+header announces is bounded, and compared with the file's size, before anything is allocated.
 Sources: Turk, 'The PLY polygon file format' (1994); pointclouds.org, 'The PCD file format', v0.7.
 """
 
 from __future__ import annotations
 
 import io
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cltp.errors import TouchError
+
+MAX_POINTS = 2_000_000
+"""Most points of a cloud: one for each pixel of a camera of 2 megapixels. Our choice."""
+
+MAX_FIELDS = 1000
+"""Most fields of a point, each place of an array counted. Our choice: PCL's largest have 352."""
+
+MAX_TEXT_BYTES = 16_000_000
+"""Most bytes of points in text: Python holds a line in several times its size. Our choice."""
 
 _NAMES = ("char", "uchar", "short", "ushort", "int", "uint", "float", "double")
 _CODES = ("i1", "u1", "i2", "u2", "i4", "u4", "f4", "f8")
@@ -21,13 +30,12 @@ _PCD_TYPES = {kind + size for kind in "FIU" for size in "1248"} - {"F1"}
 _PLY_ORDERS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 
 
-def read_ply(path: Path) -> NDArray[np.float64]:
+def read_ply(data: bytes) -> NDArray[np.float64]:
     """Vertices of a PLY file (ascii or binary); faces and other elements are ignored.
 
     Raises:
         TouchError: Not PLY, vertices without x, y, z, truncated, or vertices not first.
     """
-    data = path.read_bytes()
     head, separator, body = data.partition(b"end_header")
     if not data.startswith(b"ply") or not separator:
         raise TouchError("expected a PLY file ('ply' … 'end_header'), got something else")
@@ -52,8 +60,8 @@ def _ply_header(lines: list[str]) -> tuple[str, int, list[tuple[str, str]]]:
             if element == "vertex":
                 count = _count(words[2])
         elif words[:1] == ["property"] and element == "vertex":
-            kind = _PLY_TYPES.get(words[1])
-            if kind is None or len(words) != 3:
+            kind = _PLY_TYPES.get(words[1]) if len(words) == 3 else None
+            if kind is None:
                 raise TouchError(f"can't read the vertex property {' '.join(words[1:])!r} of a PLY")
             fields.append((words[2], kind))
     if order is None or count is None:
@@ -61,13 +69,12 @@ def _ply_header(lines: list[str]) -> tuple[str, int, list[tuple[str, str]]]:
     return order, count, fields
 
 
-def read_pcd(path: Path) -> NDArray[np.float64]:
+def read_pcd(data: bytes) -> NDArray[np.float64]:
     """Points of a PCD file (DATA ascii or binary).
 
     Raises:
         TouchError: Not PCD, compressed, no x, y, z, or truncated.
     """
-    data = path.read_bytes()
     header: dict[str, list[str]] = {}
     offset = 0
     while "DATA" not in header:
@@ -84,10 +91,11 @@ def read_pcd(path: Path) -> NDArray[np.float64]:
         raise TouchError("the PCD header's FIELDS, SIZE, TYPE, COUNT and POINTS don't fit together")
     fields: list[tuple[str, str]] = []
     for name, kind, size, count in zip(*columns, strict=True):
-        if kind + size not in _PCD_TYPES or len(count) > 4:
+        if kind + size not in _PCD_TYPES:
             raise TouchError(f"can't read the PCD field {name!r} of type {kind} and size {size}")
-        dtype = f"<{kind.lower()}{size}"
-        fields += [(f"{name}[{n}]" if n else name, dtype) for n in range(_count(count))]
+        dtype, length = f"<{kind.lower()}{size}", _count(count, "a COUNT", MAX_FIELDS)
+        length = min(length, MAX_FIELDS + 1 - len(fields))  # one too many is refused below
+        fields += [(f"{name}[{n}]" if n else name, dtype) for n in range(length)]
     num_points = _count(" ".join(header["POINTS"]))
     coding = " ".join(header["DATA"])
     if coding == "ascii":
@@ -97,14 +105,15 @@ def read_pcd(path: Path) -> NDArray[np.float64]:
     raise TouchError(f"PCD with DATA {coding} is not read; save it as binary or ascii")
 
 
-def read_xyz(path: Path) -> NDArray[np.float64]:
+def read_xyz(data: bytes) -> NDArray[np.float64]:
     """Rows of x, y, z in text, separated by spaces or commas; '#' begins a comment.
 
     Raises:
         TouchError: Not numbers, or fewer than three in a row.
     """
+    _bound_text(data)
     try:
-        text = path.read_text("utf-8").replace(",", " ")
+        text = data.decode("utf-8").replace(",", " ")
         if not any(line.split("#")[0].strip() for line in text.splitlines()):
             return np.zeros((0, 3))
         columns = np.loadtxt(io.StringIO(text), ndmin=2)
@@ -117,13 +126,26 @@ def read_xyz(path: Path) -> NDArray[np.float64]:
     return columns[:, :3]
 
 
-def _count(text: str) -> int:
-    if not (text.isdecimal() and len(text) < 19):
-        raise TouchError(f"expected a number of points in the header, got {text!r}")
-    return int(text)
+def _count(text: str, name: str = "a number of points", most: int = MAX_POINTS) -> int:
+    if not (text.isascii() and text.isdigit() and len(text) < 19):
+        raise TouchError(f"expected {name} in the header, got {text[:40]!r}")
+    count = int(text)
+    if count > most:
+        raise TouchError(f"the header has {name} of {count}; at most {most} are read")
+    return count
+
+
+def _bound_text(body: bytes) -> None:
+    if len(body) > MAX_TEXT_BYTES:
+        raise TouchError(
+            f"{len(body)} bytes of points in text, at most {MAX_TEXT_BYTES} are read; save the "
+            "cloud in binary"
+        )
 
 
 def _coordinates(fields: list[tuple[str, str]]) -> list[int]:
+    if len(fields) > MAX_FIELDS:
+        raise TouchError(f"the header has {len(fields)} fields; at most {MAX_FIELDS} are read")
     names = [name for name, _ in fields]
     missing = [axis for axis in "xyz" if axis not in names]
     if missing or len(set(names)) != len(names):
@@ -133,6 +155,7 @@ def _coordinates(fields: list[tuple[str, str]]) -> list[int]:
 
 def _text_columns(body: bytes, fields: list[tuple[str, str]], count: int) -> NDArray[np.float64]:
     indices = _coordinates(fields)
+    _bound_text(body)
     lines = [line for line in body.decode("ascii", errors="replace").splitlines() if line.strip()]
     if len(lines) < count:
         raise TouchError(f"truncated: the header says {count} points, the file has {len(lines)}")

@@ -15,6 +15,9 @@ from typing import Any
 
 from cltp.errors import TouchError
 
+MAX_PX = 10_000
+"""Most pixels along a side of any sensor."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SensorSpec:
@@ -29,6 +32,9 @@ class SensorSpec:
         max_depth_mm: Indentation at which the scaled z is 1 [mm].
         markers: Rows and columns of tracked markers, each in the middle of one of as many equal
             cells of the sensing area; None where the sensor sees its whole surface.
+
+    Raises:
+        TouchError: A number that no sensor has.
     """
 
     name: str
@@ -38,6 +44,15 @@ class SensorSpec:
     gel_mm: float
     max_depth_mm: float
     markers: tuple[int, int] | None = None
+
+    def __post_init__(self) -> None:
+        counts = (self.columns, self.rows, *(self.markers or ()))
+        lengths_mm = (self.mm_per_px, self.gel_mm, self.max_depth_mm)
+        if not (all(1 <= n <= MAX_PX for n in counts) and all(0 < x < 1e3 for x in lengths_mm)):
+            raise TouchError(
+                f"no sensor has {self.columns} × {self.rows} px, {self.mm_per_px} mm/px, a gel of "
+                f"{self.gel_mm} mm, {self.max_depth_mm} mm deep at most, markers {self.markers}"
+            )
 
     @property
     def width_mm(self) -> float:

@@ -14,8 +14,8 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
+from cltp.checkpoints.manifest import MANIFEST
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
-from cltp.checkpoints.weight_files import CONFIG
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
@@ -76,7 +76,7 @@ def train_cltp(
     }
     folder = run.out / "encoder"
     stage = Stage("cltp", run, learner, schedule, identity)
-    if stage.done and (folder / CONFIG).exists():  # the last file that is written
+    if stage.done and (folder / MANIFEST).exists():  # the last file that is written
         return folder
     sampling = config.variant.sampling
     sampler = Sampler(data, augmentation, seed=seed, sampling=sampling, moved=recipe.moved)

@@ -18,6 +18,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 from transformers import CLIPModel
 
+from cltp.checkpoints.manifest import MANIFEST
 from cltp.checkpoints.tac3d_llm import save_pretrained
 from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.clip_towers import image_features, small_clip, text_features
@@ -102,7 +103,7 @@ def train_clip(
     }
     stage = Stage("clip", run, learner, schedule, identity)
     folder = run.out / "clip"
-    if stage.done and folder.exists():
+    if stage.done and (folder / MANIFEST).exists():
         return folder
     sampler = Sampler(data, RENDERED, seed=seed)
     batches = prefetched((batch, rendered(batch)) for batch in stage.batches(sampler))

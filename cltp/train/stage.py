@@ -7,6 +7,7 @@ file beside the checkpoint holds the terms of every step (``cltp.train.curves``)
 
 from __future__ import annotations
 
+import io
 import json
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,7 +18,7 @@ from typing import Any, Protocol
 import torch
 from torch import Tensor, nn
 
-from cltp.atomic_write import replacing
+from cltp.atomic_write import write_atomically
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Batch, Sampler
@@ -180,8 +181,9 @@ class Stage:
             "rng": torch.get_rng_state(),
             "means": self._means,
         }
-        with replacing(self._path) as part:
-            torch.save(content, part)
+        packed = io.BytesIO()  # torch's own writer turns a full disk into an error of its own
+        torch.save(content, packed)
+        write_atomically(self._path, packed.getvalue())
 
     def _restore(self) -> int:
         if not self._path.exists():

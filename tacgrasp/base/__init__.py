@@ -1,6 +1,6 @@
-"""Small parts for every folder of this package: errors, settings base, torch device, HTML pages.
+"""Small parts for every folder of this package: errors, settings, YAML, torch device, HTML pages.
 
 Not here: anything that knows a device, an episode or a policy.
 
-May import: nothing of ours.
+May import: cltp.
 """

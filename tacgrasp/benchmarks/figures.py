@@ -12,7 +12,7 @@ from typing import Any
 
 from rich.table import Table
 
-from cltp.atomic_write import write_atomically
+from tacgrasp.base.result_file import write_result
 
 
 def times_ms(
@@ -56,11 +56,7 @@ def write_figures(path: Path | None, report: Mapping[str, Any]) -> None:
     """Write the figures as JSON if a path is given: a file all at once, or to a pipe.
 
     Raises:
-        OSError: The file can't be written.
+        UsageError: The file can't be written.
     """
     if path is not None:
-        text = json.dumps(report, indent=2) + "\n"
-        if path.exists() and not path.is_file():
-            path.write_text(text, encoding="utf-8")
-        else:
-            write_atomically(path.resolve(), text)
+        write_result(path, json.dumps(report, indent=2) + "\n", flag="--json")

@@ -77,6 +77,29 @@ class MissedSettings(ModelBenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class SoakSettings(BenchmarkSettings):
+    """Run recorded episodes in one process, one by one; exit code 1 if memory or open files grow.
+
+    With --json a later call with the same file goes on, so that a soak can be made in parts.
+
+    Attributes:
+        episodes: Number of episodes in total, those of earlier calls included.
+        policy: Policy that decides.
+        task: Task of every episode.
+        first_seed: Random seed of the first episode; each has its own.
+    """
+
+    episodes: int = 1000
+    policy: str = "rules"
+    task: str = "strawberry"
+    first_seed: int = 2_000_000
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+
+@dataclass(frozen=True, kw_only=True)
 class ContactSettings(BenchmarkSettings):
     """Count false contacts in air and missed light contacts; exit code 1 with too many false ones.
 

@@ -13,6 +13,7 @@ from tacgrasp.cli.flags import run_subcommand, writable
 BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
     "missed": (settings.MissedSettings, "loop.missed"),
+    "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
     "drivers": (settings.DriversSettings, "loop.drivers"),

@@ -12,6 +12,7 @@ import tyro
 
 from cltp.atomic_write import replacing
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import write_result
 from tacgrasp.cli.flags import writable
 
 if TYPE_CHECKING:
@@ -83,7 +84,7 @@ def stats(flags: StatsFlags) -> None:
     path = writable(flags.json)
     show(figures, make_console())
     if path is not None:
-        path.write_text(json.dumps(as_json(figures), indent=2) + "\n", encoding="utf-8")
+        write_result(path, json.dumps(as_json(figures), indent=2) + "\n", flag="--json")
 
 
 @dataclass(frozen=True)

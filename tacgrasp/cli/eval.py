@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from tacgrasp.base.result_file import write_result
 from tacgrasp.cli.flags import parse, subcommand, writable
 from tacgrasp.training.requests import EvaluationRequest
 
@@ -36,7 +37,7 @@ def main(argv: Sequence[str]) -> int:
         scores = evaluate(weights, request, report)
     show(scores, make_table_console())
     if json_path is not None:
-        json_path.write_text(json.dumps(scores, indent=1) + "\n", encoding="utf-8")
+        write_result(json_path, json.dumps(scores, indent=1) + "\n", flag="--json")
     if request.card:
         write_scores(weights, scores)
     return 0

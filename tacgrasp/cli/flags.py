@@ -131,11 +131,18 @@ def run_subcommand(
 
 
 def writable(json_path: Path | None) -> Path | None:
-    """Check that a result file can be written, before minutes are spent on measuring."""
+    """Check that a result file can be written, before minutes are spent on measuring.
+
+    Nothing is left behind where there was no file.
+    """
     if json_path is None:
         return None
+    is_new = not json_path.exists()
     try:
         with json_path.open("a", encoding="utf-8"):
-            return json_path
+            pass
+        if is_new:
+            json_path.unlink()
     except OSError as error:
         raise UsageError(f"--json {json_path} can't be written: {error.strerror}") from None
+    return json_path

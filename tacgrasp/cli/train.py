@@ -182,6 +182,19 @@ class TrainAllMethodsFlags(TrainMethodFlags):
         run_all_methods(run, self.results, clip, cltp, seeds=self.seeds, preset=self.preset)
 
 
+@dataclass(frozen=True)
+class ManifestFlags:
+    """Write the manifests of a folder of weights as it is now, for folders older than manifests.
+
+    The weights are trusted as they are: from then on any change of a file is noticed.
+
+    Attributes:
+        weights: Folder of weights, or of one method: its parts are encoder, clip, projector, lm.
+    """
+
+    weights: Path
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
@@ -192,6 +205,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
+    "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
     "probe": (TrainProbeFlags, "MLPs on frozen encoders, measured as by tacgrasp eval probe."),
     "all-methods": (TrainAllMethodsFlags, "clip, cltp, all baselines, their tables, the report."),
 }
@@ -211,9 +225,11 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, " ".join(["tacgrasp train", stage, *rest]))
         return 0
-    from tacgrasp.training.train import train_all, train_language_model
+    from tacgrasp.training.train import train_all, train_language_model, write_manifests
 
-    if isinstance(flags, TrainLlmRequest):
+    if isinstance(flags, ManifestFlags):
+        write_manifests(flags.weights)
+    elif isinstance(flags, TrainLlmRequest):
         train_language_model(flags)
     else:
         train_all(flags)

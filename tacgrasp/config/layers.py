@@ -11,11 +11,11 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-import yaml
 from pydantic import ValidationError
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.settings import SettingsBase
+from tacgrasp.base.strict_yaml import YamlError, YamlSyntaxError, read_yaml, read_yaml_file
 from tacgrasp.config.errors import explain, path_of
 from tacgrasp.config.hard_limits import HardLimits
 from tacgrasp.config.hardware import resolve_paths
@@ -72,9 +72,12 @@ def load_with_limits(
         _merge(merged, fields, source, sources)
     hard = _hard_limits(merged)
     for variable, value in sorted(variables.items()):
-        layer: Any = value
-        with suppress(yaml.YAMLError):
-            layer = yaml.safe_load(value)
+        layer: Any = value  # a sentence that is no YAML is a text
+        try:
+            with suppress(YamlSyntaxError):
+                layer = read_yaml(value)
+        except YamlError as error:
+            raise UsageError(f"environment variable {variable}: {error}") from None
         keys = variable.removeprefix(ENV_PREFIX).lower().split("__")
         if keys[0] == "hardware":
             raise UsageError(
@@ -117,21 +120,21 @@ def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
         folder = path.resolve().parent
         if not path.is_file():
             raise UsageError(f"{kind} file {name} does not exist")
-        try:
-            text = path.read_text(encoding="utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
     elif name in names(kind):
         source = f"{kind}s/{name}.yaml"
-        text = (folder / f"{name}.yaml").read_text("utf-8")
+        path = folder / f"{name}.yaml"
     else:
         raise UsageError(
             f"unknown {kind} {name!r}; known: {', '.join(names(kind))}, or the path of a .yaml file"
         )
     try:
-        fields = yaml.safe_load(text)
-    except yaml.YAMLError as error:
-        raise UsageError(f"{source} is not YAML: {' '.join(str(error).split())}") from None
+        fields = read_yaml_file(path)
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"{kind} file {name} can't be read as text: {error}") from None
+    except YamlSyntaxError as error:
+        raise UsageError(f"{source} is not YAML: {error}") from None
+    except YamlError as error:
+        raise UsageError(f"{source}: {error}") from None
     if not isinstance(fields, dict):
         raise UsageError(
             f"{source} must hold fields such as 'instruction: ...', got {fields!r:.60}"

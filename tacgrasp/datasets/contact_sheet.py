@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from cltp.atomic_write import replacing
 from cltp.data.dataset import ContactDataset
 from cltp.tactile.picture import depth_picture, picture
 from cltp.tactile.sensors import sensor_named
@@ -77,7 +78,8 @@ def write_pages(data: ContactDataset, indices: Sequence[int], folder: Path) -> l
     paths = []
     for number, page in enumerate(pages(data, indices), start=1):
         path = folder / f"sheet-{number:02d}.png"
-        page.save(path)
+        with replacing(path) as part:
+            page.save(part, format="PNG")
         paths.append(path)
     return paths
 

@@ -193,8 +193,11 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
         raise RowError("more cells than the header has")
     if "file" not in cells:
         raise RowError("names no file")
+    path = source.folder / cells["file"]
+    if not path.resolve().is_relative_to(source.folder.resolve()):
+        raise RowError(f"lies outside of the folder {source.folder}; copy it there")
     heights = read_heights(
-        source.folder / cells["file"],
+        path,
         sensor,
         background=source.background,
         calibration=source.calibration,

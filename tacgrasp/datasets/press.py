@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from rich.console import Console
 
 from cltp.atomic_write import replacing
 from cltp.errors import TouchError
@@ -32,6 +31,7 @@ from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
+from tacgrasp.console import make_console
 from tacgrasp.datasets.requests import PressRequest
 
 NOISES = ("none", "unit", "uncalibrated")
@@ -245,14 +245,16 @@ def run(request: PressRequest) -> None:
     """Press an object, print the figures, and write them to the request's file, if any.
 
     Raises:
-        UsageError: As ``press``, or the file can't be written.
+        UsageError: As ``press``, or the file can't be written or is not called .npz.
     """
+    if request.out is not None and request.out.suffix.lower() != ".npz":
+        raise UsageError(f"--out expects a file ending in .npz, got {request.out}")
     result = press(request)
     area_mm2 = result.state.area_fraction * result.sensor.area_mm2
     pixels = int((result.pressure_kpa > 0).sum())
     touching = pixels / result.pressure_kpa.size * result.sensor.area_mm2
     rows, columns = result.height_mm.shape
-    console = Console(soft_wrap=True, highlight=False)
+    console = make_console()
     console.print(f"object    {request.object}, tip {request.depth_mm:g} mm below the surface")
     console.print(f"sensor    {result.sensor.name}, {columns}x{rows}, noise {request.noise}")
     console.print(f"force     {result.force_n:.3f} N")
@@ -290,4 +292,4 @@ def _write(out: Path, request: PressRequest, result: PressResult) -> None:
         with replacing(out) as part, part.open("wb") as file:
             np.savez_compressed(file, allow_pickle=False, **values)
     except OSError as error:
-        raise UsageError(f"--out {out} can't be written: {error}") from None
+        raise UsageError(f"--out {out} can't be written: {error.strerror or error}") from None

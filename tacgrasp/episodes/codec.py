@@ -102,14 +102,17 @@ def _codec(hint: Any) -> tuple[dict[str, Any], Callable[[Any, str], Any]]:
 
 def _expect(valid: bool, data: object, expected: str, path: str) -> Any:
     if not valid:
-        raise ValueError(f"{path}: expected {expected}, got {data!r}")
+        raise ValueError(f"{path}: expected {expected}, got {data!r:.80}")
     return data
 
 
 def _scalar(hint: type, data: Any, path: str) -> object:
+    if type(data) is int and abs(data) >= 1 << 64:
+        raise ValueError(f"{path}: expected a number of 64 bits, got one of {data.bit_length()}")
     if hint is float and type(data) is int:
         return float(data)
-    return _expect(type(data) is hint, data, _SCALARS[hint], path)
+    valid = type(data) is hint and not (isinstance(data, float) and not math.isfinite(data))
+    return _expect(valid, data, _SCALARS[hint], path)
 
 
 def _union(members: tuple[Any, ...], data: object, path: str) -> object:
@@ -129,8 +132,9 @@ def _enum(kind: type[Enum], data: object, path: str) -> Enum:
 
 
 def _array(data: object, path: str) -> object:
-    values = _expect(isinstance(data, list), data, "a list of numbers", path)
-    return np.array(values, dtype=np.float64)
+    valid = isinstance(data, list) and all(type(value) in (int, float) for value in data)
+    values = _expect(valid, data, "a list of numbers", path)
+    return np.array([_scalar(float, value, path) for value in values], dtype=np.float64)
 
 
 def _mapping(read: Callable[[Any, str], Any], data: object, path: str) -> object:

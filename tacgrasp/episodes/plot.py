@@ -16,6 +16,7 @@ from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.patches import Rectangle
 
+from cltp.atomic_write import replacing
 from cltp.tactile.cloud import FloatArray, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
@@ -38,14 +39,18 @@ def plot_episode(path: Path, png_path: Path) -> None:
     """Draw the episode in ``path`` to ``png_path``.
 
     Raises:
-        EpisodeError: The episode can't be read or has no step, or the picture can't be written.
+        EpisodeError: The episode can't be read or has no step, or the picture can't be written or
+            is not called .png.
     """
+    if png_path.suffix.lower() != ".png":
+        raise EpisodeError(f"--out expects a file ending in .png, got {png_path}")
     episode = read_episode(path)
     if not episode.steps:
         raise EpisodeError(f"{path} has no touch to draw: the run ended before its first step")
     figure = draw_episode(episode, path.name)
     try:
-        figure.savefig(png_path, format="png", dpi=110, facecolor="white")
+        with replacing(png_path) as part:
+            figure.savefig(part, format="png", dpi=110, facecolor="white")
     except OSError as error:
         raise EpisodeError(refusal(png_path, "write", error)) from None
 

@@ -22,12 +22,19 @@ from tacgrasp.episodes.record import (
     JSON_MESSAGES,
     METADATA_NAME,
     Episode,
+    EpisodeHeader,
     StepRecord,
     StepState,
     Topic,
 )
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.touch_message import decode_cloud
+
+MAX_JSON_BYTES = 2_000_000
+"""Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
+
+END_OF_TIME_S = 253_402_300_800.0
+"""Start of the year 10000, in seconds since 1970: no calendar of Python's goes further."""
 
 
 def read_episode(path: Path) -> Episode:
@@ -73,8 +80,9 @@ def check_format(path: Path, scan: Scan) -> None:
             f"{METADATA_NAME!r}); open it with the program that wrote it"
         )
     if metadata and metadata[0].get("format") != FORMAT:
+        stated = " ".join(metadata[0].get("format", "nothing").split())
         raise EpisodeError(
-            f"{path} is of format {metadata[0].get('format', 'nothing')}, this tacgrasp reads "
+            f"{path} is of format {stated:.60}, this tacgrasp reads "
             f"{FORMAT}; use the version that wrote it"
         )
     if not any(isinstance(record, Message) for record in scan.records):
@@ -88,7 +96,9 @@ def _episode(messages: dict[int, dict[str, bytes]], scan: Scan) -> Episode:
     by_topic = {topic: data for group in messages.values() for topic, data in group.items()}
     if Topic.EPISODE not in by_topic:
         raise ValueError(f"no message on {Topic.EPISODE}")
-    header = _parse(Topic.EPISODE, by_topic)
+    header: EpisodeHeader = _parse(Topic.EPISODE, by_topic)
+    if not 0 <= header.stamp.wall_s < END_OF_TIME_S:
+        raise ValueError(f"EpisodeHeader.stamp.wall_s: {header.stamp.wall_s} is no time of a start")
     groups = [group for _, group in sorted(messages.items()) if Topic.STATE in group]
     return Episode(
         header=header,
@@ -113,4 +123,12 @@ def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
 
 def _parse(topic: Topic, group: Mapping[str, bytes]) -> Any:
     """The message on a JSON channel as its dataclass; None when the group has none."""
-    return from_json(JSON_MESSAGES[topic][1], json.loads(group[topic])) if topic in group else None
+    if topic not in group:
+        return None
+    data = group[topic]
+    if len(data) > MAX_JSON_BYTES:
+        raise ValueError(f"{topic} has {len(data)} bytes; at most {MAX_JSON_BYTES} are read")
+    try:
+        return from_json(JSON_MESSAGES[topic][1], json.loads(data))
+    except RecursionError:
+        raise ValueError(f"{topic} is nested too deep") from None

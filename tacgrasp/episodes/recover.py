@@ -86,14 +86,18 @@ def _write(path: Path, scan: Scan, name: str) -> None:
 def _copy(
     writer: Writer, record: McapRecord, schemas: dict[int, int], channels: dict[int, int]
 ) -> None:
-    """Copy a record; ``schemas`` and ``channels`` map old numbers to those of the new file."""
+    """Copy a record; ``schemas`` and ``channels`` map old numbers to those of the new file.
+
+    A message whose channel was in a damaged part has no topic any more and is left out, as the
+    reader does.
+    """
     if isinstance(record, Schema) and record.id not in schemas:
         schemas[record.id] = writer.register_schema(record.name, record.encoding, record.data)
     elif isinstance(record, Channel) and record.id not in channels:
         channels[record.id] = writer.register_channel(
-            record.topic, record.message_encoding, schemas[record.schema_id], record.metadata
+            record.topic, record.message_encoding, schemas.get(record.schema_id, 0), record.metadata
         )
-    elif isinstance(record, Message):
+    elif isinstance(record, Message) and record.channel_id in channels:
         writer.add_message(**vars(record) | {"channel_id": channels[record.channel_id]})
     elif isinstance(record, Metadata):
         writer.add_metadata(record.name, record.metadata)

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import logging
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
@@ -41,6 +42,8 @@ from tacgrasp.episodes.record import (
     Topic,
 )
 from tacgrasp.episodes.touch_message import encode_cloud, wall_ns
+
+log = logging.getLogger(__name__)
 
 CHUNK_BYTES = 1 << 30
 """Larger than any step (about 20 kB): a chunk ends only where the MCAP writer is flushed."""
@@ -170,7 +173,9 @@ class EpisodeWriter:
                 # position: no reader would find anything added after that damage.
                 self._drop()
                 if isinstance(error, OSError):
-                    raise EpisodeError(self._write_error(part, error)) from None
+                    message = self._write_error(part, error)
+                    log.error("%s", message)  # on standard error, however the run ends
+                    raise EpisodeError(message) from None
                 raise
 
     def _register(self) -> None:

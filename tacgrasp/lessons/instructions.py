@@ -15,10 +15,10 @@ from functools import lru_cache
 from importlib import resources
 
 import numpy as np
-import yaml
 
 from cltp.tactile.states import ContactState
 from policies.goal import Band, Goal
+from tacgrasp.base.strict_yaml import read_yaml
 from tacgrasp.config.schema import GoalConfig
 from tacgrasp.lessons import instruction_words as wordings
 from tacgrasp.lessons.instruction_words import Firmness
@@ -54,7 +54,7 @@ def task_goals() -> dict[str, Goal]:
     goals = {}
     for level in LEVELS:
         text = (resources.files("tacgrasp") / "tasks" / f"{level}.yaml").read_text()
-        bands = yaml.safe_load(text)["goal"].items()
+        bands = read_yaml(text)["goal"].items()
         goals[level] = GoalConfig(
             **{n: (float(low), float(high)) for n, (low, high) in bands}
         ).goal()

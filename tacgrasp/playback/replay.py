@@ -10,7 +10,6 @@ from collections.abc import Generator, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import yaml
 from pydantic import ValidationError
 
 from cltp import TouchError
@@ -18,6 +17,7 @@ from policies import Observation, Policy, PolicyError
 from primitives.devices import Pose
 from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
+from tacgrasp.base.strict_yaml import YamlError, read_yaml
 from tacgrasp.config.errors import explain
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import Episode, EpisodeError, StepPhase, StepRecord
@@ -66,8 +66,8 @@ def config_of(episode: Episode, path: Path) -> RunConfig:
         EpisodeError: It is missing, or of another version.
     """
     try:
-        return RunConfig.model_validate(yaml.safe_load(episode.header.config_yaml))
-    except (ValidationError, yaml.YAMLError) as error:
+        return RunConfig.model_validate(read_yaml(episode.header.config_yaml))
+    except (ValidationError, YamlError) as error:
         reason = explain(error.errors()[0]) if isinstance(error, ValidationError) else "not YAML"
         raise EpisodeError(
             f"the configuration in {path} is not one of this version of tacgrasp ({reason}); "

@@ -19,6 +19,7 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from cltp.atomic_write import replacing
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.sampler import sampled
 from cltp.errors import TouchError
@@ -108,7 +109,7 @@ class RealTouches:
         for slot, of_slot in zip(CLASSES, scores, strict=True):
             columns[f"{slot}_{measure}"] = [f"{best:.3f}" for best in of_slot.amax(1).tolist()]
         try:
-            with path.open("w", encoding="utf-8", newline="") as file:
+            with replacing(path) as part, part.open("w", encoding="utf-8", newline="") as file:
                 writer = csv.writer(file)
                 writer.writerow(columns)
                 writer.writerows(zip(*columns.values(), strict=True))

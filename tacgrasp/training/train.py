@@ -20,6 +20,7 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.manifest import write_manifest
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
     load_encoder,
@@ -153,6 +154,7 @@ def take_pretrained(methods: Path, out: Path) -> None:
     shutil.copytree(trained.folder / "encoder", part)
     shutil.copytree(methods / "clip", out / "clip")
     write_atomically(part / PRETRAINED, about)
+    write_manifest(part)
     part.rename(out / "encoder")
 
 
@@ -170,6 +172,24 @@ def take_encoder(source: Path, out: Path) -> None:
     (out / BLIND_MARK).touch()
     if not (out / "encoder").exists():
         shutil.copytree(source / "encoder", out / "encoder")
+
+
+def write_manifests(weights: Path) -> None:
+    """Write the manifest of every part of a folder of weights, as its files are now.
+
+    Raises:
+        UsageError: It has no part, or a manifest can't be written.
+    """
+    parts = [weights / name for name in PARTS if (weights / name).is_dir()]
+    if not parts:
+        raise UsageError(f"--weights {weights} has none of {', '.join(PARTS)}")
+    whole = all((weights / name).is_dir() for name in ("encoder", "lm"))
+    try:
+        for part in sorted(parts, key=lambda part: part.name == "projector"):  # it names others
+            partners = ("encoder", "lm") if part.name == "projector" and whole else ()
+            write_manifest(part, trained_with=partners)
+    except OSError as error:
+        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
 
 
 def _digest(out: Path) -> str:

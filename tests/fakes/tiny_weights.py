@@ -74,9 +74,9 @@ def make_data(folder: Path, num: int = 60) -> Path:
     return folder
 
 
-def make_weights(folder: Path) -> Path:
+def make_weights(folder: Path, *, seed: int = 0) -> Path:
     """A whole folder of weights of the tiniest sizes, as the seed left them."""
-    torch.manual_seed(0)
+    torch.manual_seed(seed)
     words = Words.train(TEXTS, size=600)
     encoder = TactileEncoder(EncoderConfig(dim=48, depth=1, heads=2, stem_dim=8, feature_dim=32))
     save_encoder(folder / "encoder", encoder, StateHeads(2 * encoder.config.dim))

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
-from cltp.checkpoints.weight_files import WeightsError
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.llm.causal_lm import Language, small_lm

@@ -22,6 +22,7 @@ from pydantic import Field, ValidationError, model_validator
 from cltp.atomic_write import write_atomically
 from primitives.errors import RobotError
 from tacgrasp.base.settings import Number, SettingsBase
+from tacgrasp.base.strict_yaml import YamlError, read_yaml_file
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 
 ADVICE = "make one with: tacgrasp calibrate gripper"
@@ -197,7 +198,7 @@ def load_calibration(path: Path) -> GripperCalibration:
         RobotError: The file is missing or damaged.
     """
     try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8"))
+        values = read_yaml_file(path)
         if isinstance(values, dict):
             return GripperCalibration(**values)
         reason = "expected fields"
@@ -205,7 +206,7 @@ def load_calibration(path: Path) -> GripperCalibration:
         raise RobotError(f"no calibration of the gripper at {path}; {ADVICE}") from None
     except ValidationError as error:
         reason = _first_error(error)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+    except (OSError, UnicodeDecodeError, YamlError) as error:
         reason = " ".join(str(error).split())
     raise RobotError(f"{path} is no calibration of a gripper: {reason}; {ADVICE}")
 

@@ -2,5 +2,5 @@
 
 Not here: measuring (``tacgrasp.pretraining.evaluate``).
 
-May import: cltp, tacgrasp.base.
+May import: cltp, tacgrasp, tacgrasp.base.
 """

@@ -6,9 +6,10 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from rich.console import Console
 from rich.table import Table
 
+from tacgrasp.base.result_file import write_result
+from tacgrasp.console import make_console, make_table_console
 from tacgrasp.pretraining.report.store import (
     GEOMETRIC_BASELINE,
     TITLES,
@@ -23,7 +24,7 @@ from tacgrasp.pretraining.report.store import (
 
 def print_real_results(results: Sequence[Result], predictions: Path) -> None:
     """Print what the tables of real touches do not hold."""
-    console = Console(soft_wrap=True)
+    console = make_console()
     for result in results:
         merged = merged_accuracy(result, "sphere", "ellipsoid")
         if merged is not None:
@@ -37,8 +38,7 @@ def print_real_results(results: Sequence[Result], predictions: Path) -> None:
 
 def print_results(results: Sequence[Result], json_path: Path | None) -> None:
     """Print a table for each table and split; write the figures where a path is given."""
-    console = Console()
-    console = console if console.is_terminal else Console(width=160)
+    console = make_table_console()
     tables: dict[tuple[str, str], Table] = {}
     for (table, method, variant, split), rows in grouped(results).items():
         values = means(rows)
@@ -61,4 +61,4 @@ def write_figures(results: Sequence[Result], json_path: Path | None) -> None:
     """Write figures as JSON, nested as by ``report.store.nested``; nothing without a path."""
     if json_path is not None:
         text = json.dumps(nested(grouped(results)), indent=1)
-        json_path.write_text(text + "\n", encoding="utf-8")
+        write_result(json_path, text + "\n", flag="--json")

@@ -51,7 +51,7 @@ def report(results: Path, out: Path, *, weights: Path | None = None) -> list[Pat
     try:
         plots.mkdir(parents=True, exist_ok=True)
         for plot in (plot for section in sections for plot in section.plots):
-            (plots / f"{plot.name}.png").write_bytes(plot.png)
+            write_atomically(plots / f"{plot.name}.png", plot.png)
         for file, text in pages.items():
             write_atomically(out / file, text)
     except OSError as error:

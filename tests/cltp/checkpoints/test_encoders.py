@@ -7,6 +7,7 @@ import pytest
 import torch
 
 from cltp.checkpoints.frozen import frozen, load_frozen, save_frozen
+from cltp.checkpoints.manifest import write_manifest
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
 from cltp.encoder.encoder import PRESETS, VARIANTS, EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
@@ -54,6 +55,7 @@ def test_weights_from_before_grades_are_read(tmp_path: Path) -> None:
     stored = json.loads(path.read_text())
     del stored["encoder"]["grades"]
     path.write_text(json.dumps(stored))
+    write_manifest(tmp_path)
     loaded, _ = load_encoder(tmp_path)
     assert loaded.config == config
     points = torch.rand(1, 1024, 3)

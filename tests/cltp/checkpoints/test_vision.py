@@ -13,8 +13,8 @@ from transformers import (
     CLIPVisionModelWithProjection,
 )
 
+from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.vision import load_vision_checkpoint
-from cltp.checkpoints.weight_files import WeightsError
 
 TOWER = {
     "hidden_size": 16,

@@ -3,11 +3,14 @@
 import dataclasses
 import datetime
 import json
+import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
 from safetensors.numpy import save_file
 
+import cltp.sensing.calibration as calibration_module
 from cltp.errors import TouchError
 from cltp.sensing.ball_fit import fit_ball
 from cltp.sensing.ball_presses import (
@@ -274,3 +277,18 @@ def test_real_presses_come_out_positive_and_as_large_as_the_ball():
     ]
     assert np.median([ball.diameter_mm for ball in balls]) == pytest.approx(6.31, rel=0.04)
     assert all(0.4 < ball.depth_mm < 1.3 for ball in balls)
+
+
+def test_a_damaged_shipped_calibration_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shipped = default_calibration(SENSORS["gelsight_mini"])
+    shutil.copytree(shipped.parent, tmp_path / "calibrations")
+    monkeypatch.setattr(calibration_module, "__file__", str(tmp_path / "calibration.py"))
+    copy = default_calibration(SENSORS["gelsight_mini"])
+    assert copy.parent == tmp_path / "calibrations"
+    data = bytearray(copy.read_bytes())
+    data[len(data) // 2] ^= 1
+    copy.write_bytes(data)
+    with pytest.raises(TouchError, match="is not the file that shipped"):
+        default_calibration(SENSORS["gelsight_mini"])

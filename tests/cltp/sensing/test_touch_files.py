@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import io
 import re
 import struct
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -49,6 +51,36 @@ def pcd(coding: str, vertices: NDArray[np.float64]) -> bytes:
 
 def xyz(vertices: NDArray[np.float64]) -> bytes:
     return b"# x y z\n" + "".join(f"{x}, {y}, {z}\n" for x, y, z in vertices).encode()
+
+
+def npy_header(kind: str, shape: tuple[int, ...]) -> bytes:
+    """A .npy file without its numbers."""
+    file = io.BytesIO()
+    head = {"descr": kind, "fortran_order": False, "shape": shape}
+    np.lib.format.write_array_header_1_0(file, head)
+    return file.getvalue()
+
+
+def npz(files: dict[str, bytes], compression: int = zipfile.ZIP_DEFLATED) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", compression, compresslevel=1) as archive:
+        for name, content in files.items():
+            archive.writestr(name, content)
+    return file.getvalue()
+
+
+def encrypted(archive: bytes) -> bytes:
+    """The same archive with the flag of encryption on its first file, in both headers."""
+    data = bytearray(archive)
+    data[6] |= 1
+    data[archive.index(b"PK\x01\x02") + 8] |= 1
+    return bytes(data)
+
+
+def damaged(archive: bytes) -> bytes:
+    """The same archive with the start of its first compressed stream overwritten."""
+    start = 30 + len("a.npy")
+    return archive[:start] + b"\xff\xff\xff\xff" + archive[start + 4 :]
 
 
 CLOUDS = {
@@ -121,8 +153,41 @@ BAD_FILES: dict[str, tuple[bytes, str]] = {
     "float8.pcd": (pcd("ascii", points()).replace(b"SIZE 4", b"SIZE 1"), "read the PCD field 'x'"),
     "wide.pcd": (
         pcd("ascii", points()).replace(b"COUNT 1 1 1 3", b"COUNT 1 1 1 99999999999999"),
-        "can't read the PCD field",
+        "COUNT of 99999999999999; at most 1000 are read",
     ),
+    "allocates.pcd": (
+        pcd("binary", points()).replace(b"COUNT 1 1 1 3", b"COUNT 1 1 1 300000000"),
+        "COUNT of 300000000; at most 1000 are read",
+    ),
+    "fields.pcd": (
+        pcd("binary", points()).replace(b"COUNT 1 1 1 3", b"COUNT 1 999 999 999"),
+        "at most 1000 are read",
+    ),
+    "points.ply": (
+        ply("binary_little_endian", points()).replace(b"vertex 256", b"vertex 999999999"),
+        "number of points of 999999999; at most 2000000 are read",
+    ),
+    "property.ply": (
+        ply("ascii", points()).replace(b"property float x", b"property"),
+        "can't read the vertex property",
+    ),
+    "long.xyz": (b"1 2 3\n" * 3_000_000, "at most 16000000 are read"),
+    "huge.npy": (npy_header("<f8", (1_200_000_000, 1)), "at most 8000000 numbers are read"),
+    "many.npy": (npy_header("<f8", (10**30, 0)), "at most 8000000 numbers are read"),
+    "keys.npy": (npy_header("<f8", (3, 3)).replace(b"'descr'", b"'d scr'"), "not a whole .npy"),
+    "words.npy": (npy_header("<f8", (3, 3)).replace(b"(3, 3)", b"(3, x)"), "not a whole .npy"),
+    "grows.npz": (
+        npz({"a.npy": npy_header("<f8", (30_000, 10_000)) + bytes(50_000_000)}),
+        "at most 8000000 numbers are read",
+    ),
+    "padded.npz": (
+        npz({"a.npy": npy_header("<f8", (256, 3)) + bytes(300_000_000)}),
+        "spans only",  # what follows the array is never unpacked
+    ),
+    "encrypted.npz": (encrypted(npz({"a.npy": npy_header("<f8", (3, 3))})), "encrypted"),
+    "zlib.npz": (damaged(npz({"a.npy": npy_header("<f8", (3, 3)) * 9})), "not a whole .npz"),
+    "lzma.npz": (npz({"a.npy": b""}, zipfile.ZIP_LZMA), "neither stored nor deflated"),
+    "arrays.npz": (npz({f"{n}.npy": b"" for n in range(1001)}), "more than 1000"),
     "photo.tiff": (b"II*\0", "expected a file ending in"),
     "photo.jpg": (b"\xff\xd8", "not an image"),
     "few.xyz": (xyz(points()[:10]), "at least 64"),
@@ -162,7 +227,7 @@ def test_a_truncated_npy_is_refused(tmp_path: Path) -> None:
         (np.full((240, 320), np.nan), "NaN"),
         (np.linspace(0, 0.0009, 240 * 320).reshape(240, 320), "in metres"),
         (np.full((240, 320), 20.0), "more than"),
-        (np.array([{"a": 1}]), "pickle|allow_pickle"),
+        (np.array([{"a": 1}]), "real numbers"),
     ],
 )
 def test_an_array_that_is_no_touch_is_refused(

@@ -5,12 +5,12 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import (
     load_encoder,
     load_touching_encoder,
     save_encoder,
 )
-from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import CLEAN, NOISY, Sampler, sampled

@@ -7,8 +7,8 @@ import pytest
 import torch
 
 from cltp.checkpoints.frozen import frozen, load_frozen, noisy_frames, save_frozen
+from cltp.checkpoints.manifest import WeightsError, write_manifest
 from cltp.checkpoints.tac3d_llm import save_encoder, save_pretrained
-from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Sampler
@@ -193,6 +193,7 @@ def test_weights_that_do_not_match_their_configuration_are_refused(tmp_path: Pat
     assert load_frozen(tmp_path).sha256 == frozen(encoder).sha256
     path = tmp_path / "config.json"
     path.write_text(path.read_text().replace('"dim": 24', '"dim": 48'))
+    write_manifest(tmp_path)
     with pytest.raises(WeightsError, match="does not match its config"):
         load_frozen(tmp_path)
     with pytest.raises(WeightsError, match="holds no encoder"):

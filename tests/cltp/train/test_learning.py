@@ -8,6 +8,7 @@ import pytest
 import torch
 
 from cltp.checkpoints.frozen import frozen
+from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
     load_encoder,
@@ -15,7 +16,6 @@ from cltp.checkpoints.tac3d_llm import (
     save_encoder,
     size_bytes,
 )
-from cltp.checkpoints.weight_files import WeightsError
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, mirrored
@@ -196,7 +196,7 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
         EncoderConfig(dim=30, heads=4)
     with pytest.raises(TouchError, match="known: lattice, pressed, fine, fps, image"):
         EncoderConfig(tokenizer="voxels")
-    with pytest.raises(TouchError, match="0 or more"):
+    with pytest.raises(TouchError, match="whole number of 0 to"):
         EncoderConfig(projection=-1)
     with pytest.raises(TouchError, match="for a lattice, not for fps"):
         EncoderConfig(tokenizer="fps", bearing=16)

@@ -2,10 +2,12 @@
 
 import dataclasses
 import os
+import random
 import shutil
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -60,11 +62,55 @@ def towers_of(folder: Path) -> Towers:
     return load_clip(folder)
 
 
-def killed(data: Path, weights: Path, last_step: int) -> int:
+def training(data: Path, weights: Path, last_step: int, steps: int = 16) -> subprocess.Popen[bytes]:
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "PYTHONPATH": f"{ROOT}:{HERE}"}
     script = [sys.executable, str(HERE / "killed_training.py")]
-    arguments = [str(data), str(weights), str(last_step)]
-    return subprocess.run([*script, *arguments], env=environment, timeout=200).returncode
+    arguments = [str(data), str(weights), str(last_step), str(steps)]
+    return subprocess.Popen([*script, *arguments], env=environment)
+
+
+def killed(data: Path, weights: Path, last_step: int) -> int:
+    return training(data, weights, last_step).wait(200)
+
+
+KILLS, STEPS = 20, 400
+"""Kills of the long test; steps of its training, more than are done between two kills."""
+
+
+def killed_after_a_checkpoint(data: Path, weights: Path, wait_s: float) -> int:
+    """Kill a training some time after it wrote a checkpoint of its own; the step it had reached."""
+    checkpoint = weights / ".training" / "cltp.checkpoint"
+    before_ns = checkpoint.stat().st_mtime_ns if checkpoint.exists() else 0
+    with training(data, weights, -1, STEPS) as process:
+        try:
+            while not checkpoint.exists() or checkpoint.stat().st_mtime_ns == before_ns:
+                assert process.poll() is None, "it ended by itself"
+                time.sleep(0.005)
+            time.sleep(wait_s)
+        finally:
+            process.kill()
+    assert process.returncode == -signal.SIGKILL
+    return int(torch.load(checkpoint, weights_only=True)["step"])
+
+
+@pytest.mark.slow
+def test_a_training_killed_twenty_times_ends_with_the_same_curve_and_weights(
+    data_dir: Path, towers_dir: Path, tmp_path: Path
+) -> None:
+    for name in ("whole", "cut"):
+        shutil.copytree(towers_dir, tmp_path / name / "clip")
+    draw = random.Random(0)
+    reached = [
+        killed_after_a_checkpoint(data_dir, tmp_path / "cut", draw.uniform(0, 0.1))
+        for _ in range(KILLS)
+    ]
+    assert reached == sorted(reached)
+    assert 0 < reached[0] < reached[-1] < STEPS  # every resumption was in the middle
+    for name in ("whole", "cut"):
+        train_a_little(data_dir, tmp_path / name, steps=STEPS)
+    for part in ("encoder/model.safetensors", "encoder/manifest.json", ".training/cltp.csv"):
+        whole, cut = ((tmp_path / name / part).read_bytes() for name in ("whole", "cut"))
+        assert whole == cut
 
 
 def test_a_training_killed_hard_ends_with_the_same_curve_and_weights(

@@ -89,6 +89,13 @@ BAD_FILES = {
     "empty": ("", "must hold fields"),
     "a list": ("- 1\n", "must hold fields"),
     "not YAML": ("a: [\n", "is not YAML"),
+    "a section twice": (
+        MINIMAL + "arm: {max_step_mm: 1}\nloop: {max_steps: 3}\narm: {max_step_mm: 5}\n",
+        "line [0-9]: arm stands in line [0-9] already; keep one",
+    ),
+    "an impossible date": (MINIMAL + "on_failure: 2026-02-30\n", "no possible date"),
+    "a long number": (MINIMAL + f"seed: {'9' * 5000}\n", "at most 40 are read"),
+    "too long": (MINIMAL + "# long\n" * 40_000, "more than 200000 bytes"),
     "names itself": (MINIMAL + "task: egg\n", "task can't be set in a file"),
     "skewed pad": (MINIMAL + "pad: {x_axis: [1, 0, 0], y_axis: [1, 0, 0]}\n", "perpendicular"),
     "half a box": (MINIMAL + "arm: {workspace_low_m: [1, 1]}\n", "workspace_low_m has too few"),
@@ -144,6 +151,8 @@ def test_a_bad_flag_is_refused_in_a_line_that_names_it(name: str) -> None:
         ("TACGRASP_ARM__MAX_STEP_M", "4", "unknown field arm.max_step_m"),
         ("TACGRASP_ARM__MAX_STEP_MM", "4 mm", r"\[mm\], got '4 mm'"),
         ("TACGRASP_SPEED", "4", "unknown field speed"),
+        ("TACGRASP_ARM", "{max_step_mm: 1, max_step_mm: 5}", "max_step_mm stands in line 1"),
+        ("TACGRASP_SEED", "9" * 5000, "at most 40 are read"),
     ],
 )
 def test_a_bad_environment_variable_is_named(

@@ -181,3 +181,16 @@ def test_real_frames_become_contacts(tmp_path, capsys):
     data = ContactDataset(out)
     assert data.height_mm(0).shape == (240, 320)
     assert all(0.1 < data.state(index).depth_mm < 2 for index in range(len(data)))
+
+
+@pytest.mark.parametrize("inside", [False, True], ids=["by its name", "by a link"])
+def test_a_file_outside_of_the_folder_is_refused(inside, touches, capsys):
+    np.save(touches.parent / "private.npy", np.load(touches / "map.npy"))
+    name = "../private.npy"
+    if inside:
+        (touches / "link.npy").symlink_to(touches.parent / "private.npy")
+        name = "link.npy"
+    code, out = imported(touches, f"file\n{name}\n")
+    assert code == 2
+    assert "lies outside of the folder" in capsys.readouterr().err
+    assert not out.exists()

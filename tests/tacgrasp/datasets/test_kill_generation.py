@@ -15,7 +15,7 @@ from cltp.data.dataset import ContactDataset
 from tacgrasp.datasets.generate import is_complete
 from tests.paths import ROOT
 
-CONTACTS, SEED, KILLS, PARTS = 600, 0, 10, 3
+CONTACTS, SEED, KILLS, PARTS = 600, 0, 20, 3
 
 
 def command(out: Path, *more: str) -> list[str]:

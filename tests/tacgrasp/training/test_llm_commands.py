@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.checkpoints.manifest import write_manifest
 from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply
 from cltp.texts.tokenizer import ACTIONS, Words
@@ -215,8 +216,10 @@ def test_a_tokenizer_of_another_version_is_refused(
     copy: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     Words.train(["other words of another model"] * 5, size=300).save(copy / "lm")
+    write_manifest(copy / "lm")
     assert "is not the one that" in complaint([*RUN, "--weights", str(copy)], capsys)
     (copy / "lm" / "tokenizer.json").write_text("{}")
+    write_manifest(copy / "lm")
     assert "no tokenizer could be read" in complaint([*RUN, "--weights", str(copy)], capsys)
 
 
@@ -225,8 +228,10 @@ def test_weights_of_another_size_are_refused(
 ) -> None:
     config = json.loads((copy / "projector" / "config.json").read_text())
     (copy / "projector" / "config.json").write_text(json.dumps({**config, "lm_dim": 96}))
+    write_manifest(copy / "projector")
     assert "joins widths" in complaint([*RUN, "--weights", str(copy)], capsys)
     (copy / "projector" / "config.json").write_text(json.dumps({**config, "version": 0}))
+    write_manifest(copy / "projector")
     assert "another version" in complaint([*RUN, "--weights", str(copy)], capsys)
 
 

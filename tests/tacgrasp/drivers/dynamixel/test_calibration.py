@@ -98,6 +98,8 @@ def test_a_place_that_can_not_be_written_is_refused(tmp_path):
     ("text", "match"),
     [
         ("[1, 2]", "expected fields"),
+        ("date: 2026-02-30\n", "line 1: '2026-02-30' is no possible date"),
+        ("unit: a\nunit: b\n", "line 2: unit stands in line 1 already"),
         ("{", "is no calibration"),
         ("unit: a", "model: Field required"),
         ("\x00", "is no calibration"),

@@ -1,0 +1,158 @@
+"""A disk or folder that refuses a file: one line, no empty file, and no device replaced."""
+
+import errno
+import io
+import os
+import resource
+import signal
+import stat
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cltp.atomic_write import replacing
+from tacgrasp.__main__ import main
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.result_file import write_result
+from tests.fakes.episode_samples import end, header, record, step_record
+from tests.fakes.tiny_weights import make_data
+
+PRESS = ["simulate", "press", "--object", "ball:9.5", "--depth-mm", "0.5", "--grid", "80x60"]
+
+
+@contextmanager
+def full_disk(most_bytes: int = 0) -> Iterator[None]:
+    """No file may grow beyond some bytes, as on a disk without space."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)  # the call then fails with EFBIG
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most_bytes, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+        signal.signal(signal.SIGXFSZ, ignored)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A data set and an episode to write about."""
+    made = tmp_path_factory.mktemp("made")
+    make_data(made / "data", num=12)
+    record(made / "e.mcap", [step_record(0), step_record(1)])
+    return made
+
+
+COMMANDS = {
+    "simulate press": ([*PRESS, "--out", "{out}.npz"]),
+    "data stats": (["data", "stats", "{made}/data", "--json", "{out}.json"]),
+    "data inspect": (["data", "inspect", "{made}/data", "--out", "{out}.png"]),
+    "data gallery": (["data", "gallery", "{made}/data", "--out", "{out}.html"]),
+    "data sheet": (["data", "sheet", "{made}/data", "--out", "{out}"]),
+    "episodes plot": (["episodes", "plot", "{made}/e.mcap", "--out", "{out}.png"]),
+    "bench latency": (["bench", "latency", "--ticks", "1", "--json", "{out}.json"]),
+    "data generate": (
+        ["data", "generate", "--set", "starter", "--contacts", "2", "--out", "{out}"]
+    ),
+}
+
+
+def filled(argv: list[str], made: Path, out: Path) -> list[str]:
+    return [word.format(made=made, out=out / "out") for word in argv]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_full_disk_is_one_line_and_leaves_no_empty_file(
+    name: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with full_disk():
+        code = main(filled(COMMANDS[name], folder, tmp_path))
+    lines = capsys.readouterr().err.splitlines()
+    assert code == 2
+    assert [line.startswith("tacgrasp: ") for line in lines].count(True) == 1, lines
+    assert not any("Traceback" in line for line in lines)
+    assert "too large" in lines[-1].lower() or "size limit" in lines[-1]
+    rest = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert rest == []
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_folder_that_does_not_exist_or_takes_no_file_is_one_line(
+    name: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("not a folder")
+    assert main(filled(COMMANDS[name], folder, tmp_path / "file")) == 2
+    error = capsys.readouterr().err
+    assert error.count("tacgrasp: ") == 1
+    assert "Traceback" not in error
+
+
+def test_a_device_is_not_replaced_by_a_file(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe.npz"
+    os.mkfifo(pipe)
+    with pytest.raises(OSError, match="a device or pipe, not a file"), replacing(pipe) as part:
+        part.write_bytes(b"x")
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+    assert main([*PRESS, "--out", str(pipe)]) == 2
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+    folder = tmp_path / "folder.npz"
+    folder.mkdir()
+    assert main([*PRESS, "--out", str(folder)]) == 2
+    assert list(tmp_path.iterdir()) == [folder, pipe] or len(list(tmp_path.iterdir())) == 2
+
+
+@pytest.mark.parametrize(
+    ("argv", "expected"),
+    [([*PRESS, "--out", "x.txt"], ".npz"), (["episodes", "plot", "e", "--out", "x.txt"], ".png")],
+)
+def test_a_name_of_another_format_is_refused(
+    argv: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(argv) == 2
+    assert f"--out expects a file ending in {expected}, got x.txt" in capsys.readouterr().err
+
+
+def test_a_result_goes_into_a_pipe_or_terminal_as_it_is(tmp_path: Path) -> None:
+    write_result(Path(os.devnull), "{}\n")
+    assert Path(os.devnull).is_char_device()
+    with pytest.raises(UsageError, match="can't be written"):
+        write_result(tmp_path, "{}\n")
+
+
+def test_a_recording_that_fills_the_disk_says_so_on_standard_error(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    from tacgrasp.episodes import EpisodeError, EpisodeWriter, read_episode
+
+    path = tmp_path / "e.mcap"
+    with full_disk(60_000), EpisodeWriter(path, header()) as writer:
+        with pytest.raises(EpisodeError, match="the file would exceed the size limit"):
+            for index in range(50):
+                writer.write_step(step_record(index))
+        with pytest.raises(EpisodeError, match="is closed"):
+            writer.finish(end())
+    (logged,) = caplog.records  # nothing else configures logging: errors go to standard error
+    assert logged.levelname == "ERROR"
+    assert "the file would exceed the size limit" in logged.getMessage()
+    assert read_episode(path).steps
+
+
+def test_an_error_of_the_disk_anywhere_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device", "/full/disk.json")
+
+    monkeypatch.setattr("tacgrasp.cli.episodes._list", fail)
+    assert main(["episodes", "ls"]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("tacgrasp: /full/disk.json can't be used: No space left on device")
+    assert error.count("\n") == 1
+
+
+def test_the_limit_of_these_tests_stops_a_write(tmp_path: Path) -> None:
+    with full_disk(), pytest.raises(OSError, match="too large"):
+        np.save(tmp_path / "a.npy", np.zeros(9))
+    assert io.DEFAULT_BUFFER_SIZE > 0
