@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from cltp.tactile.states import ContactState, Side
-from policies.goal import Band, Goal
+from policies.goal import Goal
+from primitives.contract import Band
 from primitives import Primitive
 from primitives.execution import INCREASE_FACTOR
 

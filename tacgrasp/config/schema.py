@@ -13,7 +13,8 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
-from policies.goal import Band, Goal
+from policies.goal import Goal
+from primitives.contract import Band
 from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector

@@ -18,7 +18,8 @@ import numpy as np
 import yaml
 
 from cltp.tactile.states import ContactState
-from policies.goal import Band, Goal
+from policies.goal import Goal
+from primitives.contract import Band
 from tacgrasp.config.schema import GoalConfig
 from tacgrasp.lessons import instruction_words as wordings
 from tacgrasp.lessons.instruction_words import Firmness

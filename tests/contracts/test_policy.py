@@ -8,7 +8,8 @@ from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies import Observation
 from policies.baselines import FixedForcePolicy, RandomPolicy
-from policies.goal import Band, Goal
+from policies.goal import Goal
+from primitives.contract import Band
 from policies.rules import RulesPolicy
 from primitives import Primitive
 from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract

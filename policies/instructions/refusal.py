@@ -1,0 +1,153 @@
+"""What must not be carried out: no touching, letting go, harm, limits set aside, no request at all."""
+
+from __future__ import annotations
+
+import re
+
+from policies.instructions import words
+from policies.instructions.manner import has_manner, without_neutral
+from policies.instructions.quantities import MARK
+from policies.instructions.text import CLAUSE, sentences
+
+_NOT = re.compile(
+    r"\b(?:not|never|without|avoid\w*|nor|neither|no need to|prevent\w*|instead of|rather than|refrain\w* from|stop|forbid\w*|"
+    r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|quit|free of)\b"
+)
+_MODAL = re.compile(
+    r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|easily|to easily|"
+    r"if you|or you|else you|when you|lest you|you always|you keep|you just|you often|you nearly|you almost|you are|you were|almost|nearly|not to|so as not to|"
+    r"you (?:will|would|might|may|could)|it (?:will|would|might|may|could|can)|going to|tends? to|liable to|likely to|about to|prone to|ready to|waiting to|wants to|threaten\w* to|"
+    r"will|would|might|may|does|do not|did|could|can|shall)(?: (?:only|just|easily|simply|surely|otherwise|probably|always|never|also))*\s*$"
+)
+_ASKS = re.compile(r"\b(?:can|could|will|would|want|need|would like|order|tell|ask|command) you(?: to| please| just)*\s*$")
+_OBJECT = (
+    r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
+)
+_DESTROY = re.compile(rf"\b{words.DESTROY}(?:ing)?\b{_OBJECT}|\b\w+(?:sh|st|p|k)ing (?:it|the (?:berry|strawberry|fruit))\b(?<!ping it)(?<!king it)")
+_DESTROY_VERB = re.compile(rf"\b{words.DESTROY}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
+_DESTROY_PHRASES = [re.compile(pattern) for pattern in (
+    *words.DESTROY_PHRASES,
+    r"\b(?:make|let|watch|see|have) (?:it|the \w+|that|this) (?:burst|pop|break|explode|splat\w*|squirt|crack|snap|split|bleed|scream|die|suffer|squeal)\b",
+)]  # fmt: skip
+_HARM = [re.compile(pattern) for pattern in words.HARM]
+_OVERRIDE = [re.compile(pattern) for pattern in words.OVERRIDE]
+_RELEASE = [re.compile(pattern) for pattern in words.RELEASE]
+_STOP = [re.compile(pattern) for pattern in words.STOP]
+_HOLD = re.compile(rf"\b{words.HOLD_VERB}\b")
+_NEGATIVE_HOLD = re.compile(
+    r"\b(?:not|never|neither|without|avoid|refrain from|no)(?: (?:even|ever|you|think|about|of|try|to|dare|start|just|please|now|be|being|go|"
+    r"attempt|any|under|circumstances|want|like|me|it|yet|need|necessary|going|robot)){0,4} "
+    r"(?P<verb>pick(?:ing)?|grasp(?:ing)?|grip(?:ping)?|hold(?:ing)?|lift(?:ing)?|grab(?:bing)?|seiz(?:e|ing)|touch(?:ing)?|"
+    r"squeez(?:e|ing)|press(?:ing)?|clamp(?:ing)?|pinch(?:ing)?|clos(?:e|ing)|clutch(?:ing)?|handl(?:e|ing)|carry(?:ing)?|tak(?:e|ing)(?= (?:it|the|this|that)\b)|"
+    r"approach(?:ing)?|mov(?:e|ing)(?=[.!,]*$| the (?:gripper|arm|fingers?|robot)| at all| (?:a|an) (?:inch|muscle|millimet\w+|finger)| anything| toward\w*| it\b))\b(?P<after>.*)"
+)
+_UNLESS = re.compile(r"\b(?:until|till|unless|before|with(?! your| the gripper)|by the|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to)\b")
+
+
+def refusal_of(text: str) -> str:
+    """Why a plain text, its quantities replaced, must not be carried out; '' where it may."""
+    if found := _sets_limits_aside(text):
+        return f"it sets limits aside: {found}"
+    text = without_neutral(text)
+    for find, reason in (
+        (_harms, "it would harm a living being: {}"),
+        (_destroys, "it would destroy what is held: {}"),
+        (_releases, "it asks to let go: {}"),
+        (_contradicts, "it contradicts itself: {}"),
+        (_stops, "it asks to stop or not to touch: {}"),
+    ):
+        if found := find(text):
+            return reason.format(found)
+    return ""
+
+
+def _contradicts(text: str) -> str:
+    match = re.search(
+        r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\bwith (?:no|zero|absolutely no) (?:force|pressure|grip|squeeze|contact)\b"
+        r"|\bwithout (?:force|pressure|closing|using your fingers|moving|gripping|holding|contact)\b",
+        text,
+    )
+    return match.group() if match and _HOLD.search(text[: match.start()]) else ""
+
+
+def _clauses(text: str) -> list[str]:
+    return [part.strip() for sentence, _ in sentences(text) for part in CLAUSE.split(sentence) if part and part.strip()]
+
+
+def _denied(before: str) -> bool:
+    """Whether the words before a match in its clause deny it."""
+    return len(_NOT.findall(before[-70:])) % 2 == 1
+
+
+def _sets_limits_aside(text: str) -> str:
+    for pattern in _OVERRIDE:
+        for match in pattern.finditer(text):
+            before = re.split(r"[.,;!?]", text[: match.start()])[-1]
+            if not _denied(before):
+                return match.group().strip()
+    return ""
+
+
+def _harms(text: str) -> str:
+    for sentence, _ in sentences(text):
+        plain = re.sub(words.HANDOVER, " ", sentence)
+        for pattern in _HARM:
+            for match in pattern.finditer(plain):
+                before = re.split(r"[,;]", plain[: match.start()])[-1]
+                if not _denied(before) and not re.search(r"\b(?:like|as if|as though)\b", before + match.group()):
+                    return match.group().strip()
+    return ""
+
+
+def _destroys(text: str) -> str:
+    for clause in _clauses(text):
+        for pattern in _DESTROY_PHRASES:
+            if (match := pattern.search(clause)) and not _denied(clause[: match.start()]):
+                return match.group().strip()
+        for match in _DESTROY_VERB.finditer(clause):
+            before = clause[: match.start()]
+            if _denied(before) or re.search(r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$", before):
+                continue
+            if _MODAL.search(before) and not _ASKS.search(before):
+                continue
+            return match.group().strip()
+    return ""
+
+
+def _releases(text: str) -> str:
+    for clause in _clauses(text):
+        for pattern in _RELEASE:
+            for match in pattern.finditer(clause):
+                before, after = clause[: match.start()], clause[match.end() :]
+                if _denied(before) or re.match(r" (?:of )?(?:the|that|this|your|any|all)? ?(?:\w+ ){0,2}(?:idea|notion|act|thought|approach|macho|pressure|tension|force)\b", after):
+                    continue
+                if re.search(r"\b(?:it|they|berry|one) (?:might|may|will|could|would|can)\s*$", before):
+                    continue
+                return match.group().strip()
+        if (match := re.search(words.PUT_DOWN, clause)) and not _denied(clause[: match.start()]):
+            if not _HOLD.search(text[: text.find(match.group())]):
+                return match.group().strip()
+    return ""
+
+
+def _stops(text: str) -> str:
+    held = [m for m in _HOLD.finditer(text)]
+    for sentence, _ in sentences(text):
+        for pattern in _STOP:
+            for match in pattern.finditer(sentence):
+                before = re.split(r"[,;]", sentence[: match.start()])[-1]
+                if not re.search(r"\bto\s*$", before) and not _denied(before) and not has_manner(sentence[match.end() :]):
+                    return match.group().strip()
+        for clause in CLAUSE.split(sentence):
+            match = _NEGATIVE_HOLD.search(clause or "")
+            if match is None or _denied(clause[: match.start()]):
+                continue
+            if match["verb"].startswith("mov") and re.search(rf"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: match.start()]):
+                continue  # 'it must not move' wants a firm grip
+            after = match["after"]
+            if has_manner(match["verb"] + after) or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after) or MARK in after or _UNLESS.search(after):
+                continue
+            if re.match(r"(?:squeez|press|pinch|clamp)", match["verb"]) and len(held) > 1:
+                continue  # 'pick it up without squeezing'
+            return match.group().strip()
+    return ""
