@@ -49,7 +49,7 @@ def in_digits(text: str) -> str:
     text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)
     text = _CHAIN.sub(lambda match: _cardinals(match[0]), _PRONOUN.sub("1ne", text))
     text = text.replace("1ne", "one")
-    text = re.sub(r"\b(\d+) (?:point|dot|comma|decimal) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)", _decimal, text)
+    text = re.sub(r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)", _decimal, text)
     text = re.sub(r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)", _bare_decimal, text)
     text = re.sub(rf"\b(\d+)[ -](?:and|&)[ -](an?|\d)[ -]({_PART})\b{_OF_A}", _mixed, text)
     text = re.sub(r"\b(\d+) (\d)/(\d)\b", lambda m: f"{int(m[1]) + int(m[2]) / int(m[3]):.6g}" if m[3] != "0" else m[0], text)

@@ -73,7 +73,7 @@ _UNITS: tuple[tuple[str, float], ...] = (
     (r"(?:centi-?\s?newtons?|cn)", 1e-2),
     (r"(?:n[ew]+t[a-z]{0,3}ns?|netwons?|newtos?|n)", 1.0),
     (rf"(?:{_KILO}{_OF_FORCE}|kgf|{_KILO}[ -]f(?:orce)?|kilo(?:gram)?-?force|kiloponds?)", 1000 * GRAM_N),
-    (rf"(?:{_GRAM}{_OF_FORCE}|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
+    (rf"(?:{_GRAM}{_OF_FORCE}|{_GRAM}[ -]weight|gf|{_GRAM}[ -]f(?:orce)?|gram-?force|ponds?)", GRAM_N),
     (rf"(?:(?:pounds?|lbs?){_OF_FORCE}|lbf)", 453.59237 * GRAM_N),
     (rf"(?:(?:ounces?|oz){_OF_FORCE}|ozf)", 28.349523 * GRAM_N),
 )  # fmt: skip
@@ -93,6 +93,9 @@ _RANGE = re.compile(
     rf"(?P<b>{_NUMBER.removeprefix(_ALONE)})\s*\]?\s*-?(?P<ub>(?:{_UNIT}|{_LOOSE})\b)"
 )
 _FORCE = re.compile(rf"(?P<a>{_SIGNED})\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?")
+_ELLIPSIS = re.compile(
+    rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({_NUMBER})(?!\s*(?:{_UNIT})\b)"
+)
 _PRESSURE = re.compile(
     rf"(?:{_NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
@@ -112,13 +115,13 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends?|tops out|finish\w*|stop\w*)(?: \w+){0,3} (?:at|before)|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|stop\w*)(?: \w+){0,3} (?:at|before)|"
     r"\bat (?:the )?(?:very |absolute )?most|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:by|at)|\btop out at|\bstop(?:ping)? at|\bno more than|\bf_?max\s*=)"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bstop(?:ping)? at|\bno more than|\bf_?max\s*=)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _LEAST = re.compile(
@@ -144,6 +147,16 @@ _LEAST_AFTER = re.compile(
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
     r"(?:is|would be|are|will be|will) (?:not (?:do|enough)|too (?:little|light|soft|low|weak)))"
 )
+_MOST_SOMEWHERE = re.compile(
+    r"\b(?:the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
+    r"maximum|(?:not|without|never|avoid) exceed\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
+    r"(?:remain|stay|keep|stop|be)\w* (?:it )?(?:just |well |safely )?(?:below|under|short of|beneath) (?:it|that|this)\b|as (?:a|the|an) (?:ceiling|cap|maximum|upper))"
+)
+_LEAST_SOMEWHERE = re.compile(
+    r"\b(?:the least (?:i|you|we|it|that)|lower (?:\w+ )?(?:bound|limit|end)|minimum|"
+    r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
+    r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
+)
 _EXACT_AFTER = re.compile(
     r"[.,;:]?\s*(?:and )?(?:(?:not|no) (?:a \w+ )?(?:more|higher|harder)(?:,| and| or|\.)* ?(?:not|no|nor) "
     r"(?:a \w+ )?(?:less|lower|softer)|(?:not|no) (?:a \w+ )?(?:less|lower|softer)(?:,| and| or|\.)* ?(?:not|no|nor) "
@@ -154,21 +167,23 @@ _NOT = re.compile(
     r"\b(?:not|no|never|none|nothing|nowhere|without|nor|neither|avoid\w*|refrain|refuse|forbid\w*|stop|"
     r"prevent\w*|keep(?: \w+){0,4} from|rather than|hardly|nobody)\b"
 )
-_NOT_OR_IF = re.compile(rf"{_NOT.pattern}|\bif\b")
+_IF = re.compile(r"(?<!appreciate it )(?<!like it )(?<!good )\bif (?:you|it|the \w+)\b")
 _DROPPED = re.compile(r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$")
-_CORRECTION = re.compile(r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|or rather|sorry|actually)\b[ ,:-]*")
+_RISE = re.compile(r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$")
+_BETWEEN = re.compile(rf"\bbetween(?: (?:the|a|some\w*|about))* {MARK}(?: \w+)? and(?: (?:the|a|about))*\s*$")
+_CORRECTION = re.compile(r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually)\b[ ,:-]*")
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
-_HARMS = r"(?:bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
+_HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
 _SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
 _HARMED = re.compile(rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$")
 _SLIPPING = re.compile(rf"\b(?:it|berry|fruit|one|this|thing|they) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$")
 _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"
 )
-_TOO_LITTLE = re.compile(rf"[^.;#]{{0,20}}\b(?:will not do|not enough|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)")
+_TOO_LITTLE = re.compile(rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not enough|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)")
 _FORCE_WORD = re.compile(
     r"(?:\b(?:with|apply|applying|use|using|at|to|about|around|roughly|exactly|than|most|least|under|over|above|"
     r"below|exceed\w*|max\w*\.?|min\w*\.?|limit\w*|force|of|between|from|set|just|only|approximately|nearly|by)|"
@@ -180,7 +195,8 @@ _THING = re.compile(r"\s*-?\s*(?:heavy )?(?:\w+ )?(?:berry|berries|strawberry|fr
 
 def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.text.plain``)."""
-    text = in_digits(text)
+    text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
+    text = re.sub(rf"({_NUMBER}), (?=newtons?\b)", r"\1 ", text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = _lengths(text)
     area = _AREA.search(text)
@@ -206,7 +222,15 @@ def _forces(text: str) -> tuple[list[Force], str]:
     for start, stop, ends in _matches(text):
         left, right = text[end:start], text[stop:]
         words = text[start:stop].strip()
-        if len(ends) == 2:
+        if found and len(ends) == 1 and _BETWEEN.search(f"{rest}{left}"):
+            before = found.pop()[0]
+            low, high = sorted((before.value_n, ends[0]))
+            words = f"{before.words} to {words}"
+            found += [
+                (Force(kind="least", value_n=low, words=words), True),
+                (Force(kind="most", value_n=high, words=words), True),
+            ]
+        elif len(ends) == 2:
             low, high = sorted(ends)
             kept = not _DROPPED.search(left)
             found += [
@@ -266,6 +290,8 @@ def _is_force(match: re.Match[str], text: str) -> bool:
     if not _is_loose(match["ua"]):
         return True
     left, right = text[: match.start()], text[match.end() :]
+    if re.search(r"\b(?:force|press\w*|squeez\w*|push\w*)\b.*\bweight of\s*$", left):
+        return True
     return bool(_FORCE_WORD.search(left)) and not _MASS_WORD.search(left) and not _THING.match(right)
 
 
@@ -283,7 +309,9 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     ):
         if match := pattern.search(left):
             clause_start = max((m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])), default=0)
-            denial = list(_NOT_OR_IF.finditer(left, clause_start, match.end()))
+            denial = list(_NOT.finditer(left, clause_start, match.end())) or list(
+                _IF.finditer(left, clause_start, match.end())
+            )
             stated = _HARMED if pattern is _ABOVE else _SLIPPING
             is_denied = len(denial) % 2 == 1 or bool(harm.match(right)) or bool(stated.search(left))
             start = denial[0].start() if len(denial) % 2 == 1 else match.start()
@@ -291,6 +319,8 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     if match := _HARMED.search(left):
         return "most", match.start(), 0
     most, least = _MOST.search(left), _LEAST.search(left)
+    if most and most.group().startswith("up to") and _RISE.search(left[: most.start()]):
+        most = None  # 'bring it up to 1.4 N'
     if most and (not least or most.start() < least.start()):
         return "most", most.start(), 0
     if least:
@@ -299,6 +329,11 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "most", len(left), match.end()
     if match := _LEAST_AFTER.match(right):
         return "least", len(left), match.end()
+    sentence = re.split(r"[.;!?]\s|#", left)[-1] + " # " + re.split(r"[.!?](?:\s|$)|#|\d", right)[0]
+    if _MOST_SOMEWHERE.search(sentence):
+        return "most", len(left), 0
+    if _LEAST_SOMEWHERE.search(sentence):
+        return "least", len(left), 0
     return "value", len(left), 0
 
 
@@ -336,6 +371,7 @@ def _factor(text: str) -> tuple[float | None, str, str]:
     """Factor on the task's force that a text names, its words, and the text without them."""
     percent = rf"(?P<p>{_NUMBER})\s*(?:%|percent|per cent)"
     for pattern, value in (
+        (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?(?:a )?half\b", lambda m: 1.5),
         (rf"half (?:again as {_HOW}|as {_HOW} again)", lambda m: 1.5),
         (rf"(?P<x>{_NUMBER})\s*(?:times|x|×) (?:as {_HOW}|{_USUAL})(?: as)?", lambda m: _number(m["x"])),
         (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)", lambda m: 2.0),

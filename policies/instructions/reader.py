@@ -60,6 +60,8 @@ _STARTS = re.compile(
     rf"(?:please |robot,? |hey,? |now |just |kindly |can you |could you |would you |go |ok(?:ay)?,? |and |so )*{words.HOLD_VERB}"
     r"(?: (?!an? |my |your |me |care|place|part|time|turns|notes?|note|on\b)\w+|\b.*\b(?:straw)?berry\b)"
 )
+_THIS_WHILE = re.compile(rf"(?:please |can you |could you |would you |now |just )*{words.HOLD_VERB}(?: up| on| on to)? (?:it|this|that|these|one)\b(?= while| for me| and| so| until|,|$)")
+_USUAL_GRIP = re.compile(r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b")
 _SHORT = re.compile(r"^(?=.*(?:berry|fruit|usual|standard|default))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|yo|hey|robot|go|usual|normal|standard|default)[ ,!.]*)+$")
 
 
@@ -69,7 +71,7 @@ def read_request(text: str) -> Request:
     numbers = read_quantities(clean)
     manner = read_manner(numbers.rest)
     refused = "" if re.search(r"[^\W_]", clean) else "there are no words"
-    refused = refused or refusal_of(numbers.rest) or _no_english(clean) or _nothing_asked(numbers, manner)
+    refused = refused or refusal_of(numbers.rest, clean) or _no_english(clean) or _nothing_asked(numbers, manner)
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
     return Request(
@@ -103,7 +105,9 @@ def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
     if not asked:
         return "it is a question, no request to hold anything"
     for sentence in asked:
-        is_off = _OFF.search(sentence) and not _OURS.search(sentence) and not has_manner(sentence)
+        if _THIS_WHILE.match(sentence) or _USUAL_GRIP.search(sentence):
+            return ""
+        is_off = _OFF.search(sentence) and not _OURS.search(sentence)
         starts_off = re.match(rf"^(?:please |robot,? |hey,? |now |just |go |can you |could you )*{words.OFF_DOMAIN}", sentence)
         if is_off or starts_off or _REPORT.search(sentence):
             continue
@@ -116,6 +120,8 @@ def _asks_manner(sentence: str) -> bool:
     """Whether a sentence says how to grip, and nothing else is its object."""
     if not read_manner(sentence).words:
         return False
+    if has_manner(sentence):
+        return True
     is_short = len(re.findall(r"[a-z']+", sentence)) <= 5 and not re.search(r" (?:the|my|a) ", sentence)
     return is_short or bool(_ABOUT_GRIP.search(sentence))
 

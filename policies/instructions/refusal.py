@@ -33,9 +33,10 @@ _HARM = [re.compile(pattern) for pattern in words.HARM]
 _OVERRIDE = [re.compile(pattern) for pattern in words.OVERRIDE]
 _RELEASE = [re.compile(pattern) for pattern in words.RELEASE]
 _STOP = [re.compile(pattern) for pattern in words.STOP]
+_WEAK_STOP = re.compile(r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move")
 _HOLD = re.compile(rf"\b{words.HOLD_VERB}\b")
 _NEGATIVE_HOLD = re.compile(
-    r"\b(?:not|never|neither|without|avoid|refrain from|no)(?: (?:even|ever|you|think|about|of|try|to|dare|start|just|please|now|be|being|go|"
+    r"\b(?:not|never|neither|without|avoid|refrain from|no)(?: (?:even|ever|you|think|about|of|try|to|dare|may|should|shall|must|can|will|are|to|allowed|start|just|please|now|be|being|go|"
     r"attempt|any|under|circumstances|want|like|me|it|yet|need|necessary|going|robot)){0,4} "
     r"(?P<verb>pick(?:ing)?|grasp(?:ing)?|grip(?:ping)?|hold(?:ing)?|lift(?:ing)?|grab(?:bing)?|seiz(?:e|ing)|touch(?:ing)?|"
     r"squeez(?:e|ing)|press(?:ing)?|clamp(?:ing)?|pinch(?:ing)?|clos(?:e|ing)|clutch(?:ing)?|handl(?:e|ing)|carry(?:ing)?|tak(?:e|ing)(?= (?:it|the|this|that)\b)|"
@@ -44,9 +45,14 @@ _NEGATIVE_HOLD = re.compile(
 _UNLESS = re.compile(r"\b(?:until|till|unless|before|with(?! your| the gripper)|by the|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to)\b")
 
 
-def refusal_of(text: str) -> str:
-    """Why a plain text, its quantities replaced, must not be carried out; '' where it may."""
-    if found := _sets_limits_aside(text):
+def refusal_of(text: str, whole: str = "") -> str:
+    """Why a plain text, its quantities replaced, must not be carried out; '' where it may.
+
+    Args:
+        text: The text with its quantities replaced.
+        whole: The same text with its quantities.
+    """
+    if found := _sets_limits_aside(text) or _sets_limits_aside(whole):
         return f"it sets limits aside: {found}"
     text = without_neutral(text)
     for find, reason in (
@@ -94,7 +100,7 @@ def _harms(text: str) -> str:
         for pattern in _HARM:
             for match in pattern.finditer(plain):
                 before = re.split(r"[,;]", plain[: match.start()])[-1]
-                if not _denied(before) and not re.search(r"\b(?:like|as if|as though)\b", before + match.group()):
+                if not _denied(before) and not re.search(r"\b(?:like|as if|as though|as \w+ as)\b", before + match.group()):
                     return match.group().strip()
     return ""
 
@@ -136,6 +142,10 @@ def _stops(text: str) -> str:
         for pattern in _STOP:
             for match in pattern.finditer(sentence):
                 before = re.split(r"[,;]", sentence[: match.start()])[-1]
+                earlier = text[: text.find(match.group())] + " " + before
+                is_after = _WEAK_STOP.search(match.group()) and (_HOLD.search(earlier) or MARK in earlier)
+                if is_after:
+                    continue  # 'grip it and wait'
                 if not re.search(r"\bto\s*$", before) and not _denied(before) and not has_manner(sentence[match.end() :]):
                     return match.group().strip()
         for clause in CLAUSE.split(sentence):
@@ -144,6 +154,8 @@ def _stops(text: str) -> str:
                 continue
             if match["verb"].startswith("mov") and re.search(rf"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: match.start()]):
                 continue  # 'it must not move' wants a firm grip
+            if match["verb"].startswith("mov") and (_HOLD.search(text[: text.find(match.group())]) or MARK in text[: text.find(match.group())]):
+                continue  # 'grip it and don't move'
             after = match["after"]
             if has_manner(match["verb"] + after) or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after) or MARK in after or _UNLESS.search(after):
                 continue

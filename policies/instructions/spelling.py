@@ -9,7 +9,7 @@ from policies.instructions import words
 _TARGETS = (
     "gently gentle gentler softly softer lightly lighter firmly firm firmer tightly tight tighter harder "
     "strawberry berry squeeze squeezing grip hold grasp grab pick lift newton newtons force pressure release drop stop "
-    "crush squash destroy limit ignore between maximum minimum least most exceed more than delicate delicately careful "
+    "crush squash destroy limit ignore between maximum minimum least most exceed more than beneath delicate delicately careful "
     "carefully fragile bruise strongly stronger loosely looser under above below touch please open gripper fingers strong "
     "grams carefully override safety disable without never with half twice"
 ).split(" ")
@@ -45,10 +45,12 @@ def _one_slip(word: str, target: str) -> bool:
         differ = [i for i, (a, b) in enumerate(zip(word, target, strict=True)) if a != b]
         if len(differ) == 2 and differ[1] == differ[0] + 1:
             return word[differ[0]] == target[differ[1]] and word[differ[1]] == target[differ[0]]
-        return len(differ) == 1 and len(word) >= 6 and differ[0] > 0
+        return len(differ) == 1 and len(word) >= 6 and differ[0] > 0 or (
+            len(differ) == 1 and len(word) >= 5 and {word[differ[0]], target[differ[0]]} <= set("aeiou")
+        )
     shorter, longer = sorted((word, target), key=len)
     if longer == target and len(target) < 5:
         return False
-    if longer == word and word in (target + "s", target + "d", target + "r", target + "y"):
+    if longer == word and word in (target + "s", target + "d", target + "y"):
         return False
     return any(longer[:i] + longer[i + 1 :] == shorter for i in range(1, len(longer)))

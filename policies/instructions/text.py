@@ -42,6 +42,7 @@ def plain(text: str) -> str:
     text = text.replace("()", "").replace("’", "'").replace("`", "'").replace("−", "-")
     for pattern, replacement in _CONTRACTIONS:
         text = re.sub(pattern, replacement, text)
+    text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
     return " ".join(text.split())
 
 
