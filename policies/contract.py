@@ -17,7 +17,7 @@ from policies.goal import Goal
 from policies.instructions.quantities import Force, Quantities
 from policies.instructions.reader import Request, read_request
 from primitives import Primitive
-from primitives.contract import Band, Contract, ForceTerms, TaskTerms, default_limit_n
+from primitives.contract import Band, Contract, TaskTerms, default_limit_n
 from primitives.errors import LimitError
 from primitives.sense import Interval
 
@@ -74,7 +74,7 @@ class _Draft:
     assumed: list[str] = field(default_factory=list)
 
 
-class _Refusal(Exception):
+class _RefusedError(Exception):
     """Ends the reading with a reason."""
 
 
@@ -100,11 +100,11 @@ def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Co
     is_tasks_own = text.strip() == task.instruction.strip()
     try:
         if request.refused:
-            raise _Refusal(request.refused)
+            raise _RefusedError(request.refused)
         named = _from_words(draft, request, task, is_tasks_own=is_tasks_own)
         _from_configuration(draft, given, named)
         _check_reach(draft, given, task)
-    except _Refusal as refusal:
+    except _RefusedError as refusal:
         return _contract(text, summary, draft, task, given, refused=str(refusal))
     return _contract(text, summary, draft, task, given)
 
@@ -126,22 +126,32 @@ def _contract(
         origins=draft.origins,
         assumed=tuple(draft.assumed),
         insists=insists,
-        soft=None if insists else task.soft,
+        soft=None if insists else _soft_terms(draft, task),
         refused=refused,
         **draft.others,
     )
+
+
+def _soft_terms(draft: _Draft, task: TaskTerms) -> ForceTerms | None:
+    """Terms that a soft contact would be held to: under a contract for hard things alone."""
+    soft = task.soft
+    if soft is None or draft.limit_n <= LIMIT_OVER_BAND * soft.limit_n:
+        return None
+    return soft
 
 
 def _from_words(draft: _Draft, request: Request, task: TaskTerms, *, is_tasks_own: bool) -> str:
     """Let the words change the draft; the words that name a force, '' where none do."""
     numbers = request.numbers
     if numbers.pressure:
-        raise _Refusal(
+        raise _RefusedError(
             f"{numbers.pressure!r} is a pressure, and the area of the contact is not known before "
             "it is touched; name the force, for example '1.5 N'"
         )
     if numbers.unitless:
-        raise _Refusal(f"{numbers.unitless} has no unit; say for example '{numbers.unitless} N'")
+        raise _RefusedError(
+            f"{numbers.unitless} has no unit; say for example '{numbers.unitless} N'"
+        )
     _lengths(draft, numbers)
     if numbers.forces:
         return _named_forces(draft, numbers.forces, request, task)
@@ -150,12 +160,17 @@ def _from_words(draft: _Draft, request: Request, task: TaskTerms, *, is_tasks_ow
         return numbers.factor_words.strip()
     manner = request.manner
     if manner.conflict:
-        raise _Refusal(f"it asks for both: {manner.conflict}; say which")
+        raise _RefusedError(f"it asks for both: {manner.conflict}; say which")
     if manner.sign and is_tasks_own:
         draft.assumed.append(f"{manner.words!r} is what the task's own band means")
     elif manner.sign:
         factor = MANNERS[manner.sign, manner.strong]
-        _scale(draft, task, factor, f"{_manner_name(manner.sign, manner.strong)}: your words: {manner.words}")
+        _scale(
+            draft,
+            task,
+            factor,
+            f"{_manner_name(manner.sign, manner.strong)}: your words: {manner.words}",
+        )
     elif manner.words:
         draft.assumed.append(f"{manner.words!r} cancel each other: the task's band")
     return ""
@@ -175,7 +190,9 @@ def _lengths(draft: _Draft, numbers: Quantities) -> None:
         draft.origins["depth_mm"] = "your words"
     if numbers.area_fraction is not None:
         area = min(1.0, numbers.area_fraction)
-        draft.others["area_fraction"] = Band(low=area * (1 - AROUND), high=min(1.0, area * (1 + AROUND)))
+        draft.others["area_fraction"] = Band(
+            low=area * (1 - AROUND), high=min(1.0, area * (1 + AROUND))
+        )
         draft.origins["area_fraction"] = "your words"
 
 
@@ -184,7 +201,7 @@ def _scale(draft: _Draft, task: TaskTerms, factor: float, origin: str) -> None:
     band = task.force.force_n
     middle = factor * band.middle
     if middle <= 0:
-        raise _Refusal(f"{origin.removeprefix('your words: ')} leaves no force to hold with")
+        raise _RefusedError(f"{origin.removeprefix('your words: ')} leaves no force to hold with")
     half = max(HALF_WIDTH * middle, min(abs(middle - band.low), abs(band.high - middle)))
     half = min(half, 0.34 * middle)
     draft.force_n = Band(low=middle - half, high=middle + half)
@@ -214,14 +231,14 @@ def _named_forces(
     leasts = [f.value_n for f in forces if f.kind == "least"]
     most, least = min(mosts, default=None), max(leasts, default=None)
     if not all(0 < f.value_n < math.inf for f in forces):
-        raise _Refusal(f"{words}: a grip needs a finite force above 0 N")
+        raise _RefusedError(f"{words}: a grip needs a finite force above 0 N")
     if values and max(values) > (1 + AROUND) ** 2 * min(values):
-        raise _Refusal(f"it names forces that exclude each other: {words}")
+        raise _RefusedError(f"it names forces that exclude each other: {words}")
     low_needed = max([*leasts, *values], default=0.0)
     if most is not None and low_needed > most:
-        raise _Refusal(f"it names forces that exclude each other: {words}")
+        raise _RefusedError(f"it names forces that exclude each other: {words}")
     if values and least is not None and least > max(values) * (1 + AROUND):
-        raise _Refusal(f"it names forces that exclude each other: {words}")
+        raise _RefusedError(f"it names forces that exclude each other: {words}")
     task_band = task.force.force_n
     if values:
         value = sum(values) / len(values)
@@ -233,7 +250,10 @@ def _named_forces(
         band = Band(low=least, high=top)
     elif most is not None:
         top = min(task_band.high, BELOW_MOST * most)
-        band = Band(low=min(task_band.low, top / SPAN) if top < 1.3 * task_band.low else task_band.low, high=top)
+        band = Band(
+            low=min(task_band.low, top / SPAN) if top < 1.3 * task_band.low else task_band.low,
+            high=top,
+        )
         band = _leaning(band, request)
     else:
         assert_low = ABOVE_LEAST * (least or 0.0)
@@ -272,24 +292,33 @@ def _from_configuration(draft: _Draft, given: Mapping[str, object], named: str) 
     limit = given.get("limit_n")
     if isinstance(band, Band):
         if named and (band.low > draft.limit_n or band.high < draft.force_n.low):
-            raise _Refusal(
+            raise _RefusedError(
                 f"the configuration sets force_n {band.low:g}-{band.high:g} N, the instruction says "
                 f"{named!r}; change one of them"
             )
         if draft.origins["force_n"] != "the task":
-            draft.assumed.append(f"{draft.origins['force_n'].removeprefix('your words: ')!r} gives way to the configuration")
-            kept = draft.limit_n if named and draft.origins["limit_n"].startswith("your words") else None
+            draft.assumed.append(
+                f"{draft.origins['force_n'].removeprefix('your words: ')!r} gives way to the configuration"
+            )
+            kept = (
+                draft.limit_n
+                if named and draft.origins["limit_n"].startswith("your words")
+                else None
+            )
         else:
             kept = None
         draft.force_n, draft.origins["force_n"] = band, "the configuration"
         if kept is not None and band.high <= kept:
             draft.limit_n = kept
         else:
-            draft.limit_n, draft.origins["limit_n"] = default_limit_n(band), "the band's top and a margin"
+            draft.limit_n, draft.origins["limit_n"] = (
+                default_limit_n(band),
+                "the band's top and a margin",
+            )
         _free_others(draft)
     if isinstance(limit, (int, float)):
         if limit < draft.force_n.low:
-            raise _Refusal(
+            raise _RefusedError(
                 f"the configuration sets limit_n {limit:g} N, but the force band begins at "
                 f"{draft.force_n.low:g} N ({draft.origins['force_n']}); change one of them"
             )
@@ -307,18 +336,20 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
     band, limit = draft.force_n, draft.limit_n
     most_by_words = MOST_OF_TASK * task.force.limit_n
     if band.low > task.most_n:
-        raise _Refusal(
+        raise _RefusedError(
             f"{band.low:.3g} N is beyond the gripper's {task.most_n:g} N (gripper.max_force_n)"
         )
     if limit < task.least_n:
-        raise _Refusal(
+        raise _RefusedError(
             f"a limit of {limit:.3g} N is below {task.least_n:.3g} N, the least that this gripper "
             "can keep to for certain (gripper.min_force_n times gripper.max_force_gain)"
         )
     insists = "force_n" in given or "limit_n" in given
-    top = band.low / (1 - AROUND) if draft.origins["force_n"].startswith("your words") else band.high
+    top = (
+        band.low / (1 - AROUND) if draft.origins["force_n"].startswith("your words") else band.high
+    )
     if not insists and max(top, band.middle) > most_by_words * 1.0001:
-        raise _Refusal(
+        raise _RefusedError(
             f"{top:.3g} N is more than {MOST_OF_TASK:g} times the task's limit "
             f"({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
         )

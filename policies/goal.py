@@ -1,5 +1,7 @@
-"""Numeric goal of a step: the target bands, for the teacher and for the lessons of the language
-model. In an episode it is a part of the contract (``policies.contract.target_of``)."""
+"""Numeric goal of a step, for the teacher and for the lessons of the language model.
+
+In an episode it is a part of the contract (``policies.contract.target_of``).
+"""
 
 from __future__ import annotations
 

@@ -12,8 +12,8 @@ from enum import StrEnum
 
 from cltp.tactile.states import ContactState, Side
 from policies.goal import Goal
-from primitives.contract import Band
 from primitives import Primitive
+from primitives.contract import Band
 from primitives.execution import INCREASE_FACTOR
 
 LESSON_MOVE_STEP_MM = 3.0

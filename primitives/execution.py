@@ -69,9 +69,7 @@ and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers th
 when closed are closed by the approach up to its limit of force, and no further."""
 
 
-def force_factor(
-    *, increase: bool, felt: Interval | None, goal_n: Band | None
-) -> float:
+def force_factor(*, increase: bool, felt: Interval | None, goal_n: Band | None) -> float:
     """Factor on the commanded force.
 
     Below the goal an increase goes just over its low end as felt, by at most ``MAX_INCREASE``;

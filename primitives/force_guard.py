@@ -77,7 +77,10 @@ class GuardedGripper:
             low=felt.low / state.force_n,
             high=min(felt.high / state.force_n, max(self._max_gain, felt.value / state.force_n)),
         )
-        if self._gain is None or gain.high / gain.value <= 1.01 * self._gain.high / self._gain.value:
+        if (
+            self._gain is None
+            or gain.high / gain.value <= 1.01 * self._gain.high / self._gain.value
+        ):
             self._gain = gain
 
     def state(self) -> GripperState:

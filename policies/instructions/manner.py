@@ -46,34 +46,41 @@ class Manner:
     conflict: str = ""
 
 
-_TABLES: tuple[tuple[int, int, bool, tuple[str, ...]], ...] = (
-    (-1, 1, False, words.SOFT_1[:3]),
-    (+1, 1, False, words.FIRM_1[:6]),
-    (-1, 1, True, words.SOFT_OBJECT),
-    (+1, 1, True, words.FIRM_OBJECT),
-    (-1, 2, True, words.SOFT_2),
-    (+1, 2, True, words.FIRM_2),
-    (-1, 1, True, words.SOFT_1[3:-1]),
-    (+1, 1, False, words.FIRM_1[6:9]),
-    (+1, 1, True, words.FIRM_1[9:10]),
-    (+1, 1, False, words.FIRM_1[10:11]),
-    (+1, 1, True, words.FIRM_1[11:]),
-    (-1, 1, False, words.SOFT_1[-1:]),
-    (-1, 1, True, words.LIKE_SOMETHING),
+_TABLES: tuple[tuple[str, int, int, bool], ...] = (
+    ("soft_reason_first", -1, 1, False),
+    ("firm_reason_first", +1, 1, False),
+    ("soft_object", -1, 1, True),
+    ("firm_object", +1, 1, True),
+    ("soft", -1, 2, True),
+    ("firm", +1, 2, True),
+    ("like_something", -1, 1, True),
+    ("soft_reason", -1, 1, True),
+    ("firm_reason_slip", +1, 1, False),
+    ("firm_reason_secure", +1, 1, True),
+    ("firm_reason_shaken", +1, 1, False),
+    ("firm_reason", +1, 1, True),
+    ("soft_reason_harm", -1, 1, False),
 )
-"""Sign, level, whether a denial turns it, and patterns; the first match takes its words out."""
+"""Sections of words with sign, level, and whether a denial turns them. The first match takes its
+words out, so the order matters."""
 
 _COMPILED = [
-    (sign, level, turns, re.compile(pattern)) for sign, level, turns, patterns in _TABLES for pattern in patterns
+    (sign, level, turns, pattern)
+    for section, sign, level, turns in _TABLES
+    for pattern in words.groups(section)
 ]
-_NEUTRAL = [re.compile(pattern) for pattern in words.NEUTRAL]
-_DENIAL = re.compile(words.DENIALS)
-_VERY = re.compile(words.VERY)
+_NEUTRAL = words.groups("neutral")
+_DENIAL = re.compile(rf"\b{words.any_of('denial')}\b")
+_VERY = re.compile(rf"\b{words.any_of('very')}\b")
 _TOO = re.compile(
     r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
 )
-_NEVER_TOO = re.compile(r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b")
-_RATHER = re.compile(r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+")
+_NEVER_TOO = re.compile(
+    r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b"
+)
+_RATHER = re.compile(
+    r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
+)
 _DENIED_AFTER = re.compile(
     r"^[^,;]{0,40}?\b(?:(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
     r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
@@ -82,7 +89,7 @@ _COMPLAINT = re.compile(
     r"\b(?:grip|hold|grasp|squeeze|touch|force|pressure|you|fingers)(?: \w+){0,1} (?:is|was|feels|seems|are|were|felt|looks)(?: (?!to|not)\w+){0,2} $"
 )
 _BREAK = re.compile(
-    rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.HOLD_VERB}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"
+    rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"
 )
 _REACH = 60
 """Characters before a cue in which a denial turns it. Our choice: about ten words."""
@@ -128,7 +135,9 @@ def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
     for part in CLAUSE.split(sentence):
         for clause in _BREAK.split(part):
             for cue in _clause_cues(" ".join(clause.split())):
-                is_complaint = asks and re.match(r"(?:and )?(?:why|must you|do you (?:have to|need to))\b", sentence)
+                is_complaint = asks and re.match(
+                    r"(?:and )?(?:why|must you|do you (?:have to|need to))\b", sentence
+                )
                 yield replace(cue, sign=-cue.sign, turned=True) if is_complaint else cue
 
 

@@ -11,25 +11,49 @@ import re
 _SMALL = {
     word: value
     for value, word in enumerate(
-        "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen "
-        "fifteen sixteen seventeen eighteen nineteen".split(" ")
+        [
+            "zero",
+            "one",
+            "two",
+            "three",
+            "four",
+            "five",
+            "six",
+            "seven",
+            "eight",
+            "nine",
+            "ten",
+            "eleven",
+            "twelve",
+            "thirteen",
+            "fourteen",
+            "fifteen",
+            "sixteen",
+            "seventeen",
+            "eighteen",
+            "nineteen",
+        ]
     )
 } | {"nought": 0, "naught": 0, "nil": 0}
 _TENS = {
     word: 10 * value
     for value, word in enumerate(
-        "twenty thirty forty fifty sixty seventy eighty ninety".split(" "), start=2
+        ["twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"], start=2
     )
 }
 _SCALES = {"hundred": 100, "thousand": 1000, "million": 1_000_000}
 _PARTS = {
     "half": 1 / 2, "halves": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "fourth": 1 / 4,
     "fifth": 1 / 5, "eighth": 1 / 8, "tenth": 1 / 10,
+    "hundredth": 1 / 100,
+    "thousandth": 1 / 1000,
 }  # fmt: skip
 
 _CARDINAL = "|".join([*_SMALL, *_TENS])
 _WORD = f"(?:{_CARDINAL}|{'|'.join(_SCALES)})"
-_CHAIN = re.compile(rf"\b(?:an? (?=(?:{'|'.join(_SCALES)})\b))?{_WORD}(?:(?:[ -]+| and ){_WORD})*\b")
+_CHAIN = re.compile(
+    rf"\b(?:an? (?=(?:{'|'.join(_SCALES)})\b))?{_WORD}(?:(?:[ -]+| and ){_WORD})*\b"
+)
 _PART = f"(?:{'|'.join(_PARTS)})s?"
 _PRONOUN = re.compile(
     r"\bone\b(?!-|,? ?(?:and (?:an?|one|1|three|3) |point |dot |comma |decimal |and \d| full | single "
@@ -49,16 +73,40 @@ def in_digits(text: str) -> str:
     text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)
     text = _CHAIN.sub(lambda match: _cardinals(match[0]), _PRONOUN.sub("1ne", text))
     text = text.replace("1ne", "one")
-    text = re.sub(r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)", _decimal, text)
-    text = re.sub(r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)", _bare_decimal, text)
+    text = re.sub(
+        r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)",
+        _decimal,
+        text,
+    )
+    text = re.sub(
+        r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)",
+        _bare_decimal,
+        text,
+    )
     text = re.sub(rf"\b(\d+)[ -](?:and|&)[ -](an?|\d)[ -]({_PART})\b{_OF_A}", _mixed, text)
-    text = re.sub(r"\b(\d+) (\d)/(\d)\b", lambda m: f"{int(m[1]) + int(m[2]) / int(m[3]):.6g}" if m[3] != "0" else m[0], text)
+    text = re.sub(
+        r"\b(\d+) (\d)/(\d)\b",
+        lambda m: f"{int(m[1]) + int(m[2]) / int(m[3]):.6g}" if m[3] != "0" else m[0],
+        text,
+    )
     text = re.sub(r"\b(\d+) (newtons?|kilos?|n) and (?:a|1) half\b", r"\1.5 \2", text)
-    text = re.sub(r"\b(?:an?|(\d+)) newtons? and (?:a|1) (half|quarter)\b", lambda m: f"{int(m[1] or 1) + _part(m[2]):.6g} newtons", text)
-    text = re.sub(rf"\b(?:(an?|\d)[ -])?({_PART})\b{_OF_A}{_UNIT}", _fraction, text)
-    text = re.sub(r"\b(\d)/(\d)" + _OF_A + _UNIT, lambda m: f"{int(m[1]) / int(m[2]):.6g}" if m[2] != "0" else m[0], text)
+    text = re.sub(
+        r"\b(?:an?|(\d+)) newtons? and (?:a|1) (half|quarter)\b",
+        lambda m: f"{int(m[1] or 1) + _part(m[2]):.6g} newtons",
+        text,
+    )
+    text = re.sub(rf"\b(?:(an?|\d+)[ -])?({_PART})\b{_OF_A}{_UNIT}", _fraction, text)
+    text = re.sub(
+        r"\b(\d)/(\d)" + _OF_A + _UNIT,
+        lambda m: f"{int(m[1]) / int(m[2]):.6g}" if m[2] != "0" else m[0],
+        text,
+    )
     text = re.sub(r"\ba couple of\b(?= newt)|\ba couple(?= newt)", "2", text)
-    return re.sub(r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|kilo(?:gram|newton)?(?:-force| of)|kgf\b)", "1 ", text)
+    return re.sub(
+        r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|kilo(?:gram|newton)?(?:-force| of)|kgf\b)",
+        "1 ",
+        text,
+    )
 
 
 def _scaled(match: re.Match[str]) -> str:
@@ -86,7 +134,11 @@ def _cardinals(chain: str) -> str:
             last = scale
             continue
         value = _SMALL.get(word, _TENS.get(word, 0))
-        fits = not numbers and last == 0 or last >= 100 or (last >= 20 and 0 < value < 10 and not joined)
+        fits = (
+            (not numbers and last == 0)
+            or last >= 100
+            or (last >= 20 and 0 < value < 10 and not joined)
+        )
         if not fits and (total or current or last):
             numbers.append(total + current)
             total = current = 0

@@ -63,7 +63,9 @@ class Quantities:
     rest: str = ""
 
 
-_GRIP = r"(?:the )?(?:grip(?:ping)?|clamp(?:ing)?|squeez(?:e|ing)|finger|contact|holding|hand)?[ -]?"
+_GRIP = (
+    r"(?:the )?(?:grip(?:ping)?|clamp(?:ing)?|squeez(?:e|ing)|finger|contact|holding|hand)?[ -]?"
+)
 _OF_FORCE = rf"[ -]*(?:of )?{_GRIP}(?:force|grip|pressure|squeeze|clamp)"
 _KILO = r"(?:kilo(?:gram(?:me)?)?s?|kgs?)"
 _GRAM = r"(?:gram(?:me)?s?|gr?)"
@@ -82,7 +84,10 @@ _MASSES = ((_KILO, 1000 * GRAM_N), (_GRAM, GRAM_N))
 _UNIT = "|".join(unit for unit, _ in _UNITS)
 _LOOSE = "|".join(unit for unit, _ in _MASSES)
 _ALONE = r"(?<![\d.,])"
-_NUMBER = _ALONE + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
+_NUMBER = (
+    _ALONE
+    + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
+)
 _SIGNED = rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{_NUMBER}|infinite|infinity|unlimited)"
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\btill\b|\band\b)\s*"
 _TOLERANCE = rf"\s*,?\s*(?:±|\+/?-|plus or minus|plus/minus|give or take|within)\s*(?:{_NUMBER})\s*(?:%|percent|{_UNIT}\b)?"
@@ -101,7 +106,9 @@ _PRESSURE = re.compile(
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
 )
 _LENGTH = re.compile(rf"(?P<a>{_NUMBER})\s*(?P<u>mm|millimet\w+|µm|μm|um|microns?|micromet\w+)\b")
-_AREA = re.compile(rf"(?P<a>{_NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)")
+_AREA = re.compile(
+    rf"(?P<a>{_NUMBER})\s*(?:%|percent|per cent) (?:of )?(?:the )?(?:\w+ )?(?:pad|area|gel|sensor)"
+)
 
 _FIRMER = r"(?:harder|firmer|tighter|stronger|heavier|larger|bigger|greater|higher)"
 _SOFTER = r"(?:softer|gentler|lighter|weaker|looser|lower|smaller|fewer)"
@@ -116,7 +123,7 @@ _BELOW = re.compile(
 )
 _MOST = re.compile(
     r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|stop\w*)(?: \w+){0,3} (?:at|before)|"
-    r"\bat (?:the )?(?:very |absolute )?most|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
@@ -157,6 +164,9 @@ _LEAST_SOMEWHERE = re.compile(
     r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
 )
+_THAT_AFTER = re.compile(
+    r"[^.;#\d]{0,40}?\b(below|under|beneath|above|over) (?:that|it)\b(?! (?:goes|is|will))"
+)
 _EXACT_AFTER = re.compile(
     r"[.,;:]?\s*(?:and )?(?:(?:not|no) (?:a \w+ )?(?:more|higher|harder)(?:,| and| or|\.)* ?(?:not|no|nor) "
     r"(?:a \w+ )?(?:less|lower|softer)|(?:not|no) (?:a \w+ )?(?:less|lower|softer)(?:,| and| or|\.)* ?(?:not|no|nor) "
@@ -168,29 +178,45 @@ _NOT = re.compile(
     r"prevent\w*|keep(?: \w+){0,4} from|rather than|hardly|nobody)\b"
 )
 _IF = re.compile(r"(?<!appreciate it )(?<!like it )(?<!good )\bif (?:you|it|the \w+)\b")
-_DROPPED = re.compile(r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$")
-_RISE = re.compile(r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$")
-_BETWEEN = re.compile(rf"\bbetween(?: (?:the|a|some\w*|about))* {MARK}(?: \w+)? and(?: (?:the|a|about))*\s*$")
-_CORRECTION = re.compile(r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually)\b[ ,:-]*")
+_DROPPED = re.compile(
+    r"\b(?:not|never|instead of|rather than|forget(?: about)?|isn't|skip|no longer|nor)(?: (?:at|the|with|use|using|to|about|exactly))*\s*$"
+)
+_RISE = re.compile(
+    r"\b(?:bring|take|raise|get|ramp|crank|turn|increase|dial|build|work|go)(?: (?:it|this|that|the \w+))?\s*$"
+)
+_BETWEEN = re.compile(
+    rf"\bbetween(?: (?:the|a|some\w*|about))* {MARK}(?: \w+)? and(?: (?:the|a|about))*\s*$"
+)
+_CORRECTION = re.compile(
+    r"\b(?:no,? wait|wait,? no|make (?:that|it)|i mean|i meant|correction|scratch that|in other words|i\.e\.|meaning|or rather|sorry|actually)\b[ ,:-]*"
+)
 _PAST = re.compile(
     r"\b(?:last (?:time|one|run|trial|try|berry)|yesterday|previous(?:ly)?|before|earlier|used to|was|were|had|"
     r"slipped|slid|crushed|squashed|bruised|dropped|tried|went|did)\b"
 )
 _HARMS = r"(?:gives? (?:way|in)|fail|yield|suffer|complain|leak|collapse|spoil|bruis|crush|squash|burst|break|split|crack|damag|mark|dent|pop|hurt|mush|ruin|spoil|tear|pulp)\w*"
 _SLIPS = r"(?:slips?|falls?|drops?|slides?|turns?|gets? away|wobbles?)"
-_HARMED = re.compile(rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$")
-_SLIPPING = re.compile(rf"\b(?:it|berry|fruit|one|this|thing|they) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$")
+_HARMED = re.compile(
+    rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
+)
+_SLIPPING = re.compile(
+    rf"\b(?:it|berry|fruit|one|this|thing|they) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
+)
 _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"
 )
-_TOO_LITTLE = re.compile(rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not enough|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)")
+_TOO_LITTLE = re.compile(
+    rf"[^.;#]{{0,20}}\b(?:will not do|not (?:allowed|acceptable|permitted|ok\w*|on)|forbidden|banned|not enough|too little|insufficient|useless|will not hold|no good|not acceptable|{_SLIPS}|let it)"
+)
 _FORCE_WORD = re.compile(
     r"(?:\b(?:with|apply|applying|use|using|at|to|about|around|roughly|exactly|than|most|least|under|over|above|"
     r"below|exceed\w*|max\w*\.?|min\w*\.?|limit\w*|force|of|between|from|set|just|only|approximately|nearly|by)|"
     r"[:=<>≤≥~])(?: (?:a|an|the|about|around|roughly|exactly|just|only|some))?\s*$"
 )
 _MASS_WORD = re.compile(r"\b(?:weigh\w*|mass|heavy|scale|berry of|fruit of)\b[^.;]*$")
-_THING = re.compile(r"\s*-?\s*(?:heavy )?(?:\w+ )?(?:berry|berries|strawberry|fruit|one|piece|object|thing|specimen|heavy|in weight)\b")
+_THING = re.compile(
+    r"\s*-?\s*(?:heavy )?(?:\w+ )?(?:berry|berries|strawberry|fruit|one|piece|object|thing|specimen|heavy|in weight)\b"
+)
 
 
 def read_quantities(text: str) -> Quantities:
@@ -222,10 +248,10 @@ def _forces(text: str) -> tuple[list[Force], str]:
     for start, stop, ends in _matches(text):
         left, right = text[end:start], text[stop:]
         words = text[start:stop].strip()
-        if found and len(ends) == 1 and _BETWEEN.search(f"{rest}{left}"):
-            before = found.pop()[0]
-            low, high = sorted((before.value_n, ends[0]))
-            words = f"{before.words} to {words}"
+        if found and len(ends) == 1 and _BETWEEN.search(" ".join(f"{rest}{left}".split())):
+            other = found.pop()[0]
+            low, high = sorted((other.value_n, ends[0]))
+            words = f"{other.words} to {words}"
             found += [
                 (Force(kind="least", value_n=low, words=words), True),
                 (Force(kind="most", value_n=high, words=words), True),
@@ -243,9 +269,9 @@ def _forces(text: str) -> tuple[list[Force], str]:
             left, stop = left[:left_cut], stop + right_cut
             before = re.split(r"[.;,]\s", left)[-1]
             clause = before + re.split(r"[.;,]\s?", text[stop:], maxsplit=1)[0]
-            is_denied = kind == "value" and (_DROPPED.search(left) or _NOT.search(before))
+            is_denied = kind == "value" and bool(_DROPPED.search(left) or _NOT.search(before))
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
-                is_denied = bool(is_denied) or not _CORRECTION.search(left)
+                is_denied = is_denied or not _CORRECTION.search(left)
                 if _CORRECTION.search(left):
                     found = [(force, False) for force, _ in found]
             kept = not (_PAST.search(clause) or is_denied)
@@ -292,7 +318,9 @@ def _is_force(match: re.Match[str], text: str) -> bool:
     left, right = text[: match.start()], text[match.end() :]
     if re.search(r"\b(?:force|press\w*|squeez\w*|push\w*)\b.*\bweight of\s*$", left):
         return True
-    return bool(_FORCE_WORD.search(left)) and not _MASS_WORD.search(left) and not _THING.match(right)
+    return (
+        bool(_FORCE_WORD.search(left)) and not _MASS_WORD.search(left) and not _THING.match(right)
+    )
 
 
 def _is_loose(unit: str) -> bool:
@@ -301,6 +329,8 @@ def _is_loose(unit: str) -> bool:
 
 def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     """Kind of a force, and how much of the text on either side says so."""
+    if match := _THAT_AFTER.match(right):
+        return ("most" if match[1] in ("below", "under", "beneath") else "least"), len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
     for pattern, plainly, denied, harm in (
@@ -308,7 +338,10 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
         (_BELOW, "most", "least", _TOO_LITTLE),
     ):
         if match := pattern.search(left):
-            clause_start = max((m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])), default=0)
+            clause_start = max(
+                (m.end() for m in re.finditer(r"[.;:,]\s|\bso\b|\bbut\b", left[: match.start()])),
+                default=0,
+            )
             denial = list(_NOT.finditer(left, clause_start, match.end())) or list(
                 _IF.finditer(left, clause_start, match.end())
             )
@@ -329,7 +362,9 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
         return "most", len(left), match.end()
     if match := _LEAST_AFTER.match(right):
         return "least", len(left), match.end()
-    sentence = re.split(r"[.;!?]\s|#", left)[-1] + " # " + re.split(r"[.!?](?:\s|$)|#|\d", right)[0]
+    after = re.split(r"[.!?](?:\s|$)|#", right)[0]
+    after = "" if re.search(r"\d", after) else after  # it belongs to the next force
+    sentence = re.split(r"[.;!?]\s|#", left)[-1] + " # " + after
     if _MOST_SOMEWHERE.search(sentence):
         return "most", len(left), 0
     if _LEAST_SOMEWHERE.search(sentence):
@@ -377,8 +412,8 @@ def _factor(text: str) -> tuple[float | None, str, str]:
         (rf"(?:twice|double|2 times|two times) (?:as {_HOW}|{_USUAL})|\bdouble (?:up )?(?:the|your)", lambda m: 2.0),
         (rf"(?:three times|triple|thrice) (?:as {_HOW}|{_USUAL})|\btriple (?:the|your)", lambda m: 3.0),
         (rf"(?:half|0\.5) as {_HOW}|\bhalf {_USUAL}|\bhalf (?:of )?{_USUAL}|\b(?:in|by) half\b|\bhalve\b|\bhalf (?:the )?(?:force|grip|strength|pressure|power|squeeze)", lambda m: 0.5),
-        (rf"(?:another|an extra|extra|additional) {_NUMBER}\s*(?:%|percent|per cent)|{_NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
-        (rf"\bto (?:about |around |roughly )?half\b", lambda m: 0.5),
+        (rf"(?:another|an extra|extra|additional|add|plus) {_NUMBER}\s*(?:%|percent|per cent)|{_NUMBER}\s*(?:%|percent|per cent) (?:on top|extra)", lambda m: 1 + _percent(m) / 100),
+        (r"\bto (?:about |around |roughly )?half\b", lambda m: 0.5),
         (rf"{percent} {_UP}", lambda m: 1 + _number(m["p"]) / 100),
         (rf"{percent} {_DOWN}", lambda m: 1 - _number(m["p"]) / 100),
         (rf"\b(?:{_GO_UP}|{_UP})\b[^.;#]{{0,40}}?by (?:about |around )?{percent}", lambda m: 1 + _number(m["p"]) / 100),
@@ -405,7 +440,9 @@ def _percent(match: re.Match[str]) -> float:
 def _part(match: re.Match[str]) -> float:
     if match["h"]:
         return 0.5
-    count = {"two": 2, "three": 3}.get(match["n"]) or (int(match["n"]) if match["n"].isdigit() else 1)
+    count = {"two": 2, "three": 3}.get(match["n"]) or (
+        int(match["n"]) if match["n"].isdigit() else 1
+    )
     return count / _DENOMINATORS[match["d"]]
 
 
@@ -413,9 +450,13 @@ def _lengths(text: str) -> tuple[float | None, float | None]:
     """Slip and depth that a text names [mm]."""
     slip = depth = None
     for match in _LENGTH.finditer(text):
-        mm = _number(match["a"]) * (1e-3 if match["u"][0] in "µμu" or match["u"].startswith("mic") else 1.0)
+        mm = _number(match["a"]) * (
+            1e-3 if match["u"][0] in "µμu" or match["u"].startswith("mic") else 1.0
+        )
         around = text[max(0, match.start() - 40) : match.end() + 25]
-        if re.search(r"\b(?:slip|slid|shift|creep|mov(?:e|ement) (?:by )?(?:more|at most))", around):
+        if re.search(
+            r"\b(?:slip|slid|shift|creep|mov(?:e|ement) (?:by )?(?:more|at most))", around
+        ):
             slip = mm
         elif re.search(r"\b(?:deep|depth|indent|into the gel|sink)", around):
             depth = mm

@@ -19,22 +19,21 @@ _MODAL = re.compile(
     r"you (?:will|would|might|may|could)|it (?:will|would|might|may|could|can)|going to|tends? to|liable to|likely to|about to|prone to|ready to|waiting to|wants to|threaten\w* to|"
     r"will|would|might|may|does|do not|did|could|can|shall)(?: (?:only|just|easily|simply|surely|otherwise|probably|always|never|also))*\s*$"
 )
-_ASKS = re.compile(r"\b(?:can|could|will|would|want|need|would like|order|tell|ask|command) you(?: to| please| just)*\s*$")
-_OBJECT = (
-    r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
+_ASKS = re.compile(
+    r"\b(?:can|could|will|would|want|need|would like|order|tell|ask|command) you(?: to| please| just)*\s*$"
 )
-_DESTROY = re.compile(rf"\b{words.DESTROY}(?:ing)?\b{_OBJECT}|\b\w+(?:sh|st|p|k)ing (?:it|the (?:berry|strawberry|fruit))\b(?<!ping it)(?<!king it)")
-_DESTROY_VERB = re.compile(rf"\b{words.DESTROY}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
-_DESTROY_PHRASES = [re.compile(pattern) for pattern in (
-    *words.DESTROY_PHRASES,
-    r"\b(?:make|let|watch|see|have) (?:it|the \w+|that|this) (?:burst|pop|break|explode|splat\w*|squirt|crack|snap|split|bleed|scream|die|suffer|squeal)\b",
-)]  # fmt: skip
-_HARM = [re.compile(pattern) for pattern in words.HARM]
-_OVERRIDE = [re.compile(pattern) for pattern in words.OVERRIDE]
-_RELEASE = [re.compile(pattern) for pattern in words.RELEASE]
-_STOP = [re.compile(pattern) for pattern in words.STOP]
-_WEAK_STOP = re.compile(r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move")
-_HOLD = re.compile(rf"\b{words.HOLD_VERB}\b")
+_OBJECT = r"(?: (?:it|this|that|the|them|these|those|him|her|my|a|an|some|every\w*|all|your|our|berry|strawberry|fruit|like|flat|down|up|apart|in|into|to)\b|(?=[.!,;]*$)| and\b| or\b)"
+_DESTROY_VERB = re.compile(rf"\b{words.any_of('destroy')}(?:n?ing|t?ing|p?ing)?\b{_OBJECT}")
+_DESTROY_PHRASES = words.groups("destroy_phrase")
+_HARM = words.groups("harm_phrase")
+_OVERRIDE = words.groups("override")
+_RELEASE = words.groups("release")
+_HANDOVER, _PUT_DOWN = words.any_of("handover"), words.any_of("put_down")
+_STOP = words.groups("stop")
+_WEAK_STOP = re.compile(
+    r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
+)
+_HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
 _NEGATIVE_HOLD = re.compile(
     r"\b(?:not|never|neither|without|avoid|refrain from|no)(?: (?:even|ever|you|think|about|of|try|to|dare|may|should|shall|must|can|will|are|to|allowed|start|just|please|now|be|being|go|"
     r"attempt|any|under|circumstances|want|like|me|it|yet|need|necessary|going|robot)){0,4} "
@@ -42,7 +41,9 @@ _NEGATIVE_HOLD = re.compile(
     r"squeez(?:e|ing)|press(?:ing)?|clamp(?:ing)?|pinch(?:ing)?|clos(?:e|ing)|clutch(?:ing)?|handl(?:e|ing)|carry(?:ing)?|tak(?:e|ing)(?= (?:it|the|this|that)\b)|"
     r"approach(?:ing)?|mov(?:e|ing)(?=[.!,]*$| the (?:gripper|arm|fingers?|robot)| at all| (?:a|an) (?:inch|muscle|millimet\w+|finger)| anything| toward\w*| it\b))\b(?P<after>.*)"
 )
-_UNLESS = re.compile(r"\b(?:until|till|unless|before|with(?! your| the gripper)|by the|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to)\b")
+_UNLESS = re.compile(
+    r"\b(?:until|till|unless|before|with(?! your| the gripper)|by the|like that|like this|table|mat|other|neighbou?r\w*|leaf|leaves|stem|anything else|against|back|up to)\b"
+)
 
 
 def refusal_of(text: str, whole: str = "") -> str:
@@ -77,7 +78,12 @@ def _contradicts(text: str) -> str:
 
 
 def _clauses(text: str) -> list[str]:
-    return [part.strip() for sentence, _ in sentences(text) for part in CLAUSE.split(sentence) if part and part.strip()]
+    return [
+        part.strip()
+        for sentence, _ in sentences(text)
+        for part in CLAUSE.split(sentence)
+        if part and part.strip()
+    ]
 
 
 def _denied(before: str) -> bool:
@@ -96,11 +102,13 @@ def _sets_limits_aside(text: str) -> str:
 
 def _harms(text: str) -> str:
     for sentence, _ in sentences(text):
-        plain = re.sub(words.HANDOVER, " ", sentence)
+        plain = re.sub(_HANDOVER, " ", sentence)
         for pattern in _HARM:
             for match in pattern.finditer(plain):
                 before = re.split(r"[,;]", plain[: match.start()])[-1]
-                if not _denied(before) and not re.search(r"\b(?:like|as if|as though|as \w+ as)\b", before + match.group()):
+                if not _denied(before) and not re.search(
+                    r"\b(?:like|as if|as though|as \w+ as)\b", before + match.group()
+                ):
                     return match.group().strip()
     return ""
 
@@ -112,7 +120,14 @@ def _destroys(text: str) -> str:
                 return match.group().strip()
         for match in _DESTROY_VERB.finditer(clause):
             before = clause[: match.start()]
-            if _denied(before) or re.search(r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$", before):
+            if re.match(
+                r" ?(?:\w+ )?(?:force|grip|pressure|squeeze|grasp)\b", clause[match.end() :]
+            ):
+                continue  # 'cut the grip force by half'
+            if _denied(before) or re.search(
+                r"\b(?:better|rather|sooner|too|easy|easily|hard|how|any|than|the|a|no|of)\s*$",
+                before,
+            ):
                 continue
             if _MODAL.search(before) and not _ASKS.search(before):
                 continue
@@ -125,41 +140,66 @@ def _releases(text: str) -> str:
         for pattern in _RELEASE:
             for match in pattern.finditer(clause):
                 before, after = clause[: match.start()], clause[match.end() :]
-                if _denied(before) or re.match(r" (?:of )?(?:the|that|this|your|any|all)? ?(?:\w+ ){0,2}(?:idea|notion|act|thought|approach|macho|pressure|tension|force)\b", after):
+                if _denied(before) or re.match(
+                    r" (?:of )?(?:the|that|this|your|any|all)? ?(?:\w+ ){0,2}(?:idea|notion|act|thought|approach|macho|pressure|tension|force)\b",
+                    after,
+                ):
                     continue
-                if re.search(r"\b(?:it|they|berry|one) (?:might|may|will|could|would|can)\s*$", before):
+                if re.search(
+                    r"\b(?:it|they|berry|one) (?:might|may|will|could|would|can)\s*$", before
+                ):
                     continue
                 return match.group().strip()
-        if (match := re.search(words.PUT_DOWN, clause)) and not _denied(clause[: match.start()]):
-            if not _HOLD.search(text[: text.find(match.group())]):
-                return match.group().strip()
+        down = re.search(_PUT_DOWN, clause)
+        if down is None or _denied(clause[: down.start()]):
+            continue
+        if not _HOLD.search(text[: text.find(down.group())]):
+            return down.group().strip()
     return ""
 
 
 def _stops(text: str) -> str:
-    held = [m for m in _HOLD.finditer(text)]
+    held = list(_HOLD.finditer(text))
     for sentence, _ in sentences(text):
         for pattern in _STOP:
             for match in pattern.finditer(sentence):
                 before = re.split(r"[,;]", sentence[: match.start()])[-1]
                 earlier = text[: text.find(match.group())] + " " + before
-                is_after = _WEAK_STOP.search(match.group()) and (_HOLD.search(earlier) or MARK in earlier)
+                is_after = _WEAK_STOP.search(match.group()) and (
+                    _HOLD.search(earlier) or MARK in earlier
+                )
                 if is_after:
                     continue  # 'grip it and wait'
-                if not re.search(r"\bto\s*$", before) and not _denied(before) and not has_manner(sentence[match.end() :]):
+                if (
+                    not re.search(r"\bto\s*$", before)
+                    and not _denied(before)
+                    and not has_manner(sentence[match.end() :])
+                ):
                     return match.group().strip()
         for clause in CLAUSE.split(sentence):
-            match = _NEGATIVE_HOLD.search(clause or "")
-            if match is None or _denied(clause[: match.start()]):
+            hold = _NEGATIVE_HOLD.search(clause or "")
+            if hold is None or _denied(clause[: hold.start()]):
                 continue
-            if match["verb"].startswith("mov") and re.search(rf"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: match.start()]):
+            if re.search(r"\b(?:i|we) (?:can|could|will|may)\s*$", clause[: hold.start()]):
+                continue  # 'I can't hold it myself'
+            if hold["verb"].startswith("mov") and re.search(
+                r"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: hold.start()]
+            ):
                 continue  # 'it must not move' wants a firm grip
-            if match["verb"].startswith("mov") and (_HOLD.search(text[: text.find(match.group())]) or MARK in text[: text.find(match.group())]):
+            if hold["verb"].startswith("mov") and (
+                _HOLD.search(text[: text.find(hold.group())])
+                or MARK in text[: text.find(hold.group())]
+            ):
                 continue  # 'grip it and don't move'
-            after = match["after"]
-            if has_manner(match["verb"] + after) or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after) or MARK in after or _UNLESS.search(after):
+            after = hold["after"]
+            if (
+                has_manner(hold["verb"] + after)
+                or re.search(r"\b(?:(?:so|too|that|as) (?:often|long)|much)\b", after)
+                or MARK in after
+                or _UNLESS.search(after)
+            ):
                 continue
-            if re.match(r"(?:squeez|press|pinch|clamp)", match["verb"]) and len(held) > 1:
+            if re.match(r"(?:squeez|press|pinch|clamp)", hold["verb"]) and len(held) > 1:
                 continue  # 'pick it up without squeezing'
-            return match.group().strip()
+            return hold.group().strip()
     return ""

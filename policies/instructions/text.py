@@ -31,7 +31,9 @@ _CONTRACTIONS = (
 )  # fmt: skip
 
 _SENTENCE = re.compile(r"(?<!\d)[.!?]+|[.!?]+(?=\s|$)|\n+")
-CLAUSE = re.compile(r"[,;:()]|\s[-–—]+\s|—|\.\.+|…|\bbut\b|\bbecause\b|\bsince\b|\band then\b|\bthen\b")
+CLAUSE = re.compile(
+    r"[,;:()]|\s[-–—]+\s|—|\.\.+|…|\bbut\b|\bbecause\b|\bsince\b|\band then\b|\bthen\b"
+)
 """What ends the reach of a negation within a sentence."""
 
 

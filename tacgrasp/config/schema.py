@@ -52,7 +52,7 @@ class GoalConfig(SettingsBase):
             low, high = getattr(self, name)
             if low > high:
                 raise ValueError(f"{name} must be [low, high], got [{low}, {high}]")
-        if not 0 < self.force_n[0]:
+        if not self.force_n[0] > 0:
             raise ValueError(f"force_n must begin above 0 N, got {list(self.force_n)}")
         if self.limit_n is not None and self.limit_n < self.force_n[1]:
             raise ValueError(
@@ -64,7 +64,11 @@ class GoalConfig(SettingsBase):
 
     def goal(self) -> Goal:
         """The same bands as the policies' ``Goal``."""
-        bands = {name: Band(low=low, high=high) for name in GOAL_BANDS for low, high in [getattr(self, name)]}
+        bands = {
+            name: Band(low=low, high=high)
+            for name in GOAL_BANDS
+            for low, high in [getattr(self, name)]
+        }
         return Goal(area_fraction=bands.pop("area_share"), **bands)
 
 
@@ -247,12 +251,8 @@ class RunConfig(SettingsBase):
     arm: ArmConfig
     gripper: GripperConfig = GripperConfig()
     pad: PadConfig
-    on_success: GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
-
-EndAction = "hold"
-    on_failure: GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
-
-EndAction = "release"
+    on_success: EndAction = "hold"
+    on_failure: EndAction = "release"
     dry_run: bool = False
     record: Path = Path("episodes")
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from policies.contract import read_contract
+from policies.contract import BANDS, read_contract
 from primitives.contract import Band, Contract, ForceTerms, TaskTerms, default_limit_n
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import task_fields
@@ -94,6 +94,39 @@ def contract_lines(contract: Contract) -> list[str]:
         f"{limit_n:.3g} N ({origin})"
     )
     return [line, *(f"  {note}" for note in contract.assumed)]
+
+
+def band_lines(contract: Contract) -> list[str]:
+    """Every band of a contract with its origin, a line each."""
+    lines = []
+    for name in BANDS:
+        value = getattr(contract, name)
+        if isinstance(value, Band):
+            text = f"[{value.low:.4g}, {value.high:.4g}]"
+        else:
+            text = "none" if value is None else f"{value:.4g}"
+        lines.append(f"contract.{name:13}  {text}  [{contract.origins.get(name, 'the task')}]")
+    return lines
+
+
+def contract_json(contract: Contract) -> dict[str, object]:
+    """A contract for machines; forces in N, lengths in mm, the area as a fraction."""
+    return {
+        "summary": contract.summary,
+        "force_n": _pair(contract.force_n),
+        "limit_n": contract.limit_n,
+        "slip_mm": contract.slip_mm,
+        "place_mm": {"x": _pair(contract.x_mm), "y": _pair(contract.y_mm)},
+        "depth_mm": _pair(contract.depth_mm),
+        "area": _pair(contract.area_fraction),
+        "origins": dict(contract.origins),
+        "assumed": list(contract.assumed),
+        "refused": contract.refused or None,
+    }
+
+
+def _pair(band: Band | None) -> list[float] | None:
+    return None if band is None else [band.low, band.high]
 
 
 def _force_terms(goal: GoalConfig) -> ForceTerms:

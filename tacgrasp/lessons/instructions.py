@@ -56,9 +56,7 @@ def task_goals() -> dict[str, Goal]:
     for level in LEVELS:
         text = (resources.files("tacgrasp") / "tasks" / f"{level}.yaml").read_text()
         bands = yaml.safe_load(text)["goal"].items()
-        goals[level] = GoalConfig(
-            **{n: (float(low), float(high)) for n, (low, high) in bands}
-        ).goal()
+        goals[level] = GoalConfig.model_validate(dict(bands)).goal()
     return goals
 
 

@@ -9,9 +9,9 @@ from cltp.tactile.states import ContactState, Side, area_word, depth_word, posit
 from policies import Observation
 from policies.baselines import FixedForcePolicy, RandomPolicy
 from policies.goal import Goal
-from primitives.contract import Band
 from policies.rules import RulesPolicy
 from primitives import Primitive
+from primitives.contract import Band
 from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract
 
 GOAL = Goal(

@@ -26,6 +26,7 @@ from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.threads import BackgroundCall, Episode, check_episode
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.emulated import settings_for
@@ -218,7 +219,7 @@ class FaultBench:
             record = {"record": Path(self._folder.name), "policy": "rules"}
             config = self._config.model_copy(update=record)
             episode = BackgroundCall(
-                lambda: run_recorded(rig, make_policy("rules", config), config)
+                lambda: run_recorded(rig, make_policy("rules", config), config, contract_of(config))
             )
             moving = self._wait_for_motion(episode)
             injected_s = self._inject(case)

@@ -25,13 +25,14 @@ from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
-from tacgrasp.config.schema import RunConfig, VerifyConfig
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.steps import NoRecorder
-from tacgrasp.runtime.verify import verify_by_lifting
+from tacgrasp.runtime.verify import accelerations, verify_by_lifting
 
 FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
 """Commanded forces that ``fixed_force`` is swept over."""
@@ -77,12 +78,6 @@ class EpisodeResult:
         return self.declared and self.truth.held and not self.bruised
 
 
-def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
-    """Accelerations of a held body in the verification, (x, y) of the pad [m/s²]."""
-    shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
-    return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
-
-
 def run_seed(
     config: RunConfig, contestants: Sequence[Contestant], seed: int
 ) -> list[EpisodeResult]:
@@ -97,11 +92,13 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
     name, force_n = contestant
     rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
+    contract = contract_of(config)
     outcome = run_episode(
         rig,
-        make_executor(rig, config, sense),
+        make_executor(rig, config, None if force_n is not None else contract, sense),
         _policy(name, config, rig, slip_minimum_n),
         config,
+        contract,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
         sense=sense,
@@ -120,7 +117,7 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
 
 def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
     if name == "llm":
-        return _language_model(config.weights, config.instruction, config.primitives.move_step_mm)
+        return _language_model(config.weights, config.primitives.move_step_mm)
     if name != "oracle":
         return make_policy(name, config)
     grasp = rig.grasp
@@ -138,12 +135,11 @@ def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) ->
 
 
 @lru_cache(maxsize=1)
-def _language_model(weights: Path | None, instruction: str, move_step_mm: float) -> Policy:
+def _language_model(weights: Path | None, move_step_mm: float) -> Policy:
     """The policy ``llm``, read once a process: it has no memory, so episodes can share it."""
     policy = load_llm(weights)
     try:
         policy.check_move_step(move_step_mm)
-        policy.check(instruction)
     except PolicyError as error:
         raise UsageError(str(error)) from None
     return policy
@@ -199,8 +195,7 @@ def run(settings: StrawberrySettings) -> None:
             f"bench needs policies out of {', '.join(names)}; got {', '.join(policies)}"
         )
     if "llm" in policies:
-        step_mm = config.primitives.move_step_mm
-        _language_model(config.weights, config.instruction, step_mm)  # an error shows here
+        _language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
     contestants: list[Contestant] = []
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
