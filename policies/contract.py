@@ -17,7 +17,14 @@ from policies.goal import Goal
 from policies.instructions.quantities import Force, Quantities
 from policies.instructions.reader import Request, read_request
 from primitives import Primitive
-from primitives.contract import Band, Contract, TaskTerms, default_limit_n
+from primitives.contract import (
+    LIMIT_OVER_BAND,
+    Band,
+    Contract,
+    ForceTerms,
+    TaskTerms,
+    default_limit_n,
+)
 from primitives.errors import LimitError
 from primitives.sense import Interval
 
@@ -59,6 +66,10 @@ DEFAULT_AREA = Band(low=0.0, high=1.0)
 PLACE_MARGIN_MM, DEPTH_FACTOR, AREA_FACTOR = 1.0, 1.3, 1.5
 """How far a measured state may lie outside its band before a declared success counts as beyond the
 contract: the spread of the direct measurement on noisy contacts."""
+
+CLEARLY = 1.65
+"""Factor by which a felt force must lie outside the band before a decision goes against it. Source:
+the largest error of a felt force in 160 simulated contacts on the pad, 1.7."""
 
 BANDS = ("force_n", "limit_n", "slip_mm", "x_mm", "y_mm", "depth_mm", "area_fraction")
 
@@ -403,6 +414,7 @@ def beyond(
     """
     band = contract.terms.force_n
     if felt is not None:
+        felt = Interval(value=felt.value, low=felt.value / CLEARLY, high=felt.value * CLEARLY)
         if action is Primitive.INCREASE_FORCE and felt.low > band.high:
             return f"more force, but {felt.value:.2f} N is felt and the contract ends at {band.high:.2f} N"
         if action is Primitive.DECREASE_FORCE and felt.high < band.low:

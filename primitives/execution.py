@@ -60,9 +60,6 @@ felt force varies by some percent from frame to frame."""
 APPROACH_STEP_N = 0.05
 """Least step of the commanded force during the approach [N]."""
 
-CLEAR_SPREAD = 1.4
-"""Upper bound over value of a felt force from which the contact is too unclear to tell stiffness."""
-
 CLOSED_WIDTH_M = 0.001
 """Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin,
 and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers that leave a wider gap
@@ -212,7 +209,7 @@ class Executor:
         clamp_force(first_force_n, limits)
         limit_n = math.inf if contract is None else contract.terms.limit_n
         if contract is not None and contract.soft is not None:
-            limit_n = min(limit_n, contract.soft.limit_n)  # until the contact is known to be hard
+            limit_n = min(limit_n, contract.soft.force_n.high)  # until it is known to be hard
         self._gripper = GuardedGripper(gripper, limit_n=limit_n, max_gain=max_gain)
         self._arm, self._limits = arm, limits
         self._clear_m = clear_mm * 1e-3
@@ -250,8 +247,9 @@ class Executor:
         contract = self._contract
         if contract is None or contract.soft is None or felt is None:
             return None
-        if felt.high / felt.value < CLEAR_SPREAD:
-            self._stiffness.feel(felt, self._gripper.state().width_m)
+        state = self._gripper.state()
+        if state.closed:
+            self._stiffness.feel(state.force_n, state.width_m, self._gripper.gain)
         if self._stiffness.is_soft is False:
             self._gripper.keep_to(contract.terms.limit_n)
         return self._stiffness.is_soft
@@ -364,6 +362,9 @@ class Executor:
         felt = None if self._sense is None else self._sense.felt_force()
         band = None if self._contract is None else self._contract.terms.force_n
         factor = force_factor(increase=increase, felt=felt, goal_n=band)
+        if self._contract is not None and self._contract.soft is not None:
+            if self._stiffness.is_soft is None:
+                factor = min(factor, INCREASE_FACTOR)  # small steps until it is known to be hard
         request_n = force_n or before * factor
         force = clamp_force(request_n, self._limits)
         allowed_n = min(force.value, self._gripper.most_n)

@@ -100,7 +100,9 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     events.contract(contract)
     if contract.refused:
         events.refused(contract)
-        raise UsageError(f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved")
+        raise UsageError(
+            f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
+        )
     policy = make_policy(config.policy, config)
     rig = make_rig(config)
     console = make_console()

@@ -98,7 +98,9 @@ class EventFile:
 
     def refused(self, contract: Contract) -> None:
         """The end of a run that did not begin."""
-        nothing = dict.fromkeys(("verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n"))
+        nothing = dict.fromkeys(
+            ("verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
+        )
         message = {"reason": "refused", "message": contract.refused}
         self._write("end", {**message, **nothing, "steps": 0, "actions": 0})
 

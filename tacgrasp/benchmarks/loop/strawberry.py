@@ -19,6 +19,7 @@ from rich.console import Console
 
 from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
+from sim.grasp.bodies import OBJECTS
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, write_figures
@@ -27,6 +28,7 @@ from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
+from tacgrasp.episodes.record import StepRecord
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.factory import make_executor
@@ -56,6 +58,7 @@ class EpisodeResult:
         slip_minimum_n: Smallest force that would have held the centred body [N].
         chose_first_force: Whether the policy chose the force of the first grasp (``fixed_force``);
             a bruise of that grasp is then the policy's.
+        objected: Whether what was felt objected to the contract.
     """
 
     seed: int
@@ -66,6 +69,7 @@ class EpisodeResult:
     truth: Truth
     slip_minimum_n: float
     chose_first_force: bool = False
+    objected: bool = False
 
     @property
     def bruised(self) -> bool:
@@ -93,6 +97,12 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
     rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
     contract = contract_of(config)
+    objections: list[str] = []
+
+    def hear(record: StepRecord) -> None:
+        if record.contract is not None:
+            objections.append(record.contract.assumed[-1])
+
     outcome = run_episode(
         rig,
         make_executor(rig, config, None if force_n is not None else contract, sense),
@@ -101,6 +111,7 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
         contract,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
+        observers=[hear],
         sense=sense,
     )
     return EpisodeResult(
@@ -112,6 +123,7 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
         truth=rig.truth(),
         slip_minimum_n=slip_minimum_n,
         chose_first_force=force_n is not None,
+        objected=bool(objections),
     )
 
 
@@ -165,6 +177,7 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
         "bruised_at_start": lambda r: r.truth.bruised_at_start,
         "dropped": lambda r: r.truth.dropped,
         "declared": lambda r: r.declared,
+        "objected": lambda r: r.objected,
     }
     for name, event in events.items():
         count = sum(event(r) for r in results)
@@ -185,7 +198,7 @@ def run(settings: StrawberrySettings) -> None:
     Raises:
         UsageError: An unknown policy.
     """
-    config = load("strawberry")[0].model_copy(update={"weights": settings.weights})
+    config = _config(settings)
     episodes, first_seed = settings.episodes, settings.first_seed
     policies = [name.strip() for name in settings.policies.split(",")]
     names = [*POLICIES, "oracle"]
@@ -217,6 +230,8 @@ def run(settings: StrawberrySettings) -> None:
             sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in by_force.items()}
     report = {
         "task": config.task,
+        "object": config.object,
+        "instruction": config.instruction,
         "first_seed": first_seed,
         "episodes": episodes,
         "policies": figures,
@@ -225,6 +240,22 @@ def run(settings: StrawberrySettings) -> None:
     }
     _print(console, figures, sweep, episodes, first_seed)
     write_figures(settings.json, report)
+
+
+def _config(settings: StrawberrySettings) -> RunConfig:
+    """The run that every episode is of.
+
+    Raises:
+        UsageError: An unknown task or object, or an instruction that is refused.
+    """
+    changes = {"weights": settings.weights}
+    changes |= {n: v for n in ("object", "instruction") if (v := getattr(settings, n)) is not None}
+    config = load(settings.task)[0].model_copy(update=changes)
+    if config.object not in OBJECTS:
+        raise UsageError(f"--object must be one of {', '.join(OBJECTS)}, got {config.object!r}")
+    if reason := contract_of(config).refused:
+        raise UsageError(f"--instruction is refused: {reason}")
+    return config
 
 
 def _flat(result: EpisodeResult) -> dict[str, Any]:
@@ -239,7 +270,15 @@ def _print(
     first_seed: int,
 ) -> None:
     title = f"{episodes} episodes, seeds from {first_seed:,}; 95 % Wilson intervals"
-    columns = ["policy", "verified", "bruised", "bruised at start", "dropped", "actions"]
+    columns = [
+        "policy",
+        "verified",
+        "bruised",
+        "bruised at start",
+        "dropped",
+        "objected",
+        "actions",
+    ]
     columns += ["peak force / slip minimum", "ends"]
     table = number_table(title, columns, ("policy", "ends"))
     for name, row in figures.items():
@@ -254,6 +293,7 @@ def _print(
             rate("bruised"),
             f"{100 * row['bruised_at_start_rate']:.1f} %",
             f"{100 * row['dropped_rate']:.1f} %",
+            f"{100 * row['objected_rate']:.1f} %",
             f"{row['median_actions']:g}",
             f"{row['median_peak_force_over_slip_minimum']:.1f}",
             ", ".join(f"{end} {count}" for end, count in row["ends"].items()),
