@@ -166,6 +166,10 @@ def _from_words(draft: _Draft, request: Request, task: TaskTerms, *, is_tasks_ow
     _lengths(draft, numbers)
     if numbers.forces:
         return _named_forces(draft, numbers.forces, request, task)
+    if numbers.delta_n is not None:
+        middle = task.force.force_n.middle
+        _scale(draft, task, 1 + numbers.delta_n / middle, f"your words: {numbers.delta_n:+.3g} N")
+        return f"{numbers.delta_n:+.3g} N"
     if numbers.factor is not None:
         _scale(draft, task, numbers.factor, f"your words: {numbers.factor_words.strip()}")
         return numbers.factor_words.strip()

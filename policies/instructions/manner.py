@@ -151,6 +151,8 @@ def _clause_cues(clause: str) -> Iterator[Cue]:
         masked = pattern.sub(lambda match: "~" * len(match.group()), masked)
     for start, end, sign, level, turns in sorted(found):
         before = masked[max(0, start - _REACH) : start]
+        after_and = before.rpartition(" and ")[2]
+        before = after_and if _DENIAL.search(after_and) else before
         denials = list(_DENIAL.finditer(before)) if turns else []
         turned = len(denials) % 2 == 1
         if turns and not denials and _COMPLAINT.search(masked[:start]):

@@ -43,6 +43,7 @@ class Quantities:
 
     Attributes:
         forces: Forces in their order; the ends of a range are a least and a most.
+        delta_n: Force to add to the task's ('half a newton more'); None where none is named [N].
         factor: Factor on the task's force ('half as hard'); None where none is named.
         factor_words: The words that name it.
         slip_mm, depth_mm: Largest slip, and depth, that are named [mm]; None where none is.
@@ -53,6 +54,7 @@ class Quantities:
     """
 
     forces: tuple[Force, ...] = ()
+    delta_n: float | None = None
     factor: float | None = None
     factor_words: str = ""
     slip_mm: float | None = None
@@ -97,7 +99,7 @@ _RANGE = re.compile(
     rf"(?P<a>{_NUMBER})\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)?(?P<link>{_LINK})"
     rf"(?P<b>{_NUMBER.removeprefix(_ALONE)})\s*\]?\s*-?(?P<ub>(?:{_UNIT}|{_LOOSE})\b)"
 )
-_FORCE = re.compile(rf"(?P<a>{_SIGNED})\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?")
+_FORCE = re.compile(rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{_NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?")
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({_NUMBER})(?!\s*(?:{_UNIT})\b)"
 )
@@ -139,16 +141,16 @@ _LEAST = re.compile(
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _MOST_AFTER = re.compile(
-    r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b|tops\b|at (?:the )?(?:very |absolute )?most\b|"
-    r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: \w+){1,3} at (?:the )?(?:very |absolute )?most\b|"
+    r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
+    r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
-    r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b|"
+    r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b)"
 )
 _LEAST_AFTER = re.compile(
-    r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: \w+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
+    r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
     r"at (?:the )?(?:very |absolute )?least\b|plus\b|"
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
@@ -226,10 +228,12 @@ def read_quantities(text: str) -> Quantities:
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = _lengths(text)
     area = _AREA.search(text)
+    delta_n, text = _delta(text)
     forces, text = _forces(text)
     factor, factor_words, text = _factor(text)
     return Quantities(
         forces=tuple(forces),
+        delta_n=delta_n,
         factor=factor,
         factor_words=factor_words,
         slip_mm=slip_mm,
@@ -239,6 +243,21 @@ def read_quantities(text: str) -> Quantities:
         unitless=_unitless(text),
         rest=text,
     )
+
+
+def _delta(text: str) -> tuple[float | None, str]:
+    """Force to add to the task's [N], and the text without it."""
+    one = rf"(?P<a>{_NUMBER})\s*(?P<u>(?:{_UNIT})\b)"
+    for pattern, sign in (
+        (rf"{one} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)", 1),
+        (rf"{one} (?:less|softer|gentler|lighter|lower|looser|below|under)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)", -1),
+        (rf"\b(?:add|plus|another|an extra|increase(?: \w+){{0,3}} by|raise(?: \w+){{0,3}} by|up(?: \w+){{0,3}} by) {one}", 1),
+        (rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut)(?: \w+){{0,3}} by) {one}", -1),
+    ):
+        if match := re.search(pattern, text):
+            rest = f"{text[: match.start()]} {MARK} {text[match.end() :]}"
+            return sign * _newtons(match["a"], match["u"]), " ".join(rest.split())
+    return None, text
 
 
 def _forces(text: str) -> tuple[list[Force], str]:

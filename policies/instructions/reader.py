@@ -111,7 +111,7 @@ def _no_english(text: str) -> str:
 
 def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
     """Reason to refuse a text that asks for no grasp; '' where something is asked for."""
-    if numbers.forces or numbers.factor is not None or numbers.pressure or numbers.unitless:
+    if numbers.forces or numbers.delta_n is not None or numbers.factor is not None or numbers.pressure or numbers.unitless:
         parts = sentences(numbers.rest)
         is_asked = any(
             not _is_question(s, asks) and not _REPORT.search(s.split(";")[-1].strip())

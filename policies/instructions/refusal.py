@@ -88,7 +88,9 @@ def _clauses(text: str) -> list[str]:
 
 def _denied(before: str) -> bool:
     """Whether the words before a match in its clause deny it."""
-    return len(_NOT.findall(before[-70:])) % 2 == 1
+    before = before[-70:]
+    part = before.rpartition(" and ")[2]
+    return len(_NOT.findall(part if _NOT.search(part) else before)) % 2 == 1
 
 
 def _sets_limits_aside(text: str) -> str:
