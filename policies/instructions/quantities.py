@@ -99,7 +99,9 @@ _RANGE = re.compile(
     rf"(?P<a>{_NUMBER})\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)?(?P<link>{_LINK})"
     rf"(?P<b>{_NUMBER.removeprefix(_ALONE)})\s*\]?\s*-?(?P<ub>(?:{_UNIT}|{_LOOSE})\b)"
 )
-_FORCE = re.compile(rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{_NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?")
+_FORCE = re.compile(
+    rf"\(?(?P<a>{_SIGNED})(?:\s*(?:±|\+/?-)\s*(?:{_NUMBER})\s*)?\)?\s*-?\s*(?P<ua>(?:{_UNIT}|{_LOOSE})\b)(?:{_TOLERANCE})?"
+)
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({_NUMBER})(?!\s*(?:{_UNIT})\b)"
 )
@@ -124,13 +126,13 @@ _BELOW = re.compile(
     r"shy of|sub)(?: the| a)?\s*-?$|<\s*$"
 )
 _MOST = re.compile(
-    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|stop\w*)(?: \w+){0,3} (?:at|before)|"
-    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
+    r"(?:\b(?:less|lower|smaller) than or equal to|\b(?:at|under|below) or (?:under|below|at)|\b(?:ends|tops out|finish\w*|finishes)(?: \w+){0,3} (?:at|before)|\bstop\w*(?: \w+){0,3} (?:before|short of)|"
+    r"\bat (?:the )?(?:very |absolute )?most|\batmost|\bhard stop(?: at| of| is)?|\bup to|\b(?:as (?:hard|much|high|firm|far) as|no further than)|"
     r"\bmax(?:imum|imal(?:ly)?|ed)?\.?(?: \w+){0,3}?(?: of| is| at| to|:| =|=)?|"
     r"\blimit(?:s|ed|ing)?(?: \w+){0,3}?(?: to| of| at| is|:| =|=)?|"
     r"\bcap(?:ped|ping)?(?: \w+){0,3}?(?: at| to| of| is|:| =|=)?|\bceiling(?: of| is| at|:| =|=)?|"
     r"\bupper (?:\w+ )?(?:limit|bound|end)(?: \w+){0,2}?(?: of| is| at|:| =|=)?|\bpeak(?: \w+){0,2}?(?: of| is| at|:| =|=)?|"
-    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bstop(?:ping)? at|\bno more than|\bf_?max\s*=)"
+    r"<=|≤|=<|\bnot to exceed|\bwithin|\bbounded (?:above )?(?:by|at)|\b(?:not|never)(?: let it)? (?:go|push|squeeze|press)(?: \w{1,4})?|\btop out at|\bno more than|\bf_?max\s*=)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
 _LEAST = re.compile(
@@ -165,6 +167,10 @@ _LEAST_SOMEWHERE = re.compile(
     r"\b(?:the least (?:i|you|we|it|that)|lower (?:\w+ )?(?:bound|limit|end)|minimum|"
     r"(?:not|never|nor)\b.{0,30}\b(?:below|under|beneath|short of|less than|lower than) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|be)\w* (?:it )?(?:just |well |safely )?(?:above|over) (?:it|that|this)\b|as (?:a|the) (?:floor|minimum|lower))"
+)
+_EITHER_WAY = re.compile(
+    r"\b(?:more or less|less or more|harder (?:or|nor) softer|softer (?:or|nor) harder|higher (?:or|nor) lower|lower (?:or|nor) higher|"
+    r"above (?:or|nor) below|below (?:or|nor) above|over (?:or|nor) under|under (?:or|nor) over|firmer (?:or|nor) softer|softer (?:or|nor) firmer)(?: than)?\s*$"
 )
 _THAT_AFTER = re.compile(
     r"[^.;#\d]{0,40}?\b(below|under|beneath|above|over) (?:that|it)\b(?! (?:goes|is|will))"
@@ -249,10 +255,22 @@ def _delta(text: str) -> tuple[float | None, str]:
     """Force to add to the task's [N], and the text without it."""
     one = rf"(?P<a>{_NUMBER})\s*(?P<u>(?:{_UNIT})\b)"
     for pattern, sign in (
-        (rf"{one} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)", 1),
-        (rf"{one} (?:less|softer|gentler|lighter|lower|looser|below|under)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)", -1),
-        (rf"\b(?:add|plus|another|an extra|increase(?: \w+){{0,3}} by|raise(?: \w+){{0,3}} by|up(?: \w+){{0,3}} by) {one}", 1),
-        (rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut)(?: \w+){{0,3}} by) {one}", -1),
+        (
+            rf"{one} (?:more|harder|firmer|tighter|extra|higher|above|over)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
+            1,
+        ),
+        (
+            rf"{one} (?:less|softer|gentler|lighter|lower|looser|below|under)(?= (?:than |the |your )*(?:usual|normal|standard|default|last|before|that)|[.,!]*$| please)",
+            -1,
+        ),
+        (
+            rf"\b(?:add|plus|another|an extra|increase(?: \w+){{0,3}} by|raise(?: \w+){{0,3}} by|up(?: \w+){{0,3}} by) {one}",
+            1,
+        ),
+        (
+            rf"\b(?:subtract|take off|(?:reduce|lower|decrease|drop|cut)(?: \w+){{0,3}} by) {one}",
+            -1,
+        ),
     ):
         if match := re.search(pattern, text):
             rest = f"{text[: match.start()]} {MARK} {text[match.end() :]}"
@@ -350,6 +368,8 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
     """Kind of a force, and how much of the text on either side says so."""
     if match := _THAT_AFTER.match(right):
         return ("most" if match[1] in ("below", "under", "beneath") else "least"), len(left), 0
+    if _EITHER_WAY.search(left):
+        return "value", len(left), 0
     if exact := _EXACT_AFTER.match(right):
         return "value", len(left), exact.end()
     for pattern, plainly, denied, harm in (

@@ -44,7 +44,7 @@ _THING = re.compile(
 _VERB_OBJECT = re.compile(
     rf"\b{words.any_of('hold')}(?: (?:up|on|onto|hold|of|to|over|out|me|us|down|firm\w*|tight\w*|gent\w*|soft\w*|light\w*|and|or|\w+ing))*"
     rf"(?: (?:{words.any_of('fruit')}|the|#|my|your|our|\w+'s)\b| (?:a|an|another|some) (?:\w+ )?(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one|specimen|sample|object|grip|grasp|hold)\b|(?=[.,;:!]|$| please| now| then| already| go| with| again| and))|"
-    r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
+    r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\b(?:want|need|like) (?:the|that|this|my|a) (?:\w+ )?(?:straw)?berry (?:in|between|held|picked|lifted|up|out|off|gripped|grasped)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
 )
 _KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
 _REPORT = re.compile(
@@ -111,7 +111,13 @@ def _no_english(text: str) -> str:
 
 def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
     """Reason to refuse a text that asks for no grasp; '' where something is asked for."""
-    if numbers.forces or numbers.delta_n is not None or numbers.factor is not None or numbers.pressure or numbers.unitless:
+    if (
+        numbers.forces
+        or numbers.delta_n is not None
+        or numbers.factor is not None
+        or numbers.pressure
+        or numbers.unitless
+    ):
         parts = sentences(numbers.rest)
         is_asked = any(
             not _is_question(s, asks) and not _REPORT.search(s.split(";")[-1].strip())

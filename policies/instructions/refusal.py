@@ -30,6 +30,10 @@ _OVERRIDE = words.groups("override")
 _RELEASE = words.groups("release")
 _HANDOVER, _PUT_DOWN = words.any_of("handover"), words.any_of("put_down")
 _STOP = words.groups("stop")
+_FORCE_NOUN = re.compile(r"\b(?:force|grip|pressure|squeeze|squeezing|tension)\b")
+_OTHER_THING = re.compile(
+    r" (?:the|that|this|those|any) (?!straw|berr|fruit|gripper|fingers?|one\b|object|thing)\w+\b"
+)
 _WEAK_STOP = re.compile(
     r"\b(?:wait|stay|leave it there|remain|pause|stand by|hold (?:it )?there)\b|^not move"
 )
@@ -70,11 +74,14 @@ def refusal_of(text: str, whole: str = "") -> str:
 
 def _contradicts(text: str) -> str:
     match = re.search(
-        r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\bwith (?:no|zero|absolutely no) (?:force|pressure|grip|squeeze|contact)\b"
+        r"\bwithout (?:applying |using |exerting |putting )?any (?:force|pressure|grip|squeeze)\b|\b(?:with|apply|use|exert|put) (?:no|zero|absolutely no) (?:force|pressure|grip|squeeze|contact)\b(?! (?:more|greater|above|over|beyond|than|higher))"
         r"|\bwithout (?:force|pressure|closing|using your fingers|moving|gripping|holding|contact)\b",
         text,
     )
-    return match.group() if match and _HOLD.search(text[: match.start()]) else ""
+    if match is None:
+        return ""
+    is_order = re.match(r"(?:apply|use|exert|put)", match.group())
+    return match.group() if is_order or _HOLD.search(text[: match.start()]) else ""
 
 
 def _clauses(text: str) -> list[str]:
@@ -147,13 +154,15 @@ def _releases(text: str) -> str:
                     after,
                 ):
                     continue
+                if _FORCE_NOUN.search(match.group() + after[:12]):
+                    continue  # 'drop the force'
                 if re.search(
                     r"\b(?:it|they|berry|one) (?:might|may|will|could|would|can)\s*$", before
                 ):
                     continue
                 return match.group().strip()
         down = re.search(_PUT_DOWN, clause)
-        if down is None or _denied(clause[: down.start()]):
+        if down is None or _denied(clause[: down.start()]) or _FORCE_NOUN.search(down.group()):
             continue
         if not _HOLD.search(text[: text.find(down.group())]):
             return down.group().strip()
@@ -188,6 +197,10 @@ def _stops(text: str) -> str:
                 r"\b(?:it|berry|fruit|one|this|that|strawberry)\b", clause[: hold.start()]
             ):
                 continue  # 'it must not move' wants a firm grip
+            if hold["verb"].startswith("mov") and len(held) > 1:
+                continue  # 'don't move, only hold it'
+            if _OTHER_THING.match(hold["after"]) and len(held) > 1:
+                continue  # 'don't take the lid, take the berry'
             if hold["verb"].startswith("mov") and (
                 _HOLD.search(text[: text.find(hold.group())])
                 or MARK in text[: text.find(hold.group())]

@@ -28,6 +28,8 @@ _CONTRACTIONS = (
     (r"\bu\b", "you"),
     (r"\bteh\b|\bhte\b|\bda\b", "the"),
     (r"\bur\b", "your"),
+    (r"\bles\b", "less"),
+    (r"\bmor\b", "more"),
 )  # fmt: skip
 
 _SENTENCE = re.compile(r"(?<!\d)[.!?]+|[.!?]+(?=\s|$)|\n+")
