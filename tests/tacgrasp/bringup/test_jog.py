@@ -50,7 +50,7 @@ def rig():
 @pytest.fixture
 def jogger(rig):
     axes = PadAxes(x_tcp=rig.pad_x_in_tcp, y_tcp=rig.pad_y_in_tcp)
-    return Jogger(rig, LIMITS, axes, clear_mm=2.0)
+    return Jogger(rig, LIMITS, axes, clear_mm=2.0, limit_n=100.0, max_gain=1.0)
 
 
 @pytest.mark.parametrize(
