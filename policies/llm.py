@@ -1,8 +1,8 @@
 """The policy of the paper: Tac3D-LLM generates D_t from a cloud, and the action is read out of D_t.
 
 The contract is put to the model in a wording that it knows (``known_wording``): it was taught bands
-of one width in newtons. A faulty reply leads to no action: one that does not end, names no action or
-two, has too low a confidence, or names a goal outside the contract.
+of one width in newtons. A faulty reply leads to no action: one that does not end, names no action
+or two, has too low a confidence, or names a goal outside the contract.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
-from policies.contract import target_of
+from policies.contract_steps import target_of
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.observation import Observation
@@ -198,17 +198,18 @@ def known_wording(band: Band, felt: Interval | None) -> str:
     return f"Hold it with {low_n:.1f} to {KNOWN_SPAN * low_n:.1f} N."
 
 
-_GOAL = re.compile(r"Goal (\d+(?:\.\d+)?) - (\d+(?:\.\d+)?) N")
+GOAL_IN_TEXT = re.compile(r"Goal (\d+(?:\.\d+)?) - (\d+(?:\.\d+)?) N")
 
 
 def goal_beyond(text: str, target: Band | None) -> str:
     """Why the goal that D_t names lies outside the contract; '' where it meets it."""
-    match = _GOAL.search(text)
+    match = GOAL_IN_TEXT.search(text)
     if target is None or match is None:
         return ""
     low_n, high_n = float(match[1]), float(match[2])
     if high_n < target.low - 0.1 or low_n > target.high + 0.1:
-        return f"D_t names a goal of {match[1]}-{match[2]} N, outside {target.low:.2f}-{target.high:.2f} N"
+        contract = f"{target.low:.2f}-{target.high:.2f} N"
+        return f"D_t names a goal of {match[1]}-{match[2]} N, outside {contract}"
     return ""
 
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
-from policies.contract import target_of
+from policies.contract_steps import target_of
 from policies.extraction import extract
 from policies.observation import Observation
 from policies.policy import Decision

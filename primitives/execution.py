@@ -193,7 +193,7 @@ class Executor:
             clock: Monotonic clock [s].
             sense: Touch during a closing; None closes without feeling.
             contract: Contract of the episode: changes of the force go towards its band, and no
-                command may press beyond its limit. None: no band, no limit (a benchmark's baseline).
+                command may press beyond its limit. None: neither (a benchmark's baseline).
             max_gain: Largest ratio of true to commanded force, until something is felt.
             force_step_n: Least change of the force that the gripper makes [N].
             dry_run: Whether to read the devices and send them nothing.
@@ -362,9 +362,8 @@ class Executor:
         felt = None if self._sense is None else self._sense.felt_force()
         band = None if self._contract is None else self._contract.terms.force_n
         factor = force_factor(increase=increase, felt=felt, goal_n=band)
-        if self._contract is not None and self._contract.soft is not None:
-            if self._stiffness.is_soft is None:
-                factor = min(factor, INCREASE_FACTOR)  # small steps until it is known to be hard
+        if self._may_be_soft():
+            factor = min(factor, INCREASE_FACTOR)  # small steps until it is known to be hard
         request_n = force_n or before * factor
         force = clamp_force(request_n, self._limits)
         allowed_n = min(force.value, self._gripper.most_n)
@@ -384,6 +383,13 @@ class Executor:
             notes=tuple(notes),
             opened=False,
             started=started,
+        )
+
+    def _may_be_soft(self) -> bool:
+        """Whether the contract is one for hard things, and the contact not known to be hard."""
+        contract = self._contract
+        return (
+            contract is not None and contract.soft is not None and self._stiffness.is_soft is None
         )
 
     def _reset_clear_m(self) -> float:

@@ -22,9 +22,16 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+import numpy as np
+
+from cltp.tactile.cloud import cloud_from_heights
+from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.sensors import sensor_named
 from policies.contract import read_contract
+from policies.llm import GOAL_IN_TEXT, LlmPolicy
 from primitives.contract import Contract, TaskTerms
 from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons.exchanges import GOAL_QUESTIONS
 
 KEPT_OUT = "kept_out_instructions.csv"
 """Wordings that the rules were never changed for, beside this file."""
@@ -87,8 +94,8 @@ def _wording(source: Path, line: int, row: dict[str, str]) -> Wording:
     known = word in _CHECKS and len(values) == counts.get(word, 0) and all(map(_is_number, values))
     if not known:
         raise UsageError(
-            f"{source}, line {line}: expect must be one of band V, range A B, max V, min V, softer, "
-            f"firmer, refuse, task; got {row.get('expect')!r}"
+            f"{source}, line {line}: expect must be one of band V, range A B, max V, min V, "
+            f"softer, firmer, refuse, task; got {row.get('expect')!r}"
         )
     return Wording(
         text=row["text"] or "", kind=kind or word, expect=word, values=tuple(map(float, values))
@@ -111,6 +118,23 @@ def score(wordings: Sequence[Wording], task: TaskTerms) -> list[Score]:
             Score(wording=wording, contract=contract, right=_is_right(wording, contract, task))
         )
     return scores
+
+
+def score_by_model(wordings: Sequence[Wording], task: TaskTerms, policy: LlmPolicy) -> list[bool]:
+    """Whether the language model reads each manner rightly: what it learned, beside the rules.
+
+    It is asked for the force that an instruction means, on an untouched gel, as it was taught.
+    """
+    sensor = sensor_named("gelsight_mini")
+    cloud = cloud_from_heights(np.zeros((60, 80)), sensor)
+    right = []
+    for wording in wordings:
+        answer = policy.talker.reply(encoder_input(cloud), GOAL_QUESTIONS[0].format(wording.text))
+        match = GOAL_IN_TEXT.search(answer.text)
+        middle = None if match is None else (float(match[1]) + float(match[2])) / 2
+        ratio = 1.0 if middle is None else middle / task.force.force_n.middle
+        right.append(ratio <= 1 - WIDTH if wording.expect == "softer" else ratio >= 1 + WIDTH)
+    return right
 
 
 def _is_right(wording: Wording, contract: Contract, task: TaskTerms) -> bool:

@@ -15,7 +15,7 @@ from cltp import TouchError
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.measure import contact_state
 from policies import Decision, Observation, PolicyError
-from policies.contract import beyond, softened
+from policies.contract_steps import beyond, softened
 from primitives import Primitive
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose

@@ -26,8 +26,8 @@ from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.benchmarks.faults.cases import FaultCase, InjectionPhase
 from tacgrasp.benchmarks.faults.threads import BackgroundCall, Episode, check_episode
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
-from tacgrasp.config.terms import contract_of
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.emulated import settings_for
 from tacgrasp.rig.hardware import HardwareRig, connect, connect_sensor
