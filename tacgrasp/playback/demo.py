@@ -50,6 +50,7 @@ class Demo:
 
 GOAL = GoalConfig(
     force_n=(1.0, 2.4),
+    limit_n=2.9,
     depth_mm=(0.1, 0.6),
     area_share=(0.05, 0.3),
     x_mm=(-3.0, 3.0),
