@@ -142,6 +142,9 @@ _LEAST = re.compile(
     r">=|≥|=>|\bno less than|\b(?:it|berry|fruit|this|that|one|strawberry|thing) (?:really |always )?(?:needs|requires|takes)|\bf_?min\s*=|\bstarting (?:at|from)|\bbottom out at)"
     r"(?: (?:about|around|roughly))?\s*$"
 )
+_OTHERS = r"(?!(?: than| of| is| to|:| =)?(?: (?:about|around|roughly))?(?: an?)? ?(?:\d|\.\d))"
+"""Ends a bound after a number: '2 N, at most 2.2 N' bounds the second number, not the first."""
+
 _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
@@ -150,6 +153,7 @@ _MOST_AFTER = re.compile(
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
     r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b)"
+    + _OTHERS
 )
 _LEAST_AFTER = re.compile(
     r"\s*(?:-|–|,|:|\+)?\s*(?:(?:at |as )?(?:a |the )?min(?:imum)?\b(?!\.?(?: of| is|:| =)? ?\d)|(?:(?:or|and) )?upwards?\b|(?:or|and) (?:more|above|higher|over|harder|firmer|better|greater|larger|up|upwards?)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?least\b|[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:under|below|beneath|lower than) (?:it|that|this)\b|"
@@ -157,6 +161,7 @@ _LEAST_AFTER = re.compile(
     r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:less|lower|softer|under|below)\b|"
     r"(?:is|as|being)(?: \w+){0,3} (?:minimum|min|floor|least)\b|(?:floor)\b|"
     r"(?:is|would be|are|will be|will) (?:not (?:do|enough)|too (?:little|light|soft|low|weak)))"
+    + _OTHERS
 )
 _MOST_SOMEWHERE = re.compile(
     r"\b(?:the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
