@@ -490,6 +490,11 @@ def _part(match: re.Match[str]) -> float:
     return count / _DENOMINATORS[match["d"]]
 
 
+_CLAUSE_END = re.compile(r"[,;.]\s|\band\b")
+_SLIP = re.compile(r"\b(?:slip|slid|shift|creep|mov(?:e|ement) (?:by )?(?:more|at most))")
+_DEEP = re.compile(r"\b(?:deep|depth|indent|into the gel|sink)")
+
+
 def _lengths(text: str) -> tuple[float | None, float | None]:
     """Slip and depth that a text names [mm]."""
     slip = depth = None
@@ -497,13 +502,15 @@ def _lengths(text: str) -> tuple[float | None, float | None]:
         mm = _number(match["a"]) * (
             1e-3 if match["u"][0] in "µμu" or match["u"].startswith("mic") else 1.0
         )
-        around = text[max(0, match.start() - 40) : match.end() + 25]
-        if re.search(
-            r"\b(?:slip|slid|shift|creep|mov(?:e|ement) (?:by )?(?:more|at most))", around
-        ):
-            slip = mm
-        elif re.search(r"\b(?:deep|depth|indent|into the gel|sink)", around):
-            depth = mm
+        left, right = text[max(0, match.start() - 40) : match.start()], text[match.end() :][:25]
+        clause = f"{_CLAUSE_END.split(left)[-1]}#{_CLAUSE_END.split(right)[0]}"
+        for around in (clause, left + right):
+            if _SLIP.search(around):
+                slip = mm
+                break
+            if _DEEP.search(around):
+                depth = mm
+                break
     return slip, depth
 
 
