@@ -105,6 +105,17 @@ _FORCE = re.compile(
 _ELLIPSIS = re.compile(
     rf"\b(?:not|no) (?:an?|1|one|a single) (millinewton|newton|gram|mn|n|gf) (more|less)(?: than)? ({_NUMBER})(?!\s*(?:{_UNIT})\b)"
 )
+_MARGIN = re.compile(
+    rf"(?:,|\bwith|\band)?\s*\b(?:a |the )?(?:tolerance|margin|slack|error|accuracy|precision)(?: of| is|:)?\s*(?:±\s*)?{_NUMBER}\s*(?:%|percent|(?:{_UNIT})\b)"
+)
+_CHAIN = re.compile(
+    rf"({_NUMBER})\s*(?:{_UNIT})?\s*<=?\s*(?:f|force|it|x|grip)\s*<=?\s*({_NUMBER})\s*((?:{_UNIT})\b)"
+)
+_PAIR = re.compile(rf"[\[(]\s*({_NUMBER})\s*[,;]\s+({_NUMBER})\s*[\])]\s*((?:{_UNIT})\b)")
+_ELIDED = re.compile(
+    rf"((?:at least|no less than|not less than|minimum|min\.?|at most|no more than|not more than|maximum|max\.?|under|over|above|below) {_NUMBER})"
+    rf"(,? (?:and |but |yet )?(?:at least|no less than|not less than|minimum|min\.?|at most|no more than|not more than|maximum|max\.?|under|over|above|below) {_NUMBER} )((?:{_UNIT})\b)"
+)
 _PRESSURE = re.compile(
     rf"(?:{_NUMBER})\s*(?:[kmh]?pa\b|(?:kilo|mega|milli|hecto)?pascals?|m?bars?\b|psi\b|mm\s?hg|atm\b|"
     r"n ?(?:/|per) ?(?:square )?[cm]m)"
@@ -164,7 +175,7 @@ _LEAST_AFTER = re.compile(
     + _OTHERS
 )
 _MOST_SOMEWHERE = re.compile(
-    r"\b(?:the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
+    r"\b(?:cut ?-?offs?|saturate at|clip(?:ped)? at|(?:not|never)(?: \w+){0,4} reach(?:es)?|before it reaches|back off at|the most (?:i|you|we|it|that)|upper (?:\w+ )?(?:bound|limit|end)|ceiling|red line|draw the line|top of (?:what|the|its)|bounded above|"
     r"maximum|(?:not|without|never|avoid) exceed\w*|(?:not|never|nor)\b.{0,30}\b(?:pass|past|exceed|over|above|beyond|surpass|cross) (?:it|that|this)\b|"
     r"(?:remain|stay|keep|stop|be)\w* (?:it )?(?:just |well |safely )?(?:below|under|short of|beneath) (?:it|that|this)\b|as (?:a|the|an) (?:ceiling|cap|maximum|upper))"
 )
@@ -236,6 +247,12 @@ def read_quantities(text: str) -> Quantities:
     """Read the numbers of a plain text (``policies.instructions.text.plain``)."""
     text = _ELLIPSIS.sub(r"no \2 than \3 \1", in_digits(text))
     text = re.sub(rf"({_NUMBER}), (?=newtons?\b)", r"\1 ", text)
+    text = re.sub(r"(?<=\d)['\u00a0\u202f ](?=\d{3}\b(?! ?mm))", "", text)  # 1 400 mN
+    text = re.sub(rf"({_NUMBER})\s?-?ish\b", r"\1", text)
+    text = _MARGIN.sub(" ", text)
+    text = _CHAIN.sub(r"between \1 and \2 \3", text)
+    text = _PAIR.sub(r"between \1 and \2 \3", text)
+    text = _ELIDED.sub(r"\1 \3\2\3", text)
     pressure = _PRESSURE.search(text)
     slip_mm, depth_mm = _lengths(text)
     area = _AREA.search(text)
