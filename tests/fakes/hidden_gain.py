@@ -16,6 +16,7 @@ class HiddenGainGripper:
 
     def __init__(self, gain: float = 1.0, *, softness_mm: float = 0.3) -> None:
         self.gain, self.softness_mm = gain, softness_mm
+        self.rest_mm = 30.0  # opening at the first touch
         self.peak_n = 0.0
         self.commands_n: list[float] = []
         self.calls: list[str] = []
@@ -42,7 +43,7 @@ class HiddenGainGripper:
     def grip(self, force_n: float) -> GripperState:
         self.commands_n.append(force_n)
         self.peak_n = max(self.peak_n, self.gain * force_n)
-        width_mm = 30.0 - 2 * self.softness_mm * (self.gain * force_n) ** (2 / 3)
+        width_mm = self.rest_mm - 2 * self.softness_mm * (self.gain * force_n) ** (2 / 3)
         self._now = GripperState(width_m=width_mm / 1000, force_n=force_n, closed=True)
         return self._now
 

@@ -207,6 +207,21 @@ def test_a_soft_contact_is_told_before_it_is_pressed_beyond_the_band_of_soft_thi
     assert rig.gripper.peak_n <= STRAWBERRY.force_n.high * (1 + 1e-6)
 
 
+def test_before_it_is_told_no_command_presses_beyond_the_band_of_soft_things():
+    rig = Touching(HARD, softness_mm=SOFT_MM)
+    rig.executor.grasp(8.0)
+    assert rig.gripper.peak_n == pytest.approx(STRAWBERRY.force_n.high / MAX_GAIN)
+
+
+def test_openings_at_two_places_of_an_object_are_not_compared():
+    rig = Touching(HARD)
+    rig.executor.grasp(0.3)
+    rig.feel()
+    rig.gripper.rest_mm -= 5.0  # it is thinner there
+    rig.executor.execute(Primitive.MOVE_UP, 0.9)
+    assert rig.feel() is None
+
+
 def test_after_an_objection_the_new_contract_bounds_and_aims():
     rig = Touching(HARD, softness_mm=SOFT_MM, spread=1.2)
     rig.executor.grasp()
