@@ -160,7 +160,7 @@ _MOST_AFTER = re.compile(
     r"\s*(?:-|–|,|:)?\s*(?:(?:at |as )?(?:a |the )?max(?:imum|imal)?\b(?!\.?(?: of| is|:| =)? ?\d)|tops\b|at (?:the )?(?:very |absolute )?most\b|"
     r"(?:or|and) (?:less|below|under|lower|lighter|softer|gentler|smaller)\b|(?: [a-z]+){1,3} at (?:the )?(?:very |absolute )?most\b|"
     r"[;,.]? ?(?:and )?(?:do not|never|not|but not) (?:\w+ ){0,2}(?:past|over|above|beyond|exceed|higher than) (?:it|that|this)\b|"
-    r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
+    r"(?:,? ?and )?(?:absolutely )?(?:no|not|never)(?! need)(?: \w+){0,2} (?:more|higher|harder|above|over|further|beyond)\b"
     r"(?!,? (?:and |or )?(?:no|not|nor|never)(?: \w+)? less)(?! (?:no|not) less)|"
     r"(?:is|as|being)(?: \w+){0,3} (?:limit|max(?:imum)?|ceiling|cap|most)\b|(?:limit|ceiling|cap)\b(?!(?: of| is|:| =)? ?\d)|"
     r"(?:is|would be|are|will be) (?:already |way |far )?too (?:much|hard|firm|high|strong)|and under\b)"
@@ -224,7 +224,7 @@ _HARMED = re.compile(
     rf"\b{_HARMS}(?: \w+){{0,3}} (?:above|over|beyond|past|at|from|with more than|after)\s*$"
 )
 _SLIPPING = re.compile(
-    rf"\b(?:it|berry|fruit|one|this|thing|they) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
+    rf"\b(?:it|berry|fruit|one|this|thing|they|and|or|these|berries) {_SLIPS}(?: \w+){{0,3}} (?:under|below|at|with less than)\s*$"
 )
 _TOO_MUCH = re.compile(
     rf"[^.;#]{{0,20}}\b(?:too much|forbidden|not allowed|prohibited|out of|off limits|unacceptable|no go|a no-no|not ok\w*|{_HARMS})"

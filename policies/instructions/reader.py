@@ -47,6 +47,9 @@ _VERB_OBJECT = re.compile(
     r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\b(?:want|need|like) (?:the|that|this|my|a) (?:\w+ )?(?:straw)?berry (?:in|between|held|picked|lifted|up|out|off|gripped|grasped)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
 )
 _KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
+_TURN = re.compile(
+    r";|,? (?:so|but|and) (?:today|now|this time|please|hold|use|try|we hold|we use)\b|\btoday\b|\bthis time\b"
+)
 _REPORT = re.compile(
     r"^(?:yesterday|last (?:week|time|night|year)|earlier|once|the other (?:robot|day)|another robot|my colleague|he|she|they|i|we|someone)\b"
     r"(?: (?!would|want|need|like)\w+){0,4} (?:held|picked|was|were|did|used|took|grabbed|gripped|squeezed|lifted|had)\b"
@@ -120,7 +123,7 @@ def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
     ):
         parts = sentences(numbers.rest)
         is_asked = any(
-            not _is_question(s, asks) and not _REPORT.search(s.split(";")[-1].strip())
+            not _is_question(s, asks) and not _REPORT.search(_TURN.split(s)[-1].strip())
             for s, asks in parts
         )
         return "" if is_asked else "no request to hold anything was understood"

@@ -14,7 +14,7 @@ _NOT = re.compile(
     r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|quit|free of)\b"
 )
 _MODAL = re.compile(
-    r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|easily|to easily|"
+    r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|these|those|berries|fruits|easily|to easily|"
     r"if you|or you|else you|when you|lest you|you always|you keep|you just|you often|you nearly|you almost|you are|you were|almost|nearly|not to|so as not to|"
     r"you (?:will|would|might|may|could)|it (?:will|would|might|may|could|can)|going to|tends? to|liable to|likely to|about to|prone to|ready to|waiting to|wants to|threaten\w* to|"
     r"will|would|might|may|does|do not|did|could|can|shall)(?: (?:only|just|easily|simply|surely|otherwise|probably|always|never|also))*\s*$"
