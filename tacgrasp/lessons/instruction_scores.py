@@ -74,7 +74,7 @@ def read_wordings(path: Path | None) -> list[Wording]:
     """
     source = path or Path(str(resources.files("tacgrasp.lessons") / KEPT_OUT))
     try:
-        with source.open(encoding="utf-8", newline="") as file:
+        with source.open(encoding="utf-8-sig", newline="") as file:
             rows = list(csv.DictReader(file))
     except (OSError, UnicodeDecodeError, csv.Error) as error:
         raise UsageError(f"{source} can't be read as CSV: {error}") from None
@@ -104,7 +104,7 @@ def _wording(source: Path, line: int, row: dict[str, str]) -> Wording:
 
 def _is_number(text: str) -> bool:
     try:
-        return float(text) == float(text)
+        return 0 < float(text) < float("inf")
     except ValueError:
         return False
 
