@@ -29,7 +29,7 @@ def middle_n(text: str) -> float:
         "Never grip the fruit tightly.",
         "Hold it without squeezing hard.",
         "Hold it a bit softer than usual.",
-        "Use less force than usual.",
+        "Use less force here than usual.",
         "Hold it not as firmly as before.",
         "It is very fragile, so pick it with great care.",
     ],
@@ -49,7 +49,7 @@ def test_gentle_words_lower_the_middle_of_the_band(text):
         "Never hold the berry too lightly.",
         "Hold it a little firmer than usual.",
         "Squeeze harder than usual.",
-        "Use more force than usual.",
+        "Use more force here than usual.",
         "Hold it firmly, not gently.",
     ],
 )

@@ -224,7 +224,7 @@ def test_eval_instructions_scores_a_file_and_shows_what_is_wrong(
     tmp_path: Path, capsys: Capture
 ) -> None:
     path, figures = tmp_path / "wordings.csv", tmp_path / "figures.json"
-    path.write_text(WORDINGS.replace("limits,1.5", "min,1.5"))
+    path.write_text(WORDINGS.replace("limits,1.5", "min,1.5"), "utf-8-sig")  # as spreadsheets do
     assert main(["eval", "instructions", "--file", str(path), "--json", str(figures)]) in (0, None)
     printed = capsys.readouterr().out
     assert "'Hold it at 3 N.' became: 2.58-3.42 N" in printed
@@ -246,6 +246,9 @@ def test_eval_instructions_scores_a_file_and_shows_what_is_wrong(
         ("text,kind,expect\nHold it.,numbers,band\n", "line 2: expect must be one of"),
         ("text,kind,expect\nHold it.,numbers,band two\n", "got 'band two'"),
         ("text,kind,expect\nHold it.,numbers,range 1\n", "line 2"),
+        ("text,kind,expect\nHold it.,numbers,band 0\n", "got 'band 0'"),
+        ("text,kind,expect\nHold it.,numbers,range 0 0\n", "got 'range 0 0'"),
+        ("text,kind,expect\nHold it.,numbers,max inf\n", "got 'max inf'"),
         ("text,kind,expect\nHold.,plain,task\nHold it.,plain\n", "line 3: expect must be one of"),
     ],
 )
