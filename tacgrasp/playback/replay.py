@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import yaml
@@ -144,7 +144,7 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
     is_success = episode.end is not None and episode.end.reason == EndReason.SUCCESS
     try:
         _approach(rig, episode.steps[0].tcp_pose, config)
-        executor = make_executor(rig, config, contract_in(episode, config))
+        executor = make_executor(rig, config, _contract_to_repeat(episode, config))
         executor.grasp(episode.steps[0].gripper.force_n or None)
         for step in episode.steps:
             recorded = step.executed
@@ -160,6 +160,12 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
         rig.arm.stop()
         if (config.on_success if is_success else config.on_failure) == "release":
             rig.gripper.open_by(config.primitives.clear_mm / 1000)
+
+
+def _contract_to_repeat(episode: Episode, config: RunConfig) -> Contract:
+    """The contract after what was felt then: nothing is felt now that could object again."""
+    softer = [step.contract for step in episode.steps if step.contract is not None]
+    return replace(softer[-1] if softer else contract_in(episode, config), soft=None)
 
 
 def _approach(rig: Rig, target: Pose, config: RunConfig) -> None:
