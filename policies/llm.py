@@ -185,16 +185,16 @@ def known_wording(band: Band, felt: Interval | None) -> str:
     """
     force_n = None if felt is None else felt.value
     root = math.sqrt(KNOWN_SPAN)
-    if force_n is None or band.high >= 0.9 * KNOWN_SPAN * band.low:
-        low_n = band.low
-        if force_n is not None and band.high > 1.1 * KNOWN_SPAN * band.low:
-            low_n = min(max(force_n / root, band.low), band.high / KNOWN_SPAN)
-    elif force_n < band.low:
-        low_n = band.low
-    elif force_n > band.high:
-        low_n = band.high / KNOWN_SPAN
-    else:
+    is_narrow = band.high < 0.9 * KNOWN_SPAN * band.low
+    is_wide = band.high > 1.1 * KNOWN_SPAN * band.low
+    low_n = math.ceil(10 * band.low - 1e-6) / 10  # to the model the band begins no lower
+    if force_n is not None and is_wide:
+        low_n = min(max(force_n / root, band.low), band.high / KNOWN_SPAN)
+    elif force_n is not None and is_narrow and force_n > band.high:
+        low_n = math.floor(10 * band.high / KNOWN_SPAN + 1e-6) / 10  # and ends no higher
+    elif force_n is not None and is_narrow and force_n >= band.low:
         low_n = math.sqrt(band.low * band.high) / root
+    low_n = max(low_n, 0.1)
     return f"Hold it with {low_n:.1f} to {KNOWN_SPAN * low_n:.1f} N."
 
 

@@ -15,8 +15,12 @@ from primitives.devices import Gripper, GripperState
 from primitives.errors import LimitError
 from primitives.sense import Interval
 
-LEAST_FELT_N = 0.2
-"""Felt force from which the ratio is learned [N]. Our choice: below it the noise decides."""
+LEAST_FELT_N = 0.3
+"""Felt force from which the ratio is learned [N]. Our choice: below it the drift of the gel can be
+as large as what is felt."""
+
+TRUSTED_N = 0.5
+"""Felt force from which a ratio above the rig's own bound is believed [N]. Our choice, likewise."""
 
 
 class GuardedGripper:
@@ -41,6 +45,7 @@ class GuardedGripper:
         self._gripper = gripper
         self._limit_n, self._max_gain = limit_n, max_gain
         self._gain: Interval | None = None
+        self._spread = math.inf  # upper bound over value of the felt force behind it
         self.open_by, self.stop = gripper.open_by, gripper.stop  # passed through
         self.disconnect = gripper.disconnect
 
@@ -72,16 +77,14 @@ class GuardedGripper:
         state = self._gripper.state()
         if felt is None or not state.closed or state.force_n <= 0 or felt.value < LEAST_FELT_N:
             return
-        gain = Interval(
-            value=felt.value / state.force_n,
-            low=felt.low / state.force_n,
-            high=min(felt.high / state.force_n, max(self._max_gain, felt.value / state.force_n)),
+        spread = felt.high / felt.value
+        if spread > 1.01 * self._spread:
+            return
+        most = math.inf if felt.value >= TRUSTED_N else self._max_gain
+        low, value, high = (
+            min(most, force_n / state.force_n) for force_n in (felt.low, felt.value, felt.high)
         )
-        if (
-            self._gain is None
-            or gain.high / gain.value <= 1.01 * self._gain.high / self._gain.value
-        ):
-            self._gain = gain
+        self._gain, self._spread = Interval(value=value, low=low, high=high), spread
 
     def state(self) -> GripperState:
         """State of the gripper."""
