@@ -4,7 +4,7 @@ The rule-based teacher, Tac3D-LLM and baselines; ``policies.extraction`` reads t
 words. Importing this package loads no torch. Not here: the loop that carries decisions out
 (``tacgrasp.loop``), and the training of the model (``cltp.train``, ``tacgrasp.lessons``).
 
-May import: cltp, policies.extraction, primitives.
+May import: cltp, policies.extraction, policies.instructions, primitives.
 """
 
 from policies.errors import PolicyError

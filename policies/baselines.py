@@ -9,6 +9,7 @@ from policies.observation import Observation
 from policies.policy import Decision
 from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
 from primitives import Primitive
+from primitives.contract import Contract
 
 
 def _decision(text: str, confidence: float = 1.0) -> Decision:
@@ -32,7 +33,7 @@ class FixedForcePolicy:
     def start(self) -> None:
         pass
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
         return _decision("The grasp is secure.")
 
 
@@ -53,7 +54,7 @@ class RandomPolicy:
     def start(self) -> None:
         pass  # the stream of draws continues over episodes
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
         choices = list(Primitive)
         index = int(self._rng.integers(len(choices) + 1))
         text = ACTION_WORDINGS[choices[index]][-1] if index < len(choices) else SUCCESS_WORDINGS[0]

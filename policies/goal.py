@@ -1,28 +1,13 @@
-"""Numeric goal of a grasp, for the teacher and for the lessons of the language model."""
+"""Numeric goal of a step, for the teacher and for the lessons of the language model.
+
+In an episode it is a part of the contract (``policies.contract.target_of``).
+"""
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Band:
-    """A closed interval; the unit is in the name of the bounded quantity.
-
-    Raises:
-        ValueError: A bound is not finite, or ``low`` is above ``high``.
-    """
-
-    low: float
-    high: float
-
-    def __post_init__(self) -> None:
-        if not (math.isfinite(self.low) and math.isfinite(self.high) and self.low <= self.high):
-            raise ValueError(f"a band needs finite low <= high, got {self.low} .. {self.high}")
-
-    def __contains__(self, value: float) -> bool:
-        return self.low <= value <= self.high
+from primitives.contract import Band
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,7 +1,8 @@
 """The policy of the paper: Tac3D-LLM generates D_t from a cloud, and the action is read out of D_t.
 
-A faulty reply leads to no action: one that does not end, names no action or two, or has too low a
-confidence. An instruction in words that the model does not know is refused.
+The contract is put to the model in a wording that it knows (``known_wording``): it was taught bands
+of one width in newtons. A faulty reply leads to no action: one that does not end, names no action
+or two, has too low a confidence, or names a goal outside the contract.
 """
 
 from __future__ import annotations
@@ -17,12 +18,15 @@ from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
+from policies.contract_steps import target_of
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.observation import Observation
 from policies.policy import Decision
 from policies.teacher import LESSON_MOVE_STEP_MM
+from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
+from primitives.sense import Interval
 
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
@@ -34,6 +38,10 @@ ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
 A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
 1,000,000.
 """
+
+KNOWN_SPAN = 2.07
+"""High over low end of every band that the model was taught. Source: the square of
+``tacgrasp.lessons.instructions.FORCE_RATIO``."""
 
 MAX_INSTRUCTION_WORDS = 120
 """Longest instruction [words]. The model would read only the end of a longer one."""
@@ -107,18 +115,30 @@ class LlmPolicy:
         """
         check_instruction(text, self._words)
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Encode the cloud, generate D_t and read the action out of it.
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
+        """Encode the cloud, generate D_t for the contract's target and read the action out of it.
 
         Raises:
-            PolicyError: The instruction is empty, too long, or not in known words.
+            LimitError: The contract is refused.
         """
-        self.check(instruction)
+        target = target_of(contract).force_n
+        return self.follow(observation, known_wording(target, observation.felt_force_n), target)
+
+    def follow(
+        self, observation: Observation, instruction: str, target: Band | None = None
+    ) -> Decision:
+        """Decide for an instruction in words that the model was taught.
+
+        Args:
+            observation: What is felt.
+            instruction: The words.
+            target: Force band that D_t may not leave [N]; None for any.
+        """
         begin = self._clock()
         points = encoder_input(observation.cloud)
         sampled = self._clock()
         penalties = ACTION_PENALTIES | dict.fromkeys(repeated_moves(self._moves), math.inf)
-        reply = self._talker.reply(points, as_request(instruction), penalties=penalties)
+        reply = self._talker.reply(points, instruction, penalties=penalties)
         replied = self._clock()
         extraction = extract(reply.text)
         stages = {
@@ -127,6 +147,7 @@ class LlmPolicy:
             "extract": 1e3 * (self._clock() - replied),
         }
         hold = hold_reason(reply, extraction, self._abstain_below)
+        hold = hold or goal_beyond(reply.text, target)
         if not hold and extraction.action in PAD_DIRECTION:
             self._moves.append(extraction.action)
         return Decision(
@@ -155,12 +176,41 @@ class LlmPolicy:
         return reply.text
 
 
-def as_request(instruction: str) -> str:
-    """The instruction with full stops for question marks: 'Could you pick it up?' is a request.
+def known_wording(band: Band, felt: Interval | None) -> str:
+    """A force band [N] in words that the model knows, for what is felt.
 
-    The model answers a text with a question mark instead of naming an action.
+    The model knows bands of ``KNOWN_SPAN`` alone. A narrower one is put to it by the end that
+    matters: by its low end below it, by its high end above it, by its middle inside; a wider one by
+    a part of it around what is felt.
     """
-    return instruction.replace("?", ".")
+    force_n = None if felt is None else felt.value
+    root = math.sqrt(KNOWN_SPAN)
+    is_narrow = band.high < 0.9 * KNOWN_SPAN * band.low
+    is_wide = band.high > 1.1 * KNOWN_SPAN * band.low
+    low_n = math.ceil(10 * band.low - 1e-6) / 10  # to the model the band begins no lower
+    if force_n is not None and is_wide:
+        low_n = min(max(force_n / root, band.low), band.high / KNOWN_SPAN)
+    elif force_n is not None and is_narrow and force_n > band.high:
+        low_n = math.floor(10 * band.high / KNOWN_SPAN + 1e-6) / 10  # and ends no higher
+    elif force_n is not None and is_narrow and force_n >= band.low:
+        low_n = math.sqrt(band.low * band.high) / root
+    low_n = max(low_n, 0.1)
+    return f"Hold it with {low_n:.1f} to {KNOWN_SPAN * low_n:.1f} N."
+
+
+GOAL_IN_TEXT = re.compile(r"Goal (\d+(?:\.\d+)?) - (\d+(?:\.\d+)?) N")
+
+
+def goal_beyond(text: str, target: Band | None) -> str:
+    """Why the goal that D_t names lies outside the contract; '' where it meets it."""
+    match = GOAL_IN_TEXT.search(text)
+    if target is None or match is None:
+        return ""
+    low_n, high_n = float(match[1]), float(match[2])
+    if high_n < target.low - 0.1 or low_n > target.high + 0.1:
+        contract = f"{target.low:.2f}-{target.high:.2f} N"
+        return f"D_t names a goal of {match[1]}-{match[2]} N, outside {contract}"
+    return ""
 
 
 def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:

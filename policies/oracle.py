@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from policies.observation import Observation
 from policies.policy import Decision
 from primitives import Primitive
+from primitives.contract import Contract
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,7 +48,7 @@ class OraclePolicy:
     def start(self) -> None:
         pass
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
         action = self._action(self._truth())
         text = "The grasp is secure." if action is None else f"Do {action.value}."
         return Decision(text=text, action=action, success=action is None, reason="truth")

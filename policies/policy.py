@@ -8,6 +8,7 @@ from typing import Protocol
 
 from policies.observation import Observation
 from primitives import Primitive
+from primitives.contract import Contract
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -32,21 +33,22 @@ class Decision:
 
 
 class Policy(Protocol):
-    """Decides from a cloud and a person's instruction alone, never from a simulator's truth."""
+    """Decides from a cloud and the episode's contract alone, never from a simulator's truth."""
 
     @property
     def name(self) -> str:
         """Name on the command line and in episodes."""
         ...
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
-        """Describe the contact and decide what to do.
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
+        """Describe the contact and decide what to do to keep the contract.
 
-        Deterministic: the same cloud and instruction after the same ``start`` give the same
+        Deterministic: the same observation and contract after the same ``start`` give the same
         Decision (a random policy draws from the seed given at its construction).
 
         Raises:
-            PolicyError: No decision is possible (an unusable instruction, a broken model).
+            PolicyError: No decision is possible (a broken model).
+            LimitError: The contract is refused.
             TouchError: The cloud can't be used.
         """
         ...

@@ -11,35 +11,34 @@ from collections.abc import Callable
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
+from policies.contract_steps import target_of
 from policies.extraction import extract
-from policies.goal import Goal
 from policies.observation import Observation
 from policies.policy import Decision
 from policies.speech import speak
 from policies.teacher import teacher
+from primitives.contract import Contract
 
 
 class RulesPolicy:
-    """The teacher's advice on the measured contact, for a fixed goal; ignores the instruction."""
+    """The teacher's advice on the measured contact, for the contract's target."""
 
     def __init__(
         self,
-        goal: Goal,
         *,
         move_step_mm: float,
         measure: Callable[[TactileCloud], ContactState] | None = None,
         clock: Callable[[], float] = time.perf_counter,
     ) -> None:
-        """Take a goal.
+        """Take the length of a move.
 
         Args:
-            goal: Goal bands of a good grasp.
             move_step_mm: Length of a move that the rig carries out [mm].
             measure: Function from a cloud to its contact state; None takes
                 ``cltp.tactile.measure.contact_state``.
             clock: Clock for the durations of the stages [s].
         """
-        self._goal, self._move_step_mm = goal, move_step_mm
+        self._move_step_mm = move_step_mm
         self._measure, self._clock = measure, clock
 
     @property
@@ -49,11 +48,12 @@ class RulesPolicy:
     def start(self) -> None:
         pass  # each step is decided on its own
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
         """Describe the contact and advise on it.
 
         Raises:
             TouchError: The cloud can't be measured.
+            LimitError: The contract is refused.
         """
         times_s = [self._clock()]
         if self._measure is not None:
@@ -61,7 +61,7 @@ class RulesPolicy:
         else:
             state = contact_state(observation.cloud, in_contact=observation.in_contact)
         times_s.append(self._clock())
-        advice = teacher(state, self._goal, move_step_mm=self._move_step_mm)
+        advice = teacher(state, target_of(contract), move_step_mm=self._move_step_mm)
         times_s.append(self._clock())
         text = speak(state, advice)
         times_s.append(self._clock())

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from cltp.tactile.states import ContactState, Side
-from policies.goal import Band, Goal
+from policies.goal import Goal
 from primitives import Primitive
+from primitives.contract import Band
 from primitives.execution import INCREASE_FACTOR
 
 LESSON_MOVE_STEP_MM = 3.0
@@ -70,8 +71,9 @@ def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     4. Off centre: a move towards the contact, along the axis whose excess is the larger part of
        its band; or towards the one side that cuts the contact off. Only where a step of
        ``move_step_mm`` brings it nearer, so that two moves never undo each other.
-    5. Too light (force, depth or area below its band): ``increase_force``, if force × 1.5, and the
-       depth that Hertz then expects, stay below their upper limits.
+    5. Too light (force, depth or area below its band): ``increase_force``, if force × 1.5, or the
+       middle of the band where that is less, and the depth that Hertz then expects, stay below
+       their upper limits.
     6. Nothing that would help (a band narrower than a step of its action): no action and no
        success. The loop holds, asks again, and ends safely.
     7. Otherwise success.
@@ -99,8 +101,11 @@ def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     if move is not None:
         return move
     if any(value < band.low for value, band in quantities):
-        next_force_n = state.force_n * INCREASE_FACTOR
-        next_depth_mm = state.depth_mm * INCREASE_FACTOR**DEPTH_EXPONENT
+        factor = INCREASE_FACTOR
+        if state.force_n < goal.force_n.low:  # the executor goes no further than into the band
+            factor = min(factor, max(goal.force_n.low, goal.force_n.middle) / state.force_n)
+        next_force_n = state.force_n * factor
+        next_depth_mm = state.depth_mm * factor**DEPTH_EXPONENT
         if next_force_n <= goal.force_n.high and next_depth_mm <= goal.depth_mm.high:
             return _advise(Primitive.INCREASE_FORCE, Reason.TOO_LIGHT)
         return _advise(None, Reason.BAND_TOO_NARROW)

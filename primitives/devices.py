@@ -47,11 +47,13 @@ class GripperState:
         width_m: Opening between the fingers [m].
         force_n: Last commanded force, 0 when open [N]; the true force is not measured.
         closed: Whether the last command was ``grip``.
+        clamped: Change of the last command by a limit; '' without one.
     """
 
     width_m: float
     force_n: float
     closed: bool
+    clamped: str = ""
 
 
 class Arm(Protocol):

@@ -8,6 +8,8 @@ The paper leaves the execution open; on every rig it is the same (our choice):
   force is felt and the goal is known, bring the felt force towards the goal (``force_factor``).
 * ``reset`` opens, returns to the start pose and grasps again. After a closing on nothing it opens
   as wide as before the first grasp, since the object stands where the fingers go back to.
+* No command may press beyond the contract's limit (``primitives.force_guard``). A soft contact
+  under a contract for hard things is held to the terms of soft ones.
 * A first grasp and the grasp of a reset are an approach where touch is given: the force rises in
   small steps from almost nothing until something is felt, at most to ``first_force_n``, so that no
   object is pressed harder than it takes to find it. Without touch they close with that force.
@@ -24,8 +26,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from primitives.contract import Band, Contract
 from primitives.devices import Arm, Gripper, GripperState, Pose
 from primitives.errors import LimitError
+from primitives.force_guard import GuardedGripper
 from primitives.limits import (
     Limits,
     check_travel,
@@ -36,6 +40,7 @@ from primitives.limits import (
 )
 from primitives.primitive import PAD_DIRECTION, Primitive
 from primitives.sense import ContactSense, Interval
+from primitives.stiffness import StiffnessReader
 
 INCREASE_FACTOR = 1.5
 DECREASE_FACTOR = 0.65
@@ -61,9 +66,7 @@ and a servo of 9 ticks a millimetre rests within 5 ticks of its goal. Fingers th
 when closed are closed by the approach up to its limit of force, and no further."""
 
 
-def force_factor(
-    *, increase: bool, felt: Interval | None, goal_n: tuple[float, float] | None
-) -> float:
+def force_factor(*, increase: bool, felt: Interval | None, goal_n: Band | None) -> float:
     """Factor on the commanded force.
 
     Below the goal an increase goes just over its low end as felt, by at most ``MAX_INCREASE``;
@@ -74,7 +77,7 @@ def force_factor(
     plain = INCREASE_FACTOR if increase else DECREASE_FACTOR
     if felt is None or goal_n is None or felt.value <= 0:
         return plain
-    low, high = goal_n
+    low, high = goal_n.low, goal_n.high
     if low <= felt.value <= high:
         return min(plain, high / felt.value) if increase else max(plain, low / felt.value)
     if increase and felt.value < low:
@@ -170,7 +173,8 @@ class Executor:
         pad_axes: PadAxes,
         clock: Callable[[], float],
         sense: ContactSense | None = None,
-        goal_force_n: tuple[float, float] | None = None,
+        contract: Contract | None = None,
+        max_gain: float = 1.0,
         force_step_n: float = 0.0,
         dry_run: bool = False,
     ) -> None:
@@ -188,27 +192,34 @@ class Executor:
             pad_axes: The pad's axes in the TCP frame.
             clock: Monotonic clock [s].
             sense: Touch during a closing; None closes without feeling.
-            goal_force_n: Band of the felt force that changes of the force go towards [N].
+            contract: Contract of the episode: changes of the force go towards its band, and no
+                command may press beyond its limit. None: neither (a benchmark's baseline).
+            max_gain: Largest ratio of true to commanded force, until something is felt.
             force_step_n: Least change of the force that the gripper makes [N].
             dry_run: Whether to read the devices and send them nothing.
 
         Raises:
-            LimitError: A size is not finite and positive, or ``start_pose`` is outside the
-                workspace.
+            LimitError: A size is not finite and positive, ``start_pose`` is outside the workspace,
+                or the contract is refused.
         """
         for name, value in (("clear_mm", clear_mm), ("move_step_mm", move_step_mm)):
             if not (math.isfinite(value) and value > 0):
                 raise LimitError(f"{name} must be finite and above 0, got {value}")
         check_workspace(start_pose, limits)
         clamp_force(first_force_n, limits)
-        self._arm, self._gripper, self._limits = arm, gripper, limits
+        limit_n = math.inf if contract is None else contract.terms.limit_n
+        if contract is not None and contract.soft is not None:
+            limit_n = min(limit_n, contract.soft.force_n.high)  # until it is known to be hard
+        self._gripper = GuardedGripper(gripper, limit_n=limit_n, max_gain=max_gain)
+        self._arm, self._limits = arm, limits
         self._clear_m = clear_mm * 1e-3
         self._move_step_mm = move_step_mm
         self._first_force_n = first_force_n
         self._start_pose = start_pose
         self._axes = np.array([pad_axes.x_tcp, pad_axes.y_tcp])
         self._clock = clock
-        self._sense, self._goal_force_n = sense, goal_force_n
+        self._sense, self._contract = sense, contract
+        self._stiffness = StiffnessReader()
         self._approach_step_n = max(APPROACH_STEP_N, force_step_n)
         self._open_width_m = 0.0
         self._dry_run = dry_run
@@ -219,6 +230,34 @@ class Executor:
     def force_n(self) -> float:
         """Last commanded force [N]; 0 before the first grasp."""
         return self._force_n
+
+    @property
+    def gain(self) -> Interval | None:
+        """Ratio of felt to commanded force; None before anything was felt."""
+        return self._gripper.gain
+
+    def feel(self, felt: Interval | None) -> bool | None:
+        """Learn from the force that is felt under the present grip.
+
+        Returns:
+            Whether the contact is soft, once that has been told under a contract that what is felt
+            may object to; None before, and where it may not.
+        """
+        self._gripper.feel(felt)
+        contract = self._contract
+        if contract is None or contract.soft is None or felt is None:
+            return None
+        state = self._gripper.state()
+        if state.closed:
+            self._stiffness.feel(state.force_n, state.width_m, self._gripper.gain)
+        if self._stiffness.is_soft is False:
+            self._gripper.keep_to(contract.terms.limit_n)
+        return self._stiffness.is_soft
+
+    def keep(self, contract: Contract) -> None:
+        """Keep another contract from now on; what is felt has objected to the one before."""
+        self._contract = contract
+        self._gripper.keep_to(contract.terms.limit_n)
 
     @property
     def travel_mm(self) -> float:
@@ -281,17 +320,18 @@ class Executor:
         )
         check_workspace(target, self._limits)
         check_travel(self._travel_mm, step.value, self._limits)
+        note = ""
         if not self._dry_run:
-            self._gripper.open_by(self._clear_m)
+            self._open_by(self._clear_m)
             self._go(here, target)
             self._take_reference()
-            self._grip(clamp_force(force_n or self._force_n, self._limits).value)
+            note = self._grip(clamp_force(force_n or self._force_n, self._limits).value).clamped
         x, y, z = direction_base * step.value
         return self._done(
             primitive,
             asked=f"{self._move_step_mm:.3g} mm",
             sent=f"{step.value:.3g} mm, ({x:.2f}, {y:.2f}, {z:.2f}) mm in the base frame",
-            notes=(step.note,),
+            notes=(step.note, note),
             opened=not self._dry_run,
             started=started,
         )
@@ -301,7 +341,7 @@ class Executor:
         path_mm = distance_mm(here, self._start_pose)
         check_travel(self._travel_mm, path_mm, self._limits)
         if not self._dry_run:
-            self._gripper.open_by(self._reset_clear_m())
+            self._open_by(self._reset_clear_m())
             self._go(here, self._start_pose)
         first = self._first(force_n)
         sent, notes = self._close(first, feel=force_n is None)
@@ -320,21 +360,36 @@ class Executor:
         increase = primitive is Primitive.INCREASE_FORCE
         before = self._force_n or clamp_force(self._first_force_n, self._limits).value
         felt = None if self._sense is None else self._sense.felt_force()
-        factor = force_factor(increase=increase, felt=felt, goal_n=self._goal_force_n)
+        band = None if self._contract is None else self._contract.terms.force_n
+        factor = force_factor(increase=increase, felt=felt, goal_n=band)
+        if self._may_be_soft():
+            factor = min(factor, INCREASE_FACTOR)  # small steps until it is known to be hard
         request_n = force_n or before * factor
         force = clamp_force(request_n, self._limits)
-        unchanged = math.isclose(force.value, before, rel_tol=1e-9)
-        reason = AT_LIMIT if force.note else "the goal leaves no room for a change"
-        notes = (force.note, reason if unchanged else "")
+        allowed_n = min(force.value, self._gripper.most_n)
+        unchanged = math.isclose(allowed_n, before, rel_tol=1e-9) or (
+            increase and allowed_n < before
+        )
+        at_limit = force.note or allowed_n < force.value
+        reason = AT_LIMIT if at_limit else "the goal leaves no room for a change"
+        notes = [force.note, reason if unchanged else ""]
         if not self._dry_run and not unchanged:
-            self._grip(force.value)
+            state = self._grip(force.value)
+            notes.append(state.clamped)
         return self._done(
             primitive,
             asked=f"{request_n:.3g} N",
-            sent="nothing" if unchanged else f"{force.value:.3g} N",
-            notes=notes,
+            sent="nothing" if unchanged else f"{self._force_n:.3g} N",
+            notes=tuple(notes),
             opened=False,
             started=started,
+        )
+
+    def _may_be_soft(self) -> bool:
+        """Whether the contract is one for hard things, and the contact not known to be hard."""
+        contract = self._contract
+        return (
+            contract is not None and contract.soft is not None and self._stiffness.is_soft is None
         )
 
     def _reset_clear_m(self) -> float:
@@ -355,20 +410,20 @@ class Executor:
         """Close from open: by an approach where touch is given; what was sent, and notes."""
         force = clamp_force(force_n, self._limits)
         if self._sense is None or not feel:
-            if not self._dry_run:
-                self._grip(force.value)
-            return f"close with {force.value:.3g} N", (force.note,)
+            note = "" if self._dry_run else self._grip(force.value).clamped
+            return f"close with {self._force_n or force.value:.3g} N", (force.note, note)
         if self._dry_run:
             return "nothing", ()
         self._take_reference()
-        commanded = min(max(self._approach_step_n, self._limits.min_force_n), force.value)
+        top_n = min(force.value, self._gripper.most_n)
+        commanded = min(max(self._approach_step_n, self._limits.min_force_n), top_n)
         while True:
             width_m = self._grip(commanded).width_m
             if self._sense.in_contact():
                 return f"close to {commanded:.3g} N, where something was felt", (force.note,)
-            if commanded >= force.value or width_m < CLOSED_WIDTH_M:
+            if commanded >= top_n or width_m < CLOSED_WIDTH_M:
                 return f"close to {commanded:.3g} N; nothing was felt", (force.note,)
-            commanded = min(commanded + self._approach_step_n, force.value)
+            commanded = min(commanded + self._approach_step_n, top_n)
 
     def _take_reference(self) -> None:
         if self._sense is not None:
@@ -376,8 +431,12 @@ class Executor:
 
     def _grip(self, force_n: float) -> GripperState:
         state = self._gripper.grip(force_n)
-        self._force_n = force_n
+        self._force_n = state.force_n if state.clamped else force_n
         return state
+
+    def _open_by(self, clear_m: float) -> None:
+        self._gripper.open_by(clear_m)
+        self._stiffness.new_contact()
 
     def _go(self, here: Pose, target: Pose) -> None:
         try:

@@ -3,8 +3,8 @@
 Importing it loads neither torch nor open3d nor a device's SDK. Not here: anything that another
 package needs, since none may import this one.
 
-May import: cltp, policies, primitives, tacgrasp.base, tacgrasp.config, tacgrasp.episodes,
-tacgrasp.rig, tacgrasp.runtime.
+May import: cltp, policies, primitives, sim.grasp, tacgrasp.base, tacgrasp.config,
+tacgrasp.episodes, tacgrasp.rig, tacgrasp.runtime.
 """
 
 __version__ = "0.1.0"

@@ -10,13 +10,14 @@ from collections.abc import Sequence
 
 COMMANDS = {
     "run": "run the closed loop on a task: read the contact, decide, act, until the grasp is good",
+    "understand": "show what an instruction becomes: force band, limit, or why it is refused",
     "demo": "play a scripted demo with a known course; without a name list them",
     "replay": "show an episode step by step; --decide asks a policy again, --execute moves again",
     "episodes": "list, inspect, recover and plot recorded episodes",
     "describe": "describe the contact in a cloud, height map or camera frame",
     "ask": 'answer a question about the contact in a file: ask FILE "How deep is it pressed?"',
     "train": "train clip, cltp, llm, all or a compared method; an interrupted training resumes",
-    "eval": "evaluate weights on unseen contacts: scores, zero-shot, probe, retrieval, report",
+    "eval": "evaluate weights on unseen contacts: scores, instructions, zero-shot, probe, ...",
     "simulate": "press one object into a sensor's gel: heights, pressure and force",
     "data": "generate, import, inspect, stats, verify, gallery, sheet: data sets of contacts",
     "calibrate": "calibrate a unit: gelsight-mini, background, gripper, pad-axes",
@@ -43,7 +44,7 @@ Exit codes:
 
 def usage() -> str:
     """The text of ``tacgrasp --help``."""
-    commands = "\n".join(f"  {name:10}{summary}" for name, summary in COMMANDS.items())
+    commands = "\n".join(f"  {name:11}{summary}" for name, summary in COMMANDS.items())
     return (
         "usage: tacgrasp COMMAND [OPTIONS]      tacgrasp COMMAND --help\n\n"
         "Touch becomes language becomes action: a gripper that feels what it holds.\n\n"

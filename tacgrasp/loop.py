@@ -10,6 +10,9 @@ As printed it has four holes; the loop closes them as follows:
 4. It never ends: actions, time, travel and force are bounded. Every end has a name and leaves the
    gripper as the task says.
 
+Every decision is held to the episode's contract (``policies.contract``): one that goes against what
+is clearly felt counts as no action, and a soft contact may object to a contract for hard things.
+
 Contact is decided by test before any policy (``tacgrasp.rig.gel_sense``). Fingers that have closed
 on nothing are followed by the runtime's own ``reset``, without asking the policy; the second one
 with no contact in between ends the episode with ``contact_lost``.
@@ -26,6 +29,7 @@ from itertools import count
 from cltp import TouchError
 from policies import Decision, Policy, PolicyError
 from primitives import LimitError, Primitive, RobotError
+from primitives.contract import Contract
 from primitives.execution import AT_LIMIT, Executed, Executor
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import EpisodeError
@@ -33,7 +37,14 @@ from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
 from tacgrasp.runtime.shutdown import Ending, close
-from tacgrasp.runtime.steps import NOTHING_TOUCHES, Recorder, Step, Steps, read_observation
+from tacgrasp.runtime.steps import (
+    NOTHING_TOUCHES,
+    Recorder,
+    Step,
+    Steps,
+    read_observation,
+    within,
+)
 
 
 def run_episode(
@@ -41,8 +52,9 @@ def run_episode(
     executor: Executor,
     policy: Policy,
     config: RunConfig,
+    contract: Contract,
     *,
-    verify: Callable[[Rig, Steps, RunConfig], Verification],
+    verify: Callable[[Rig, Steps, RunConfig, Contract], Verification],
     recorder: Recorder,
     observers: Sequence[Observer] = (),
     sense: GelSense | None = None,
@@ -50,8 +62,10 @@ def run_episode(
     """Close the loop until one of the named ends; the robot is then in the task's state.
 
     Raises:
+        LimitError: The contract is refused; nothing has moved.
         Exception: A bug in a called function; the robot has been made safe and the episode ended.
     """
+    _ = contract.terms  # a refused one ends here
     steps = Steps(rig, config.loop, recorder, observers)
     end = EndOfEpisode(EndReason.FAULT, "stopped by an unforeseen error; this is a bug")
     step: Step | None = None
@@ -69,15 +83,16 @@ def run_episode(
                     if observation.in_contact is False:
                         decision = NOTHING_TOUCHES
                     else:
+                        contract = steps.hear_objection(executor, observation, contract)
                         seen = observation.for_policy(steps.elapsed_s)
-                        decision = policy.decide(seen, config.instruction)
+                        decision = within(contract, policy.decide(seen, contract), seen)
                     break
                 except (TouchError, PolicyError) as error:
                     steps.survive(error, attempt)
             step = Step(observation=observation, decision=decision)
             if step.declared:
                 steps.record(step)
-                verification = verify(rig, steps, config)
+                verification = verify(rig, steps, config, contract)
                 reason = EndReason.SUCCESS if verification.passed else EndReason.UNVERIFIED
                 raise EndOfEpisode(reason, verification.message)
             if decision.action is None:

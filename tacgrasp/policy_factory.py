@@ -54,7 +54,6 @@ def _llm(config: RunConfig) -> Policy:
     policy = load_llm(config.weights)
     try:
         policy.check_move_step(config.primitives.move_step_mm)
-        policy.check(config.instruction)  # an error now is better than one during the grasp
     except PolicyError as error:
         raise UsageError(str(error)) from None
     return policy
@@ -63,7 +62,7 @@ def _llm(config: RunConfig) -> Policy:
 def _rules(config: RunConfig) -> Policy:
     from policies.rules import RulesPolicy
 
-    return RulesPolicy(config.goal.goal(), move_step_mm=config.primitives.move_step_mm)
+    return RulesPolicy(move_step_mm=config.primitives.move_step_mm)
 
 
 def _fixed_force(config: RunConfig) -> Policy:
@@ -95,7 +94,7 @@ def make_policy(name: str, config: RunConfig) -> Policy:
     """Build the policy called ``name``.
 
     Raises:
-        UsageError: It is unknown, or a run can't use it, or it can't understand the instruction.
+        UsageError: It is unknown, or a run can't use it.
         TouchError: The language model's weights can't be used.
     """
     if name not in POLICIES:

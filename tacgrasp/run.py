@@ -14,6 +14,7 @@ from pathlib import Path
 import yaml
 
 from policies import Policy
+from primitives.contract import Contract
 from tacgrasp import __version__
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import (
@@ -28,13 +29,14 @@ from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
-from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
+from tacgrasp.runtime.verify import accelerations, not_lifted, verify_by_lifting
 
 
 def run_recorded(
     rig: Rig,
     policy: Policy,
     config: RunConfig,
+    contract: Contract,
     observers: Sequence[Observer] = (),
     *,
     feel: bool = True,
@@ -45,19 +47,21 @@ def run_recorded(
         rig: The connected rig.
         policy: Decides.
         config: The run.
+        contract: Contract of the episode.
         observers: Called after each step.
         feel: Whether closings approach and contact is tested; False closes with the first force.
 
     Raises:
         EpisodeError: The record can't be created; nothing has moved.
-        LimitError: The rig starts outside its workspace; nothing has moved.
+        LimitError: The contract is refused, or the rig starts outside its workspace; nothing has
+            moved.
         RobotError: The gel does not match the sensor's background; nothing has moved.
     """
     if not config.dry_run:
         rig.expect_untouched()
-    header = _header(rig, policy, config)
+    header = _header(rig, policy, config, contract)
     sense = GelSense(rig.sensor) if feel else None
-    executor = make_executor(rig, config, sense)
+    executor = make_executor(rig, config, contract, sense)
     directory = make_record_directory(config.record)
     path = episode_path(directory, Path(config.task).stem, header.stamp, header.seed)
     outcome: Outcome | None = None
@@ -68,6 +72,7 @@ def run_recorded(
                 executor,
                 policy,
                 config,
+                contract,
                 verify=not_lifted if config.dry_run else verify_by_lifting,
                 recorder=recorder,
                 observers=observers,
@@ -81,7 +86,16 @@ def run_recorded(
     return outcome, path
 
 
-def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
+def slip_minimum_of(rig: Rig, config: RunConfig) -> float | None:
+    """Least true force that would have held the simulated body, centred [N]; None on other rigs."""
+    from sim.grasp.rig import SimRig  # loads torch, which the rig has loaded too
+
+    if not isinstance(rig, SimRig):
+        return None
+    return rig.grasp.fingers.slip_minimum_n(accelerations(config.verify))
+
+
+def _header(rig: Rig, policy: Policy, config: RunConfig, contract: Contract) -> EpisodeHeader:
     values = config.model_dump(mode="json")
     return EpisodeHeader(
         task=Path(config.task).stem,
@@ -93,6 +107,7 @@ def _header(rig: Rig, policy: Policy, config: RunConfig) -> EpisodeHeader:
         versions=_versions(),
         rig=Path(config.rig).stem,
         dry_run=config.dry_run,
+        contract=contract,
         stamp=rig.clock.stamp(),
     )
 

@@ -38,14 +38,20 @@ class ModelBenchmarkSettings(BenchmarkSettings):
 
 @dataclass(frozen=True, kw_only=True)
 class StrawberrySettings(ModelBenchmarkSettings):
-    """Grasp many simulated strawberries with each policy, and count how the grasps end.
+    """Grasp many simulated bodies with each policy, and count how the grasps end.
 
     Attributes:
-        episodes: Number of strawberries, one random seed each.
+        task: Task of the grasps.
+        object: Object between the fingers; none: the task's.
+        instruction: Instruction; none: the task's.
+        episodes: Number of bodies, one random seed each.
         first_seed: First seed. Seeds from 1000000 on are kept for this benchmark.
         policies: Names of the policies, separated by commas.
     """
 
+    task: str = "strawberry"
+    object: str | None = None
+    instruction: str | None = None
     episodes: int = 200
     first_seed: int = 1_000_000
     policies: str = "rules,fixed_force,random,oracle"

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from cltp.tactile.measure import contact_state
 from primitives.devices import Pose
 from primitives.execution import PadAxes, rotate
+from primitives.force_guard import GuardedGripper
 from primitives.limits import Limits, check_workspace, clamp_force, clamp_step
 from tacgrasp.console import contact_text
 from tacgrasp.rig.gel_sense import GelSense
@@ -130,7 +131,27 @@ def key_command(key: str, settings: JogSettings) -> tuple[Command, JogSettings]:
 class Jogger:
     """Carries commands out on a rig, within all limits but that of an episode's travel."""
 
-    def __init__(self, rig: Rig, limits: Limits, axes: PadAxes, *, clear_mm: float) -> None:
+    def __init__(
+        self,
+        rig: Rig,
+        limits: Limits,
+        axes: PadAxes,
+        *,
+        clear_mm: float,
+        limit_n: float,
+        max_gain: float,
+    ) -> None:
+        """Take a connected rig.
+
+        Args:
+            rig: The rig.
+            limits: Bounds of all commands.
+            axes: The pad's axes in the TCP frame.
+            clear_mm: Opening of one step [mm].
+            limit_n: Felt force that is never exceeded [N]: the task's.
+            max_gain: Largest ratio of true to commanded force, until something is felt.
+        """
+        self._gripper = GuardedGripper(rig.gripper, limit_n=limit_n, max_gain=max_gain)
         self._rig, self._limits = rig, limits
         self._pad = np.array([axes.x_tcp, axes.y_tcp])
         self._clear_m = clear_mm / 1000
@@ -150,9 +171,9 @@ class Jogger:
             force = clamp_force(command.force_n, self._limits)
             if not self._rig.gripper.state().closed:
                 self._sense.take_reference()
-            state = self._rig.gripper.grip(force.value)
-            note = f" ({force.note})" if force.note else ""
-            return f"closed with {force.value:.2f} N at {1000 * state.width_m:.1f} mm{note}"
+            state = self._gripper.grip(force.value)
+            notes = "".join(f" ({note})" for note in (force.note, state.clamped) if note)
+            return f"closed with {state.force_n:.2f} N at {1000 * state.width_m:.1f} mm{notes}"
         if command is JogAction.OPEN:
             state = self._rig.gripper.open_by(self._clear_m)
             return f"open at {1000 * state.width_m:.1f} mm"
@@ -170,6 +191,8 @@ class Jogger:
             TouchError: The sensor failed.
         """
         cloud = self._rig.sensor.read()
+        if self._sense.in_contact(cloud):
+            self._gripper.feel(self._sense.felt_force(cloud))
         return contact_text(contact_state(cloud, in_contact=self._sense.in_contact(cloud)))
 
     def _step(self, step: JogStep) -> str:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.eval_instructions import main as instructions
 from tacgrasp.cli.flags import parse, writable
 
 if TYPE_CHECKING:
@@ -206,6 +207,7 @@ def report(argv: Sequence[str]) -> None:
 
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
+    "instructions": instructions,
     "zero-shot": zero_shot,
     "probe": probe,
     "retrieval": retrieval,

@@ -53,6 +53,7 @@ def main(argv: Sequence[str]) -> int:
     from primitives.limits import clamp_force
     from tacgrasp.bringup.jog import HELP, Jogger, JogSettings
     from tacgrasp.config.layers import load
+    from tacgrasp.config.terms import task_terms
     from tacgrasp.console import make_console
     from tacgrasp.rig.factory import make_rig
 
@@ -65,7 +66,14 @@ def main(argv: Sequence[str]) -> int:
         force_n = rig.first_force_n if flags.force_n is None else flags.force_n
         settings = JogSettings(force_n=clamp_force(force_n, limits).value)
         axes = PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis)
-        jogger = Jogger(rig, limits, axes, clear_mm=config.primitives.clear_mm)
+        jogger = Jogger(
+            rig,
+            limits,
+            axes,
+            clear_mm=config.primitives.clear_mm,
+            limit_n=task_terms(config).force.limit_n,
+            max_gain=config.gripper.max_force_gain,
+        )
         for line in HELP:
             out.print(line)
         if sys.stdin.isatty():

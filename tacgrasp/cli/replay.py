@@ -71,7 +71,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
-    from tacgrasp.playback.replay import config_of, differences
+    from tacgrasp.playback.replay import config_of, contract_in, differences
     from tacgrasp.policy_factory import make_policy
 
     name = flags.policy or episode.header.policy
@@ -81,7 +81,7 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     policy = make_policy(name, config)
     num_decisions = sum(step.decision is not None for step in episode.steps)
     num_different = 0
-    for difference in differences(episode, policy):
+    for difference in differences(episode, policy, contract_in(episode, config)):
         num_different += 1
         console.print(f"{difference.index:3d}  {difference.text}")
     verdict = "" if num_different else ": reproduced exactly"
@@ -109,6 +109,7 @@ def _execute(episode: Episode, path: Path, console: Console) -> int:
                 console.print(
                     f"{action.index:3d}  {executed.primitive}: {executed.sent} | "
                     f"grip {executed.force_n:.2f} N | "
+                    f"{''.join(f'{note} | ' for note in executed.clamped)}"
                     f"{action.deviation_mm:.2f} mm from the recorded pose"
                 )
     finally:

@@ -5,17 +5,21 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Annotated, Any
 
 import tyro
 
+from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli.flags import parse, parse_some
+from tacgrasp.cli.flags import parse, parse_some, writable
 from tacgrasp.config.errors import flag_of
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.layers import Sources, leaves, load_with_limits
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.runtime.outcome import EndReason, Outcome
+from tacgrasp.config.terms import band_lines, contract_lines, contract_of
+from tacgrasp.runtime.events import EventFile
+from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
 
 EXIT_CODES = {
     EndReason.SUCCESS: 0,
@@ -37,27 +41,32 @@ class RunFlags(RunConfig):
     """Close the loop on a task. Values: defaults < task < rig < environment < flags.
 
     Attributes:
-        print_config: Print every value and its source, and do nothing else.
+        print_config: Print every value and its source, then the contract, and do nothing else.
+        events: File for the contract, every step and the end, one JSON object a line.
     """
 
     hardware: Annotated[HardwareConfig | None, tyro.conf.Suppress] = None
     print_config: bool = False
+    events: Annotated[Path | None, tyro.conf.arg(name="json")] = None
 
 
 def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
-    config, sources, print_config = configure(argv)
-    if print_config:
-        _print_config(config, sources)
+    config, sources, flags = configure(argv)
+    contract = contract_of(config, sources)
+    if flags.print_config:
+        _print_config(config, sources, contract)
         return 0
-    outcome = _run(config)
+    writable(flags.events)
+    with EventFile(flags.events) as events:
+        outcome = _run(config, contract, events)
     if config.dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
         return 0  # the one decision of a dry run was made
     return EXIT_CODES.get(outcome.reason, 1)
 
 
-def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
-    """Configuration after flags, source of each value, and whether to do no more than print them.
+def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
+    """Configuration after flags, source of each value, and the flags themselves.
 
     Raises:
         UsageError: Something in file, environment or flags doesn't fit.
@@ -74,35 +83,45 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, bool]:
         if flag in tokens or flag.replace("--", "--no-", 1) in tokens:
             sources[path] = f"flag {flag}"
     hard.check(config, lambda path: sources[path])
-    return config, sources, flags.print_config
+    return config, sources, flags
 
 
-def _run(config: RunConfig) -> Outcome:
+def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     from tacgrasp.console import StepPrinter, end_lines, make_console
     from tacgrasp.policy_factory import make_policy
     from tacgrasp.rig.factory import make_rig
-    from tacgrasp.run import run_recorded
+    from tacgrasp.run import run_recorded, slip_minimum_of
 
     if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
         raise UsageError(
             f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
             "nothing may be grasped; give --dry-run to see what would be decided"
         )
+    events.contract(contract)
+    if contract.refused:
+        events.refused(contract)
+        raise UsageError(
+            f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
+        )
     policy = make_policy(config.policy, config)
     rig = make_rig(config)
     console = make_console()
     try:
         console.print(f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}")
-        outcome, path = run_recorded(rig, policy, config, observers=[StepPrinter(console)])
+        for line in contract_lines(contract):
+            console.print(line)
+        watch: list[Observer] = [StepPrinter(console), events.step]
+        outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
+        events.end(outcome, slip_minimum_of(rig, config))
     finally:
         rig.disconnect()
     console.print(f"episode: {path}")
-    for line in end_lines(outcome):
-        console.print(line)
+    for text in end_lines(outcome):
+        console.print(text)
     return outcome
 
 
-def _print_config(config: RunConfig, sources: Sources) -> None:
+def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:
     from tacgrasp.console import make_console
 
     values: dict[str, Any] = leaves(config)
@@ -113,3 +132,5 @@ def _print_config(config: RunConfig, sources: Sources) -> None:
         if isinstance(value, tuple):
             text = f"[{', '.join(f'{v:g}' for v in value)}]"
         console.print(f"{path:{width}}  {text}  [{sources.get(path, 'default')}]")
+    for line in [*contract_lines(contract), *band_lines(contract)]:
+        console.print(line)

@@ -105,6 +105,15 @@ def leaves(config: SettingsBase, prefix: str = "") -> dict[str, Any]:
     return flat
 
 
+def task_fields(task: str) -> dict[str, Any]:
+    """Fields of a task's file alone, as they are written.
+
+    Raises:
+        UsageError: There is no such task, or its file is not YAML.
+    """
+    return _read_layer("task", task)[1]
+
+
 def names(kind: str) -> list[str]:
     """Names of the shipped tasks or rigs (``kind`` is 'task' or 'rig')."""
     folder = resources.files("tacgrasp") / f"{kind}s"

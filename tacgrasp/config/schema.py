@@ -13,21 +13,26 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
-from policies.goal import Band, Goal
+from policies.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM
+from policies.goal import Goal
 from policies.teacher import LESSON_MOVE_STEP_MM
+from primitives.contract import Band
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
 from tacgrasp.config.hardware import HardwareConfig, with_workspace
 from tacgrasp.drivers.ur.settings import UrSettings, check_box
 
+GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
+
 EndAction = Literal["hold", "release"]
 
 
 class GoalConfig(SettingsBase):
-    """Bands of a good grasp, each [low, high].
+    """Bands of a good grasp, each [low, high]; the contract of an episode is made from them.
 
     Attributes:
         force_n: Normal force, estimated from the contact [N].
+        limit_n: Felt force that is never exceeded [N]; none: 1.25 times the top of ``force_n``.
         depth_mm: Largest indentation of the gel [mm].
         area_share: Fraction of the pad's sensing area in contact, 0 to 1.
         x_mm: Position of the contact along the pad's x [mm].
@@ -35,24 +40,35 @@ class GoalConfig(SettingsBase):
     """
 
     force_n: Interval
-    depth_mm: Interval
-    area_share: Interval
-    x_mm: Interval
-    y_mm: Interval
+    limit_n: Number | None = Field(default=None, gt=0, le=200)
+    depth_mm: Interval = (DEFAULT_DEPTH_MM.low, DEFAULT_DEPTH_MM.high)
+    area_share: Interval = (DEFAULT_AREA.low, DEFAULT_AREA.high)
+    x_mm: Interval = (-4.0, 4.0)
+    y_mm: Interval = (-3.0, 3.0)
 
     @model_validator(mode="after")
     def _check_bands(self) -> GoalConfig:
-        for name in type(self).model_fields:
+        for name in GOAL_BANDS:
             low, high = getattr(self, name)
             if low > high:
                 raise ValueError(f"{name} must be [low, high], got [{low}, {high}]")
+        if not self.force_n[0] > 0:
+            raise ValueError(f"force_n must begin above 0 N, got {list(self.force_n)}")
+        if self.limit_n is not None and self.limit_n < self.force_n[1]:
+            raise ValueError(
+                f"limit_n {self.limit_n:g} N is below the top of force_n, {self.force_n[1]:g} N"
+            )
         if not 0 <= self.area_share[0] <= self.area_share[1] <= 1:
             raise ValueError(f"area_share must lie in 0 to 1, got {list(self.area_share)}")
         return self
 
     def goal(self) -> Goal:
         """The same bands as the policies' ``Goal``."""
-        bands = {name: Band(low=low, high=high) for name, (low, high) in self}
+        bands = {
+            name: Band(low=low, high=high)
+            for name in GOAL_BANDS
+            for low, high in [getattr(self, name)]
+        }
         return Goal(area_fraction=bands.pop("area_share"), **bands)
 
 
@@ -146,11 +162,14 @@ class GripperConfig(SettingsBase):
         first_force_n: Largest commanded force of an approach until something is felt [N]: 0.3 N
             times the largest factor by which the true force may differ from it. None: 0.6 N in a
             simulated world, whose factor is up to 2; real devices need a value.
+        max_force_gain: Largest ratio of true to commanded force. Until something is felt, no
+            command times this may pass the contract's limit. The simulated gripper's is up to 2.
     """
 
     min_force_n: Number = Field(default=0.1, gt=0, le=100)
     max_force_n: Number = Field(default=12.0, gt=0, le=200)
     first_force_n: Number | None = Field(default=None, gt=0, le=200)
+    max_force_gain: Number = Field(default=2.0, ge=1, le=10)
 
     @model_validator(mode="after")
     def _check_range(self) -> GripperConfig:

@@ -29,6 +29,7 @@ from typing import Any
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
+from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed
 from primitives.sense import Interval
@@ -80,6 +81,7 @@ class EpisodeHeader:
         versions: Versions of the software, by name (tacgrasp, python, numpy, ...).
         rig: Name of the rig, 'sim' when simulated.
         dry_run: True when nothing was sent to the devices.
+        contract: Contract of the episode; None in episodes of older versions.
         stamp: Start of the episode.
     """
 
@@ -93,6 +95,7 @@ class EpisodeHeader:
     stamp: Stamp
     rig: str = "sim"
     dry_run: bool = False
+    contract: Contract | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +113,7 @@ class StepFields:
             real or emulated devices.
         in_contact: Whether something touched the gel, by test; None where none was possible.
         felt_force_n: Force that the contact suggested [N]; None without contact or test.
+        contract: Contract from this step on, where what is felt has changed it; None: as before.
     """
 
     index: int
@@ -121,6 +125,7 @@ class StepFields:
     commands: tuple[Command, ...] = ()
     in_contact: bool | None = None
     felt_force_n: Interval | None = None
+    contract: Contract | None = None
 
     def shared(self) -> dict[str, Any]:
         """The fields above by name, whatever else this dataclass holds."""

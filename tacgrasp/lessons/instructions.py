@@ -17,7 +17,8 @@ from importlib import resources
 import numpy as np
 
 from cltp.tactile.states import ContactState
-from policies.goal import Band, Goal
+from policies.goal import Goal
+from primitives.contract import Band
 from tacgrasp.base.strict_yaml import read_yaml
 from tacgrasp.config.schema import GoalConfig
 from tacgrasp.lessons import instruction_words as wordings
@@ -55,9 +56,7 @@ def task_goals() -> dict[str, Goal]:
     for level in LEVELS:
         text = (resources.files("tacgrasp") / "tasks" / f"{level}.yaml").read_text()
         bands = read_yaml(text)["goal"].items()
-        goals[level] = GoalConfig(
-            **{n: (float(low), float(high)) for n, (low, high) in bands}
-        ).goal()
+        goals[level] = GoalConfig.model_validate(dict(bands)).goal()
     return goals
 
 

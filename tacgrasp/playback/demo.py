@@ -16,6 +16,7 @@ from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import GoalConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import StepRecord
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.run import run_recorded
@@ -49,6 +50,7 @@ class Demo:
 
 GOAL = GoalConfig(
     force_n=(1.0, 2.4),
+    limit_n=2.9,
     depth_mm=(0.1, 0.6),
     area_share=(0.05, 0.3),
     x_mm=(-3.0, 3.0),
@@ -147,6 +149,7 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoRes
             rig,
             make_policy(config.policy, config),
             config,
+            contract_of(config),
             [collect, *observers],
             feel=demo.blind_force_n is None,
         )

@@ -74,7 +74,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -
         description = model.ask(cloud, CAPTION_REQUEST)
     except PolicyError as error:
         description = f"nothing: {error}"
-    decision = model.decide(Observation(cloud=cloud), instruction)
+    decision = model.follow(Observation(cloud=cloud), instruction)
     if decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:

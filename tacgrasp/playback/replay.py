@@ -7,25 +7,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from pydantic import ValidationError
 
 from cltp import TouchError
 from policies import Observation, Policy, PolicyError
+from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import Executed
 from primitives.limits import check_travel, check_workspace, distance_mm
 from tacgrasp.base.strict_yaml import YamlError, read_yaml
 from tacgrasp.config.errors import explain
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import Episode, EpisodeError, StepPhase, StepRecord
 from tacgrasp.episodes.codec import to_json
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason
-from tacgrasp.runtime.steps import NOTHING_TOUCHES
+from tacgrasp.runtime.steps import NOTHING_TOUCHES, within
 
 SOFT_SPEED_M_S = 0.02
 """Speed of the move to the start of the episode. Our choice: slow enough to be stopped by hand."""
@@ -75,18 +77,28 @@ def config_of(episode: Episode, path: Path) -> RunConfig:
         ) from None
 
 
-def differences(episode: Episode, policy: Policy) -> Iterator[Difference]:
+def contract_in(episode: Episode, config: RunConfig) -> Contract:
+    """Contract of a recorded run; made anew for an episode of an older version."""
+    return episode.header.contract or contract_of(config)
+
+
+def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterator[Difference]:
     """Ask a policy again for every recorded decision, in order.
 
     Yields:
         Every step with another text, action or success.
+
+    Raises:
+        LimitError: The contract is refused.
     """
     policy.start()
     for step in episode.steps:
+        contract = step.contract or contract
         if step.phase is not StepPhase.LOOP or step.decision in (None, NOTHING_TOUCHES):
             continue  # without contact the runtime decided, not the policy
         try:
-            decision = policy.decide(_observation(step), episode.header.instruction)
+            observation = _observation(step)
+            decision = within(contract, policy.decide(observation, contract), observation)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue
@@ -120,7 +132,8 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
         Every action, after its execution.
 
     Raises:
-        LimitError: The episode leaves the limits; nothing was sent for that action.
+        LimitError: The episode leaves the limits, nothing was sent for that action; or its contract
+            is refused.
         RobotError: A device failed.
         EpisodeError: The episode has no step, and so no start pose; or it was a dry run.
     """
@@ -131,7 +144,7 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
     is_success = episode.end is not None and episode.end.reason == EndReason.SUCCESS
     try:
         _approach(rig, episode.steps[0].tcp_pose, config)
-        executor = make_executor(rig, config)
+        executor = make_executor(rig, config, _contract_to_repeat(episode, config))
         executor.grasp(episode.steps[0].gripper.force_n or None)
         for step in episode.steps:
             recorded = step.executed
@@ -147,6 +160,12 @@ def repeat(episode: Episode, rig: Rig, config: RunConfig) -> Generator[RepeatedA
         rig.arm.stop()
         if (config.on_success if is_success else config.on_failure) == "release":
             rig.gripper.open_by(config.primitives.clear_mm / 1000)
+
+
+def _contract_to_repeat(episode: Episode, config: RunConfig) -> Contract:
+    """The contract after what was felt then: nothing is felt now that could object again."""
+    softer = [step.contract for step in episode.steps if step.contract is not None]
+    return replace(softer[-1] if softer else contract_in(episode, config), soft=None)
 
 
 def _approach(rig: Rig, target: Pose, config: RunConfig) -> None:

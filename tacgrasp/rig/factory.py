@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from primitives.contract import Contract
 from primitives.execution import Executor, PadAxes
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.schema import RunConfig
@@ -70,16 +71,19 @@ def _simulated(config: RunConfig) -> SimRig:
     return rig
 
 
-def make_executor(rig: Rig, config: RunConfig, sense: GelSense | None = None) -> Executor:
-    """Executor of the primitives on a rig, within the configured limits.
+def make_executor(
+    rig: Rig, config: RunConfig, contract: Contract | None, sense: GelSense | None = None
+) -> Executor:
+    """Executor of the primitives on a rig, within the configured limits and the contract.
 
     Args:
         rig: The rig.
         config: The run.
+        contract: Contract of the episode; None for a benchmark's baseline that has none.
         sense: Touch while the fingers close; None closes without feeling.
 
     Raises:
-        LimitError: The rig starts outside its workspace.
+        LimitError: The rig starts outside its workspace, or the contract is refused.
     """
     return Executor(
         rig.arm,
@@ -92,7 +96,8 @@ def make_executor(rig: Rig, config: RunConfig, sense: GelSense | None = None) ->
         pad_axes=PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis),
         clock=rig.clock.monotonic,
         sense=None if sense is None else sense.for_executor(),
-        goal_force_n=config.goal.force_n,
+        contract=contract,
+        max_gain=config.gripper.max_force_gain,
         force_step_n=rig.force_step_n,
         dry_run=config.dry_run,
     )

@@ -2,5 +2,6 @@
 
 Not here: the order of a step's stages (``tacgrasp.loop``), the devices (``tacgrasp.rig``).
 
-May import: cltp, policies, primitives, tacgrasp.config, tacgrasp.episodes, tacgrasp.rig.
+May import: cltp, policies, primitives, tacgrasp.base, tacgrasp.config, tacgrasp.episodes,
+tacgrasp.rig.
 """

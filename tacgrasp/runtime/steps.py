@@ -7,16 +7,19 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 from typing import Protocol
 
 from cltp import TouchError
 from cltp.tactile.cloud import Stamp, TactileCloud
+from cltp.tactile.measure import contact_state
 from policies import Decision, Observation, PolicyError
+from policies.contract_steps import beyond, softened
 from primitives import Primitive
+from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
-from primitives.execution import Executed
+from primitives.execution import Executed, Executor
 from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, StepPhase, StepRecord
@@ -86,6 +89,24 @@ NOTHING_TOUCHES = Decision(
 """The runtime's own decision without contact, in place of any policy's."""
 
 
+def within(contract: Contract, decision: Decision, observation: Observation) -> Decision:
+    """The decision, or none in its place where it goes beyond the contract."""
+    if observation.in_contact is None:
+        state = None
+    else:
+        state = contact_state(observation.cloud, in_contact=observation.in_contact)
+    reason = beyond(
+        contract,
+        decision.action,
+        success=decision.success,
+        felt=observation.felt_force_n,
+        state=state,
+    )
+    if not reason:
+        return decision
+    return replace(decision, action=None, success=False, reason=f"beyond the contract: {reason}")
+
+
 def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
     """Read sensor, arm and gripper, and test for contact.
 
@@ -146,6 +167,7 @@ class Steps:
         self._num_blanks = 0
         self._last: Step | None = None
         self._notes: list[str] = []
+        self._new_contract: Contract | None = None
 
     @property
     def elapsed_s(self) -> float:
@@ -164,6 +186,18 @@ class Steps:
                 f"{self.elapsed_s:.0f} s without a good grasp (loop.timeout_s is "
                 f"{self._bounds.timeout_s:g})",
             )
+
+    def hear_objection(
+        self, executor: Executor, observation: Readings, contract: Contract
+    ) -> Contract:
+        """The contract after what is felt: a soft contact is held to the terms of soft ones."""
+        if not executor.feel(observation.felt_force_n):
+            return contract
+        held = softened(contract)
+        executor.keep(held)
+        self._notes.append(held.assumed[-1])
+        self._new_contract = held
+        return held
 
     def survive(self, error: TouchError | PolicyError, attempt: int) -> None:
         """Note a failed attempt to read or decide and wait; the caller then tries again.
@@ -224,8 +258,9 @@ class Steps:
             commands=self._rig.commands(),
             in_contact=step.observation.in_contact,
             felt_force_n=step.observation.felt_force_n,
+            contract=self._new_contract,
         )
-        self._notes = []
+        self._notes, self._new_contract = [], None
         self._recorder.write_step(record)
         self.num_steps += 1
         if step.decision is not None and step.decision.action is not None:

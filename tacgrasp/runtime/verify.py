@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
+from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import rotate
 from primitives.limits import check_workspace
@@ -26,7 +27,9 @@ UP = np.array([0.0, 0.0, 1.0])
 """Direction against gravity, base frame."""
 
 
-def verify_by_lifting(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+def verify_by_lifting(
+    rig: Rig, steps: Steps, config: RunConfig, contract: Contract
+) -> Verification:
     """Lift, shake and hold the object, and compare the contact; on failure lower it again.
 
     Raises:
@@ -49,15 +52,23 @@ def verify_by_lifting(rig: Rig, steps: Steps, config: RunConfig) -> Verification
         _move(rig, pose, settings, settings.shake_acceleration_m_s2)
     rig.clock.sleep(settings.hold_s)
     after = contact_state(steps.observe(StepPhase.VERIFY_AFTER))
-    verification = compare(before, after, settings)
+    verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if not verification.passed:
         # an object that is still held must not fall when it is released
         _move(rig, start, settings, settings.acceleration_m_s2)
     return verification
 
 
-def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -> Verification:
-    """Compare the contact before and after the lift with the task's thresholds."""
+def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
+    """Accelerations of a held body in the verification, (x, y) of the pad [m/s²]."""
+    shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
+    return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
+
+
+def compare(
+    before: ContactState, after: ContactState, settings: VerifyConfig, *, slip_mm: float
+) -> Verification:
+    """Compare the contact before and after the lift with slip limit [mm] and thresholds."""
     if not before.in_contact:
         return Verification(passed=False, message="nothing was felt before the lift")
     if not after.in_contact:
@@ -66,8 +77,8 @@ def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -
     area_ratio = after.area_fraction / before.area_fraction
     depth_ratio = after.depth_mm / before.depth_mm
     problems = []
-    if shift_mm > settings.max_shift_mm:
-        problems.append(f"the contact moved {shift_mm:.1f} mm (at most {settings.max_shift_mm:g})")
+    if shift_mm > slip_mm:
+        problems.append(f"the contact moved {shift_mm:.1f} mm (at most {slip_mm:g})")
     for name, ratio, least in (
         ("area", area_ratio, settings.min_area_ratio),
         ("depth", depth_ratio, settings.min_depth_ratio),
@@ -84,7 +95,7 @@ def compare(before: ContactState, after: ContactState, settings: VerifyConfig) -
     )
 
 
-def not_lifted(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+def not_lifted(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) -> Verification:
     """Verification of a dry run: nothing may move, so nothing is verified."""
     return Verification(passed=False, message="dry run: nothing was lifted")
 

@@ -36,7 +36,8 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
-from policies import Observation, Policy, PolicyError
+from policies import Observation, PolicyError
+from policies.llm import LlmPolicy
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.answer_scoring import is_right, read_numbers
 from tacgrasp.lessons.exchanges import BLIND
@@ -153,8 +154,8 @@ class _CaseEvaluation:
     def __init__(
         self,
         data: ContactDataset,
-        llm: Policy,
-        blind: Policy | None,
+        llm: LlmPolicy,
+        blind: LlmPolicy | None,
         seed: int,
         report: ProgressReport,
     ) -> None:
@@ -224,11 +225,11 @@ class _CaseEvaluation:
         return {name: np.array(values, dtype=bool) for name, values in right.items()}
 
 
-def _decided(policy: Policy, cloud: TactileCloud, instruction: str) -> str | None:
+def _decided(policy: LlmPolicy, cloud: TactileCloud, instruction: str) -> str | None:
     """A primitive's name, ``NONE`` for success, None where the policy holds or refuses."""
     policy.start()  # each case is an episode of its own: no action is barred for the one before
     try:
-        decision = policy.decide(Observation(cloud=cloud), instruction)
+        decision = policy.follow(Observation(cloud=cloud), instruction)
     except PolicyError:
         return None
     if decision.action is not None:

@@ -4,6 +4,7 @@ A subclass gives ``make``: a fresh policy, the same each time.
 """
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,9 +13,17 @@ from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from policies import Decision, Observation, Policy
 from policies.extraction import extract
+from primitives.contract import Band
+from tests.fakes.contracts import contract
 
 SENSOR = sensor_named("gelsight_mini")
-INSTRUCTION = "Pick the strawberry gently, without bruising it."
+CONTRACT = replace(
+    contract(0.5, 2.5, 3.2),
+    depth_mm=Band(low=0.1, high=0.6),
+    area_fraction=Band(low=0.01, high=0.6),
+    x_mm=Band(low=-2.5, high=2.5),
+    y_mm=Band(low=-2.5, high=2.5),
+)
 
 
 def cap(x_mm: float, y_mm: float, depth_mm: float) -> TactileCloud:
@@ -41,7 +50,7 @@ class PolicyContract:
         return policy
 
     def decide_all(self, policy: Policy) -> list[Decision]:
-        return [policy.decide(Observation(cloud=cloud), INSTRUCTION) for cloud in CLOUDS]
+        return [policy.decide(Observation(cloud=cloud), CONTRACT) for cloud in CLOUDS]
 
     def test_it_has_a_name_that_fits_a_command_line(self, policy):
         assert policy.name
@@ -71,7 +80,7 @@ class PolicyContract:
 
     def test_a_cloud_is_left_as_it_was(self, policy):
         before = CLOUDS[0].points_mm.copy()
-        policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION)
+        policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT)
         assert np.array_equal(CLOUDS[0].points_mm, before)
 
     def test_start_can_be_called_at_any_time(self, policy):

@@ -8,18 +8,10 @@ from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
 from policies import Observation
 from policies.baselines import FixedForcePolicy, RandomPolicy
-from policies.goal import Band, Goal
 from policies.rules import RulesPolicy
-from primitives import Primitive
-from tests.contracts.policy_contract import CLOUDS, INSTRUCTION, PolicyContract
-
-GOAL = Goal(
-    force_n=Band(low=0.5, high=2.5),
-    depth_mm=Band(low=0.1, high=0.6),
-    area_fraction=Band(low=0.01, high=0.6),
-    x_mm=Band(low=-2.5, high=2.5),
-    y_mm=Band(low=-2.5, high=2.5),
-)
+from primitives import LimitError, Primitive
+from tests.contracts.policy_contract import CLOUDS, CONTRACT, PolicyContract
+from tests.fakes.contracts import refused_contract
 
 
 def by_eye(cloud) -> ContactState:
@@ -43,7 +35,7 @@ def by_eye(cloud) -> ContactState:
 
 class TestRules(PolicyContract):
     def make(self):
-        return RulesPolicy(GOAL, move_step_mm=3.0, measure=by_eye)
+        return RulesPolicy(move_step_mm=3.0, measure=by_eye)
 
     def test_each_dent_gets_its_advice(self, policy):
         actions = [d.action for d in self.decide_all(policy)]
@@ -56,14 +48,18 @@ class TestRules(PolicyContract):
         ]
         assert [d.success for d in self.decide_all(policy)] == [True] + 4 * [False]
 
+    def test_a_refused_contract_is_not_decided_for(self, policy):
+        with pytest.raises(LimitError, match="refused"):
+            policy.decide(Observation(cloud=CLOUDS[0]), refused_contract())
+
     def test_every_stage_is_timed(self, policy):
-        decision = policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION)
+        decision = policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT)
         assert list(decision.stage_ms) == ["measure", "teacher", "speak", "extract"]
 
     def test_stages_are_the_differences_of_the_clock_in_ms(self):
         ticks = iter([0.0, 0.001, 0.003, 0.006, 0.010])
-        policy = RulesPolicy(GOAL, move_step_mm=3.0, measure=by_eye, clock=lambda: next(ticks))
-        stages = policy.decide(Observation(cloud=CLOUDS[0]), "").stage_ms
+        policy = RulesPolicy(move_step_mm=3.0, measure=by_eye, clock=lambda: next(ticks))
+        stages = policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT).stage_ms
         assert list(stages.values()) == pytest.approx([1, 2, 3, 4])
 
 
@@ -73,7 +69,7 @@ class TestRules(PolicyContract):
 )
 class TestRulesAsShipped(PolicyContract):
     def make(self):
-        return RulesPolicy(GOAL, move_step_mm=3.0)
+        return RulesPolicy(move_step_mm=3.0)
 
     def test_dents_off_centre_are_followed_and_no_dent_is_a_reset(self, policy):
         actions = [d.action for d in self.decide_all(policy)]
@@ -94,7 +90,7 @@ class TestRandom(PolicyContract):
         return RandomPolicy(seed=7)
 
     def test_each_of_the_eight_choices_comes_about_as_often(self, policy):
-        drawn = [policy.decide(Observation(cloud=CLOUDS[0]), INSTRUCTION) for _ in range(1600)]
+        drawn = [policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT) for _ in range(1600)]
         counts = [sum(d.action is p for d in drawn) for p in Primitive]
         counts.append(sum(d.success for d in drawn))
         assert sum(counts) == 1600
@@ -102,5 +98,7 @@ class TestRandom(PolicyContract):
 
     def test_another_seed_draws_otherwise(self, policy):
         other = RandomPolicy(seed=8)
-        ours = [policy.decide(Observation(cloud=CLOUDS[0]), "").text for _ in range(20)]
-        assert ours != [other.decide(Observation(cloud=CLOUDS[0]), "").text for _ in range(20)]
+        ours = [policy.decide(Observation(cloud=CLOUDS[0]), CONTRACT).text for _ in range(20)]
+        assert ours != [
+            other.decide(Observation(cloud=CLOUDS[0]), CONTRACT).text for _ in range(20)
+        ]

@@ -10,6 +10,7 @@ from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axe
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from policies import Decision, Observation
 from policies.extraction import extract
+from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
@@ -20,6 +21,7 @@ from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Observer, Outcome, Verification
 from tacgrasp.runtime.steps import Steps
+from tests.fakes.contracts import wide_contract
 
 SENSOR = sensor_named("gelsight_mini")
 START = Pose(position_m=np.array([0.45, -0.10, 0.20]), rotvec_rad=np.array([np.pi, 0.0, 0.0]))
@@ -182,7 +184,7 @@ class Scripted:
     def start(self) -> None:
         self.num_asks = 0
 
-    def decide(self, observation: Observation, instruction: str) -> Decision:
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
         text = self._texts[min(self.num_asks, len(self._texts) - 1)]
         self.num_asks += 1
         if isinstance(text, Exception):
@@ -215,11 +217,11 @@ class ListRecorder:
         self.ends.append(end)
 
 
-def holds(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+def holds(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) -> Verification:
     return Verification(passed=True, message="held")
 
 
-def slips(rig: Rig, steps: Steps, config: RunConfig) -> Verification:
+def slips(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) -> Verification:
     return Verification(passed=False, message="slipped")
 
 
@@ -233,21 +235,24 @@ def play(
     policy: Scripted,
     *,
     rig: FakeRig | None = None,
-    verify: Callable[[Rig, Steps, RunConfig], Verification] = holds,
+    verify: Callable[[Rig, Steps, RunConfig, Contract], Verification] = holds,
     recorder: ListRecorder | None = None,
     settings: RunConfig | None = None,
     observers: Sequence[Observer] = (),
+    contract: Contract | None = None,
 ) -> tuple[Outcome, FakeRig, ListRecorder]:
-    """Run the loop on fakes."""
+    """Run the loop on fakes; under a contract that bounds hardly anything unless one is given."""
     rig = rig or FakeRig()
     recorder = recorder or ListRecorder()
     settings = settings or config()
     sense = GelSense(rig.sensor)
+    contract = contract or wide_contract()
     outcome = run_episode(
         rig,
-        make_executor(rig, settings, sense),
+        make_executor(rig, settings, contract, sense),
         policy,
         settings,
+        contract,
         verify=verify,
         recorder=recorder,
         observers=observers,

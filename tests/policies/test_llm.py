@@ -4,6 +4,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
+from hypothesis import given
+from hypothesis import strategies as st
 
 from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
@@ -19,13 +21,18 @@ from policies import Observation
 from policies.errors import PolicyError
 from policies.extraction import extract
 from policies.llm import (
+    KNOWN_SPAN,
     LlmPolicy,
-    as_request,
     check_instruction,
+    goal_beyond,
     hold_reason,
+    known_wording,
     repeated_moves,
 )
 from primitives import Primitive
+from primitives.contract import Band
+from primitives.sense import Interval
+from tests.fakes.contracts import wide_contract
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -104,7 +111,7 @@ def test_a_clear_reply_stands(action: str) -> None:
 def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) -> None:
     policy = LlmPolicy(untrained)
     policy.start()
-    decision = policy.decide(Observation(cloud=touch()), "Pick the strawberry gently.")
+    decision = policy.decide(Observation(cloud=touch()), wide_contract())
     assert decision.action is None
     assert not decision.success
     assert decision.reason
@@ -116,10 +123,7 @@ def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) 
         "generate",
         "extract",
     }
-    assert (
-        policy.decide(Observation(cloud=touch()), "Pick the strawberry gently.").text
-        == decision.text
-    )
+    assert policy.decide(Observation(cloud=touch()), wide_contract()).text == decision.text
 
 
 @pytest.mark.parametrize(
@@ -178,6 +182,47 @@ def test_a_move_and_its_undoing_ban_both_and_nothing_else(moves, banned):
     assert repeated_moves([Primitive(move) for move in moves]) == banned
 
 
-def test_an_instruction_worded_as_a_question_is_no_question() -> None:
-    assert as_request("Could you pick up the egg?") == "Could you pick up the egg."
-    assert as_request("Pick it up gently.") == "Pick it up gently."
+def named(wording: str) -> tuple[float, float]:
+    match = re.fullmatch(r"Hold it with (\d+\.\d) to (\d+\.\d) N\.", wording)
+    assert match is not None, wording
+    return float(match[1]), float(match[2])
+
+
+@given(
+    low=st.floats(0.5, 10.0),
+    span=st.floats(1.1, 6.0),
+    felt_n=st.none() | st.floats(0.05, 40.0),
+)
+def test_every_contract_is_put_in_a_band_of_the_width_that_the_model_knows(low, span, felt_n):
+    band = Band(low=low, high=low * span)
+    felt = None if felt_n is None else Interval(value=felt_n, low=felt_n / 2, high=felt_n * 2)
+    least, most = named(known_wording(band, felt))
+    assert most / least == pytest.approx(KNOWN_SPAN, rel=0.15)  # of one decimal
+    assert least <= band.high + 0.1
+    assert most >= band.low - 0.1
+
+
+def test_a_narrow_band_is_put_by_the_end_that_matters() -> None:
+    band = Band(low=2.1, high=2.8)
+    felt = [Interval(value=v, low=v, high=v) for v in (1.0, 2.4, 5.0)]
+    below, inside, above = (named(known_wording(band, f)) for f in felt)
+    assert below[0] == pytest.approx(2.1)
+    assert above[1] == pytest.approx(2.8, abs=0.1)
+    assert inside[0] < 2.4 < inside[1]
+
+
+@pytest.mark.parametrize(
+    ("text", "is_beyond"),
+    [
+        ("Goal 1.0 - 2.0 N. Force 0.8 N.", False),
+        ("Goal 1.8 - 3.7 N. Force 0.8 N.", False),
+        ("Goal 3.0 - 6.2 N. Force 0.8 N.", True),
+        ("Goal 0.2 - 0.5 N. Force 0.8 N.", True),
+        ("Force 0.8 N.", False),
+    ],
+)
+def test_a_goal_outside_the_contract_is_named_as_beyond_it(text: str, is_beyond: bool) -> None:
+    reason = goal_beyond(text, Band(low=0.95, high=1.9))
+    assert bool(reason) is is_beyond
+    assert not is_beyond or "outside 0.95-1.90 N" in reason
+    assert goal_beyond(text, None) == ""

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState, Side, area_word, depth_word, position_word
-from policies.goal import Band, Goal
+from policies.goal import Goal
 from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_FRACTION, Advice, Reason, teacher
 from primitives import Primitive
+from primitives.contract import Band
 from primitives.execution import INCREASE_FACTOR
 from primitives.primitive import PAD_DIRECTION
 

@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from primitives import LimitError, Primitive, RobotError
+from primitives.contract import Band
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executor, PadAxes, force_factor, rotate
 from primitives.limits import Limits
@@ -359,22 +360,22 @@ def test_a_replayed_force_is_commanded_as_recorded():
     width=st.floats(0.05, 10),
 )
 def test_a_change_of_force_goes_towards_the_goal_and_never_leaves_it(increase, felt_n, low, width):
-    goal = (low, low + width)
+    goal = Band(low=low, high=low + width)
     felt = Interval(value=felt_n, low=felt_n / 2, high=felt_n * 2)
     factor = force_factor(increase=increase, felt=felt, goal_n=goal)
     assert 0.5 <= factor <= 2.0
     assert factor >= 1 if increase else factor <= 1
-    if goal[0] <= felt_n <= goal[1]:
-        assert goal[0] * (1 - 1e-9) <= felt_n * factor <= goal[1] * (1 + 1e-9)
-    elif increase and felt_n < goal[0]:
-        assert felt_n * factor <= goal[1] * (1 + 1e-9)
-    elif not increase and felt_n > goal[1]:
-        assert felt_n * factor >= goal[0] * (1 - 1e-9)
+    if felt_n in goal:
+        assert goal.low * (1 - 1e-9) <= felt_n * factor <= goal.high * (1 + 1e-9)
+    elif increase and felt_n < goal.low:
+        assert felt_n * factor <= goal.high * (1 + 1e-9)
+    elif not increase and felt_n > goal.high:
+        assert felt_n * factor >= goal.low * (1 - 1e-9)
 
 
 def test_without_a_felt_force_the_factors_are_the_plain_ones():
-    assert force_factor(increase=True, felt=None, goal_n=(1, 2)) == 1.5
-    assert force_factor(increase=False, felt=None, goal_n=(1, 2)) == 0.65
+    assert force_factor(increase=True, felt=None, goal_n=Band(low=1, high=2)) == 1.5
+    assert force_factor(increase=False, felt=None, goal_n=Band(low=1, high=2)) == 0.65
 
 
 @pytest.mark.parametrize("bounds", [(2, 1, 3), (1, 2, 1.5), (math.nan, 1, 2), (1, math.inf, 2)])

@@ -15,6 +15,7 @@ from tacgrasp.episodes import StepPhase, StepRecord
 from tacgrasp.runtime.outcome import EndReason
 from tacgrasp.runtime.steps import NOTHING_TOUCHES
 from tacgrasp.runtime.verify import not_lifted, verify_by_lifting
+from tests.fakes.contracts import contract
 from tests.fakes.loop_fakes import (
     BOTH,
     DOWN,
@@ -159,9 +160,8 @@ def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> N
 def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
     settings = config(max_steps=100)
     gripper = settings.gripper.model_copy(update={"max_force_n": 2.0})
-    goal = settings.goal.model_copy(update={"force_n": (50.0, 60.0)})
-    settings = settings.model_copy(update={"gripper": gripper, "goal": goal})
-    outcome, rig, _ = play(Scripted(LIGHT), settings=settings)
+    settings = settings.model_copy(update={"gripper": gripper})
+    outcome, rig, _ = play(Scripted(LIGHT), settings=settings, contract=contract(50.0, 60.0, 100.0))
     assert outcome.reason is EndReason.LIMIT
     assert rig.gripper.forces_n == pytest.approx([0.1, 0.2, 0.4, 0.8, 1.6, 2.0])
 
@@ -169,8 +169,8 @@ def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
 def test_a_change_that_the_goal_leaves_no_room_for_is_no_action() -> None:
     settings = config(max_asks=2)
     felt_n = contact_state(touch()).force_n
-    goal = settings.goal.model_copy(update={"force_n": (felt_n / 2, felt_n * 1.0000001)})
-    outcome, rig, _ = play(Scripted(LIGHT), settings=settings.model_copy(update={"goal": goal}))
+    tight = contract(felt_n / 2, felt_n * 1.0000001, 100.0)
+    outcome, rig, _ = play(Scripted(LIGHT), settings=settings, contract=tight)
     assert outcome.reason in (EndReason.NO_ACTION, EndReason.MAX_STEPS)
     assert rig.gripper.forces_n[-1] == pytest.approx(rig.gripper.forces_n[0], rel=0.2)
 

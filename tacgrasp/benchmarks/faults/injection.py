@@ -35,6 +35,7 @@ from tacgrasp.benchmarks.faults.reaction import (
 from tacgrasp.benchmarks.faults.threads import BackgroundCall, Episode, check_episode
 from tacgrasp.config.hardware import HardwareConfig, StartConfig
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.emulated import settings_for
 from tacgrasp.rig.hardware import HardwareRig, connect, connect_sensor
@@ -222,7 +223,7 @@ class FaultBench:
             record = {"record": Path(self._folder.name), "policy": "rules"}
             config = self._config.model_copy(update=record)
             episode = BackgroundCall(
-                lambda: run_recorded(rig, make_policy("rules", config), config)
+                lambda: run_recorded(rig, make_policy("rules", config), config, contract_of(config))
             )
             moving = self._wait_for_motion(episode)
             injected_s = self._inject(case)

@@ -22,6 +22,7 @@ from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.settings import LatencySettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.console import make_console
 from tacgrasp.episodes import EpisodeHeader, EpisodeWriter, StepPhase, StepRecord
 from tacgrasp.policy_factory import default_weights, make_policy
@@ -50,10 +51,11 @@ def run(settings: LatencySettings) -> None:
     clouds = _clouds(rig)
     observations = [Observation(cloud=cloud, in_contact=True) for cloud in clouds]
     policy.start()
+    contract = contract_of(config)
     durations, stages = [], defaultdict(list)
     for number in track(range(WARM_UP + ticks), description="decisions", transient=True):
         began = time.perf_counter()
-        decision = policy.decide(observations[number % len(clouds)], config.instruction)
+        decision = policy.decide(observations[number % len(clouds)], contract)
         duration_ms = 1e3 * (time.perf_counter() - began)
         if number >= WARM_UP:
             durations.append(duration_ms)

@@ -33,6 +33,7 @@ from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import MissedSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import StepRecord
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
@@ -184,13 +185,14 @@ def _run_one(
     config: RunConfig, policy: Policy, offset_mm: tuple[float, float] | None
 ) -> tuple[Outcome, Watch]:
     rig = build(config.object, config.seed, sensor_name=config.sensor, start_offset_mm=offset_mm)
-    sense = TrueSense(rig)
+    sense, contract = TrueSense(rig), contract_of(config)
     watch = Watch(sense, rig.first_force_n)
     outcome = run_episode(
         rig,
-        make_executor(rig, config, sense),
+        make_executor(rig, config, contract, sense),
         policy,
         config,
+        contract,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
         observers=[watch],

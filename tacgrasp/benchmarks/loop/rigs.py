@@ -18,6 +18,7 @@ from tacgrasp.benchmarks.figures import one_thread, write_figures
 from tacgrasp.benchmarks.settings import RigsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.console import make_console
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
@@ -119,12 +120,13 @@ def _end(config: RunConfig) -> RigEnd:
     except RobotError as error:
         return RigEnd(reason="not started", facts=(), steps=0, message=str(error))
     try:
-        sense = GelSense(rig.sensor)
+        sense, contract = GelSense(rig.sensor), contract_of(config)
         outcome = run_episode(
             rig,
-            make_executor(rig, config, sense),
+            make_executor(rig, config, contract, sense),
             policy,
             config,
+            contract,
             verify=verify_by_lifting,
             recorder=NoRecorder(),
             sense=sense,

@@ -19,19 +19,22 @@ from rich.console import Console
 
 from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
+from sim.grasp.bodies import OBJECTS
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
-from tacgrasp.config.schema import RunConfig, VerifyConfig
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
+from tacgrasp.episodes.record import StepRecord
 from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.steps import NoRecorder
-from tacgrasp.runtime.verify import verify_by_lifting
+from tacgrasp.runtime.verify import accelerations, verify_by_lifting
 
 FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
 """Commanded forces that ``fixed_force`` is swept over."""
@@ -55,6 +58,7 @@ class EpisodeResult:
         slip_minimum_n: Smallest force that would have held the centred body [N].
         chose_first_force: Whether the policy chose the force of the first grasp (``fixed_force``);
             a bruise of that grasp is then the policy's.
+        objected: Whether what was felt objected to the contract.
     """
 
     seed: int
@@ -65,6 +69,7 @@ class EpisodeResult:
     truth: Truth
     slip_minimum_n: float
     chose_first_force: bool = False
+    objected: bool = False
 
     @property
     def bruised(self) -> bool:
@@ -75,12 +80,6 @@ class EpisodeResult:
     def verified(self) -> bool:
         """Declared, truly held through lift and wait, and not bruised by the policy."""
         return self.declared and self.truth.held and not self.bruised
-
-
-def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
-    """Accelerations of a held body in the verification, (x, y) of the pad [m/s²]."""
-    shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
-    return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
 
 
 def run_seed(
@@ -97,13 +96,22 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
     name, force_n = contestant
     rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
+    contract = contract_of(config)
+    objections: list[str] = []
+
+    def hear(record: StepRecord) -> None:
+        if record.contract is not None:
+            objections.append(record.contract.assumed[-1])
+
     outcome = run_episode(
         rig,
-        make_executor(rig, config, sense),
+        make_executor(rig, config, None if force_n is not None else contract, sense),
         _policy(name, config, rig, slip_minimum_n),
         config,
+        contract,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
+        observers=[hear],
         sense=sense,
     )
     return EpisodeResult(
@@ -115,12 +123,13 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
         truth=rig.truth(),
         slip_minimum_n=slip_minimum_n,
         chose_first_force=force_n is not None,
+        objected=bool(objections),
     )
 
 
 def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
     if name == "llm":
-        return _language_model(config.weights, config.instruction, config.primitives.move_step_mm)
+        return _language_model(config.weights, config.primitives.move_step_mm)
     if name != "oracle":
         return make_policy(name, config)
     grasp = rig.grasp
@@ -138,12 +147,11 @@ def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) ->
 
 
 @lru_cache(maxsize=1)
-def _language_model(weights: Path | None, instruction: str, move_step_mm: float) -> Policy:
+def _language_model(weights: Path | None, move_step_mm: float) -> Policy:
     """The policy ``llm``, read once a process: it has no memory, so episodes can share it."""
     policy = load_llm(weights)
     try:
         policy.check_move_step(move_step_mm)
-        policy.check(instruction)
     except PolicyError as error:
         raise UsageError(str(error)) from None
     return policy
@@ -169,6 +177,7 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
         "bruised_at_start": lambda r: r.truth.bruised_at_start,
         "dropped": lambda r: r.truth.dropped,
         "declared": lambda r: r.declared,
+        "objected": lambda r: r.objected,
     }
     for name, event in events.items():
         count = sum(event(r) for r in results)
@@ -189,7 +198,7 @@ def run(settings: StrawberrySettings) -> None:
     Raises:
         UsageError: An unknown policy.
     """
-    config = load("strawberry")[0].model_copy(update={"weights": settings.weights})
+    config = _config(settings)
     episodes, first_seed = settings.episodes, settings.first_seed
     policies = [name.strip() for name in settings.policies.split(",")]
     names = [*POLICIES, "oracle"]
@@ -199,8 +208,7 @@ def run(settings: StrawberrySettings) -> None:
             f"bench needs policies out of {', '.join(names)}; got {', '.join(policies)}"
         )
     if "llm" in policies:
-        step_mm = config.primitives.move_step_mm
-        _language_model(config.weights, config.instruction, step_mm)  # an error shows here
+        _language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
     contestants: list[Contestant] = []
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
@@ -222,6 +230,8 @@ def run(settings: StrawberrySettings) -> None:
             sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in by_force.items()}
     report = {
         "task": config.task,
+        "object": config.object,
+        "instruction": config.instruction,
         "first_seed": first_seed,
         "episodes": episodes,
         "policies": figures,
@@ -230,6 +240,22 @@ def run(settings: StrawberrySettings) -> None:
     }
     _print(console, figures, sweep, episodes, first_seed)
     write_figures(settings.json, report)
+
+
+def _config(settings: StrawberrySettings) -> RunConfig:
+    """The run that every episode is of.
+
+    Raises:
+        UsageError: An unknown task or object, or an instruction that is refused.
+    """
+    changes = {"weights": settings.weights}
+    changes |= {n: v for n in ("object", "instruction") if (v := getattr(settings, n)) is not None}
+    config = load(settings.task)[0].model_copy(update=changes)
+    if config.object not in OBJECTS:
+        raise UsageError(f"--object must be one of {', '.join(OBJECTS)}, got {config.object!r}")
+    if reason := contract_of(config).refused:
+        raise UsageError(f"--instruction is refused: {reason}")
+    return config
 
 
 def _flat(result: EpisodeResult) -> dict[str, Any]:
@@ -244,7 +270,15 @@ def _print(
     first_seed: int,
 ) -> None:
     title = f"{episodes} episodes, seeds from {first_seed:,}; 95 % Wilson intervals"
-    columns = ["policy", "verified", "bruised", "bruised at start", "dropped", "actions"]
+    columns = [
+        "policy",
+        "verified",
+        "bruised",
+        "bruised at start",
+        "dropped",
+        "objected",
+        "actions",
+    ]
     columns += ["peak force / slip minimum", "ends"]
     table = number_table(title, columns, ("policy", "ends"))
     for name, row in figures.items():
@@ -259,6 +293,7 @@ def _print(
             rate("bruised"),
             f"{100 * row['bruised_at_start_rate']:.1f} %",
             f"{100 * row['dropped_rate']:.1f} %",
+            f"{100 * row['objected_rate']:.1f} %",
             f"{row['median_actions']:g}",
             f"{row['median_peak_force_over_slip_minimum']:.1f}",
             ", ".join(f"{end} {count}" for end, count in row["ends"].items()),

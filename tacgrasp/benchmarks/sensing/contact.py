@@ -33,6 +33,7 @@ from tacgrasp.benchmarks.loop.strawberry import wilson
 from tacgrasp.benchmarks.pool import map_seeds
 from tacgrasp.benchmarks.settings import ContactSettings
 from tacgrasp.config.layers import load
+from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 
@@ -173,7 +174,7 @@ def approach_peak_n(name: str, seed: int) -> float | None:
     rig = build(name, seed)
     config, _ = load(name)
     sense = GelSense(rig.sensor)
-    make_executor(rig, config, sense).grasp()
+    make_executor(rig, config, contract_of(config), sense).grasp()
     return rig.truth().peak_force_n if sense.read_contact() else None
 
 

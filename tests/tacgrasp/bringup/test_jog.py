@@ -50,7 +50,7 @@ def rig():
 @pytest.fixture
 def jogger(rig):
     axes = PadAxes(x_tcp=rig.pad_x_in_tcp, y_tcp=rig.pad_y_in_tcp)
-    return Jogger(rig, LIMITS, axes, clear_mm=2.0)
+    return Jogger(rig, LIMITS, axes, clear_mm=2.0, limit_n=100.0, max_gain=1.0)
 
 
 @pytest.mark.parametrize(
@@ -115,6 +115,19 @@ def test_a_step_is_shortened_and_a_force_lowered_to_the_limits_and_it_is_said(jo
     long = JogStep(frame="base", direction=(0, 0, 1), length_mm=5)
     assert "shortened to max_step_mm 2" in jogger.carry_out(long)
     assert "lowered to max_force_n 2" in jogger.carry_out(Grip(force_n=9))
+
+
+def test_no_grip_by_hand_presses_beyond_the_limit_whatever_was_felt_before(rig):
+    axes = PadAxes(x_tcp=rig.pad_x_in_tcp, y_tcp=rig.pad_y_in_tcp)
+    jogger = Jogger(rig, LIMITS, axes, clear_mm=2.0, limit_n=1.2, max_gain=2.0)
+    said = jogger.carry_out(Grip(force_n=2.0))
+    assert "lowered to 0.6 N" in said
+    assert "contract's limit of 1.2 N" in said
+    for _ in range(3):
+        jogger.contact()
+        jogger.carry_out(Grip(force_n=2.0))
+    assert 0.5 < rig.gripper.state().force_n < 1.2
+    assert 0.3 < rig.truth().peak_force_n <= 1.2
 
 
 def test_a_step_out_of_the_box_is_refused_and_nothing_moves(jogger, rig):

@@ -15,6 +15,7 @@ from primitives.devices import Pose
 from primitives.execution import CLOSED_WIDTH_M
 from tacgrasp.__main__ import main
 from tacgrasp.config.layers import load
+from tacgrasp.config.terms import contract_of
 from tacgrasp.console import COMPLETED
 from tacgrasp.episodes import read_episode
 from tacgrasp.loop import run_episode
@@ -35,7 +36,7 @@ pytest.importorskip("dynamixel_sdk")
 def run(config):
     rig = make_rig(config)
     try:
-        return run_recorded(rig, make_policy("rules", config), config)
+        return run_recorded(rig, make_policy("rules", config), config, contract_of(config))
     finally:
         rig.disconnect()
 
@@ -71,11 +72,13 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
     config = load("strawberry")[0].model_copy(update={"policy": "rules", "seed": 2})
     rig = make_rig(config)
     sense = GelSense(rig.sensor)
+    contract = contract_of(config)
     outcome = run_episode(
         rig,
-        make_executor(rig, config, sense),
+        make_executor(rig, config, contract, sense),
         make_policy("rules", config),
         config,
+        contract,
         verify=verify_by_lifting,
         recorder=NoRecorder(),
         sense=sense,
@@ -121,14 +124,14 @@ def test_an_approach_ends_in_time_at_the_first_touch_and_on_nothing(tmp_path: Pa
     config = patient_config(tmp_path, seed=2)
     rig = make_rig(config)
     try:
-        executor = make_executor(rig, config, GelSense(rig.sensor))
+        executor = make_executor(rig, config, contract_of(config), GelSense(rig.sensor))
         touched, touched_s = timed(executor.grasp)
         peak_n = rig.truth().peak_force_n
         rig.gripper.open_by(1.0)
         start = rig.arm.pose()
         beside = Pose(position_m=start.position_m + BESIDE_M, rotvec_rad=start.rotvec_rad)
         rig.arm.move_to(beside, speed_m_s=0.2)
-        executor = make_executor(rig, config, GelSense(rig.sensor))
+        executor = make_executor(rig, config, contract_of(config), GelSense(rig.sensor))
         missed, missed_s = timed(executor.grasp)
         assert rig.truth().force_n == 0
         back, back_s = timed(lambda: executor.execute(Primitive.RESET))
@@ -151,7 +154,7 @@ def test_a_dry_run_feels_and_decides_and_moves_nothing(tmp_path: Path):
     rig = make_rig(config)
     try:
         before = rig.emulators.control.facts("ur"), rig.emulators.control.facts("dynamixel")
-        outcome, path = run_recorded(rig, make_policy("rules", config), config)
+        outcome, path = run_recorded(rig, make_policy("rules", config), config, contract_of(config))
         after = rig.emulators.control.facts("ur"), rig.emulators.control.facts("dynamixel")
     finally:
         rig.disconnect()

@@ -9,6 +9,7 @@ from primitives import RobotError
 from primitives.devices import Pose
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.drivers.recorded.sensor import RecordedSensor
 from tacgrasp.episodes.command_log import CommandLog
 from tacgrasp.policy_factory import make_policy
@@ -40,7 +41,7 @@ def test_a_stale_background_ends_a_run_before_anything_moves_and_no_episode_is_b
     fake.expect_untouched = rig.expect_untouched
     settings = config(tmp_path)
     with pytest.raises(RobotError, match=r"stale background.*open them: tacgrasp jog"):
-        run_recorded(fake, make_policy("rules", settings), settings)
+        run_recorded(fake, make_policy("rules", settings), settings, contract_of(settings))
     assert fake.calls == []
     assert not list(tmp_path.iterdir())
 
@@ -49,7 +50,7 @@ def test_in_a_dry_run_somebody_holds_the_object_and_the_gel_is_touched(tmp_path)
     fake, checks = FakeRig(), []
     fake.expect_untouched = lambda: checks.append("untouched")
     settings = config(tmp_path, dry_run=True)
-    outcome, _ = run_recorded(fake, make_policy("rules", settings), settings)
+    outcome, _ = run_recorded(fake, make_policy("rules", settings), settings, contract_of(settings))
     assert outcome.num_steps == 1
     assert not checks
 

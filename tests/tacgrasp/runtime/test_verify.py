@@ -11,7 +11,7 @@ from cltp.tactile.states import Area, ContactState, Depth, Position
 from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.runtime.verify import compare
 
-SETTINGS = VerifyConfig(max_shift_mm=1.0, min_area_ratio=0.6, min_depth_ratio=0.6)
+SETTINGS = VerifyConfig(min_area_ratio=0.6, min_depth_ratio=0.6)
 HELD = ContactState(
     depth_mm=0.5,
     x_mm=0.0,
@@ -26,13 +26,13 @@ NOTHING = replace(HELD, depth_mm=0.0, area_fraction=0.0, depth=None, position=No
 
 
 def test_an_unchanged_contact_passes() -> None:
-    verification = compare(HELD, HELD, SETTINGS)
+    verification = compare(HELD, HELD, SETTINGS, slip_mm=1.0)
     assert verification.passed
     assert (verification.shift_mm, verification.area_ratio) == (0.0, 1.0)
 
 
 def test_the_shift_is_the_distance_on_the_pad() -> None:
-    verification = compare(HELD, replace(HELD, x_mm=0.3, y_mm=-0.4), SETTINGS)
+    verification = compare(HELD, replace(HELD, x_mm=0.3, y_mm=-0.4), SETTINGS, slip_mm=1.0)
     assert verification.shift_mm == pytest.approx(0.5)
     assert verification.passed
 
@@ -47,12 +47,12 @@ def test_the_shift_is_the_distance_on_the_pad() -> None:
     ],
 )
 def test_a_changed_contact_does_not_pass_and_says_why(after: ContactState, message: str) -> None:
-    verification = compare(HELD, after, SETTINGS)
+    verification = compare(HELD, after, SETTINGS, slip_mm=1.0)
     assert not verification.passed
     assert message in verification.message
 
 
 def test_nothing_felt_before_the_lift_does_not_pass() -> None:
-    verification = compare(NOTHING, HELD, SETTINGS)
+    verification = compare(NOTHING, HELD, SETTINGS, slip_mm=1.0)
     assert not verification.passed
     assert math.isnan(verification.shift_mm)

@@ -218,7 +218,7 @@ def test_no_case_remembers_the_one_before() -> None:
         def start(self) -> None:
             self.asked = 0
 
-        def decide(self, observation: Observation, instruction: str) -> Decision:
+        def follow(self, observation: Observation, instruction: str) -> Decision:
             self.asked += 1
             text = f"<{Primitive.RESET}>"
             action = Primitive.RESET if self.asked == 1 else None

@@ -1,0 +1,237 @@
+"""From words, configuration and task to the contract of an episode, once, before anything moves.
+
+Explicit configuration wins over words, words over the task; what they say against each other is
+refused by name. The words are read by ``policies.instructions``. Not here: a step under the
+contract (``policies.contract_steps``), keeping its limit (``primitives.force_guard``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from policies.force_terms import (
+    AROUND,
+    MANNERS,
+    RefusedError,
+    named_terms,
+    scaled_terms,
+    words_of,
+)
+from policies.instructions.quantities import Quantities
+from policies.instructions.reader import Request, read_request
+from primitives.contract import (
+    LIMIT_OVER_BAND,
+    Band,
+    Contract,
+    ForceTerms,
+    TaskTerms,
+    default_limit_n,
+)
+from primitives.errors import LimitError
+
+MOST_OF_TASK = 3.0
+"""Largest force that words alone may name, as a factor on the task's limit."""
+
+DEFAULT_DEPTH_MM = Band(low=0.0, high=5.0)
+DEFAULT_AREA = Band(low=0.0, high=1.0)
+"""Bands of depth and area where nobody sets them: a force that is asked for decides them."""
+
+BANDS = ("force_n", "limit_n", "slip_mm", "x_mm", "y_mm", "depth_mm", "area_fraction")
+
+TASK, DEFAULT, CONFIGURATION = "the task", "default", "the configuration"
+"""Origins of a band, beside the words."""
+
+
+@dataclass(slots=True)
+class _Draft:
+    """A contract while it is being made.
+
+    Attributes:
+        force: Band and limit.
+        bands: The other bands, by name.
+        origins: Origin of each.
+        assumed: Notes.
+        words: The words that name a force; '' where none do.
+        named_most_n: Limit that the words name [N]; None where they name none.
+    """
+
+    force: ForceTerms
+    bands: dict[str, Any]
+    origins: dict[str, str]
+    assumed: list[str] = field(default_factory=list)
+    words: str = ""
+    named_most_n: float | None = None
+
+    def set_force(self, force: ForceTerms, origin: str) -> None:
+        """Take band and limit; depth and area of the task no longer fit, they follow from it."""
+        self.force = force
+        self.origins["force_n"] = self.origins["limit_n"] = origin
+        for name, band in (("depth_mm", DEFAULT_DEPTH_MM), ("area_fraction", DEFAULT_AREA)):
+            if self.origins[name] == TASK:
+                self.bands[name], self.origins[name] = band, DEFAULT
+
+
+def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Contract:
+    """Make the contract of an episode.
+
+    Args:
+        text: The instruction, as a person wrote it.
+        task: Terms of the task and the gripper.
+        given: Values of explicit configuration by their name in ``BANDS``: ``Band`` or a number.
+
+    Returns:
+        The contract; a refused one has a reason and no force band.
+
+    Raises:
+        LimitError: ``given`` names no band.
+    """
+    if unknown := sorted(set(given) - set(BANDS)):
+        raise LimitError(f"no band of a contract is called {unknown[0]}; known: {', '.join(BANDS)}")
+    request = read_request(text)
+    draft = _Draft(
+        force=task.force,
+        bands={name: getattr(task, name) for name in BANDS[2:]},
+        origins=dict.fromkeys(BANDS, TASK),
+    )
+    refused = ""
+    try:
+        if request.refused:
+            raise RefusedError(request.refused)
+        _take_words(draft, request, task, is_own=text.strip() == task.instruction.strip())
+        _take_configuration(draft, given)
+        _check_reach(draft, given, task)
+    except RefusedError as error:
+        refused = str(error)
+    insists = "force_n" in given or "limit_n" in given
+    return Contract(
+        text=text,
+        summary=f"{request.verb} the {request.thing or task.object.replace('_', ' ')}",
+        force_n=None if refused else draft.force.force_n,
+        limit_n=None if refused else draft.force.limit_n,
+        origins=draft.origins,
+        assumed=tuple(draft.assumed),
+        insists=insists,
+        soft=None if insists else _soft_terms(draft, task),
+        refused=refused,
+        **draft.bands,
+    )
+
+
+def _soft_terms(draft: _Draft, task: TaskTerms) -> ForceTerms | None:
+    """Terms that a soft contact would be held to: under a contract for hard things alone."""
+    soft = task.soft
+    if soft is None or draft.force.limit_n <= LIMIT_OVER_BAND * soft.limit_n:
+        return None
+    return soft
+
+
+def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: bool) -> None:
+    """Let the words change the draft; ``is_own``: they are the task's own instruction."""
+    numbers, manner = request.numbers, request.manner
+    if numbers.pressure:
+        raise RefusedError(
+            f"{numbers.pressure!r} is a pressure, and the area of the contact is not known before "
+            "it is touched; name the force, for example '1.5 N'"
+        )
+    if numbers.unitless:
+        raise RefusedError(f"{numbers.unitless} has no unit; say '{numbers.unitless} N'")
+    _take_lengths(draft, numbers)
+    if numbers.forces:
+        draft.words = words_of(numbers.forces)
+        draft.set_force(
+            named_terms(numbers.forces, manner, task.force), f"your words: {draft.words}"
+        )
+        if any(force.kind == "most" for force in numbers.forces):
+            draft.named_most_n = draft.force.limit_n
+    elif numbers.delta_n is not None:
+        draft.words = f"{numbers.delta_n:+.3g} N"
+        factor = 1 + numbers.delta_n / task.force.force_n.middle
+        draft.set_force(scaled_terms(factor, task.force), f"your words: {draft.words}")
+    elif numbers.factor is not None:
+        draft.words = numbers.factor_words.strip()
+        draft.set_force(scaled_terms(numbers.factor, task.force), f"your words: {draft.words}")
+    elif manner.conflict:
+        raise RefusedError(f"it asks for both: {manner.conflict}; say which")
+    elif manner.sign and is_own:
+        draft.assumed.append(f"{manner.words!r} is what the task's own band means")
+    elif manner.sign:
+        name = ("very " if manner.strong else "") + ("gentle" if manner.sign < 0 else "firm")
+        force = scaled_terms(MANNERS[manner.sign, manner.strong], task.force)
+        draft.set_force(force, f"{name}: your words: {manner.words}")
+    elif manner.words:
+        draft.assumed.append(f"{manner.words!r} cancel each other: the task's band")
+
+
+def _take_lengths(draft: _Draft, numbers: Quantities) -> None:
+    """Slip, depth and area that the words name."""
+    bands: dict[str, Any] = {}
+    if numbers.slip_mm is not None:
+        bands["slip_mm"] = numbers.slip_mm
+    for name, value, most in (
+        ("depth_mm", numbers.depth_mm, DEFAULT_DEPTH_MM.high),
+        ("area_fraction", numbers.area_fraction, 1.0),
+    ):
+        if value is not None:
+            low, high = (min(most, value * (1 + side * AROUND)) for side in (-1, 1))
+            bands[name] = Band(low=low, high=high)
+    draft.bands |= bands
+    draft.origins |= dict.fromkeys(bands, "your words")
+
+
+def _take_configuration(draft: _Draft, given: Mapping[str, object]) -> None:
+    """Let explicit configuration win; a force that words name against it is a conflict."""
+    band, limit_n = given.get("force_n"), given.get("limit_n")
+    if isinstance(band, Band):
+        said = draft.force.force_n
+        is_above = draft.named_most_n is not None and band.high > draft.named_most_n
+        if draft.words and (is_above or band.high < said.low or band.low > said.high):
+            raise RefusedError(
+                f"the configuration sets force_n {band.low:g}-{band.high:g} N, the instruction "
+                f"says {draft.words!r}; change one of them"
+            )
+        if draft.origins["force_n"] != TASK:
+            words = draft.origins["force_n"].rpartition("your words: ")[2]
+            draft.assumed.append(f"{words!r} gives way to the configuration's force_n")
+        top_n = default_limit_n(band) if draft.named_most_n is None else draft.named_most_n
+        draft.set_force(ForceTerms(force_n=band, limit_n=top_n), CONFIGURATION)
+    if isinstance(limit_n, (int, float)):
+        band = draft.force.force_n
+        if limit_n < band.low:
+            raise RefusedError(
+                f"the configuration sets limit_n {limit_n:g} N, but the force band begins at "
+                f"{band.low:.3g} N ({draft.origins['force_n']}); change one of them"
+            )
+        if limit_n < band.high:
+            draft.assumed.append(f"the band ends at the configuration's limit_n {limit_n:g} N")
+            band = Band(low=band.low, high=float(limit_n))
+        if draft.named_most_n is None or limit_n < draft.named_most_n:
+            draft.force = ForceTerms(force_n=band, limit_n=float(limit_n))
+            draft.origins["limit_n"] = CONFIGURATION
+        else:
+            draft.assumed.append(f"{draft.words!r} is below the configuration's limit_n")
+    for name in BANDS[2:]:
+        if name in given:
+            draft.bands[name], draft.origins[name] = given[name], CONFIGURATION
+
+
+def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) -> None:
+    """Refuse what the gripper can't keep, or what words alone may not ask for."""
+    band, limit_n = draft.force.force_n, draft.force.limit_n
+    if band.low > task.most_n:
+        raise RefusedError(
+            f"{band.low:.3g} N is beyond the gripper's {task.most_n:g} N (gripper.max_force_n)"
+        )
+    if limit_n < task.least_n:
+        raise RefusedError(
+            f"a limit of {limit_n:.3g} N is below {task.least_n:.3g} N, the least that this "
+            "gripper can keep to for certain (gripper.min_force_n times gripper.max_force_gain)"
+        )
+    by_words = draft.origins["force_n"] not in (TASK, CONFIGURATION)
+    most_n = MOST_OF_TASK * task.force.limit_n
+    if by_words and "limit_n" not in given and band.middle > most_n:
+        raise RefusedError(
+            f"{band.middle:.3g} N is more than {MOST_OF_TASK:g} times the task's limit "
+            f"({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
+        )

@@ -1,0 +1,99 @@
+"""A step under the contract: its target, objections of what is felt, decisions that go beyond.
+
+Not here: making a contract (``policies.contract``), keeping its limit (``primitives.force_guard``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from cltp.tactile.states import ContactState
+from policies.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM
+from policies.goal import Goal
+from primitives import Primitive
+from primitives.contract import Contract
+from primitives.sense import Interval
+
+PLACE_MARGIN_MM, DEPTH_FACTOR, AREA_FACTOR = 1.0, 1.3, 1.5
+"""How far a measured state may lie outside its band before a declared success counts as beyond the
+contract: the spread of the direct measurement on noisy contacts."""
+
+CLEARLY = 1.65
+"""Factor by which a felt force must lie outside the band before a decision goes against it. Source:
+the largest error of a felt force in 160 simulated contacts on the pad, 1.7."""
+
+
+def target_of(contract: Contract) -> Goal:
+    """Target bands of a step: those of the contract.
+
+    Raises:
+        LimitError: The contract is refused.
+    """
+    return Goal(
+        force_n=contract.terms.force_n,
+        depth_mm=contract.depth_mm,
+        area_fraction=contract.area_fraction,
+        x_mm=contract.x_mm,
+        y_mm=contract.y_mm,
+    )
+
+
+def softened(contract: Contract) -> Contract:
+    """The contract held to the terms of soft objects, after what is felt has objected."""
+    soft = contract.soft
+    if soft is None:
+        return contract
+    words = f"what is felt is soft: held to {soft.force_n.low:.2f}-{soft.force_n.high:.2f} N"
+    return replace(
+        contract,
+        force_n=soft.force_n,
+        limit_n=soft.limit_n,
+        depth_mm=DEFAULT_DEPTH_MM,
+        area_fraction=DEFAULT_AREA,
+        origins={**contract.origins, "force_n": "what is felt", "limit_n": "what is felt"},
+        assumed=(*contract.assumed, words),
+        soft=None,
+    )
+
+
+def beyond(
+    contract: Contract,
+    action: Primitive | None,
+    *,
+    success: bool,
+    felt: Interval | None,
+    state: ContactState | None,
+) -> str:
+    """Why a decision goes beyond the contract; '' where it keeps it.
+
+    A decision is beyond when it goes against what is clearly felt: success outside the bands, more
+    force above the band, less below it.
+    """
+    band = contract.terms.force_n
+    if felt is not None:
+        felt = Interval(value=felt.value, low=felt.value / CLEARLY, high=felt.value * CLEARLY)
+        if action is Primitive.INCREASE_FORCE and felt.low > band.high:
+            return f"more force, but {felt.value:.2f} N is felt, above {band.high:.2f} N"
+        if action is Primitive.DECREASE_FORCE and felt.high < band.low:
+            return f"less force, but {felt.value:.2f} N is felt, below {band.low:.2f} N"
+    if action is not None or not success:
+        return ""
+    if felt is not None and (felt.low > band.high or felt.high < band.low):
+        return f"success, but {felt.value:.2f} N is felt, not {band.low:.2f}-{band.high:.2f} N"
+    return "" if state is None else _outside(contract, state)
+
+
+def _outside(contract: Contract, state: ContactState) -> str:
+    """The first band, with its margin, that a measured state lies outside of."""
+    margin = PLACE_MARGIN_MM
+    depth, area = contract.depth_mm, contract.area_fraction
+    checks = (
+        ("x", "mm", state.x_mm, contract.x_mm.low - margin, contract.x_mm.high + margin),
+        ("y", "mm", state.y_mm, contract.y_mm.low - margin, contract.y_mm.high + margin),
+        ("depth", "mm", state.depth_mm, depth.low / DEPTH_FACTOR, depth.high * DEPTH_FACTOR),
+        ("area", "", state.area_fraction, area.low / AREA_FACTOR, area.high * AREA_FACTOR),
+    )  # fmt: skip
+    for name, unit, value, low, high in checks:
+        if not low <= value <= high:
+            return f"success, but the {name} is {value:.2f} {unit}, outside the contract"
+    return ""

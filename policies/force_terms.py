@@ -1,0 +1,139 @@
+"""Force band and limit out of what words say: forces in newtons, factors, manner.
+
+Not here: what the configuration says beside them (``policies.contract``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from policies.instructions.manner import Manner
+from policies.instructions.quantities import Force
+from primitives.contract import Band, ForceTerms, default_limit_n
+
+AROUND = 0.14
+"""Half width of the band around a named force, as a fraction. Our choice: below the 15 % that
+people mean by a number; the felt force varies by some percent from frame to frame."""
+
+BELOW_MOST = 0.9
+"""Top of the band under a named most, as a fraction of it: room for the error of a felt force."""
+
+ROUNDING = 0.99
+"""Hard limit over a named most: '200 g' is 1.96 N to one reader and 1.961 N to another."""
+
+ABOVE_LEAST = 1.03
+"""Low end of the band over a named least, as a factor."""
+
+SPAN = 2.0
+"""High over low end of a band of which one end is named. Source: the bands of the tasks."""
+
+MANNERS: Mapping[tuple[int, bool], float] = {
+    (-1, True): 0.65,
+    (-1, False): 0.82,
+    (1, False): 1.18,
+    (1, True): 1.32,
+}
+"""Middle of the band over the middle of the task's, by direction and emphasis. Our choice: people
+ask for a change that they would notice, and a strawberry stands no more than a third."""
+
+LEAST_HALF, MOST_HALF = 0.17, 0.34
+"""Half width of a scaled band, as a fraction of its middle; the task's bands have 0.33."""
+
+
+class RefusedError(Exception):
+    """An instruction that makes no contract; the message says why."""
+
+
+def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> ForceTerms:
+    """Band and limit of forces that are named in newtons.
+
+    Args:
+        forces: The forces; at least one.
+        manner: Manner beside them: it leans within the band under a named most.
+        task: Terms of the task, for the end that is not named.
+
+    Raises:
+        RefusedError: A force is not finite and positive, or they exclude each other.
+    """
+    values = [f.value_n for f in forces if f.kind == "value"]
+    most = min((f.value_n for f in forces if f.kind == "most"), default=math.inf)
+    least = max((f.value_n for f in forces if f.kind == "least"), default=0.0)
+    _check(forces, values, most, least)
+    if values:
+        band = _around(sum(values) / len(values), least)
+    elif least > 0 and most < math.inf:
+        top_n = BELOW_MOST * most
+        band = Band(low=least, high=top_n if top_n > 1.1 * least else most)
+    elif most < math.inf:
+        band = _lean(_under(BELOW_MOST * most, task.force_n), manner)
+    else:
+        low_n = ABOVE_LEAST * least
+        high_n = task.force_n.high
+        band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
+    if most < math.inf:
+        limit_n = ROUNDING * most
+        band = Band(low=min(band.low, limit_n), high=min(band.high, limit_n))
+        return ForceTerms(force_n=band, limit_n=limit_n)
+    return ForceTerms(force_n=band, limit_n=default_limit_n(band))
+
+
+def _check(forces: Sequence[Force], values: list[float], most: float, least: float) -> None:
+    words = words_of(forces)
+    if not all(0 < force.value_n < math.inf for force in forces):
+        raise RefusedError(f"{words}: a grip needs a finite force above 0 N")
+    highest = max(values, default=least)
+    excluded = (
+        bool(values) and highest > (1 + AROUND) ** 2 * min(values),
+        max(highest, least) > most,
+        bool(values) and least > (1 + AROUND) * highest,
+    )
+    if any(excluded):
+        raise RefusedError(f"it names forces that exclude each other: {words}")
+
+
+def words_of(forces: Sequence[Force]) -> str:
+    """The words that name forces, each once."""
+    return ", ".join(dict.fromkeys(force.words for force in forces))
+
+
+def _around(value_n: float, least_n: float) -> Band:
+    band = Band(low=value_n * (1 - AROUND), high=value_n * (1 + AROUND))
+    return Band(low=max(band.low, least_n), high=max(band.high, least_n))
+
+
+def _under(top_n: float, task: Band) -> Band:
+    """The task's band under a top; below it, as wide as the task's."""
+    high = min(task.high, top_n)
+    low = task.low if high >= 1.3 * task.low else min(task.low, high / SPAN)
+    return Band(low=low, high=high)
+
+
+def _lean(band: Band, manner: Manner) -> Band:
+    if manner.sign < 0:
+        return Band(low=band.low, high=max(band.middle, 1.3 * band.low))
+    if manner.sign > 0:
+        return Band(low=min(band.middle, band.high / 1.3), high=band.high)
+    return band
+
+
+def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
+    """The task's band with its middle moved by a factor.
+
+    The limit is at most the task's as long as the band leaves room below it: a firmer grip uses
+    the task's own reserve first.
+
+    Raises:
+        RefusedError: No force is left.
+    """
+    band = task.force_n
+    middle = factor * band.middle
+    if not 0 < middle < math.inf:
+        raise RefusedError("it leaves no force to hold with")
+    inside = min(abs(middle - band.low), abs(band.high - middle))
+    half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
+    scaled = Band(low=middle - half, high=middle + half)
+    limit_n = default_limit_n(scaled)
+    if scaled.high <= 0.95 * task.limit_n:
+        limit_n = min(limit_n, task.limit_n)
+    return ForceTerms(force_n=scaled, limit_n=limit_n)

@@ -1,0 +1,170 @@
+"""How a text asks to grip: softer or firmer than the task, by its words and their denials."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from policies.instructions import words
+from policies.instructions.text import CLAUSE, sentences
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cue:
+    """One word or phrase of manner.
+
+    Attributes:
+        sign: -1 softer, +1 firmer, denials counted.
+        level: 2 says how to grip, 1 gives a reason for it.
+        strong: Whether it is said with emphasis ('very', 'as ... as').
+        words: The words, with their denial.
+        turned: Whether a denial turned its sign.
+    """
+
+    sign: int
+    level: int
+    strong: bool
+    words: str
+    turned: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Manner:
+    """Manner of a whole text.
+
+    Attributes:
+        sign: -1 softer, +1 firmer, 0 as the task.
+        strong: Whether with emphasis.
+        words: The words that say so.
+        conflict: Words of both directions, where neither outranks the other; '' otherwise.
+    """
+
+    sign: int
+    strong: bool = False
+    words: str = ""
+    conflict: str = ""
+
+
+_TABLES: tuple[tuple[str, int, int, bool], ...] = (
+    ("soft_reason_first", -1, 1, False),
+    ("firm_reason_first", +1, 1, False),
+    ("soft_object", -1, 1, True),
+    ("firm_object", +1, 1, True),
+    ("soft", -1, 2, True),
+    ("firm", +1, 2, True),
+    ("like_something", -1, 1, True),
+    ("soft_reason", -1, 1, True),
+    ("firm_reason_slip", +1, 1, False),
+    ("firm_reason_secure", +1, 1, True),
+    ("firm_reason_shaken", +1, 1, False),
+    ("firm_reason", +1, 1, True),
+    ("soft_reason_harm", -1, 1, False),
+)
+"""Sections of words with sign, level, and whether a denial turns them. The first match takes its
+words out, so the order matters."""
+
+_COMPILED = [
+    (sign, level, turns, pattern)
+    for section, sign, level, turns in _TABLES
+    for pattern in words.groups(section)
+]
+_NEUTRAL = words.groups("neutral")
+_DENIAL = re.compile(rf"\b{words.any_of('denial')}\b")
+_VERY = re.compile(rf"\b{words.any_of('very')}\b")
+_TOO = re.compile(
+    r"\b(not|never|nothing|none|without|avoid\w*|nor|stop|no)\b((?: \w+){0,4}?) (?:too|over|overly|excessive(?:ly)?|unnecessarily)\b"
+)
+_NEVER_TOO = re.compile(
+    r"\b(?:can|could) (?:not|never|hardly)((?: \w+){0,4}?) (?:too|over(?:ly)?)\b"
+)
+_RATHER = re.compile(
+    r"\b(?:rather|better|sooner|prefer\w*)\b(?: \w+)*? (?:too )?(\w+) than (?:too |be |being )?(?!usual|normal|before|last|that|this|it\b|standard|the\b|you)\w+"
+)
+_DENIED_AFTER = re.compile(
+    r"^[^,;]{0,40}?\b(?:(?:is|are) (?:not|no longer|wrong|out\b|useless|forbidden|unnecessary|overrated|the wrong|a mistake|for)|"
+    r"(?:is|are) (?:no (?:use|good|help)|not)|will not (?:do|cut|work|help|suffice|be)|does not (?:work|help|cut|do)|never (?:works|helps)|(?:is|are) never)"
+)
+_COMPLAINT = re.compile(
+    r"\b(?:grip|hold|grasp|squeeze|touch|force|pressure|you|fingers)(?: \w+){0,1} (?:is|was|feels|seems|are|were|felt|looks)(?: (?!to|not)\w+){0,2} $"
+)
+_BREAK = re.compile(
+    rf"\b(?:and|so) (?=(?:please |just |then |only |really )?(?:{words.any_of('hold')}|be|use|go|ease|make|do|try|give|that|get|stay)\b)"
+)
+_REACH = 60
+"""Characters before a cue in which a denial turns it. Our choice: about ten words."""
+
+
+def read_manner(text: str) -> Manner:
+    """Manner of a plain text whose quantities have been replaced."""
+    cues = [cue for sentence, asks in sentences(text) for cue in _cues(sentence, asks)]
+    for level in (2, 1):
+        found = [cue for cue in cues if cue.level == level]
+        signs = {cue.sign for cue in found}
+        if len(signs) == 1:
+            sign = signs.pop()
+            said = ", ".join(dict.fromkeys(cue.words for cue in found))
+            return Manner(sign=sign, strong=any(cue.strong for cue in found), words=said)
+        if len(signs) == 2:
+            said = " and ".join(dict.fromkeys(cue.words for cue in found))
+            is_between = all(cue.turned for cue in found)  # 'not too hard, not too soft'
+            is_conflict = level == 2 and not is_between
+            return Manner(sign=0, words=said, conflict=said if is_conflict else "")
+    return Manner(sign=0)
+
+
+def has_manner(clause: str) -> bool:
+    """Whether a clause of a plain text says how to grip."""
+    return any(cue.level == 2 for cue in _clause_cues(clause))
+
+
+def without_neutral(text: str) -> str:
+    """A text without phrases whose words of manner or denial mean none."""
+    for pattern in _NEUTRAL:
+        text = pattern.sub(" ", text)
+    return text
+
+
+def _cues(sentence: str, asks: bool) -> Iterator[Cue]:
+    if asks and re.match(r"^(?:and )?(?:i said|did i say|who said|you said)\b", sentence):
+        return
+    sentence = without_neutral(sentence)
+    sentence = _NEVER_TOO.sub(r"\1 ", sentence)
+    sentence = _RATHER.sub(r" \1 ", sentence)
+    sentence = _TOO.sub(r"\1\2", sentence)
+    for part in CLAUSE.split(sentence):
+        for clause in _BREAK.split(part):
+            for cue in _clause_cues(" ".join(clause.split())):
+                is_complaint = asks and re.match(
+                    r"(?:and )?(?:why|must you|do you (?:have to|need to))\b", sentence
+                )
+                yield replace(cue, sign=-cue.sign, turned=True) if is_complaint else cue
+
+
+def _clause_cues(clause: str) -> Iterator[Cue]:
+    masked = clause
+    found: list[tuple[int, int, int, int, bool]] = []
+    for sign, level, turns, pattern in _COMPILED:
+        for match in pattern.finditer(masked):
+            if match.group().strip():
+                found.append((match.start(), match.end(), sign, level, turns))
+        masked = pattern.sub(lambda match: "~" * len(match.group()), masked)
+    for start, end, sign, level, turns in sorted(found):
+        before = masked[max(0, start - _REACH) : start]
+        after_and = before.rpartition(" and ")[2]
+        before = after_and if _DENIAL.search(after_and) else before
+        denials = list(_DENIAL.finditer(before)) if turns else []
+        turned = len(denials) % 2 == 1
+        if turns and not denials and _COMPLAINT.search(masked[:start]):
+            turned = True
+        if turns and _DENIED_AFTER.match(masked[end:]) and "~" not in masked[end : end + 3]:
+            turned = not turned
+        begin = start - len(before) + denials[0].start() if denials else start
+        near = clause[max(0, start - 22) : end + 12]
+        yield Cue(
+            sign=-sign if turned else sign,
+            level=level,
+            strong=bool(_VERY.search(near)) and not turned,
+            words=clause[begin:end].strip(),
+            turned=turned,
+        )

@@ -1,0 +1,177 @@
+"""Numbers in words as digits: 'two and a half newtons' becomes '2.5 newtons'.
+
+Own rules, since the library that we tried (text2num) reads 'one point two five' as 1.2 and 5, and
+'six hundred and fifty' as 600 and 50; a force must not be misread.
+"""
+
+from __future__ import annotations
+
+import re
+
+_SMALL = {
+    word: value
+    for value, word in enumerate(
+        [
+            "zero",
+            "one",
+            "two",
+            "three",
+            "four",
+            "five",
+            "six",
+            "seven",
+            "eight",
+            "nine",
+            "ten",
+            "eleven",
+            "twelve",
+            "thirteen",
+            "fourteen",
+            "fifteen",
+            "sixteen",
+            "seventeen",
+            "eighteen",
+            "nineteen",
+        ]
+    )
+} | {"nought": 0, "naught": 0, "nil": 0}
+_TENS = {
+    word: 10 * value
+    for value, word in enumerate(
+        ["twenty", "thirty", "forty", "fifty", "sixty", "seventy", "eighty", "ninety"], start=2
+    )
+}
+_SCALES = {"hundred": 100, "thousand": 1000, "million": 1_000_000}
+_PARTS = {
+    "half": 1 / 2, "halves": 1 / 2, "third": 1 / 3, "quarter": 1 / 4, "fourth": 1 / 4,
+    "fifth": 1 / 5, "eighth": 1 / 8, "tenth": 1 / 10,
+    "hundredth": 1 / 100,
+    "thousandth": 1 / 1000,
+}  # fmt: skip
+
+_CARDINAL = "|".join([*_SMALL, *_TENS])
+_WORD = f"(?:{_CARDINAL}|{'|'.join(_SCALES)})"
+_CHAIN = re.compile(
+    rf"\b(?:an? (?=(?:{'|'.join(_SCALES)})\b))?{_WORD}(?:(?:[ -]+| and ){_WORD})*\b"
+)
+_PART = f"(?:{'|'.join(_PARTS)})s?"
+_PRONOUN = re.compile(
+    r"\bone\b(?!-|,? ?(?:and (?:an?|one|1|three|3) |point |dot |comma |decimal |and \d| full | single "
+    rf"|(?:(?:to|or|and|up to) )?(?:{_WORD}\b|\d|half )|newt|milli|kilo|kg|kn\b|n\b|mn\b|gram|gf?\b"
+    r"|nw?t?e?w?tons?))"
+)
+"""'One' that is no number: 'this one'."""
+
+_UNIT = r"(?=[ -]*(?:of )?(?:an? |1 )?(?:single |full |whole )?(?:milli|kilo|newt|n\b|kn\b|mn\b|kg|gram|gf))"
+_OF_A = r"(?:[ -]+(?:of )?(?:an?|1)(?= ))?"
+
+
+def in_digits(text: str) -> str:
+    """Write the numbers of a plain text in digits; ordinals stay as they are."""
+    text = re.sub(r"(\d)⁄(\d)", r"\1/\2", text)
+    text = re.sub(r"\b(\d+) (hundred|thousand|million)\b", _scaled, text)
+    text = re.sub(r"\bhundred and (?=(?:\w+[ -])?\w+ hundred\b)", "hundred  and  ", text)
+    text = _CHAIN.sub(lambda match: _cardinals(match[0]), _PRONOUN.sub("1ne", text))
+    text = text.replace("1ne", "one")
+    text = re.sub(
+        r"\b(\d+)[ -](?:point|dot|comma|decimal)[ -]((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)",
+        _decimal,
+        text,
+    )
+    text = re.sub(
+        r"(?<!set )(?<!set-)\b(?:point|dot) ((?:oh?|\d+)(?:[ -](?:oh?|\d)\b)*)(?![.,]\d)",
+        _bare_decimal,
+        text,
+    )
+    text = re.sub(rf"\b(\d+)[ -](?:and|&)[ -](an?|\d)[ -]({_PART})\b{_OF_A}", _mixed, text)
+    text = re.sub(
+        r"\b(\d+) (\d)/(\d)\b",
+        lambda m: f"{int(m[1]) + int(m[2]) / int(m[3]):.6g}" if m[3] != "0" else m[0],
+        text,
+    )
+    text = re.sub(r"\b(\d+) (newtons?|kilos?|n) and (?:a|1) half\b", r"\1.5 \2", text)
+    text = re.sub(
+        r"\b(?:an?|(\d+)) newtons? and (?:a|1) (half|quarter)\b",
+        lambda m: f"{int(m[1] or 1) + _part(m[2]):.6g} newtons",
+        text,
+    )
+    text = re.sub(r"\bbetween (?:one|1) half and\b", "between 0.5 and", text)
+    text = re.sub(rf"\b(?:(an?|\d+)[ -])?({_PART})\b{_OF_A}{_UNIT}", _fraction, text)
+    text = re.sub(
+        r"\b(\d)/(\d)" + _OF_A + _UNIT,
+        lambda m: f"{int(m[1]) / int(m[2]):.6g}" if m[2] != "0" else m[0],
+        text,
+    )
+    text = re.sub(r"\ba couple of\b(?= newt)|\ba couple(?= newt)", "2", text)
+    return re.sub(
+        r"\b(?:an?|single)(?: single| full| whole| mere)? (?=newton\b|kilo(?:gram|newton)?(?:-force| of)|kgf\b)",
+        "1 ",
+        text,
+    )
+
+
+def _scaled(match: re.Match[str]) -> str:
+    return str(int(match[1]) * _SCALES[match[2]])
+
+
+def _cardinals(chain: str) -> str:
+    """Value of each number in a chain of cardinal words; two numbers in a row stay two."""
+    numbers: list[int] = []
+    total = current = 0
+    last = 0  # size of the last word: what may follow it is smaller
+    joined = ""
+    for word in re.findall(r"[a-z]+", chain):
+        if word in ("a", "an"):
+            continue
+        if word == "and":
+            joined = " and "
+            continue
+        if word in _SCALES:
+            scale = _SCALES[word]
+            if scale == 100:
+                current = max(current, 1) * 100
+            else:
+                total, current = total + max(current, 1) * scale, 0
+            last = scale
+            continue
+        value = _SMALL.get(word, _TENS.get(word, 0))
+        fits = (
+            (not numbers and last == 0)
+            or last >= 100
+            or (last >= 20 and 0 < value < 10 and not joined)
+        )
+        if not fits and (total or current or last):
+            numbers.append(total + current)
+            total = current = 0
+        current += value
+        last, joined = value if value >= 20 else 1, ""
+    numbers.append(total + current)
+    return (" and " if " and " in chain else " ").join(map(str, numbers))
+
+
+def _digits(words: str) -> str:
+    return "".join("0" if part in ("o", "oh") else part for part in re.split(r"[ -]", words))
+
+
+def _decimal(match: re.Match[str]) -> str:
+    return f"{match[1]}.{_digits(match[2])}"
+
+
+def _bare_decimal(match: re.Match[str]) -> str:
+    return f"0.{_digits(match[1])}"
+
+
+def _part(word: str) -> float:
+    return _PARTS.get(word, 0.0) or _PARTS[word.removesuffix("s")]
+
+
+def _count(word: str | None) -> int:
+    return int(word) if word and word.isdigit() else 1
+
+
+def _mixed(match: re.Match[str]) -> str:
+    return f"{int(match[1]) + _count(match[2]) * _part(match[3]):.6g}"
+
+
+def _fraction(match: re.Match[str]) -> str:
+    return f"{_count(match[1]) * _part(match[2]):.6g}"

@@ -1,0 +1,177 @@
+"""Everything that an instruction says, read once: numbers, manner, and a reason to refuse it."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from policies.instructions import words
+from policies.instructions.manner import Manner, has_manner, read_manner
+from policies.instructions.quantities import Quantities, read_quantities
+from policies.instructions.refusal import refusal_of
+from policies.instructions.spelling import spelled
+from policies.instructions.text import plain, sentences
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Request:
+    """What an instruction says.
+
+    Attributes:
+        numbers: Its quantities.
+        manner: Its manner.
+        verb, thing: What is asked for, in words ('hold', 'berry').
+        refused: Reason not to carry it out; '' without one.
+    """
+
+    numbers: Quantities
+    manner: Manner
+    verb: str
+    thing: str
+    refused: str
+
+
+_QUESTION, _REQUEST = (re.compile(words.any_of(name)) for name in ("question", "request"))
+_ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
+_OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
+_HOLD = re.compile(rf"\b{words.any_of('hold')}\b")
+_OURS = re.compile(
+    r"\b(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruits?|grips?|grasps?|squeeze|fingers|gripper)\b"
+)
+_THING = re.compile(
+    r"\b(straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|tomato|egg|peg|object|thing|sample|specimen|one)\b"
+)
+_VERB_OBJECT = re.compile(
+    rf"\b{words.any_of('hold')}(?: (?:up|on|onto|hold|of|to|over|out|me|us|down|firm\w*|tight\w*|gent\w*|soft\w*|light\w*|and|or|\w+ing))*"
+    rf"(?: (?:{words.any_of('fruit')}|the|#|my|your|our|\w+'s)\b| (?:a|an|another|some) (?:\w+ )?(?:straw ?berr(?:y|ies)|berr(?:y|ies)|fruit|one|specimen|sample|object|grip|grasp|hold)\b|(?=[.,;:!]|$| please| now| then| already| go| with| again| and))|"
+    r"\b(?:up with|let us|let me) (?:it|the|that|this|see)|\bgo (?:ahead|on|for it|get)\b|\bdo (?:it|the|your|a)\b(?! \w+ (?:dance|flip|dishes|laundry))|\bhave (?:it|at it|a go)\b|\b(?:want|need|like) (?:the|that|this|my|a) (?:\w+ )?(?:straw)?berry (?:in|between|held|picked|lifted|up|out|off|gripped|grasped)\b|\bgive it\b|\bproceed\b|\bstart\b|\bcommence\b|\bgo\b(?=[.!]*$)"
+)
+_KEEP = re.compile(r"\b(?:not|never)(?: \w+){0,2} (?:let|releas\w*|drop|los\w*|stop)\b")
+_TURN = re.compile(
+    r";|,? (?:so|but|and) (?:today|now|this time|please|hold|use|try|we hold|we use)\b|\btoday\b|\bthis time\b"
+)
+_REPORT = re.compile(
+    r"^(?:yesterday|last (?:week|time|night|year)|earlier|once|the other (?:robot|day)|another robot|my colleague|he|she|they|i|we|someone)\b"
+    r"(?: (?!would|want|need|like)\w+){0,4} (?:held|picked|was|were|did|used|took|grabbed|gripped|squeezed|lifted|had)\b"
+)
+_ABOUT_GRIP = re.compile(
+    rf"\b{words.any_of('hold')}\b|\b{words.any_of('grip_noun')}\b|\b(?:it|its|this|that|these|those|them|one|ones|you|your|be|go|easy|hand|hands|fingers|muscle|strength|ease|easing|gloves|coddle|pamper|bear|baby|delica\w+|tender\w*|thing|lay|let|dial|crank|relax|loosen|slacken|tone|slip\w*|bruis\w*|squash\w*|crush\w*|fragile|care|careful\w*|usual|normal|last|tight\w*|loose\w*|gent\w+|soft\w*|firm\w*|hard\w*|light\w*)\b(?! (?:peaks|music))"
+)
+_BERRY_VERB = re.compile(
+    r"(?:please |robot,? |hey,? |now |just |kindly |can you |could you |would you |go |yo |bro |ok(?:ay)?,? |and |so )*"
+    r"(?!describe|explain|photograph|film|paint|draw|weigh|count|rate|name|look|watch|smell|taste|wash|cook|sell|buy|see|is|are|was|has|do|does|did|the|a|i|we|strawberr|about|of|forget|avoid|ignore|rinse|inspect|sketch|order|love|like|hate|want)"
+    r"[a-z-]+(?: up| out| off| down| me| over)?(?: one more| another| the| that| this| my| our)+ (?:\w+ ){0,2}(?:straw ?berry|berry\w*|fruit|grasp|grip|pick|lift|one)\b"
+)
+_STARTS = re.compile(
+    rf"(?:please |robot,? |hey,? |now |just |kindly |can you |could you |would you |go |ok(?:ay)?,? |and |so )*{words.any_of('hold')}"
+    r"(?: (?!an? |my |your |me |care|place|part|time|turns|notes?|note|on\b)\w+|\b.*\b(?:straw)?berry\b)"
+)
+_THIS_WHILE = re.compile(
+    rf"(?:please |can you |could you |would you |now |just )*{words.any_of('hold')}(?: up| on| on to)? (?:(?:the|that|this) (?:\w+ )?one\b|(?:it|this|that|these|one)\b(?= while| for me| and| so| until|,|$))"
+)
+_USUAL_GRIP = re.compile(
+    r"\b(?:standard|usual|normal|regular|default|same|ordinary) (?:old )?(?:grip|grasp|hold|force|pick)\b"
+)
+_SHORT = re.compile(
+    r"^(?=.*(?:berry|fruit|usual|standard|default))(?:(?:the|that|this|a|one|red|ripe|next|straw|berry|strawberry|fruit|please|up|now|ok|yo|hey|robot|go|usual|normal|standard|default|pick-?up|pick|grasp|lift)[ ,!.]*)+$"
+)
+
+
+def read_request(text: str) -> Request:
+    """Read an instruction as a person wrote it."""
+    clean = spelled(plain(text))
+    numbers = read_quantities(clean)
+    manner = read_manner(numbers.rest)
+    refused = "" if re.search(r"[^\W_]", clean) else "there are no words"
+    refused = (
+        refused
+        or refusal_of(numbers.rest, clean)
+        or _no_english(clean)
+        or _nothing_asked(numbers, manner)
+    )
+    verb = _HOLD.search(numbers.rest)
+    thing = _THING.search(numbers.rest)
+    return Request(
+        numbers=numbers,
+        manner=manner,
+        verb=verb.group() if verb else "hold",
+        thing=thing.group(1) if thing else "",
+        refused=refused,
+    )
+
+
+def _no_english(text: str) -> str:
+    letters = [c for c in text if c.isalpha()]
+    if letters and sum(ord(c) > 0x24F for c in letters) > 0.3 * len(letters):
+        return "it is not in English"
+    tokens = [t for t in re.findall(r"[^\W\d_]+", text) if len(t) > 1]
+    foreign = sum(t in _FOREIGN for t in tokens)
+    known = sum(t in _ENGLISH or bool(_HOLD.fullmatch(t)) for t in tokens)
+    if foreign and foreign >= known:
+        return "it is not in English"
+    return ""
+
+
+def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
+    """Reason to refuse a text that asks for no grasp; '' where something is asked for."""
+    if (
+        numbers.forces
+        or numbers.delta_n is not None
+        or numbers.factor is not None
+        or numbers.pressure
+        or numbers.unitless
+    ):
+        parts = sentences(numbers.rest)
+        is_asked = any(
+            not _is_question(s, asks) and not _REPORT.search(_TURN.split(s)[-1].strip())
+            for s, asks in parts
+        )
+        return "" if is_asked else "no request to hold anything was understood"
+    asked = [s for s, asks in sentences(numbers.rest) if not _is_question(s, asks)]
+    if not asked:
+        return "it is a question, no request to hold anything"
+    for sentence in asked:
+        if _KEEP.search(sentence) or _THIS_WHILE.match(sentence) or _USUAL_GRIP.search(sentence):
+            return ""
+        is_off = _OFF.search(sentence) and not _OURS.search(sentence) and not _grips(sentence)
+        starts_off = re.match(
+            rf"^(?:please |robot,? |hey,? |now |just |go |can you |could you )*\b{words.any_of('off_domain')}\b",
+            sentence,
+        )
+        if is_off or starts_off or _REPORT.search(sentence):
+            continue
+        if (
+            _asks_manner(sentence)
+            or _STARTS.match(sentence)
+            or _BERRY_VERB.match(sentence)
+            or _KEEP.search(sentence)
+            or _VERB_OBJECT.search(sentence)
+            or _SHORT.match(sentence)
+        ):
+            return ""
+    return "no request to hold anything was understood"
+
+
+def _grips(sentence: str) -> bool:
+    """Whether a sentence says how to grip, and speaks of gripping."""
+    is_first = has_manner(" ".join(sentence.split()[:2]))
+    return has_manner(sentence) and (is_first or bool(_HOLD.search(sentence)))
+
+
+def _asks_manner(sentence: str) -> bool:
+    """Whether a sentence says how to grip, and nothing else is its object."""
+    if not read_manner(sentence).words:
+        return False
+    if has_manner(sentence):
+        return True
+    is_short = len(re.findall(r"[a-z']+", sentence)) <= 5 and not re.search(
+        r" (?:the|my|a) ", sentence
+    )
+    return is_short or bool(_ABOUT_GRIP.search(sentence))
+
+
+def _is_question(sentence: str, asks: bool) -> bool:
+    """Whether a sentence asks for knowledge, not for an action."""
+    if _REQUEST.match(sentence):
+        return False
+    return bool(_QUESTION.match(sentence)) and (asks or not re.search(r"[,;:]", sentence))

@@ -1,0 +1,67 @@
+"""Text of an instruction in a plain form: lower case, contractions written out, sentences apart."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+_CONTRACTIONS = (
+    (r"\bwon['’]?t\b", "will not"),
+    (r"\bcan['’]t\b|\bcannot\b|\bcant\b", "can not"),
+    (r"\bshan['’]?t\b", "shall not"),
+    (r"\bain['’]?t\b", "is not"),
+    (r"\b(do|does|did|is|are|was|were|have|has|had|must|should|could|would|need|might)n['’]t\b", r"\1 not"),
+    (r"\b(do|does|did|is|are|was|were|must|should|could|would|need)nt\b", r"\1 not"),
+    (r"\blet['’]s\b", "let us"),
+    (r"\b(i|you|we|they|it|he|she|that|there|who|what)['’](?:ll)\b", r"\1 will"),
+    (r"\b(i|you|we|they)['’](?:d)\b", r"\1 would"),
+    (r"\b(i|you|we|they)['’](?:ve)\b", r"\1 have"),
+    (r"\b(you|we|they)['’]re\b", r"\1 are"),
+    (r"\bi['’]m\b", "i am"),
+    (r"\b(it|that|there|this|one|he|she|what|who|here)['’]s\b", r"\1 is"),
+    (r"\bw/o\b", "without"),
+    (r"\bw/", "with "),
+    (r"\bgonna\b", "going to"),
+    (r"\bwanna\b", "want to"),
+    (r"\bgotta\b", "have to"),
+    (r"\bpls\b|\bplz\b", "please"),
+    (r"\bu\b", "you"),
+    (r"\bteh\b|\bhte\b|\bda\b", "the"),
+    (r"\bur\b", "your"),
+    (r"\bles\b", "less"),
+    (r"\bmor\b", "more"),
+)  # fmt: skip
+
+_SENTENCE = re.compile(r"(?<!\d)[.!?]+|[.!?]+(?=\s|$)|\n+")
+CLAUSE = re.compile(
+    r"[,;:()]|\s[-–—]+\s|—|\.\.+|…|\bbut\b|\bbecause\b|\bsince\b|\band then\b|\bthen\b"
+)
+"""What ends the reach of a negation within a sentence."""
+
+
+def plain(text: str) -> str:
+    """Lower case, straight quotes, contractions written out, single spaces."""
+    text = re.sub("(\\d*) ?([½¼¾⅓⅔⅛])", _mixed, text)
+    text = unicodedata.normalize("NFKC", text).lower()
+    text = text.replace("()", "").replace("’", "'").replace("`", "'").replace("−", "-")
+    for pattern, replacement in _CONTRACTIONS:
+        text = re.sub(pattern, replacement, text)
+    text = re.sub(r"\banything (?:but|other than|except)\b", "not", text)
+    return " ".join(text.split())
+
+
+def _mixed(match: re.Match[str]) -> str:
+    """'2½' as '2.5'."""
+    return f"{int(match[1] or 0) + unicodedata.numeric(match[2]):.6g}"
+
+
+def sentences(text: str) -> list[tuple[str, bool]]:
+    """Sentences of a plain text, each with whether it ends in a question mark."""
+    found, start = [], 0
+    for match in _SENTENCE.finditer(text):
+        if part := text[start : match.start()].strip():
+            found.append((part, "?" in match.group()))
+        start = match.end()
+    if part := text[start:].strip():
+        found.append((part, False))
+    return found

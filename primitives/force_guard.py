@@ -1,0 +1,110 @@
+"""The hard limit of a contract, kept where a command to the gripper is written.
+
+A contract speaks of felt newtons, a gripper is sent commanded ones. The ratio between them is
+hidden until something is felt; from then on it is known within an interval. A command is sent only
+if it, times the upper end of that interval, stays within the limit. Policy, jog and replay all
+command through the same ``GuardedGripper``.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from primitives.devices import Gripper, GripperState
+from primitives.errors import LimitError
+from primitives.sense import Interval
+
+LEAST_FELT_N = 0.3
+"""Felt force from which the ratio is learned [N]. Our choice: below it the drift of the gel can be
+as large as what is felt."""
+
+TRUSTED_N = 0.5
+"""Felt force from which a ratio above the rig's own bound is believed [N]. Our choice, likewise."""
+
+
+class GuardedGripper:
+    """A ``primitives.devices.Gripper`` that stays within a felt force.
+
+    Args:
+        gripper: The gripper.
+        limit_n: Felt force that is never exceeded [N]; infinite for none (a benchmark's baseline).
+        max_gain: Largest ratio of true to commanded force that the rig states, used until
+            something is felt.
+
+    Raises:
+        LimitError: A number is not positive, or the ratio is not finite.
+    """
+
+    def __init__(self, gripper: Gripper, *, limit_n: float, max_gain: float) -> None:
+        if not (limit_n > 0 and math.isfinite(max_gain) and max_gain > 0):
+            raise LimitError(
+                f"a guard needs a limit above 0 N and a finite ratio above 0, got {limit_n} N and "
+                f"{max_gain}"
+            )
+        self._gripper = gripper
+        self._limit_n, self._max_gain = limit_n, max_gain
+        self._gain: Interval | None = None
+        self._spread = math.inf  # upper bound over value of the felt force behind it
+        self.open_by, self.stop = gripper.open_by, gripper.stop  # passed through
+        self.disconnect = gripper.disconnect
+
+    @property
+    def limit_n(self) -> float:
+        """Felt force that is never exceeded [N]."""
+        return self._limit_n
+
+    @property
+    def gain(self) -> Interval | None:
+        """Ratio of felt to commanded force; None before anything was felt."""
+        return self._gain
+
+    @property
+    def most_n(self) -> float:
+        """Largest command that is sent [N]."""
+        return self._limit_n / (self._max_gain if self._gain is None else self._gain.high)
+
+    def keep_to(self, limit_n: float) -> None:
+        """Set another limit of felt force [N]; the executor alone does so, from its contract."""
+        self._limit_n = limit_n
+
+    def feel(self, felt: Interval | None) -> None:
+        """Learn the ratio from the force that is felt under the present command.
+
+        The narrowest interval of the episode is kept, the later one of two: the ratio belongs to
+        the gripper, and a contact on the edge of the pad tells less than one in the middle.
+        """
+        state = self._gripper.state()
+        if felt is None or not state.closed or state.force_n <= 0 or felt.value < LEAST_FELT_N:
+            return
+        spread = felt.high / felt.value
+        if spread > 1.01 * self._spread:
+            return
+        most = math.inf if felt.value >= TRUSTED_N else self._max_gain
+        low, value, high = (
+            min(most, force_n / state.force_n) for force_n in (felt.low, felt.value, felt.high)
+        )
+        self._gain, self._spread = Interval(value=value, low=low, high=high), spread
+
+    def state(self) -> GripperState:
+        """State of the gripper."""
+        return self._gripper.state()
+
+    def grip(self, force_n: float) -> GripperState:
+        """Grip with a command [N], lowered to ``most_n`` where it is above; the state says so.
+
+        Raises:
+            LimitError: The command is not finite or not positive.
+            RobotError: As the gripper raises it.
+        """
+        if not (math.isfinite(force_n) and force_n > 0):
+            raise LimitError(f"a grip needs a finite force above 0 N, got {force_n}")
+        if force_n <= self.most_n * (1 + 1e-9):
+            return self._gripper.grip(force_n)
+        most_n = self.most_n
+        note = (
+            f"command {force_n:.3g} N lowered to {most_n:.3g} N: times "
+            f"{self._limit_n / most_n:.2g} (felt over commanded) it may reach the contract's limit "
+            f"of {self._limit_n:.3g} N"
+        )
+        return replace(self._gripper.grip(most_n), clamped=note)

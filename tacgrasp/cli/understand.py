@@ -1,0 +1,50 @@
+"""``tacgrasp understand "…"``: the contract that an instruction becomes; nothing moves."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import tyro
+
+from tacgrasp.cli.flags import parse, writable
+
+
+@dataclass(frozen=True)
+class UnderstandFlags:
+    """Show what an instruction becomes: force band, limit, what was assumed, or why it is refused.
+
+    Attributes:
+        instruction: The instruction, in plain English.
+        task: Task of the instruction.
+        rig: Rig whose gripper bounds the forces.
+        json: File for the contract.
+    """
+
+    instruction: tyro.conf.Positional[str]
+    task: str | None = None
+    rig: str | None = None
+    json: Path | None = None
+
+
+def main(argv: Sequence[str]) -> int:
+    """Print one contract; 1 when it is refused."""
+    flags = parse(UnderstandFlags, argv, prog="tacgrasp understand")
+    writable(flags.json)
+    from tacgrasp.config.layers import load
+    from tacgrasp.config.terms import contract_json, contract_lines, contract_of
+    from tacgrasp.console import make_console
+
+    config, sources = load(flags.task, flags.rig, os.environ)
+    config = config.model_copy(update={"instruction": flags.instruction})
+    contract = contract_of(config, {**sources, "instruction": "the command line"})
+    console = make_console()
+    for line in contract_lines(contract):
+        console.print(line)
+    if flags.json is not None:
+        text = json.dumps(contract_json(contract), indent=1, ensure_ascii=False)
+        flags.json.write_text(text + "\n", "utf-8")
+    return 1 if contract.refused else 0

@@ -1,0 +1,112 @@
+"""A run for machines: the contract, every step and the end, one JSON object a line.
+
+The file grows while the run goes on, so that another program can follow it. Not here: the full
+record of an episode (``tacgrasp.episodes``).
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any
+
+from primitives.contract import Contract
+from tacgrasp.base.errors import UsageError
+from tacgrasp.config.terms import contract_json
+from tacgrasp.episodes.codec import to_json
+from tacgrasp.episodes.record import StepRecord
+from tacgrasp.runtime.outcome import Outcome
+
+
+class EventFile:
+    """Writes events to a file as they come; without a file it does nothing."""
+
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
+        self._file: IO[str] | None = None
+
+    def __enter__(self) -> EventFile:
+        """Open the file.
+
+        Raises:
+            UsageError: It can't be written.
+        """
+        if self._path is not None:
+            try:
+                self._file = self._path.open("w", encoding="utf-8")
+            except OSError as error:
+                raise UsageError(f"--json {self._path} can't be written: {error}") from None
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if self._file is not None:
+            self._file.close()
+
+    def contract(self, contract: Contract) -> None:
+        """The contract, before anything moves."""
+        self._write("contract", contract_json(contract))
+
+    def step(self, record: StepRecord) -> None:
+        """One step; a contract that what is felt has changed comes before it. An ``Observer``."""
+        if record.contract is not None:
+            self.contract(record.contract)
+        decision, executed = record.decision, record.executed
+        felt = record.felt_force_n
+        self._write(
+            "step",
+            {
+                "index": record.index,
+                "phase": record.phase,
+                "t_s": record.stamp.monotonic_s,
+                "text": None if decision is None else decision.text,
+                "action": None if decision is None else decision.action,
+                "success": None if decision is None else decision.success,
+                "reason": None if decision is None else decision.reason,
+                "in_contact": record.in_contact,
+                "felt_force_n": None if felt is None else [felt.low, felt.value, felt.high],
+                "commanded_force_n": record.gripper.force_n,
+                "sent": None if executed is None else executed.sent,
+                "clamped": [] if executed is None else list(executed.clamped),
+                "note": record.note,
+            },
+        )
+
+    def end(self, outcome: Outcome, slip_minimum_n: float | None) -> None:
+        """The end, with the simulator's truth where there is one."""
+        truth = outcome.truth or {}
+        bruised = [truth[name] for name in ("bruised", "bruised_at_start") if name in truth]
+        self._write(
+            "end",
+            {
+                "reason": outcome.reason,
+                "message": outcome.message,
+                "verified": outcome.verified,
+                "bruised": any(bruised) if bruised else None,
+                "dropped": truth.get("dropped"),
+                "peak_force_n": truth.get("peak_force_n"),
+                "slip_minimum_n": slip_minimum_n,
+                "steps": outcome.num_steps,
+                "actions": outcome.num_actions,
+            },
+        )
+
+    def refused(self, contract: Contract) -> None:
+        """The end of a run that did not begin."""
+        nothing = dict.fromkeys(
+            ("verified", "bruised", "dropped", "peak_force_n", "slip_minimum_n")
+        )
+        message = {"reason": "refused", "message": contract.refused}
+        self._write("end", {**message, **nothing, "steps": 0, "actions": 0})
+
+    def _write(self, event: str, fields: dict[str, Any]) -> None:
+        if self._file is None:
+            return
+        line = json.dumps({"event": event, **to_json(fields, event)}, ensure_ascii=False)
+        self._file.write(line + "\n")
+        self._file.flush()

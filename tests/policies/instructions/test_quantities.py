@@ -1,0 +1,183 @@
+"""Forces in a sentence: what they come to in newtons, and whether they bound it."""
+
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from policies.instructions.quantities import GRAM_N
+from policies.instructions.reader import read_request
+from tests.policies.instructions.number_words import decimal_in_words, in_words
+
+UNITS = {
+    "N": 1.0,
+    "newtons": 1.0,
+    "Newton": 1.0,
+    "mN": 1e-3,
+    "millinewtons": 1e-3,
+    "gf": GRAM_N,
+    "grams of force": GRAM_N,
+    "gram-force": GRAM_N,
+    "kgf": 1000 * GRAM_N,
+    "kilograms of force": 1000 * GRAM_N,
+}
+SENTENCES = (
+    "Hold it with {}.",
+    "Pick the strawberry, {}.",
+    "Please, robot, grip the ripe red berry from the bowl with {}, and keep it there.",
+    "I would like you to grasp the fruit now; {}.",
+    "Use {} of force to lift it, would you?",
+    "{}, hold it.",
+)
+MOSTS = (
+    "at most {}",
+    "no more than {}",
+    "not more than {}",
+    "never more than {}",
+    "never above {}",
+    "not above {}",
+    "below {}",
+    "under {}",
+    "less than {}",
+    "up to {}",
+    "without exceeding {}",
+    "a maximum of {}",
+    "{} at most",
+    "{} or less",
+    "{} max",
+)
+LEASTS = (
+    "at least {}",
+    "no less than {}",
+    "not less than {}",
+    "never less than {}",
+    "not below {}",
+    "never below {}",
+    "never under {}",
+    "above {}",
+    "over {}",
+    "more than {}",
+    "a minimum of {}",
+    "{} at least",
+    "{} or more",
+)
+RANGES = (
+    "between {} and {} N",
+    "{} to {} newtons",
+    "{}-{} N",
+    "{} – {} N",
+    "from {} N to {} N",
+    "at least {} N but at most {} N",
+    "no less than {} N and no more than {} N",
+)
+
+sentences = st.sampled_from(SENTENCES)
+hundredths = st.integers(1, 2000)
+
+
+def forces(text: str) -> list[tuple[str, float]]:
+    return [(force.kind, force.value_n) for force in read_request(text).numbers.forces]
+
+
+def written(hundredth: int, unit: str) -> tuple[str, float]:
+    """A number near the force in the unit, and the force that it means [N]."""
+    size = UNITS[unit]
+    number = f"{hundredth / 100 / size:.4g}"
+    return number, float(number) * size
+
+
+@given(sentence=sentences, hundredth=hundredths, unit=st.sampled_from(list(UNITS)))
+def test_a_number_with_a_unit_of_force_means_that_force(sentence, hundredth, unit):
+    number, force_n = written(hundredth, unit)
+    assume("e" not in number)
+    assert forces(sentence.format(f"{number} {unit}")) == [("value", pytest.approx(force_n))]
+
+
+@given(sentence=sentences, hundredth=hundredths)
+def test_a_decimal_comma_and_a_missing_space_change_nothing(sentence, hundredth):
+    number = f"{hundredth / 100:g}"
+    expected = [("value", pytest.approx(hundredth / 100))]
+    assert forces(sentence.format(f"{number}N")) == expected
+    assert forces(sentence.format(f"{number.replace('.', ',')} N")) == expected
+
+
+@given(sentence=sentences, whole=st.integers(0, 40), digits=st.sampled_from(["", "5", "25", "05"]))
+def test_a_number_in_words_means_the_same_as_in_digits(sentence, whole, digits):
+    said = decimal_in_words(whole, digits) if digits else in_words(whole)
+    assert forces(sentence.format(f"{said} newtons")) == [
+        ("value", pytest.approx(float(f"{whole}.{digits or 0}")))
+    ]
+
+
+@given(sentence=sentences, most=st.sampled_from(MOSTS), hundredth=hundredths)
+def test_every_way_to_say_at_most_bounds_from_above(sentence, most, hundredth):
+    text = sentence.format(most.format(f"{hundredth / 100:g} N"))
+    assert forces(text) == [("most", pytest.approx(hundredth / 100))], text
+
+
+@given(sentence=sentences, least=st.sampled_from(LEASTS), hundredth=hundredths)
+def test_every_way_to_say_at_least_bounds_from_below(sentence, least, hundredth):
+    text = sentence.format(least.format(f"{hundredth / 100:g} N"))
+    assert forces(text) == [("least", pytest.approx(hundredth / 100))], text
+
+
+@given(
+    sentence=sentences,
+    words=st.sampled_from(RANGES),
+    low=st.integers(1, 900),
+    wide=st.integers(5, 900),
+)
+def test_a_range_is_a_least_and_a_most(sentence, words, low, wide):
+    text = sentence.format(words.format(f"{low / 100:g}", f"{(low + wide) / 100:g}"))
+    expected = [low / 100, (low + wide) / 100]
+    found = sorted(forces(text))
+    assert [kind for kind, _ in found] == ["least", "most"], text
+    assert [value for _, value in found] == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "factor"),
+    [
+        ("Hold it half as hard.", 0.5),
+        ("Grip it twice as hard.", 2.0),
+        ("Squeeze it three times as hard as usual.", 3.0),
+    ],
+)
+def test_a_factor_on_the_usual_force_is_read_as_one(text, factor):
+    assert read_request(text).numbers.factor == pytest.approx(factor)
+
+
+def test_a_pressure_and_a_number_without_unit_are_no_forces():
+    assert read_request("Hold it at 20 kPa.").numbers.pressure == "20 kpa"
+    assert read_request("Hold it with 2.").numbers.unitless == "2"
+    assert not forces("Hold it at 20 kPa.")
+    assert not forces("Hold it with 2.")
+
+
+def test_the_weight_of_the_object_is_no_force_to_hold_it_with():
+    assert not forces("Pick the 20 g strawberry gently.")
+    assert not forces("Hold the berry, it weighs 25 grams.")
+
+
+def test_slip_depth_and_area_are_read_beside_the_force():
+    text = "Hold it with 1.5 N, at most 0.4 mm deep, over 10 % of the pad."
+    numbers = read_request(text).numbers
+    assert forces(text) == [("value", 1.5)]
+    assert numbers.depth_mm == pytest.approx(0.4)
+    assert numbers.area_fraction == pytest.approx(0.1)
+    assert read_request("Hold it, and let it slip no more than 0.5 mm.").numbers.slip_mm == 0.5
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Hold it with 2 N, at most 2.2 N.", [("value", 2.0), ("most", 2.2)]),
+        ("Hold it with 2 N, at least 1.8 N.", [("value", 2.0), ("least", 1.8)]),
+        ("Hold it with 1.5 N, no more than 0.4 mm deep.", [("value", 1.5)]),
+        ("Hold it with 1.5 N, slipping at most 0.5 mm.", [("value", 1.5)]),
+        ("Hold it with 2 N for at least 5 seconds.", [("value", 2.0)]),
+        ("1 N minimum, 2 N maximum, hold it.", [("least", 1.0), ("most", 2.0)]),
+        ("2 N or less, hold it for 3 seconds.", [("most", 2.0)]),
+    ],
+)
+def test_a_bound_goes_to_its_own_number(text, expected):
+    assert sorted(forces(text)) == sorted(expected)

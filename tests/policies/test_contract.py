@@ -1,0 +1,213 @@
+"""The contract: configuration over words over the task, and what is refused by name."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from policies.contract import BANDS, read_contract
+from primitives import LimitError
+from primitives.contract import LIMIT_OVER_BAND, Band, Contract, ForceTerms
+from tests.fakes.contracts import PEG, STRAWBERRY, contract, peg_terms, terms
+
+TASK = terms()
+MOST_N = 3 * STRAWBERRY.limit_n
+
+
+def read(text: str, **given_bands: object) -> Contract:
+    return read_contract(text, TASK, given_bands)
+
+
+def test_the_tasks_own_instruction_means_the_tasks_own_terms():
+    own = read(TASK.instruction)
+    assert own.terms == STRAWBERRY
+    assert (own.depth_mm, own.area_fraction) == (TASK.depth_mm, TASK.area_fraction)
+    assert own.slip_mm == TASK.slip_mm
+    assert set(own.origins.values()) == {"the task"}
+    assert any("gently" in note for note in own.assumed)
+
+
+def test_the_same_manner_in_other_words_is_relative_to_the_task():
+    assert read("Pick the strawberry gently.").terms.force_n.middle < STRAWBERRY.force_n.middle
+
+
+def test_words_win_over_the_task_and_are_named_as_the_origin():
+    said = read("Hold it at 1.2 N.")
+    assert 1.2 in said.terms.force_n
+    assert said.origins["force_n"] == "your words: 1.2 n"
+    assert said.origins["slip_mm"] == "the task"
+    assert said.origins["depth_mm"] == "default"  # the task's depth is that of the task's force
+
+
+def test_configuration_wins_over_manner_and_says_so():
+    held = read("Hold it gently.", force_n=Band(low=4.0, high=6.0))
+    assert held.terms.force_n == Band(low=4.0, high=6.0)
+    assert held.terms.limit_n == pytest.approx(LIMIT_OVER_BAND * 6.0)
+    assert held.origins["force_n"] == "the configuration"
+    assert held.insists
+    assert any("gently" in note and "gives way" in note for note in held.assumed)
+
+
+@pytest.mark.parametrize(
+    ("text", "band", "named"),
+    [
+        ("Hold it with 1 N.", (4.0, 6.0), "1 n"),
+        ("Hold it with at most 2 N.", (1.5, 3.0), "at most 2 n"),
+        ("Hold it with at least 5 N.", (1.0, 2.0), "at least 5 n"),
+        ("Hold it with 2 to 3 N.", (0.5, 1.5), "2 to 3 n"),
+    ],
+)
+def test_a_force_in_words_against_the_configuration_is_refused_with_both_named(text, band, named):
+    refused = read(text, force_n=Band(low=band[0], high=band[1])).refused
+    assert named in refused
+    assert f"{band[0]:g}-{band[1]:g} N" in refused
+    assert "change one of them" in refused
+
+
+def test_a_most_in_words_stays_the_limit_under_a_configured_band_that_fits():
+    held = read("Hold it with at most 2 N.", force_n=Band(low=1.0, high=1.5))
+    assert held.terms.force_n == Band(low=1.0, high=1.5)
+    assert 0.95 * 2 <= held.terms.limit_n <= 2
+
+
+@given(limit=st.integers(110, 900), text=st.sampled_from([TASK.instruction, "Hold it firmly."]))
+def test_a_configured_limit_is_the_limit_and_ends_the_band(limit, text):
+    held = read(text, limit_n=limit / 100)
+    assert held.insists
+    if not held.refused:
+        assert held.terms.limit_n == pytest.approx(limit / 100)
+        assert held.origins["limit_n"] == "the configuration"
+    else:
+        assert "limit_n" in held.refused
+
+
+def test_a_configured_limit_below_the_band_is_refused():
+    assert "limit_n 0.5 N" in read(TASK.instruction, limit_n=0.5).refused
+
+
+def test_a_lower_most_in_words_wins_over_a_configured_limit():
+    assert read("Hold it with at most 1.5 N.", limit_n=3.0).terms.limit_n <= 1.5
+    assert read("Hold it with at most 1.5 N.", limit_n=1.2).terms.limit_n == 1.2
+
+
+def test_every_other_configured_band_is_used_and_named():
+    bands = {
+        "slip_mm": 0.7,
+        "x_mm": Band(low=-1, high=1),
+        "y_mm": Band(low=-2, high=2),
+        "depth_mm": Band(low=0.1, high=0.3),
+        "area_fraction": Band(low=0.05, high=0.2),
+    }
+    held = read("Hold it at 1.2 N.", **bands)
+    for name, value in bands.items():
+        assert getattr(held, name) == value
+        assert held.origins[name] == "the configuration"
+    assert not held.insists  # the force was left to the words
+    assert {*bands, "force_n", "limit_n"} == set(BANDS)
+
+
+def test_a_band_that_no_contract_has_is_an_error_of_the_caller():
+    with pytest.raises(LimitError, match="forse_n; known: force_n"):
+        read(TASK.instruction, forse_n=Band(low=1, high=2))
+
+
+def test_words_alone_may_not_name_more_than_three_times_the_tasks_limit():
+    assert read("Hold it with 7 N.").refused == ""
+    refused = read("Hold it with 8 N.").refused
+    assert "8 N is more than 3 times the task's limit" in refused
+    assert "--goal.force-n" in refused
+    assert read(TASK.instruction, force_n=Band(low=7.5, high=8.5)).refused == ""
+    assert read_contract("Hold it with 8 N.", peg_terms(), {}).refused == ""
+
+
+def test_no_configuration_goes_beyond_the_gripper():
+    refused = read(TASK.instruction, force_n=Band(low=31.0, high=40.0)).refused
+    assert "the gripper's 30 N" in refused
+
+
+def test_a_limit_below_the_least_that_the_gripper_can_keep_to_is_refused():
+    weak = replace(TASK, least_n=0.6)
+    assert "below 0.6 N" in read_contract("Hold it with at most 0.5 N.", weak, {}).refused
+    assert read_contract("Hold it with at most 0.5 N.", TASK, {}).refused == ""
+
+
+@given(hundredth=st.integers(21, 700), task=st.sampled_from([terms(), peg_terms()]))
+def test_at_most_sets_the_limit_just_below_the_named_force(hundredth, task):
+    most_n = hundredth / 100
+    held = read_contract(f"Hold it with at most {most_n:g} N.", task, {})
+    assert held.refused == ""
+    assert 0.95 * most_n <= held.terms.limit_n <= most_n
+    assert held.terms.force_n.high <= 0.9 * most_n * 1.001
+
+
+@given(hundredth=st.integers(25, 700))
+def test_a_named_force_is_the_middle_of_a_narrow_band(hundredth):
+    force_n = hundredth / 100
+    band = read(f"Hold it with {force_n:g} N.").terms.force_n
+    assert 0.85 * force_n <= band.low < force_n < band.high <= 1.15 * force_n
+
+
+@given(hundredth=st.integers(25, 650))
+def test_at_least_sets_the_low_end_just_above_the_named_force(hundredth):
+    least_n = hundredth / 100
+    held = read(f"Hold it with at least {least_n:g} N.")
+    if held.refused:
+        assert 1.2 * least_n > MOST_N / 1.05
+    else:
+        assert least_n <= held.terms.force_n.low <= 1.1 * least_n
+
+
+@given(text=st.sampled_from(["Hold it.", "Hold it gently.", "Hold it at 2 N.", "Twice as hard."]))
+def test_an_unnamed_limit_is_at_most_a_quarter_above_the_band(text):
+    held = read(text).terms
+    assert held.force_n.high <= held.limit_n <= LIMIT_OVER_BAND * held.force_n.high * 1.0001
+
+
+@pytest.mark.parametrize(
+    ("text", "factor"),
+    [("Hold it half as hard.", 0.5), ("Grip it twice as hard.", 2.0)],
+)
+def test_a_factor_is_relative_to_the_task(text, factor):
+    assert read(text).terms.force_n.middle == pytest.approx(factor * STRAWBERRY.force_n.middle)
+    peg = read_contract(text, peg_terms(), {}).terms
+    assert peg.force_n.middle == pytest.approx(factor * PEG.force_n.middle)
+
+
+def test_slip_and_depth_in_words_become_bands_of_the_contract():
+    held = read("Hold it with 1.5 N, 0.4 mm deep, and let it slip no more than 0.5 mm.")
+    assert held.slip_mm == 0.5
+    assert 0.4 in held.depth_mm
+    assert held.origins["slip_mm"] == held.origins["depth_mm"] == "your words"
+    assert held.origins["force_n"].startswith("your words")
+
+
+def test_only_a_contract_for_hard_things_is_open_to_the_objection_of_a_soft_contact():
+    assert read(TASK.instruction).soft is None
+    hard = read_contract("Grip the peg firmly.", peg_terms(), {})
+    assert hard.soft == STRAWBERRY
+    insisting = read_contract("Grip it.", peg_terms(), {"force_n": PEG.force_n})
+    assert insisting.soft is None
+
+
+def test_a_contract_has_a_band_or_a_reason_and_never_both():
+    good = contract(1.0, 2.0, 2.5)
+    with pytest.raises(LimitError, match="or a reason"):
+        replace(good, refused="why")
+    with pytest.raises(LimitError, match="or a reason"):
+        replace(good, force_n=None)
+    with pytest.raises(LimitError, match="reaches above its"):
+        replace(good, limit_n=1.9)
+    with pytest.raises(LimitError, match="nothing was moved"):
+        _ = replace(good, force_n=None, limit_n=None, refused="why").terms
+
+
+@pytest.mark.parametrize(("low", "high"), [(2, 1), (float("nan"), 1), (0, float("inf"))])
+def test_a_band_in_no_order_is_refused(low, high):
+    with pytest.raises(ValueError, match="low <= high"):
+        Band(low=low, high=high)
+
+
+def test_force_terms_of_nothing_are_refused():
+    with pytest.raises(LimitError, match="above 0 N"):
+        ForceTerms(force_n=Band(low=0.0, high=1.0), limit_n=2.0)

@@ -1,0 +1,143 @@
+"""The hard limit where commands are written: no true force above it, whatever the hidden gain."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from primitives import LimitError
+from primitives.force_guard import LEAST_FELT_N, GuardedGripper
+from primitives.sense import Interval
+from tests.fakes.hidden_gain import HiddenGainGripper
+
+MAX_GAIN = 2.0
+gains = st.floats(0.5, MAX_GAIN)
+
+
+def guarded(
+    gain: float = 1.0, *, limit_n: float = 2.0, max_gain: float = MAX_GAIN
+) -> tuple[GuardedGripper, HiddenGainGripper]:
+    gripper = HiddenGainGripper(gain)
+    return GuardedGripper(gripper, limit_n=limit_n, max_gain=max_gain), gripper
+
+
+commands = st.tuples(st.just("grip"), st.floats(0.05, 40.0))
+readings = st.tuples(st.just("feel"), st.floats(1.0, 2.0), st.floats(-1.0, 1.0))
+openings = st.tuples(st.just("open"))
+
+
+@given(
+    gain=gains,
+    limit_n=st.floats(0.3, 12.0),
+    course=st.lists(st.one_of(commands, readings, openings), max_size=30),
+)
+def test_no_course_of_commands_and_honest_readings_passes_the_limit(gain, limit_n, course):
+    guard, gripper = guarded(gain, limit_n=limit_n)
+    for name, *values in course:
+        if name == "grip":
+            guard.grip(values[0])
+        elif name == "open":
+            guard.open_by(0.005)
+        elif gripper.state().closed:
+            spread, side = values
+            guard.feel(gripper.felt(spread, bias=spread**side))
+        assert gripper.peak_n <= limit_n * (1 + 1e-6)
+
+
+@given(gain=gains, spread=st.floats(1.05, 1.4))
+def test_what_is_felt_opens_more_of_the_limit_than_the_stated_bound(gain, spread):
+    guard, gripper = guarded(gain, limit_n=4.0)
+    assert guard.most_n == pytest.approx(2.0)
+    guard.grip(1.0)
+    guard.feel(gripper.felt(spread))
+    assert guard.most_n >= 2.0
+    assert guard.most_n == pytest.approx(4.0 / min(gain * spread, MAX_GAIN))
+    guard.grip(100.0)
+    assert gripper.peak_n <= 4.0 * (1 + 1e-6)
+
+
+def test_a_command_within_the_limit_is_sent_as_it_is():
+    guard, gripper = guarded(limit_n=4.0)
+    state = guard.grip(1.5)
+    assert gripper.commands_n == [1.5]
+    assert state.clamped == ""
+
+
+def test_a_lowered_command_says_from_what_to_what_and_why():
+    guard, gripper = guarded(limit_n=4.0)
+    state = guard.grip(5.0)
+    assert gripper.commands_n == [2.0]
+    assert state.force_n == 2.0
+    for part in ("5 N", "lowered to 2 N", "contract's limit of 4 N"):
+        assert part in state.clamped
+    assert guard.state().clamped == ""  # only of the last command
+
+
+@pytest.mark.parametrize("force_n", [0.0, -1.0, math.nan, math.inf, -math.inf])
+def test_a_command_that_is_no_force_is_refused_and_nothing_is_sent(force_n):
+    guard, gripper = guarded()
+    with pytest.raises(LimitError, match="finite force above 0 N"):
+        guard.grip(force_n)
+    assert gripper.commands_n == []
+
+
+@pytest.mark.parametrize(
+    ("limit_n", "max_gain"),
+    [(0.0, 2.0), (-1.0, 2.0), (math.nan, 2.0), (1.0, 0.0), (1.0, math.nan), (1.0, math.inf)],
+)
+def test_a_guard_without_a_limit_or_a_bound_is_refused(limit_n, max_gain):
+    with pytest.raises(LimitError, match="guard needs"):
+        guarded(limit_n=limit_n, max_gain=max_gain)
+
+
+def test_a_baseline_without_a_contract_is_not_held_back():
+    guard, gripper = guarded(limit_n=math.inf)
+    guard.grip(50.0)
+    assert gripper.commands_n == [50.0]
+
+
+def test_the_gain_is_learned_from_clear_contact_under_a_grip_alone():
+    guard, gripper = guarded()
+    guard.feel(Interval(value=1.0, low=0.8, high=1.2))  # open
+    assert guard.gain is None
+    guard.grip(0.15)
+    guard.feel(None)
+    assert guard.gain is None
+    guard.feel(Interval(value=0.9 * LEAST_FELT_N, low=0.1, high=0.3))
+    assert guard.gain is None
+    guard.grip(1.0)
+    guard.feel(gripper.felt(1.2))
+    assert guard.gain is not None
+    assert guard.gain.value == pytest.approx(1.0)
+    assert guard.gain.low == pytest.approx(1 / 1.2)
+    assert guard.gain.high == pytest.approx(1.2)
+
+
+def test_the_narrowest_interval_is_kept_and_a_later_one_of_equals():
+    guard, gripper = guarded(limit_n=4.0)
+    guard.grip(1.0)
+    guard.feel(gripper.felt(1.2))
+    guard.feel(gripper.felt(1.6, bias=1.3))  # on the edge of the pad
+    assert guard.gain is not None
+    assert guard.gain.value == pytest.approx(1.0)
+    guard.feel(gripper.felt(1.2, bias=1.1))
+    assert guard.gain.value == pytest.approx(1.1)
+
+
+def test_a_lower_limit_holds_from_the_next_command_on():
+    guard, gripper = guarded(limit_n=8.0)
+    guard.grip(4.0)
+    guard.keep_to(2.0)
+    assert guard.limit_n == 2.0
+    guard.grip(4.0)
+    assert gripper.commands_n == [4.0, 1.0]
+
+
+def test_everything_but_the_grip_reaches_the_gripper_as_it_is():
+    guard, gripper = guarded()
+    guard.grip(1.0)
+    assert guard.open_by(0.01) == gripper.state()
+    guard.stop()
+    guard.disconnect()
+    assert gripper.calls == ["stop", "disconnect"]
