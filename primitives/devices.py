@@ -6,6 +6,7 @@ Implementations are in ``sim.grasp`` (simulated) and in the drivers. One suite o
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -48,12 +49,21 @@ class GripperState:
         force_n: Last commanded force, 0 when open [N]; the true force is not measured.
         closed: Whether the last command was ``grip``.
         clamped: Change of the last command by a limit; '' without one.
+
+    Raises:
+        LimitError: A number is not finite; nothing may be decided on such a state.
     """
 
     width_m: float
     force_n: float
     closed: bool
     clamped: str = ""
+
+    def __post_init__(self) -> None:
+        if not (math.isfinite(self.width_m) and math.isfinite(self.force_n)):
+            raise LimitError(
+                f"a gripper's state needs finite numbers, got {self.width_m} m and {self.force_n} N"
+            )
 
 
 class Arm(Protocol):

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from tacgrasp.base.result_file import write_result
 from tacgrasp.cli.flags import parse, writable
 
 
@@ -86,4 +87,5 @@ def main(argv: Sequence[str]) -> None:
             for s in scores
         ]
         report = {"figures": figures, "instructions": rows}
-        flags.json.write_text(json.dumps(report, indent=1, ensure_ascii=False) + "\n", "utf-8")
+        text = json.dumps(report, indent=1, ensure_ascii=False) + "\n"
+        write_result(flags.json, text, flag="--json")

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import tyro
 
+from tacgrasp.base.result_file import write_result
 from tacgrasp.cli.flags import parse, writable
 
 
@@ -46,5 +47,5 @@ def main(argv: Sequence[str]) -> int:
         console.print(line)
     if flags.json is not None:
         text = json.dumps(contract_json(contract), indent=1, ensure_ascii=False)
-        flags.json.write_text(text + "\n", "utf-8")
+        write_result(flags.json, text + "\n", flag="--json")
     return 1 if contract.refused else 0

@@ -77,13 +77,13 @@ def compare(
     area_ratio = after.area_fraction / before.area_fraction
     depth_ratio = after.depth_mm / before.depth_mm
     problems = []
-    if shift_mm > slip_mm:
+    if not shift_mm <= slip_mm:  # not finite is a problem too
         problems.append(f"the contact moved {shift_mm:.1f} mm (at most {slip_mm:g})")
     for name, ratio, least in (
         ("area", area_ratio, settings.min_area_ratio),
         ("depth", depth_ratio, settings.min_depth_ratio),
     ):
-        if ratio < least:
+        if not ratio >= least:
             problems.append(f"{ratio:.0%} of its {name} is left (at least {least:.0%})")
     summary = f"held through the lift: moved {shift_mm:.1f} mm, {area_ratio:.0%} of the area left"
     return Verification(

@@ -25,6 +25,7 @@ from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import FaultsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig import emulated
 from tacgrasp.run import run_recorded
@@ -136,7 +137,8 @@ def _episode(config: RunConfig, seed: int) -> tuple[str, str, int]:
             with ExitStack() as stack:
                 rig = emulated.start(config, hardware)
                 stack.callback(rig.disconnect)
-                outcome, _ = run_recorded(rig, make_policy("rules", config), config)
+                policy = make_policy("rules", config)
+                outcome, _ = run_recorded(rig, policy, config, contract_of(config))
                 holds = 0 if rig.guard is None else rig.guard.num_holds
                 message = f"seed {seed}: {outcome.message}; {rig.fault_counts()}"
         except (RobotError, TouchError) as error:

@@ -23,6 +23,7 @@ from tacgrasp.benchmarks.figures import one_thread, write_figures
 from tacgrasp.benchmarks.settings import SoakSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.console import SafeConsole, StepPrinter
 from tacgrasp.policy_factory import make_policy
 from tacgrasp.rig.factory import make_rig
@@ -99,7 +100,7 @@ def run(settings: SoakSettings) -> bool:
 def _soak(figures: SoakFigures, settings: SoakSettings, config: RunConfig, policy: Policy) -> None:
     """Run episodes up to the number that is asked for, and write the figures again and again."""
     first_mib, grown_mib = 0.0, figures.rss_mib_growth
-    done = figures.episodes
+    done, contract = figures.episodes, contract_of(config)
     figures.processes += done < settings.episodes
     with Path(os.devnull).open("w", encoding="utf-8") as nowhere:
         observers = [StepPrinter(SafeConsole(file=nowhere))]
@@ -108,7 +109,7 @@ def _soak(figures: SoakFigures, settings: SoakSettings, config: RunConfig, polic
             seeded = config.model_copy(update={"seed": settings.first_seed + number})
             rig = make_rig(seeded)
             try:
-                outcome, path = run_recorded(rig, policy, seeded, observers)
+                outcome, path = run_recorded(rig, policy, seeded, contract, observers)
             finally:
                 rig.disconnect()
             path.unlink()

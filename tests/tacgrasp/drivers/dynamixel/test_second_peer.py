@@ -101,8 +101,10 @@ def test_one_damaged_answer_is_survived(servo, gripper, damage):
         (lambda servo: servo.fail(0x20), "overloaded"),
         (lambda servo: servo.fail(0x08), "motor encoder failed"),
         (lambda servo: servo.__setitem__("temperature", 90), "90 °C"),
+        (lambda servo: servo.restart(), "restart"),
+        (lambda servo: servo.__setitem__("torque", 0), "torque"),
     ],
-    ids=["mute", "overload", "encoder", "hot"],
+    ids=["mute", "overload", "encoder", "hot", "restart", "torque off"],
 )
 def test_a_fault_while_it_holds_is_latched_with_its_reason(servo, gripper, happens, reason):
     gripper.grip(1.0)

@@ -99,6 +99,7 @@ def test_it_connects_reads_moves_stops_and_disconnects(peer, arm):
         ("end", "program on the controller does not run"),
         ("freeze", "no new data from the controller"),
         ("force 90", "contact force 90.0 N"),
+        ("force nan", "finite"),
         ("drop", "link to the controller dropped|program on the controller does not run"),
     ],
 )
