@@ -102,7 +102,7 @@ def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
         return move
     if any(value < band.low for value, band in quantities):
         factor = INCREASE_FACTOR
-        if state.force_n < goal.force_n.low:  # the executor goes no further than into the band
+        if 0 < state.force_n < goal.force_n.low:  # the executor goes no further than into the band
             factor = min(factor, max(goal.force_n.low, goal.force_n.middle) / state.force_n)
         next_force_n = state.force_n * factor
         next_depth_mm = state.depth_mm * factor**DEPTH_EXPONENT

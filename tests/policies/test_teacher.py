@@ -105,15 +105,21 @@ def test_too_firm_comes_before_moving_and_moving_before_too_light():
 
 def test_an_increase_that_would_overshoot_is_not_advised():
     narrow = replace(GOAL, force_n=Band(low=1.0, high=1.2))
-    advice = advise(touch(force=0.95), narrow)  # 0.95 * 1.5 = 1.425 > 1.2
+    advice = advise(touch(force=1.1, depth=0.05), narrow)  # too shallow, 1.1 * 1.5 = 1.65 > 1.2
     assert (advice.action, advice.success, advice.reason) == (
         None,
         False,
         Reason.BAND_TOO_NARROW,
     )
-    assert advise(touch(force=0.79), narrow).action is Primitive.INCREASE_FORCE  # 1.185
     deep = touch(force=0.9, depth=0.47)  # 0.47 * 1.5^(2/3) = 0.616 > 0.6
     assert advise(deep, GOAL).reason is Reason.BAND_TOO_NARROW
+
+
+def test_a_band_narrower_than_a_step_is_reached_by_the_executors_own_step_into_it():
+    narrow = replace(GOAL, force_n=Band(low=1.0, high=1.2))
+    for force_n in (0.3, 0.79, 0.95):  # to 0.45, 1.1 and 1.1 N
+        assert advise(touch(force=force_n), narrow).action is Primitive.INCREASE_FORCE
+    assert advise(touch(force=0.0), narrow).action is Primitive.INCREASE_FORCE  # not felt at all
 
 
 def test_a_move_that_would_not_come_nearer_is_not_advised():
