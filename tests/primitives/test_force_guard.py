@@ -46,15 +46,24 @@ def test_no_course_of_commands_and_honest_readings_passes_the_limit(gain, limit_
 
 
 @given(gain=gains, spread=st.floats(1.05, 1.4))
-def test_what_is_felt_opens_more_of_the_limit_than_the_stated_bound(gain, spread):
+def test_a_force_that_is_clearly_felt_takes_the_place_of_the_stated_bound(gain, spread):
     guard, gripper = guarded(gain, limit_n=4.0)
-    assert guard.most_n == pytest.approx(2.0)
-    guard.grip(1.0)
+    assert guard.most_n == pytest.approx(4.0 / MAX_GAIN)
+    guard.grip(1.1)
     guard.feel(gripper.felt(spread))
-    assert guard.most_n >= 2.0
-    assert guard.most_n == pytest.approx(4.0 / min(gain * spread, MAX_GAIN))
+    assert guard.most_n == pytest.approx(4.0 / (gain * spread))
     guard.grip(100.0)
-    assert gripper.peak_n <= 4.0 * (1 + 1e-6)
+    assert gripper.peak_n == pytest.approx(4.0 / spread)
+
+
+def test_a_ratio_above_the_stated_bound_is_believed_of_a_clear_force_alone():
+    guard, gripper = guarded(limit_n=4.0)
+    for command_n, highest in ((0.12, MAX_GAIN), (0.25, 3.0 * 1.2)):
+        gripper.gain = 3.0  # a gripper out of its bound
+        guard.grip(command_n)
+        guard.feel(gripper.felt(1.2))
+        assert guard.gain is not None
+        assert guard.gain.high == pytest.approx(highest)
 
 
 def test_a_command_within_the_limit_is_sent_as_it_is():

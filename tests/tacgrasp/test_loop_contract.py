@@ -98,12 +98,11 @@ def test_policy_and_verification_are_given_the_contract_of_the_episode() -> None
 
 
 def test_an_increase_at_the_contracts_limit_ends_the_episode_with_limit() -> None:
-    held = contract(2 * FELT_N, 3 * FELT_N, 3.2 * FELT_N)
+    held = contract(1.1 * FELT_N, 1.2 * FELT_N, 1.3 * FELT_N)  # a reading may be off by more
     outcome, rig, _ = play(Scripted(LIGHT), contract=held, settings=config(max_steps=50))
     assert outcome.reason is EndReason.LIMIT
     assert "already at its limit" in outcome.message
-    told_at_n = 0.8  # where the felt force is above the stated ratio: nothing is narrower
-    assert max(rig.gripper.forces_n) == pytest.approx(3.2 * told_at_n)
+    assert rig.gripper.forces_n == [0.1]
 
 
 @pytest.fixture(scope="module")
