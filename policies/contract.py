@@ -14,6 +14,7 @@ from typing import Any
 from policies.force_terms import (
     AROUND,
     MANNERS,
+    MOST_OF_TASK,
     RefusedError,
     named_terms,
     scaled_terms,
@@ -30,9 +31,6 @@ from primitives.contract import (
     default_limit_n,
 )
 from primitives.errors import LimitError
-
-MOST_OF_TASK = 3.0
-"""Largest force that words alone may name, as a factor on the task's limit."""
 
 DEFAULT_DEPTH_MM = Band(low=0.0, high=5.0)
 DEFAULT_AREA = Band(low=0.0, high=1.0)
@@ -69,7 +67,7 @@ class _Draft:
         self.force = force
         self.origins["force_n"] = self.origins["limit_n"] = origin
         for name, band in (("depth_mm", DEFAULT_DEPTH_MM), ("area_fraction", DEFAULT_AREA)):
-            if self.origins[name] == TASK:
+            if self.origins[name] in (TASK, DEFAULT):
                 self.bands[name], self.origins[name] = band, DEFAULT
 
 
@@ -93,7 +91,7 @@ def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Co
     draft = _Draft(
         force=task.force,
         bands={name: getattr(task, name) for name in BANDS[2:]},
-        origins=dict.fromkeys(BANDS, TASK),
+        origins={name: DEFAULT if name in task.defaults else TASK for name in BANDS},
     )
     refused = ""
     try:
@@ -221,7 +219,8 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
     band, limit_n = draft.force.force_n, draft.force.limit_n
     if band.low > task.most_n:
         raise RefusedError(
-            f"{band.low:.3g} N is beyond the gripper's {task.most_n:g} N (gripper.max_force_n)"
+            f"{draft.words or f'{band.low:.3g} N'} is beyond the gripper's {task.most_n:g} N "
+            "(gripper.max_force_n)"
         )
     if limit_n < task.least_n:
         raise RefusedError(
@@ -230,8 +229,10 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
         )
     by_words = draft.origins["force_n"] not in (TASK, CONFIGURATION)
     most_n = MOST_OF_TASK * task.force.limit_n
-    if by_words and "limit_n" not in given and band.middle > most_n:
+    # the limit of a named range is bounded too, so that "1 to 50 N" is refused
+    is_beyond = band.middle > most_n or (draft.named_most_n or 0.0) > most_n
+    if by_words and "limit_n" not in given and is_beyond:
         raise RefusedError(
-            f"{band.middle:.3g} N is more than {MOST_OF_TASK:g} times the task's limit "
-            f"({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
+            f"{draft.words or f'{band.middle:.3g} N'} is more than {MOST_OF_TASK:g} times the "
+            f"task's limit ({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
         )

@@ -37,6 +37,9 @@ MANNERS: Mapping[tuple[int, bool], float] = {
 """Middle of the band over the middle of the task's, by direction and emphasis. Our choice: people
 ask for a change that they would notice, and a strawberry stands no more than a third."""
 
+MOST_OF_TASK = 3.0
+"""Largest force that words alone may name, as a factor on the task's limit."""
+
 LEAST_HALF, MOST_HALF = 0.17, 0.34
 """Half width of a scaled band, as a fraction of its middle; the task's bands have 0.33."""
 
@@ -65,6 +68,8 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
     elif least > 0 and most < math.inf:
         top_n = BELOW_MOST * most
         band = Band(low=least, high=top_n if top_n > 1.1 * least else most)
+    elif most < math.inf and most > MOST_OF_TASK * task.limit_n:
+        return task  # a bound so far above says nothing beyond the task's own
     elif most < math.inf:
         band = _lean(_under(BELOW_MOST * most, task.force_n), manner)
     else:

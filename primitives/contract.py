@@ -90,6 +90,7 @@ class TaskTerms:
         least_n: Least force that the gripper can keep to for certain [N].
         most_n: Largest force of the gripper [N].
         soft: Terms of soft objects, which a soft contact is held to; None: none are known.
+        defaults: Names of the bands that the task leaves to their defaults.
     """
 
     name: str
@@ -104,6 +105,7 @@ class TaskTerms:
     least_n: float
     most_n: float
     soft: ForceTerms | None = None
+    defaults: frozenset[str] = frozenset()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

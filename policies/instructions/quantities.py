@@ -90,7 +90,9 @@ _NUMBER = (
     _ALONE
     + r"(?:\d{1,3}(?:,\d{3})+(?:\.\d+)?|\d{1,12}(?:[.,]\d{1,12})?|\.\d{1,12})(?:e[+-]?\d{1,2})?(?![.,]?\d)"
 )
-_SIGNED = rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{_NUMBER}|infinite|infinity|unlimited)"
+_SIGNED = (
+    rf"(?:(?<![\w.])(?:-|minus |negative )\s?)?(?:{_NUMBER}|infinite|infinity|unlimited|inf|nan)"
+)
 _LINK = r"\s*(?:-|–|—|\.\.\.?|…|,|\bup to\b|\bto\b|\bthrough\b|\btill\b|\band\b)\s*"
 _TOLERANCE = rf"\s*,?\s*(?:±|\+/?-|plus or minus|plus/minus|give or take|within)\s*(?:{_NUMBER})\s*(?:%|percent|{_UNIT}\b)?"
 
@@ -434,7 +436,7 @@ def _relation(left: str, right: str) -> tuple[Kind, int, int]:
 
 
 def _newtons(number: str, unit: str) -> float:
-    if number.strip("- ") in ("infinite", "infinity", "unlimited"):
+    if number.strip("- ") in ("infinite", "infinity", "unlimited", "inf", "nan"):
         return float("inf")
     for pattern, newtons in (*_UNITS, *_MASSES):
         if re.fullmatch(pattern, unit):

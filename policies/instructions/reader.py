@@ -31,6 +31,10 @@ class Request:
     refused: str
 
 
+NOT_ENGLISH = "it is not in English; say it plainly, for example 'Pick the strawberry gently'"
+MAX_CHARACTERS = 1000
+"""Longest instruction. Our choice: longer ones are pasted by mistake, and take seconds to read."""
+
 _QUESTION, _REQUEST = (re.compile(words.any_of(name)) for name in ("question", "request"))
 _ENGLISH, _FOREIGN = words.word_list("english"), words.word_list("foreign")
 _OFF = re.compile(rf"\b{words.any_of('off_domain')}\b")
@@ -79,16 +83,23 @@ _SHORT = re.compile(
 
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
-    clean = spelled(plain(text))
+    too_long = len(text) > MAX_CHARACTERS
+    clean = spelled(plain(text[:MAX_CHARACTERS]))
     numbers = read_quantities(clean)
     manner = read_manner(numbers.rest)
-    refused = "" if re.search(r"[^\W_]", clean) else "there are no words"
+    refused = (
+        ""
+        if re.search(r"[^\W_]", clean)
+        else "there are no words; say what to grasp, for example 'Pick the strawberry gently'"
+    )
     refused = (
         refused
         or refusal_of(numbers.rest, clean)
         or _no_english(clean)
         or _nothing_asked(numbers, manner)
     )
+    if too_long:
+        refused = f"it is longer than {MAX_CHARACTERS} characters; shorten it"
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
     return Request(
@@ -103,12 +114,12 @@ def read_request(text: str) -> Request:
 def _no_english(text: str) -> str:
     letters = [c for c in text if c.isalpha()]
     if letters and sum(ord(c) > 0x24F for c in letters) > 0.3 * len(letters):
-        return "it is not in English"
+        return NOT_ENGLISH
     tokens = [t for t in re.findall(r"[^\W\d_]+", text) if len(t) > 1]
     foreign = sum(t in _FOREIGN for t in tokens)
     known = sum(t in _ENGLISH or bool(_HOLD.fullmatch(t)) for t in tokens)
     if foreign and foreign >= known:
-        return "it is not in English"
+        return NOT_ENGLISH
     return ""
 
 

@@ -11,7 +11,7 @@ from policies.instructions.text import CLAUSE, sentences
 
 _NOT = re.compile(
     r"\b(?:not|never|without|avoid\w*|nor|neither|no need to|prevent\w*|instead of|rather than|refrain\w* from|stop|forbid\w*|"
-    r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|quit|free of)\b"
+    r"keep(?:s|ing)? (?:it |me |you )?from|until|till|before|unless|when i|once i|if i|after i|than|risk of|afraid of|fear of|danger of|do not want|careful not|mind|watch(?: out for)?|careful (?:of|with|about)|beware of|clear of|away from|quit|free of)\b"
 )
 _MODAL = re.compile(
     r"\b(?:it|this|that|berry|fruit|skin|they|one|strawberry|force|pressure|grip|or|else|i|we|fingers|newtons|#|otherwise|which|these|those|berries|fruits|easily|to easily|"

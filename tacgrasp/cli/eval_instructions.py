@@ -16,8 +16,8 @@ class InstructionFlags:
     """Read instructions into contracts and compare them with what they should become.
 
     Attributes:
-        file: CSV file with the columns text, kind and expect; by default the wordings kept out of
-            the rules. expect: band V, range A B, max V, min V [N], softer, firmer, refuse or task.
+        file: CSV file with the columns text, kind and expect; by default those that come along.
+            expect: band V, range A B, max V, min V [N], softer, firmer, refuse or task.
         task: Task of the instructions.
         json: File for the figures.
         model: Also ask the language model for the manner, to compare it with the rules.

@@ -65,6 +65,11 @@ def task_terms(config: RunConfig, sources: Mapping[str, str] | None = None) -> T
         area_fraction=goal_bands.area_fraction,
         least_n=config.gripper.min_force_n * config.gripper.max_force_gain,
         most_n=config.gripper.max_force_n,
+        defaults=frozenset(
+            name
+            for path, name in FIELDS.items()
+            if sources is not None and sources.get(path, "default") == "default"
+        ),
         soft=_force_terms(GoalConfig.model_validate(task_fields(SOFT_TASK)["goal"])),
     )
 

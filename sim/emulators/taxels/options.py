@@ -7,7 +7,7 @@ from dataclasses import dataclass
 MAX_SIDE = 255
 """Most rows or columns: any such grid fits into a packet (``cltp.sensing.taxel_packets``)."""
 
-MAX_RATE_HZ = 1000.0
+MAX_RATE_HZ = 200.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -30,8 +30,8 @@ class TaxelOptions:
         given = f"{self.rows} and {self.columns}"
         if not (1 <= self.rows <= MAX_SIDE and 1 <= self.columns <= MAX_SIDE):
             raise ValueError(f"--rows and --columns must be 1 to {MAX_SIDE}, got {given}")
-        if not 0 < self.rate_hz <= MAX_RATE_HZ:
+        if not 1 <= self.rate_hz <= MAX_RATE_HZ:
             given = f"{self.rate_hz:g}"
-            raise ValueError(f"--rate-hz must be above 0, up to {MAX_RATE_HZ:g}, got {given}")
+            raise ValueError(f"--rate-hz: an array sends 1 to 200 frames a second, got {given}")
         if self.seed < 0:
             raise ValueError(f"--seed must be 0 or more, got {self.seed}")

@@ -1,6 +1,7 @@
 """``tacgrasp calibrate gripper``: on an emulated gripper, from a file, and what it refuses."""
 
 import io
+import json
 
 import pytest
 import yaml
@@ -26,7 +27,7 @@ def rig(tmp_path):
     def write(port: str = "/dev/null"):
         gripper = emulated_gripper(port, tmp_path).model_dump(mode="json")
         (tmp_path / "gripper_calibration.yaml").unlink()
-        box = RIG["arm"]
+        box = dict(json.loads(json.dumps(RIG["arm"])))  # YAML with aliases is refused
         hardware = {
             "arm": {"kind": "ur", "host": "127.0.0.2", "payload_kg": 1.0} | box,
             "gripper": gripper,

@@ -242,7 +242,6 @@ def test_weights_of_another_size_are_refused(
         pytest.param(
             "pick " * 10_000,
             "refused: ",
-            marks=pytest.mark.xfail(reason="no bound on the length of an instruction is kept"),
         ),
         (
             "Hebe die Erdbeere vorsichtig hoch, ohne sie zu zerdrücken.",
