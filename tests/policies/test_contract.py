@@ -115,7 +115,7 @@ def test_a_band_that_no_contract_has_is_an_error_of_the_caller():
 def test_words_alone_may_not_name_more_than_three_times_the_tasks_limit():
     assert read("Hold it with 7 N.").refused == ""
     refused = read("Hold it with 8 N.").refused
-    assert "8 N is more than 3 times the task's limit" in refused
+    assert "8 n is more than 3 times the task's limit" in refused
     assert "--goal.force-n" in refused
     assert read(TASK.instruction, force_n=Band(low=7.5, high=8.5)).refused == ""
     assert read_contract("Hold it with 8 N.", peg_terms(), {}).refused == ""

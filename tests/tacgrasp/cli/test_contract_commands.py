@@ -137,7 +137,7 @@ def test_a_flag_for_the_force_is_used_and_every_band_names_its_origin(capsys: Ca
     assert lines["goal.force_n"].endswith("[flag --goal.force-n]")
     assert lines["contract.force_n"].split(maxsplit=1)[1] == "[4, 6]  [the configuration]"
     assert "4.00-6.00 N, never above 7.5 N (the configuration)" in lines["understood:"]
-    assert lines["contract.slip_mm"].endswith("[the task]")
+    assert lines["contract.slip_mm"].endswith("[default]")
     assert lines["contract.depth_mm"].endswith("[default]")
 
 
