@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ipaddress
 import math
 from dataclasses import dataclass
 
@@ -21,6 +22,9 @@ UNLOCK_AFTER_S = 5.0
 class UrOptions:
     """A UR controller: dashboard, script and RTDE ports on a loopback address.
 
+    Raises:
+        ValueError: The host is no loopback address.
+
     Attributes:
         host: loopback address, 127.x.y.z
         version: PolyScope version, major.minor
@@ -38,3 +42,14 @@ class UrOptions:
     tcp_offset: Pose6 = TCP_OFFSET
     unlock_after_s: float = UNLOCK_AFTER_S
     world_port: int | None = None
+
+    def __post_init__(self) -> None:
+        try:
+            is_loopback = ipaddress.ip_address(self.host).is_loopback
+        except ValueError:
+            is_loopback = False
+        if not is_loopback:
+            raise ValueError(
+                f"--host must be a loopback address such as 127.0.0.2, got {self.host!r}: an "
+                "emulator has no authentication"
+            )

@@ -80,6 +80,7 @@ def test_every_kind_of_emulator_is_explained(capsys):
         ([], "expects one of ur, dynamixel, taxels, rig"),
         (["toaster"], "got 'toaster'"),
         (["taxels", "--rate-hz", "9000"], "1 to 200 frames a second"),
+        (["ur", "--host", "0.0.0.0"], "loopback address"),
         (["dynamixel", "--servos", "3"], "1 or 2 servos, got 3"),
         (["rig", "--colour", "red"], "--colour"),
     ],
