@@ -39,10 +39,10 @@ def emulate(kind: str, options: Sequence[str], sleep: Callable[[float], None]) -
     except RobotError as error:
         raise UsageError(str(error)) from None
     with emulator:
-        for name, value in emulator.ready.items():
-            console.print(f"{name:14}{value}")
-        console.print("running; Ctrl-C ends it")
         try:
+            for name, value in emulator.ready.items():
+                console.print(f"{name:14}{value}")
+            console.print("running; Ctrl-C ends it")
             while emulator.running:
                 sleep(0.2)
         except KeyboardInterrupt:
