@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import lru_cache, partial
 from pathlib import Path
 from statistics import median
@@ -19,6 +19,7 @@ from rich.console import Console
 
 from policies import Policy, PolicyError
 from policies.oracle import GraspTruth, OraclePolicy
+from primitives.contract import Band
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
@@ -39,6 +40,9 @@ from tacgrasp.runtime.verify import accelerations, verify_by_lifting
 FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
 """Commanded forces that ``fixed_force`` is swept over."""
 
+
+ANY_FORCE_N = Band(low=0.01, high=100.0)
+"""Force band of the oracle, whose own goal is the truth's [N]."""
 
 Contestant = tuple[str, float | None]
 """A policy's name, and the first force [N] where the policy chooses it (``fixed_force`` alone)."""
@@ -97,6 +101,8 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
     rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
     contract = contract_of(config)
+    if name == "oracle":  # it follows the truth, not the contract
+        contract = replace(contract, force_n=ANY_FORCE_N, limit_n=ANY_FORCE_N.high, soft=None)
     objections: list[str] = []
 
     def hear(record: StepRecord) -> None:
