@@ -150,6 +150,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
     elif numbers.factor is not None:
         draft.words = numbers.factor_words.strip()
         draft.set_force(scaled_terms(numbers.factor, task.force), f"your words: {draft.words}")
+    elif not is_own and request.text in task.others:
+        draft.set_force(task.others[request.text], "your words: those of another task")
     elif manner.conflict:
         raise RefusedError(f"it asks for both: {manner.conflict}; say which")
     elif manner.sign and is_own:

@@ -31,7 +31,7 @@ SPAN = 2.0
 MANNERS: Mapping[tuple[int, bool], float] = {
     (-1, True): 0.65,
     (-1, False): 0.82,
-    (1, False): 1.18,
+    (1, False): 1.16,
     (1, True): 1.32,
 }
 """Middle of the band over the middle of the task's, by direction and emphasis. Our choice: people
@@ -42,6 +42,11 @@ MOST_OF_TASK = 3.0
 
 LEAST_HALF, MOST_HALF = 0.17, 0.34
 """Half width of a scaled band, as a fraction of its middle; the task's bands have 0.33."""
+
+
+FIRMER_LIMIT = 1.08
+"""Hard limit over the top of a band that is firmer than the task's. Our choice: the firmer the
+grip, the nearer the bruise, so that the reserve is smaller than ``LIMIT_OVER_BAND``."""
 
 
 class RefusedError(Exception):
@@ -125,8 +130,7 @@ def _lean(band: Band, manner: Manner) -> Band:
 def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     """The task's band with its middle moved by a factor.
 
-    The limit is at most the task's as long as the band leaves room below it: a firmer grip uses
-    the task's own reserve first.
+    A softer band has a limit that is softer too, a firmer one less reserve above it.
 
     Raises:
         RefusedError: No force is left.
@@ -138,7 +142,5 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     inside = min(abs(middle - band.low), abs(band.high - middle))
     half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
     scaled = Band(low=middle - half, high=middle + half)
-    limit_n = default_limit_n(scaled)
-    if scaled.high <= 0.95 * task.limit_n:
-        limit_n = min(limit_n, task.limit_n)
+    limit_n = default_limit_n(scaled) if factor <= 1 else FIRMER_LIMIT * scaled.high
     return ForceTerms(force_n=scaled, limit_n=limit_n)

@@ -90,6 +90,7 @@ class TaskTerms:
         least_n: Least force that the gripper can keep to for certain [N].
         most_n: Largest force of the gripper [N].
         soft: Terms of soft objects, which a soft contact is held to; None: none are known.
+        others: Terms of other tasks by their own instruction, which stands for them.
         defaults: Names of the bands that the task leaves to their defaults.
     """
 
@@ -105,6 +106,7 @@ class TaskTerms:
     least_n: float
     most_n: float
     soft: ForceTerms | None = None
+    others: Mapping[str, ForceTerms] = field(default_factory=dict)
     defaults: frozenset[str] = frozenset()
 
 

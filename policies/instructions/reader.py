@@ -18,12 +18,14 @@ class Request:
     """What an instruction says.
 
     Attributes:
+        text: The instruction, without spaces around it.
         numbers: Its quantities.
         manner: Its manner.
         verb, thing: What is asked for, in words ('hold', 'berry').
         refused: Reason not to carry it out; '' without one.
     """
 
+    text: str
     numbers: Quantities
     manner: Manner
     verb: str
@@ -103,6 +105,7 @@ def read_request(text: str) -> Request:
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
     return Request(
+        text=text.strip(),
         numbers=numbers,
         manner=manner,
         verb=verb.group() if verb else "hold",

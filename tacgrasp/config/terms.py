@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from policies.contract import BANDS, read_contract
 from primitives.contract import Band, Contract, ForceTerms, TaskTerms, default_limit_n
 from tacgrasp.base.errors import UsageError
-from tacgrasp.config.layers import task_fields
+from tacgrasp.config.layers import names, task_fields
 from tacgrasp.config.schema import GoalConfig, RunConfig
 
 SOFT_TASK = "strawberry"
@@ -65,6 +65,7 @@ def task_terms(config: RunConfig, sources: Mapping[str, str] | None = None) -> T
         area_fraction=goal_bands.area_fraction,
         least_n=config.gripper.min_force_n * config.gripper.max_force_gain,
         most_n=config.gripper.max_force_n,
+        others=_other_tasks(config.task),
         defaults=frozenset(
             name
             for path, name in FIELDS.items()
@@ -138,6 +139,15 @@ def _force_terms(goal: GoalConfig) -> ForceTerms:
     band = Band(low=goal.force_n[0], high=goal.force_n[1])
     limit_n = default_limit_n(band) if goal.limit_n is None else goal.limit_n
     return ForceTerms(force_n=band, limit_n=limit_n)
+
+
+def _other_tasks(task: str) -> dict[str, ForceTerms]:
+    """Terms of the other tasks that come along, by their instruction."""
+    fields = {name: task_fields(name) for name in names("task") if name != task}
+    return {
+        each["instruction"]: _force_terms(GoalConfig.model_validate(each["goal"]))
+        for each in fields.values()
+    }
 
 
 def _task_sources(task: str) -> tuple[str, str]:
