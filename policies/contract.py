@@ -23,6 +23,8 @@ from policies.force_terms import (
 from policies.instructions.quantities import Quantities
 from policies.instructions.reader import Request, read_request
 from primitives.contract import (
+    DEFAULT_AREA,
+    DEFAULT_DEPTH_MM,
     LIMIT_OVER_BAND,
     Band,
     Contract,
@@ -31,10 +33,6 @@ from primitives.contract import (
     default_limit_n,
 )
 from primitives.errors import LimitError
-
-DEFAULT_DEPTH_MM = Band(low=0.0, high=5.0)
-DEFAULT_AREA = Band(low=0.0, high=1.0)
-"""Bands of depth and area where nobody sets them: a force that is asked for decides them."""
 
 BANDS = ("force_n", "limit_n", "slip_mm", "x_mm", "y_mm", "depth_mm", "area_fraction")
 

@@ -8,10 +8,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from cltp.tactile.states import ContactState
-from policies.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM
 from policies.goal import Goal
 from primitives import Primitive
-from primitives.contract import Contract
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Contract
 from primitives.sense import Interval
 
 PLACE_MARGIN_MM, DEPTH_FACTOR, AREA_FACTOR = 1.0, 1.3, 1.5

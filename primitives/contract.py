@@ -46,6 +46,11 @@ class Band:
         return (self.low + self.high) / 2
 
 
+DEFAULT_DEPTH_MM = Band(low=0.0, high=5.0)
+DEFAULT_AREA = Band(low=0.0, high=1.0)
+"""Bands of depth and area where nobody sets them: a force that is asked for decides them."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ForceTerms:
     """A force band and the limit above it.

@@ -29,6 +29,7 @@ from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
+from tacgrasp.runtime.steps import NoRecorder
 from tacgrasp.runtime.verify import accelerations, not_lifted, verify_by_lifting
 
 
@@ -84,6 +85,40 @@ def run_recorded(
         message = f"{outcome.message}; {error}"
         outcome = replace(outcome, reason=EndReason.FAULT, message=message)
     return outcome, path
+
+
+def run_unrecorded(
+    rig: Rig,
+    policy: Policy,
+    config: RunConfig,
+    contract: Contract,
+    observers: Sequence[Observer] = (),
+    *,
+    sense: GelSense | None,
+    bounded: bool = True,
+) -> Outcome:
+    """Run an episode without a record, for benchmarks that keep only their figures.
+
+    Args:
+        rig: The connected rig.
+        policy: Decides.
+        config: The run.
+        contract: Contract of the episode.
+        observers: Called after each step.
+        sense: Touch while the fingers close; None closes with the first force.
+        bounded: Whether the contract bounds the commands; not those of a baseline without touch.
+    """
+    return run_episode(
+        rig,
+        make_executor(rig, config, contract if bounded else None, sense),
+        policy,
+        config,
+        contract,
+        verify=verify_by_lifting,
+        recorder=NoRecorder(),
+        observers=observers,
+        sense=sense,
+    )
 
 
 def slip_minimum_of(rig: Rig, config: RunConfig) -> float | None:

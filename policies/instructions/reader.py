@@ -85,33 +85,27 @@ _SHORT = re.compile(
 
 def read_request(text: str) -> Request:
     """Read an instruction as a person wrote it."""
-    too_long = len(text) > MAX_CHARACTERS
     clean = spelled(plain(text[:MAX_CHARACTERS]))
     numbers = read_quantities(clean)
-    manner = read_manner(numbers.rest)
-    refused = (
-        ""
-        if re.search(r"[^\W_]", clean)
-        else "there are no words; say what to grasp, for example 'Pick the strawberry gently'"
-    )
-    refused = (
-        refused
-        or refusal_of(numbers.rest, clean)
-        or _no_english(clean)
-        or _nothing_asked(numbers, manner)
-    )
-    if too_long:
-        refused = f"it is longer than {MAX_CHARACTERS} characters; shorten it"
     verb = _HOLD.search(numbers.rest)
     thing = _THING.search(numbers.rest)
     return Request(
         text=text.strip(),
         numbers=numbers,
-        manner=manner,
+        manner=read_manner(numbers.rest),
         verb=verb.group() if verb else "hold",
         thing=thing.group(1) if thing else "",
-        refused=refused,
+        refused=_refusal(text, clean, numbers),
     )
+
+
+def _refusal(text: str, clean: str, numbers: Quantities) -> str:
+    """Reason not to carry a text out, of which ``clean`` is the plain form; '' without one."""
+    if len(text) > MAX_CHARACTERS:
+        return f"it is longer than {MAX_CHARACTERS} characters; shorten it"
+    if not re.search(r"[^\W_]", clean):
+        return "there are no words; say what to grasp, for example 'Pick the strawberry gently'"
+    return refusal_of(numbers.rest, clean) or _no_english(clean) or _nothing_asked(numbers)
 
 
 def _no_english(text: str) -> str:
@@ -126,7 +120,7 @@ def _no_english(text: str) -> str:
     return ""
 
 
-def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
+def _nothing_asked(numbers: Quantities) -> str:
     """Reason to refuse a text that asks for no grasp; '' where something is asked for."""
     if (
         numbers.forces
@@ -158,7 +152,6 @@ def _nothing_asked(numbers: Quantities, manner: Manner) -> str:
             _asks_manner(sentence)
             or _STARTS.match(sentence)
             or _BERRY_VERB.match(sentence)
-            or _KEEP.search(sentence)
             or _VERB_OBJECT.search(sentence)
             or _SHORT.match(sentence)
         ):

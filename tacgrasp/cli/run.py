@@ -6,7 +6,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import tyro
 
@@ -17,9 +17,10 @@ from tacgrasp.config.errors import flag_of
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.layers import Sources, leaves, load_with_limits
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.config.terms import band_lines, contract_lines, contract_of
-from tacgrasp.runtime.events import EventFile
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
+
+if TYPE_CHECKING:
+    from tacgrasp.runtime.events import EventFile
 
 EXIT_CODES = {
     EndReason.SUCCESS: 0,
@@ -53,6 +54,9 @@ class RunFlags(RunConfig):
 def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
     config, sources, flags = configure(argv)
+    from tacgrasp.config.terms import contract_of
+    from tacgrasp.runtime.events import EventFile
+
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
@@ -87,6 +91,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 
 
 def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
+    from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import StepPrinter, end_lines, make_console
     from tacgrasp.policy_factory import make_policy
     from tacgrasp.rig.factory import make_rig
@@ -122,6 +127,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
 
 
 def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:
+    from tacgrasp.config.terms import band_lines, contract_lines
     from tacgrasp.console import make_console
 
     values: dict[str, Any] = leaves(config)

@@ -13,10 +13,9 @@ from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
-from policies.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM
 from policies.goal import Goal
 from policies.teacher import LESSON_MOVE_STEP_MM
-from primitives.contract import Band
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
 from tacgrasp.config.hardware import HardwareConfig, with_workspace

@@ -6,6 +6,7 @@ Not here: reading the instruction (``policies.contract``).
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -65,13 +66,13 @@ def task_terms(config: RunConfig, sources: Mapping[str, str] | None = None) -> T
         area_fraction=goal_bands.area_fraction,
         least_n=config.gripper.min_force_n * config.gripper.max_force_gain,
         most_n=config.gripper.max_force_n,
-        others=_other_tasks(config.task),
+        others=dict(terms for name, terms in _shipped_terms().items() if name != config.task),
         defaults=frozenset(
             name
             for path, name in FIELDS.items()
             if sources is not None and sources.get(path, "default") == "default"
         ),
-        soft=_force_terms(GoalConfig.model_validate(task_fields(SOFT_TASK)["goal"])),
+        soft=_shipped_terms()[SOFT_TASK][1],
     )
 
 
@@ -141,12 +142,13 @@ def _force_terms(goal: GoalConfig) -> ForceTerms:
     return ForceTerms(force_n=band, limit_n=limit_n)
 
 
-def _other_tasks(task: str) -> dict[str, ForceTerms]:
-    """Terms of the other tasks that come along, by their instruction."""
-    fields = {name: task_fields(name) for name in names("task") if name != task}
+@lru_cache(maxsize=1)
+def _shipped_terms() -> dict[str, tuple[str, ForceTerms]]:
+    """Instruction and terms of every task that comes along, by its name; read once a process."""
+    fields = {name: task_fields(name) for name in names("task")}
     return {
-        each["instruction"]: _force_terms(GoalConfig.model_validate(each["goal"]))
-        for each in fields.values()
+        name: (each["instruction"], _force_terms(GoalConfig.model_validate(each["goal"])))
+        for name, each in fields.items()
     }
 
 

@@ -35,13 +35,11 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import StepRecord
-from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
-from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
+from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.outcome import EndReason, Outcome
-from tacgrasp.runtime.steps import NOTHING_TOUCHES, NoRecorder
-from tacgrasp.runtime.verify import verify_by_lifting
+from tacgrasp.runtime.steps import NOTHING_TOUCHES
 
 POLICIES = ("llm", "rules")
 """Policies that feel; the others do not decide by touch."""
@@ -187,18 +185,7 @@ def _run_one(
     rig = build(config.object, config.seed, sensor_name=config.sensor, start_offset_mm=offset_mm)
     sense, contract = TrueSense(rig), contract_of(config)
     watch = Watch(sense, rig.first_force_n)
-    outcome = run_episode(
-        rig,
-        make_executor(rig, config, contract, sense),
-        policy,
-        config,
-        contract,
-        verify=verify_by_lifting,
-        recorder=NoRecorder(),
-        observers=[watch],
-        sense=sense,
-    )
-    return outcome, watch
+    return run_unrecorded(rig, policy, config, contract, [watch], sense=sense), watch
 
 
 def summary(results: Sequence[MissedResult]) -> dict[str, Any]:

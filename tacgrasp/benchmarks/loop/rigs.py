@@ -20,12 +20,10 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.console import make_console
-from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import make_policy
-from tacgrasp.rig.factory import make_executor, make_rig
+from tacgrasp.rig.factory import make_rig
 from tacgrasp.rig.gel_sense import GelSense
-from tacgrasp.runtime.steps import NoRecorder
-from tacgrasp.runtime.verify import verify_by_lifting
+from tacgrasp.run import run_unrecorded
 
 MIN_AGREEMENT = 0.96
 """Fraction of the seeds that must come to the same end and truth on both rigs."""
@@ -120,17 +118,8 @@ def _end(config: RunConfig) -> RigEnd:
     except RobotError as error:
         return RigEnd(reason="not started", facts=(), steps=0, message=str(error))
     try:
-        sense, contract = GelSense(rig.sensor), contract_of(config)
-        outcome = run_episode(
-            rig,
-            make_executor(rig, config, contract, sense),
-            policy,
-            config,
-            contract,
-            verify=verify_by_lifting,
-            recorder=NoRecorder(),
-            sense=sense,
-        )
+        sense = GelSense(rig.sensor)
+        outcome = run_unrecorded(rig, policy, config, contract_of(config), sense=sense)
     finally:
         rig.disconnect()
     truth = outcome.truth or {}

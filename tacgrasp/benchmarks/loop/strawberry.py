@@ -30,12 +30,10 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes.record import StepRecord
-from tacgrasp.loop import run_episode
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
-from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
-from tacgrasp.runtime.steps import NoRecorder
-from tacgrasp.runtime.verify import accelerations, verify_by_lifting
+from tacgrasp.run import run_unrecorded
+from tacgrasp.runtime.verify import accelerations
 
 FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
 """Commanded forces that ``fixed_force`` is swept over."""
@@ -109,16 +107,9 @@ def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -
         if record.contract is not None:
             objections.append(record.contract.assumed[-1])
 
-    outcome = run_episode(
-        rig,
-        make_executor(rig, config, None if force_n is not None else contract, sense),
-        _policy(name, config, rig, slip_minimum_n),
-        config,
-        contract,
-        verify=verify_by_lifting,
-        recorder=NoRecorder(),
-        observers=[hear],
-        sense=sense,
+    policy = _policy(name, config, rig, slip_minimum_n)
+    outcome = run_unrecorded(
+        rig, policy, config, contract, [hear], sense=sense, bounded=force_n is None
     )
     return EpisodeResult(
         seed=config.seed,
