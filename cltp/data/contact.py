@@ -83,6 +83,8 @@ class Contact:
             imported contacts have such.
         approach_mm: Path of the undeformed body into the undeformed gel [mm].
         peak_kpa: Largest pressure [kPa].
+        force_factor: Force of this gel over that of the sensor's nominal gel at equal indentation;
+            None for a real contact.
 
     Raises:
         TouchError: Heights of a wrong shape, not finite, or beyond ``LARGEST_MM``; negative series.
@@ -99,12 +101,15 @@ class Contact:
     unsure: frozenset[str] | None = None
     approach_mm: float | None = None
     peak_kpa: float | None = None
+    force_factor: float | None = None
     measured: frozenset[str] = frozenset()
 
     def __post_init__(self) -> None:
         heights = checked_heights(self.height_mm).astype(np.float32)
         if np.abs(heights).max() > LARGEST_MM:
             raise TouchError(f"heights beyond ±{LARGEST_MM} mm can't be stored; are they in µm?")
+        if self.force_factor is not None and not 0 < self.force_factor < math.inf:
+            raise TouchError(f"force_factor must be positive, got {self.force_factor}")
         if self.series < 0:
             raise TouchError(f"series must not be negative, got {self.series}")
         heights.setflags(write=False)

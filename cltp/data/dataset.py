@@ -61,7 +61,12 @@ SCHEMA = pa.schema(
 """Columns of every data set of this version."""
 
 SIMULATED = pa.schema(
-    [("unsure", pa.string()), ("approach_mm", pa.float32()), ("peak_kpa", pa.float32())]
+    [
+        ("unsure", pa.string()),
+        ("approach_mm", pa.float32()),
+        ("peak_kpa", pa.float32()),
+        ("force_factor", pa.float32()),
+    ]
 )
 """Further columns of simulated shards; in others they read as null."""
 
@@ -189,6 +194,16 @@ class ContactDataset:
         cut = frozenset(Side(side) for side in row["cut"].split())
         return ContactState(**_numbers(row, NUMBER_COLUMNS), **words, cut=cut)
 
+    def nominal_state(self, index: int) -> ContactState:
+        """The labels, with the force that the sensor's nominal gel would need.
+
+        Heights alone tell this force; a unit's force calibration makes newtons of it.
+        """
+        state, factor = self.state(index), _optional(self._columns["force_factor"][index])
+        return (
+            state if factor is None else dataclasses.replace(state, force_n=state.force_n / factor)
+        )
+
     def contact(self, index: int) -> Contact:
         """The whole record of a contact."""
         row = self._row(index)
@@ -205,6 +220,7 @@ class ContactDataset:
             unsure=None if row["unsure"] is None else frozenset(row["unsure"].split()),
             approach_mm=_optional(row["approach_mm"]),
             peak_kpa=_optional(row["peak_kpa"]),
+            force_factor=_optional(row["force_factor"]),
             measured=frozenset((row["measured"] or "").split()),
         )
 

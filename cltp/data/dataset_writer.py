@@ -134,5 +134,6 @@ def _row(contact: Contact, offset: int, packed: bytes) -> dict[str, Any]:
         "unsure": None if contact.unsure is None else " ".join(sorted(contact.unsure)),
         "approach_mm": contact.approach_mm,
         "peak_kpa": contact.peak_kpa,
+        "force_factor": contact.force_factor,
         "measured": " ".join(sorted(contact.measured)) or None,
     }

@@ -31,7 +31,7 @@ class Batch:
             ``sampling`` has another number of points.
         height_mm: Clean heights behind each cloud, mirrored and moved alike; for rendering.
         sensors: Their sensors.
-        states: Labels, mirrored and moved alike.
+        states: Labels, mirrored and moved alike; forces are those of the sensor's nominal gel.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
         moved: Shape (B,), bool: shifted or turned after that.
     """
@@ -105,7 +105,7 @@ class Sampler:
             sensor = sensor_named(self.dataset.column("sensor")[index])
             height_mm = self.dataset.height_mm(int(index))
             height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
-            state = self.dataset.state(int(index))
+            state = self.dataset.nominal_state(int(index))
             state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
             if is_moved:
                 placement = draw_placement(height_mm, state, sensor, rng)

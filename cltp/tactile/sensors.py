@@ -70,15 +70,15 @@ class SensorSpec:
         return self.width_mm * self.height_mm
 
 
-# 320×240 px and 0.0634 mm/px: gsrobotics README (GelSight Mini); gel 3.6 mm: fit of the elastic
-# layer to real presses, shared notes. DIGIT: 320×240 at the value that gs_sdk uses; gel thickness
-# not published, assumed like the Mini's. GelStereo 2.0: about 530 tracked points, a square area of
-# 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers, github.com/Zhang-Chaofan);
-# that the points are 23 × 23 in equal cells, and the gel's thickness, are assumed. Rows, columns
-# and mm_per_px are those of the grid that we simulate it on.
+# 320×240 px and 0.0634 mm/px: gsrobotics README (GelSight Mini); gel 3.4 mm: fit of the elastic
+# layer to real presses (``tacgrasp bench gel``). DIGIT: 320×240 at the value that gs_sdk uses; gel
+# thickness not published, assumed like the Mini's. GelStereo 2.0: about 530 tracked points, a
+# square area of 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers,
+# github.com/Zhang-Chaofan); that the points are 23 × 23 in equal cells, and the gel's thickness,
+# are assumed. Rows, columns and mm_per_px are those of the grid that we simulate it on.
 _TABLE: tuple[tuple[Any, ...], ...] = (
-    ("gelsight_mini", 320, 240, 0.0634, 3.6, 1.5, None),
-    ("digit", 320, 240, 0.0405, 3.6, 1.5, None),
+    ("gelsight_mini", 320, 240, 0.0634, 3.4, 1.5, None),
+    ("digit", 320, 240, 0.0405, 3.4, 1.5, None),
     ("gelstereo", 240, 240, 0.1092, 4.0, 1.5, (23, 23)),
 )
 _FIELDS = [field.name for field in fields(SensorSpec)]

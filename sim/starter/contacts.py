@@ -19,6 +19,7 @@ from torch import Tensor
 from cltp.data.contact import Contact, Gel, Split
 from cltp.tactile.sensors import SensorSpec
 from sim.gel.contact_solver import chosen
+from sim.gel.force_factor import force_factor
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.starter.series import COLUMNS, ROWS, Series, draw_series, num_loads
@@ -26,16 +27,18 @@ from sim.tcl3d.labels import in_contact, label
 
 GELS = (
     gel_of("gelsight_mini"),
-    GelMaterial(thickness_mm=3.4, young_mpa=0.145, poisson=0.480),
-    GelMaterial(thickness_mm=3.6, young_mpa=0.145, poisson=0.490),
-    GelMaterial(thickness_mm=3.9, young_mpa=0.145, poisson=0.470),
-    GelMaterial(thickness_mm=4.2, young_mpa=0.145, poisson=0.490),
-    GelMaterial(thickness_mm=4.6, young_mpa=0.145, poisson=0.480),
+    GelMaterial(thickness_mm=3.2, young_mpa=0.59, poisson=0.480),
+    GelMaterial(thickness_mm=3.4, young_mpa=0.254, poisson=0.490),
+    GelMaterial(thickness_mm=3.6, young_mpa=0.50, poisson=0.495),
+    GelMaterial(thickness_mm=3.8, young_mpa=0.34, poisson=0.470),
+    GelMaterial(thickness_mm=4.0, young_mpa=0.423, poisson=0.490),
+    GelMaterial(thickness_mm=4.2, young_mpa=0.30, poisson=0.480),
 )
 """Gels of the contacts.
 
-Source: h 3.4-4.6 mm and nu 0.47-0.49 transferred to real touch in the notes' experiment; a few
-instead of a continuum because the kernel of each takes long to compute.
+Units differ: Young's modulus over 0.6-1.4 of nominal, thickness over 3.2-4.2 mm, nu 0.47-0.495 (the
+notes; assumed ranges). A few instead of a continuum because the kernel of each takes long to
+compute.
 """
 
 GROUP_SERIES = 16
@@ -122,6 +125,7 @@ def _press_members(
                     series=member.number,
                     split=split_of(seed, member.number),
                     gel=Gel(**asdict(gel)),
+                    force_factor=force_factor(gel, sensor.name),
                     seed=seed,
                 )
             )

@@ -29,12 +29,12 @@ TAILS = 0.1
 
 BODY_FRACTION = 0.55
 BODY_FORCE_N: dict[str, Range] = {
-    "strawberry": Range(low=0.12, high=7.0, log=True),
-    "cherry_tomato": Range(low=0.08, high=4.0, log=True),
-    "egg": Range(low=0.3, high=12.0, log=True),
-    "peg": Range(low=0.5, high=18.0, log=True),
+    "strawberry": Range(low=0.05, high=7.0, log=True),
+    "cherry_tomato": Range(low=0.05, high=4.0, log=True),
+    "egg": Range(low=0.1, high=12.0, log=True),
+    "peg": Range(low=0.15, high=18.0, log=True),
 }
-"""True forces: the first ones of ``sim.grasp.bodies``, times the force gain and a few steps."""
+"""True forces: from a first touch, which is felt at about 0.1 N, to several times the goal."""
 
 _BODY_CHANCE = {"strawberry": 0.5, "cherry_tomato": 0.17, "egg": 0.16, "peg": 0.17}
 _BODY_TEXTURE = {"strawberry": Texture.BUMPY}  # achenes; the others are smooth

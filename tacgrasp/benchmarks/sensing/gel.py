@@ -18,11 +18,17 @@ from torch import Tensor
 from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
 from tacgrasp.benchmarks.figures import median_ms, write_figures
+from tacgrasp.benchmarks.sensing.gel_fit import (
+    LARGEST_FORCE_ERROR,
+    LARGEST_RMSE_MM,
+    MEASURED_N,
+    fit,
+    model_forces_n,
+)
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     FIT_DIAMETER_MM,
     Profile,
     Simulator,
-    fit,
     gel,
     match,
     read_profiles,
@@ -147,20 +153,48 @@ def profiles(folder: Path | None) -> list[Figure]:
                     best.rmse_mm,
                     "mm",
                     f"at {best.depth_mm:.2f} mm depth"
-                    + ("; limit 0.007" if name == "gel preset" and pitch < 0.2 else ""),
+                    + (
+                        f"; limit {LARGEST_RMSE_MM}" if name == "gel preset" and pitch < 0.2 else ""
+                    ),
                 )
             )
-    return figures
+    return [_profile_rmse(figures, FIT_DIAMETER_MM), *figures]
+
+
+def _profile_rmse(figures: list[Figure], diameter_mm: float) -> Figure:
+    """The preset's error at the sensor's own resolution, under a key of its own."""
+    key = f"gel_rmse_mm_{diameter_mm:g}mm_at_0.0634"
+    value = next((figure.value for figure in figures if figure.key == key), None)
+    note = f"ball {diameter_mm:g} mm, 0.0634 mm grid; limit {LARGEST_RMSE_MM}"
+    return Figure("profile_rmse_mm", "Real ball's profile", value, "mm", note)
 
 
 def _fit(profile: Profile, preset: GelMaterial) -> list[Figure]:
-    best, error = fit(profile)
-    note = f"RMSE {error.rmse_mm:.5f} mm; the preset is "
-    note += "the fit" if best == preset else "NOT the fit"
-    origin = f"fitted on the {profile.diameter_mm:g} mm ball alone, 0.127 mm grid"
+    best = fit(profile)
+    material = best.material
+    note = f"the preset is {'the fit' if material == preset else 'NOT the fit'}"
+    trade = f"forces within {100 * best.force_error:.1f} %, profile {best.profile.rmse_mm:.5f} mm"
+    origin = f"to two forces and the {profile.diameter_mm:g} mm ball, 0.127 mm grid"
     return [
-        Figure("fit_thickness_mm", "Fitted thickness", best.thickness_mm, "mm", note),
-        Figure("fit_poisson", "Fitted Poisson's ratio", best.poisson, "", origin),
+        Figure("fit_thickness_mm", "Fitted thickness", material.thickness_mm, "mm", note),
+        Figure("fit_poisson", "Fitted Poisson's ratio", material.poisson, "", origin),
+        Figure("fit_young_mpa", "Fitted Young's modulus", material.young_mpa, "MPa", trade),
+    ]
+
+
+def forces() -> list[Figure]:
+    """Forces of a real ball against the preset's."""
+    model = model_forces_n(gel_of("gelsight_mini"))
+    return [
+        Figure(
+            f"force_at_{depth}_mm_n",
+            f"Force of a ball R 7.5 mm at {depth} mm",
+            model_n,
+            "N",
+            f"measured {measured_n} N: {100 * (model_n / measured_n - 1):+.1f} %; "
+            f"limit {100 * LARGEST_FORCE_ERROR:.0f} %",
+        )
+        for (depth, measured_n), model_n in zip(MEASURED_N.items(), model, strict=True)
     ]
 
 
@@ -242,7 +276,7 @@ def cost() -> list[Figure]:
 
 def measure(data: Path | None) -> list[Figure]:
     """All figures, in the order of the table."""
-    before = hertz() + dimitriadis() + volume()
+    before = hertz() + dimitriadis() + volume() + forces()
     return before + profiles(data) + discretisation() + cost()
 
 
@@ -258,5 +292,10 @@ def run(settings: GelSettings) -> None:
         value = "not measured" if figure.value is None else f"{figure.value:.4g}"
         table.add_row(figure.what, value, figure.unit, figure.note)
     Console().print(table)
-    report = {"figures": [asdict(figure) for figure in figures]}
-    write_figures(settings.json, report | {figure.key: figure.value for figure in figures})
+    by_key = {figure.key: figure.value for figure in figures}
+    presses = [
+        {"depth_mm": depth, "measured_n": n, "model_n": by_key.get(f"force_at_{depth}_mm_n")}
+        for depth, n in MEASURED_N.items()
+    ]
+    report = {"figures": [asdict(figure) for figure in figures], "force": presses}
+    write_figures(settings.json, report | by_key)

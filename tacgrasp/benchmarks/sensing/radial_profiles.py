@@ -2,15 +2,14 @@
 
 The protocol: 28 bins of 0.2 mm, the median in each; the median of the whole frame subtracted on
 both sides; the press depth free within 0.06 mm of the measured one (0.79-0.85 mm for the 6.31 mm
-ball), everything else fixed. The gel's two parameters are fitted on that ball alone, and the fit is
-the preset.
+ball), everything else fixed. The gel is fitted on that ball and on forces
+(``tacgrasp.benchmarks.sensing.gel_fit``).
 
 TACTO's and Taxim's surfaces are our own code after their publications.
 """
 
 from __future__ import annotations
 
-import itertools
 import math
 import re
 from collections.abc import Callable, Iterator
@@ -24,7 +23,7 @@ from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
-from sim.gel.layer import GEL_MATERIALS, ElasticLayer, GelMaterial, Press
+from sim.gel.layer import ElasticLayer, GelMaterial, Press
 
 FloatArray = NDArray[np.float64]
 
@@ -32,10 +31,6 @@ SENSING_AREA_MM = (15.2, 20.3)
 BIN_MM, NUM_BINS = 0.2, 28
 FIT_DIAMETER_MM = 6.31
 FIT_PITCH_MM = 0.127
-THICKNESSES_MM = tuple(round(0.1 * k, 1) for k in range(30, 45))
-POISSONS = (0.47, 0.475, 0.48, 0.485, 0.49, 0.495)
-"""Values that a fit may choose. Silicone gels are nearly incompressible. Thicknesses 0.1 mm apart
-differ by 0.0001 to 0.001 mm RMSE in the profile, Poisson's ratios 0.005 apart by 0.0002 mm."""
 
 _FILE = re.compile(r"profile_(\d+(?:\.\d+)?)mm\.csv")
 
@@ -121,7 +116,7 @@ def gel(material: GelMaterial) -> Simulator:
 
     def surfaces(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surfaces:
         r, start = radius_mm(pitch_mm), None
-        gap = torch.from_numpy(_ball(r, diameter_mm))[None]
+        gap = torch.from_numpy(ball_gap_mm(r, diameter_mm))[None]
         layer = ElasticLayer(material, rows=r.shape[0], columns=r.shape[1], pitch_mm=pitch_mm)
         for depth in depths_mm:
             start = _press(layer, gap, float(depth), start)
@@ -140,7 +135,7 @@ def tacto(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surface
 
     Source: Wang et al. (2022), TACTO, section III: the gel does not deform.
     """
-    gap = _ball(radius_mm(pitch_mm), diameter_mm)
+    gap = ball_gap_mm(radius_mm(pitch_mm), diameter_mm)
     for depth in depths_mm:
         yield np.clip(depth - gap, 0, None)
 
@@ -158,7 +153,7 @@ def taxim(diameter_mm: float, depths_mm: FloatArray, pitch_mm: float) -> Surface
         contact); kernel sizes, fraction of the depth (0.4) and pixel as in their published
         parameters. The width of a kernel of k pixels is 0.3 ((k - 1) / 2 - 1) + 0.8, OpenCV's rule.
     """
-    gap = _ball(radius_mm(pitch_mm), diameter_mm)
+    gap = ball_gap_mm(radius_mm(pitch_mm), diameter_mm)
     for depth in depths_mm:
         shape = np.clip(depth - gap, 0, None)
         touching = shape > TAXIM_CONTACT * depth
@@ -174,21 +169,8 @@ def _blur(height: FloatArray, kernel: int, pitch_mm: float) -> FloatArray:
     return np.asarray(gaussian_filter(height, sigma, truncate=(kernel - 1) / 2 / sigma_px))
 
 
-def _ball(r_mm: FloatArray, diameter_mm: float) -> FloatArray:
+def ball_gap_mm(r_mm: FloatArray, diameter_mm: float) -> FloatArray:
+    """Gap of a ball [mm] at distances ``r_mm`` from its axis, +inf beside it."""
     radius = 0.5 * diameter_mm
     cap = radius - np.sqrt(np.clip(radius**2 - r_mm**2, 0, None))
     return np.where(r_mm < radius, cap, math.inf)
-
-
-def fit(profile: Profile) -> tuple[GelMaterial, Match]:
-    """Fit thickness and Poisson's ratio to a profile on a 0.127 mm grid.
-
-    Young's modulus scales forces alone and does not change heights; it stays the preset's.
-    """
-    young = GEL_MATERIALS["gelsight_mini"].young_mpa
-    matches = {}
-    for thickness, poisson in itertools.product(THICKNESSES_MM, POISSONS):
-        material = GelMaterial(thickness_mm=thickness, young_mpa=young, poisson=poisson)
-        matches[material] = match(gel(material), profile, FIT_PITCH_MM)
-    best = min(matches, key=lambda material: matches[material].rmse_mm)
-    return best, matches[best]

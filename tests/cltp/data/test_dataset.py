@@ -185,4 +185,4 @@ def test_what_was_measured_is_marked_and_shards_without_the_mark_keep_their_colu
     columns = [pq.read_schema(path).names for path in sorted(tmp_path.glob("*.parquet"))]
     assert columns[0] == SCHEMA.names
     assert columns[1] == [*SCHEMA.names, "measured"]
-    assert columns[2] == [*SCHEMA.names, "unsure", "approach_mm", "peak_kpa"]
+    assert columns[2] == [*SCHEMA.names, "unsure", "approach_mm", "peak_kpa", "force_factor"]

@@ -69,7 +69,8 @@ def test_a_contact_alone_is_that_of_the_plain_solver(size):
     )
     assert single.converged
     assert plain.converged.all()
-    assert torch.allclose(single.pressure_mpa, plain.pressure_mpa[0], atol=1e-7)
+    peak_mpa = float(plain.pressure_mpa[0].max())
+    assert torch.allclose(single.pressure_mpa, plain.pressure_mpa[0], atol=3e-6 * peak_mpa)
     assert (single.pressure_mpa >= 0).all()
     assert 2 * single.iterations < plain.iterations.item()
 

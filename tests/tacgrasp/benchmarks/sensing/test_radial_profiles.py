@@ -4,18 +4,16 @@ import numpy as np
 import pytest
 
 from cltp.errors import TouchError
-from sim.gel.layer import GelMaterial, gel_of
+from sim.gel.layer import gel_of
 from tacgrasp.benchmarks.sensing import radial_profiles
 from tacgrasp.benchmarks.sensing.radial_profiles import (
     Profile,
-    fit,
     gel,
     match,
     read_profiles,
     tacto,
     taxim,
 )
-from tests.paths import SHARED_DATA
 
 R_MM = (np.arange(28) + 0.5) * 0.2
 
@@ -64,15 +62,6 @@ def test_a_simulator_matches_its_own_profile_and_no_other_s():
     assert match(tacto, own, 0.127).rmse_mm > 0.02
 
 
-def test_a_fit_finds_the_gel_that_made_a_profile(monkeypatch):
-    monkeypatch.setattr(radial_profiles, "THICKNESSES_MM", (3.0, 3.3, 3.6))
-    monkeypatch.setattr(radial_profiles, "POISSONS", (0.47, 0.49))
-    truth = GelMaterial(thickness_mm=3.3, young_mpa=0.145, poisson=0.47)
-    found, near = fit(profile_of(gel(truth), 0.82))
-    assert found == truth
-    assert near.rmse_mm < 1e-3
-
-
 def test_tacto_s_gel_does_not_move_beside_the_ball_and_taxim_s_only_sinks():
     r = radial_profiles.radius_mm(0.127)
     (rendered,) = tacto(6.31, np.array([0.8]), 0.127)
@@ -82,19 +71,3 @@ def test_tacto_s_gel_does_not_move_beside_the_ball_and_taxim_s_only_sinks():
     assert blurred.min() >= 0
     assert 0.02 < blurred[(r > 2.2) & (r < 2.4)].mean() < 0.3
     assert blurred.max() == pytest.approx(0.8, abs=0.02)
-
-
-PROFILES = SHARED_DATA / "gelsight_mini_balls"
-
-
-@pytest.mark.slow
-def test_the_preset_is_the_fit_to_the_real_ball_and_nearer_than_tacto_and_taxim():
-    known = [one for one in read_profiles(PROFILES) if one.diameter_mm == 6.31]
-    if not known:
-        pytest.skip(f"no profile of the 6.31 mm ball in {PROFILES}")
-    preset = gel_of("gelsight_mini")
-    assert fit(known[0])[0] == preset
-    ours = match(gel(preset), known[0], 0.0634).rmse_mm
-    assert ours <= 0.007
-    assert match(tacto, known[0], 0.0634).rmse_mm > 4 * ours
-    assert match(taxim, known[0], 0.0634).rmse_mm > 3 * ours
