@@ -92,13 +92,22 @@ def check_partners(folder: Path) -> None:
     """
     for name, checksum in _read(folder, "trained_with").items():
         partner = folder.parent / name
-        if not (partner / MANIFEST).is_file():
-            raise _missing(partner)
-        if _sha256(partner / MANIFEST) != checksum:
+        if manifest_digest(partner) != checksum:
             raise WeightsError(
                 f"{partner} is of another set: {folder} was trained with another {name}; take all "
                 "parts from one training"
             )
+
+
+def manifest_digest(folder: Path) -> str:
+    """SHA-256 of a part's manifest, which tells its weights from all others.
+
+    Raises:
+        WeightsError: It has no manifest.
+    """
+    if not (folder / MANIFEST).is_file():
+        raise _missing(folder)
+    return _sha256(folder / MANIFEST)
 
 
 def _missing(folder: Path) -> WeightsError:

@@ -14,12 +14,13 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.checkpoints.manifest import MANIFEST
-from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
+from cltp.checkpoints.manifest import MANIFEST, manifest_digest
+from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, save_encoder
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
+from cltp.errors import TouchError
 from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import prefetched
@@ -46,6 +47,7 @@ def train_cltp(
     also: Sequence[Path] = (),
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
+    start: Path | None = None,
 ) -> Path:
     """Train, or continue training, and write ``run.out / "encoder"``.
 
@@ -58,9 +60,10 @@ def train_cltp(
         also: Further data sets to learn from, in one random order with the first.
         augmentation: How contacts are varied.
         clip_dir: Folder of the towers; ``run.out / "clip"`` when not given.
+        start: Folder of an encoder with its heads that is trained on; random ones when not given.
 
     Raises:
-        TouchError: Data, towers or checkpoint can't be used, or a batch is not finite.
+        TouchError: Data, towers, start or checkpoint can't be used, or a batch is not finite.
     """
     workers, seed, recipe = run.workers, run.seed, recipe or CltpRecipe()
     data = run.dataset(also)
@@ -69,11 +72,15 @@ def train_cltp(
     config = dataclasses.replace(config, feature_dim=towers.feature_dim)
     torch.manual_seed(seed)
     learner = _Learner(config).to(workers.device)
+    if start is not None:
+        _take(start, learner)
     identity = {
         "data": data.checksum(),
         "config": config.identity,
         "variant": f"{recipe} {with_images} False {augmentation}",  # as in stored checkpoints
     }
+    if start is not None:
+        identity["start"] = manifest_digest(start)
     folder = run.out / "encoder"
     stage = Stage("cltp", run, learner, schedule, identity)
     if stage.done and (folder / MANIFEST).exists():  # the last file that is written
@@ -91,6 +98,19 @@ def train_cltp(
         save_encoder(folder, learner.encoder, learner.heads)
     workers.wait()
     return folder
+
+
+def _take(start: Path, learner: _Learner) -> None:
+    """Begin with the weights of an encoder and its heads."""
+    encoder, heads = load_encoder(start)
+    expected = learner.encoder.config
+    if encoder.config != expected:
+        raise TouchError(
+            f"the encoder in {start} can't be trained on as {expected.tokenizer!r}: it has other "
+            "sizes; name its own --preset, or train without --start"
+        )
+    learner.encoder.load_state_dict(encoder.state_dict())
+    learner.heads.load_state_dict(heads.state_dict())
 
 
 def _terms(

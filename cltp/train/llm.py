@@ -24,7 +24,12 @@ import numpy as np
 import torch
 from torch import Tensor, nn
 
-from cltp.checkpoints.tac3d_llm import load_touching_encoder, save_tac3d_llm
+from cltp.checkpoints.manifest import manifest_digest
+from cltp.checkpoints.tac3d_llm import (
+    load_tac3d_llm,
+    load_touching_encoder,
+    save_tac3d_llm,
+)
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Sampler
@@ -44,6 +49,9 @@ STAGES = {
     "projector": Schedule(steps=200, batch_size=32, learning_rate=2e-3),
     "joint": Schedule(steps=1800, batch_size=16, learning_rate=1e-3),
 }
+
+FINE_TUNING = {"joint": Schedule(steps=600, batch_size=16, learning_rate=4e-4)}
+"""The stages of a training that starts from other weights."""
 
 ACTION_WEIGHT = 4.0
 """Weight of the one token that moves the robot, beside about sixty that describe."""
@@ -87,11 +95,12 @@ def train_llm(
     run: TrainingRun,
     words: Words,
     lessons: Lessons,
-    schedules: Mapping[str, Schedule] = STAGES,
+    schedules: Mapping[str, Schedule] | None = None,
     *,
     dim: int = 192,
     layers: int = 4,
     augmentation: Augmentation | None = None,
+    start: Path | None = None,
 ) -> Path:
     """Train, or continue training, and write ``projector`` and ``lm`` into ``run.out``.
 
@@ -99,19 +108,26 @@ def train_llm(
         run: Data, folder with ``encoder`` in it, seed and progress.
         words: The tokenizer.
         lessons: The exchanges about contacts.
-        schedules: How long and how fast each of the ``STAGES`` learns.
+        schedules: How long and how fast each stage learns; ``STAGES``, or ``FINE_TUNING`` with a
+            start, when not given.
         dim: Hidden width of the language model.
         layers: Number of its layers.
         augmentation: How contacts are varied.
+        start: Folder of weights whose projector and language model are trained on; random ones
+            when not given.
 
     Raises:
-        TouchError: Data, encoder or a checkpoint can't be used.
+        TouchError: Data, encoder, start or a checkpoint can't be used.
     """
     data = run.dataset()
     encoder, heads = load_touching_encoder(run.out / "encoder")
     torch.manual_seed(run.seed)
-    language = Language(small_lm(words, dim=dim, layers=layers), words=words)
-    projector = Projector(encoder.config.dim, language.dim)
+    if start is None:
+        language = Language(small_lm(words, dim=dim, layers=layers), words=words)
+        projector = Projector(encoder.config.dim, language.dim)
+    else:
+        begun = load_tac3d_llm(start, lm_folder=start / "lm")
+        language, projector = begun.language, begun.projector
     model = Tac3dLlm(encoder, heads, projector, language).to(run.workers.device)
     learner = _Learner(run, model, words, data, lessons, augmentation)
     identity = {
@@ -121,8 +137,13 @@ def train_llm(
         "words": words.fingerprint(),
         "lm": f"{dim} {layers} {augmentation}",
     }
+    if start is not None:
+        identity["start"] = manifest_digest(start / "projector")
     learned = nn.ModuleList([model.projector, model.lm])  # in every stage: checkpoints then chain
+    schedules = schedules or (STAGES if start is None else FINE_TUNING)
     for number, name in enumerate(STAGES, start=1):
+        if name not in schedules:
+            continue
         model.requires_grad_(False)
         model.projector.requires_grad_(name in ("projector", "joint"))
         model.lm.requires_grad_(name in ("text", "joint"))

@@ -125,17 +125,24 @@ class TrainCltpFlags(TrainMethodFlags):
     Attributes:
         no_image: Leave L_T2I out (the paper's ablation); writes OUT/cltp_no_image.
         also: Folder of a further data set to learn from; nothing is measured on it.
+        start: Folder of weights, such as policies/weights: its encoder is trained on, behind its
+            towers, instead of a random one.
+        learning_rate: Learning rate at its peak; to train on, a quarter of the default does.
     """
 
     recipe: Annotated[CltpRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=CltpRecipe)
     no_image: bool = False
     also: Path | None = None
+    start: Path | None = None
+    learning_rate: float = CLTP_SCHEDULE.learning_rate
 
     def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain
 
         method = "cltp_no_image" if self.no_image else "cltp"
-        pretrain(method, run, self.schedule, preset=self.preset, recipe=self.recipe, also=self.also)
+        schedule = replace(self.schedule, learning_rate=self.learning_rate)
+        others = {"also": self.also, "start": self.start}
+        pretrain(method, run, schedule, preset=self.preset, recipe=self.recipe, **others)
 
 
 @dataclass(frozen=True)

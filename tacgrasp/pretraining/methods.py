@@ -11,6 +11,7 @@ Every stage continues where it was stopped, and is skipped when it is done. Not 
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
@@ -72,6 +73,7 @@ def pretrain(
     preset: str | None = None,
     recipe: CltpRecipe | None = None,
     also: Path | None = None,
+    start: Path | None = None,
 ) -> Path:
     """Train one method behind the towers in ``run.out / "clip"``.
 
@@ -82,6 +84,7 @@ def pretrain(
         preset: Encoder, out of ``cltp.encoder.encoder.PRESETS``; the method's own when not given.
         recipe: What CLTP minimises.
         also: A further data set that CLTP learns from.
+        start: Folder of weights whose encoder CLTP trains on, behind its towers.
 
     Returns:
         The method's folder.
@@ -99,6 +102,8 @@ def pretrain(
     run.announce(method, folder / "encoder")
     config, clip = PRESETS[preset], run.out / "clip"
     training = replace(run, out=folder, report=labelled(run.report, method))
+    if start is not None and not clip.exists():
+        shutil.copytree(start / "clip", clip)
     if method in ALIGNED_METHODS:
         train_cltp(
             training,
@@ -109,6 +114,7 @@ def pretrain(
             also=() if also is None else (also,),
             augmentation=LEARNING_NOISE,
             clip_dir=clip,
+            start=None if start is None else start / "encoder",
         )
     else:
         train_baseline(

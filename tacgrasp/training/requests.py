@@ -73,7 +73,10 @@ class TrainLlmRequest(TrainAllRequest):
         methods: Folder of pre-training from which the encoder and CLIP are copied into OUT first.
         blind_of: Folder of weights; trains an instruction-blind copy behind its encoder, for
             tacgrasp eval --blind.
+        start: Folder of weights, such as policies/weights, whose projector and language model are
+            trained on, in fewer steps, instead of random ones.
     """
 
     methods: Path | None = None
     blind_of: Path | None = None
+    start: Path | None = None

@@ -29,6 +29,7 @@ from cltp.checkpoints.tac3d_llm import (
     write_card,
 )
 from cltp.data.dataset import ContactDataset
+from cltp.texts.tokenizer import Words
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from cltp.train.stage import TrainingRun
@@ -94,14 +95,19 @@ def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp trai
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
     generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
-    words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
+    if request.start is None:
+        words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
+    else:
+        words = Words.load(request.start / "lm")
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
-        train_llm(TrainingRun(data=data, out=out, seed=seed, report=report), words, lessons)
+        run = TrainingRun(data=data, out=out, seed=seed, report=report)
+        train_llm(run, words, lessons, start=request.start)
     if _digest(out) == before:
         return  # nothing was left to do: the card with its scores still holds
     facts = {
-        "command": f"`{command} --contacts {contacts} --seed {seed}`",
+        "command": f"`{command} --contacts {contacts} --seed {seed}"
+        + ("`" if request.start is None else f" --start {request.start}`"),
         "seed": str(seed),
         "contacts": str(contacts),
         "data checksum": ContactDataset(data).checksum(),

@@ -186,3 +186,19 @@ def test_what_was_measured_is_marked_and_shards_without_the_mark_keep_their_colu
     assert columns[0] == SCHEMA.names
     assert columns[1] == [*SCHEMA.names, "measured"]
     assert columns[2] == [*SCHEMA.names, "unsure", "approach_mm", "peak_kpa", "force_factor"]
+
+
+def test_a_force_is_read_as_that_of_the_nominal_gel(tmp_path: Path) -> None:
+    contact = fake_contact(1)
+    with DatasetWriter(tmp_path) as writer:
+        writer.add(dataclasses.replace(contact, unsure=frozenset(), force_factor=0.6))
+        writer.add(contact)
+    data = ContactDataset(tmp_path)
+    assert [data.contact(i).force_factor for i in range(2)] == [pytest.approx(0.6), None]
+    forces = [data.nominal_state(i).force_n for i in range(2)]
+    assert forces == pytest.approx([contact.state.force_n / 0.6, contact.state.force_n])
+
+
+def test_a_force_factor_that_is_none_is_refused() -> None:
+    with pytest.raises(TouchError, match="force_factor"):
+        dataclasses.replace(fake_contact(0), force_factor=0.0)

@@ -363,6 +363,29 @@ def test_shuffled_labels_do_not_generalise(
     assert shuffled.accuracy["shape"] < 0.5  # against the true labels
 
 
+def test_training_that_starts_from_weights_begins_where_they_ended(
+    data_dir: Path, trained: Path, tmp_path: Path
+) -> None:
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    shutil.copytree(trained / "clip", tmp_path / "clip")
+    slow = schedule(1, 12, 1e-9)
+    train_cltp(run, TINY, slow, augmentation=CLEAN, start=trained / "encoder")
+    words = Words.load(trained / "lm")
+    train_llm(run, words, FakeLessons(), {"joint": slow}, augmentation=CLEAN, start=trained)
+    before, after = (load_tac3d_llm(folder).state_dict() for folder in (trained, tmp_path))
+    assert before.keys() == after.keys()
+    assert all(torch.allclose(before[name], after[name], atol=1e-5) for name in before)
+
+
+def test_an_encoder_of_other_sizes_can_not_be_trained_on(
+    data_dir: Path, trained: Path, tmp_path: Path
+) -> None:
+    run = TrainingRun(data=data_dir, out=tmp_path)
+    shutil.copytree(trained / "clip", tmp_path / "clip")
+    with pytest.raises(TouchError, match="--preset"):
+        train_cltp(run, PRESETS["small"], schedule(1, 12), start=trained / "encoder")
+
+
 def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> None:
     data = ContactDataset(data_dir, split=Split.TEST)
     samples = random_batches(data, 6, NOISY)
