@@ -83,7 +83,7 @@ def _emulated_findings(config: RunConfig, hardware: HardwareConfig, soak_s: floa
             tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder,
         ):
             ready = ", ".join(f"{name} {value}" for name, value in emulators.ready.items())
-            settings = settings_for(hardware, emulators, Path(folder))
+            settings = settings_for(config, hardware, emulators, Path(folder))
             first_force_n = config.gripper.first_force_n
             if first_force_n is None:
                 first_force_n = float(str(emulators.ready["first_force_n"]))

@@ -14,10 +14,12 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from cltp.sensing.force_calibration import save_force_calibration
 from primitives.errors import RobotError
 from sim.emulators.dynamixel.fingers import Linkage
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.rig import FINGERS
+from sim.grasp.force_calibration import drawn_force_calibration
 from sim.grasp.rig import Truth
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.hardware import HardwareConfig
@@ -65,7 +67,7 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
     """
     with tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder, ExitStack() as stack:
         emulators = stack.enter_context(EmulatorProcess("rig", *_options(config)))
-        settings = settings_for(hardware, emulators, Path(folder))
+        settings = settings_for(config, hardware, emulators, Path(folder))
         first_force_n = float(str(emulators.ready["first_force_n"]))
         rig = connect(config, settings, first_force_n)
         stack.pop_all()
@@ -74,12 +76,12 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
 
 
 def settings_for(
-    hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
+    config: RunConfig, hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
 ) -> HardwareConfig:
     """Settings of the rig with the addresses of these emulators.
 
-    The gripper's calibration is the emulator's own line. It is written into ``folder``, which has
-    to last until the gripper is connected.
+    The gripper's calibration is the emulator's own line, the sensor's that of the simulated rig of
+    the same seed. They are written into ``folder``, which has to last until both are connected.
 
     Raises:
         UsageError: The sensor has no emulator.
@@ -92,12 +94,17 @@ def settings_for(
     ready = emulators.ready
     calibration = folder / "gripper_calibration.yaml"
     save_calibration(calibration, emulated_calibration(hardware.gripper))
+    force = folder / "force_calibration.json"
+    drawn = drawn_force_calibration(config.sensor, config.seed, unit=hardware.sensor.unit)
+    save_force_calibration(force, drawn)
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
             "arm": hardware.arm.for_emulator(host=str(ready["host"])),
             "gripper": hardware.gripper.for_emulator(**gripper),
-            "sensor": hardware.sensor.for_emulator(port=str(ready["sensor_port"])),
+            "sensor": hardware.sensor.for_emulator(
+                port=str(ready["sensor_port"]), force_calibration=force
+            ),
         }
     )
 
