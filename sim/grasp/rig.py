@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import sensor_named
 from primitives.devices import Pose
@@ -143,7 +144,7 @@ def build(
     start_offset_mm: tuple[float, float] | None = None,
     first_force_n: float | None = None,
     gripper_force_gain: float | None = None,
-    noise_level: float = 1.0,
+    noise_level: float | NoiseLevels = 1.0,
 ) -> SimRig:
     """Draw an episode: a body, its position on the pad, a gripper force gain, a sensor unit.
 
@@ -158,7 +159,8 @@ def build(
         first_force_n: Largest commanded force until something is felt, instead of
             ``FIRST_TOUCH_N`` [N].
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
-        noise_level: 1 is the noise of the measured sensor, 0 a perfect one.
+        noise_level: 1 is the noise of the measured sensor, 0 a perfect one; or a level for each
+            error.
 
     Raises:
         RobotError: The object is unknown.
@@ -178,11 +180,12 @@ def build(
     grasp = Grasp(fingers=FlatFingers(body, sensor, gel_of(sensor_name)), body_xy_mm=offset)
     clock = SimClock()
     clock.attach(grasp)
-    noise = NoiseUnit.draw(sensor_rng, noise_level)
+    levels = NoiseLevels.of(noise_level)
+    noise = NoiseUnit.draw(sensor_rng, levels)
     return SimRig(
         arm=SimArm(grasp, clock),
         gripper=SimGripper(grasp, clock, force_gain),
-        sensor=SimSensor(grasp, clock, sensor, noise, seed, drift_level=noise_level),
+        sensor=SimSensor(grasp, clock, sensor, noise, seed, drift_level=levels.drift),
         clock=clock,
         grasp=grasp,
         start_pose=START_POSE,
