@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
 from cltp.errors import TouchError
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 
 FloatArray = NDArray[np.float64]
@@ -47,6 +48,7 @@ class TactileCloud:
             into the gel, with the undeformed gel near 0 (bulges around a contact are negative).
         sensor: The sensor that measured it.
         stamp: Time of capture; None for a cloud without a clock (a file).
+        force_scale: How forces read from it become newtons; that of the unit that measured it.
 
     Raises:
         TouchError: Empty, wrong shape, not finite, fewer than ``MIN_POINTS`` points, outside the
@@ -56,6 +58,7 @@ class TactileCloud:
     points_mm: NDArray[np.float32]
     sensor: SensorSpec
     stamp: Stamp | None = None
+    force_scale: ForceScale = UNCALIBRATED
 
     def __post_init__(self) -> None:
         points = np.array(self.points_mm, dtype=np.float32)  # a copy: nobody else can change it
@@ -142,6 +145,7 @@ def cloud_from_heights(
     rng: np.random.Generator | None = None,
     num_points: int = NUM_POINTS,
     stamp: Stamp | None = None,
+    force_scale: ForceScale = UNCALIBRATED,
 ) -> TactileCloud:
     """Sample a height map at one point in each cell of a regular grid (stratified, uniform).
 
@@ -152,6 +156,7 @@ def cloud_from_heights(
         num_points: Number of points; the cells are as square as a grid of that many allows (1024
             is 32 × 32), and points are ordered row by row from the top left.
         stamp: Time of capture.
+        force_scale: Force scale of the unit.
 
     Raises:
         TouchError: The map is not 2-D, too small, or not finite.
@@ -161,7 +166,9 @@ def cloud_from_heights(
     pixels = [v * heights.shape[0] - 0.5, u * heights.shape[1] - 0.5]
     z = map_coordinates(heights, pixels, order=1, mode="nearest")
     points = np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
-    return TactileCloud(points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp)
+    return TactileCloud(
+        points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp, force_scale=force_scale
+    )
 
 
 def stratified(num_points: int, rng: np.random.Generator | None) -> tuple[FloatArray, FloatArray]:

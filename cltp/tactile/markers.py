@@ -108,7 +108,7 @@ def densified(
     x, y = (u - 0.5) * cloud.sensor.width_mm, (0.5 - v) * cloud.sensor.height_mm
     z = interpolated(cloud, x, y, CloughTocher2DInterpolator)
     points = np.stack([x, y, z], axis=1).astype(np.float32)
-    return TactileCloud(points_mm=points, sensor=cloud.sensor, stamp=cloud.stamp)
+    return dataclasses.replace(cloud, points_mm=points)
 
 
 def interpolated(

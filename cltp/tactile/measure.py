@@ -52,7 +52,7 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
-    from the displaced volume.
+    from the displaced volume [nominal N], times the factor of the unit's force calibration.
     """
     depths = cell_means(cloud)
     depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
@@ -68,7 +68,7 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
         x_mm=x_mm,
         y_mm=y_mm,
         area_fraction=fraction,
-        force_n=force_from(filled, depth, cloud.sensor.area_mm2),
+        force_n=cloud.force_scale.factor * force_from(filled, depth, cloud.sensor.area_mm2),
         depth=depth_word(depth),
         position=position_word(x_mm, y_mm, cloud.sensor),
         area=area_word(fraction),
@@ -141,7 +141,7 @@ STIFFNESS_N_PER_MM3 = 0.167
 
 
 def force_from(depths: FloatArray, depth: float, sensing_mm2: float) -> float:
-    """Normal force [N] that a displaced volume suggests, for a gel like a GelSight Mini's.
+    """Normal force [nominal N] that a displaced volume suggests, for a GelSight Mini's gel.
 
     F = k V, V [mm³] the volume above a fifth of the depth. Source: fit to simulated berries,
     tomatoes, eggs and pegs with noise (seeds below 1000): the best of seven power laws in volume,

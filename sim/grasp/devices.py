@@ -16,6 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensor_noise import NoiseUnit, SlowDrift, smooth_field
 from cltp.tactile.sensors import SensorSpec
 from primitives.devices import GripperState, Pose
@@ -221,7 +222,9 @@ class SimSensor(_Device):
         seed: int,
         *,
         drift_level: float = 1.0,
+        force_scale: ForceScale = UNCALIBRATED,
     ) -> None:
+        self._force_scale = force_scale
         self._grasp, self._clock, self._spec, self._seed = grasp, clock, spec, seed
         self._noise = replace(noise, drift_mm=0.0)
         self._rng, self._frame_rng = (np.random.default_rng([seed, part]) for part in (2, 4))
@@ -278,5 +281,7 @@ class SimSensor(_Device):
         self._check_connected()
         self._clock.advance(FRAME_S)
         heights, stamp = self.height_mm(), self._clock.stamp()
-        cloud = cloud_from_heights(heights, self._spec, rng=self._rng, stamp=stamp)
+        cloud = cloud_from_heights(
+            heights, self._spec, rng=self._rng, stamp=stamp, force_scale=self._force_scale
+        )
         return replace(cloud, points_mm=self._noise.received(cloud.points_mm, self._frame_rng))

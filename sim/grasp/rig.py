@@ -10,12 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
+from cltp.sensing.force_calibration import ForceCalibration
 from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import sensor_named
 from primitives.devices import Pose
 from primitives.errors import RobotError
-from sim.gel.layer import gel_of
+from sim.gel.layer import GelMaterial, gel_of
 from sim.grasp.bodies import OBJECTS, Body, Range, draw_body
 from sim.grasp.devices import (
     PAD_X_IN_TCP,
@@ -27,6 +28,7 @@ from sim.grasp.devices import (
     SimSensor,
 )
 from sim.grasp.fingers import FlatFingers
+from sim.grasp.force_calibration import SCATTER, drawn_force_calibration
 from sim.grasp.world import Grasp
 
 BENCHMARK_SEED = 1_000_000
@@ -85,6 +87,7 @@ class SimRig:
         arm, gripper, sensor, clock: The devices, at the start pose, open.
         grasp: The world behind them; for the oracle and the benchmark only.
         start_pose: Pose of the first grasp.
+        force_calibration: The sensor's, drawn.
         first_force_n: Largest commanded force until something is felt [N].
         force_step_n: Least change of the commanded force [N]; the simulated gripper makes any.
         pad_x_in_tcp, pad_y_in_tcp: The pad's axes in the TCP frame, unit vectors.
@@ -96,6 +99,7 @@ class SimRig:
     clock: SimClock
     grasp: Grasp
     start_pose: Pose
+    force_calibration: ForceCalibration
     first_force_n: float
     force_step_n: float = 0.0
     pad_x_in_tcp: tuple[float, float, float] = PAD_X_IN_TCP
@@ -145,6 +149,7 @@ def build(
     first_force_n: float | None = None,
     gripper_force_gain: float | None = None,
     noise_level: float | NoiseLevels = 1.0,
+    gel: GelMaterial | None = None,
 ) -> SimRig:
     """Draw an episode: a body, its position on the pad, a gripper force gain, a sensor unit.
 
@@ -161,6 +166,8 @@ def build(
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
         noise_level: 1 is the noise of the measured sensor, 0 a perfect one; or a level for each
             error.
+        gel: Gel of both fingers; None for the sensor's nominal one. Its force calibration is drawn
+            around its own stiffness.
 
     Raises:
         RobotError: The object is unknown.
@@ -177,18 +184,30 @@ def build(
     u = tails + (1 - 2 * tails) * world_rng.random(4)
     offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
     force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
-    grasp = Grasp(fingers=FlatFingers(body, sensor, gel_of(sensor_name)), body_xy_mm=offset)
+    grasp = Grasp(fingers=FlatFingers(body, sensor, gel or gel_of(sensor_name)), body_xy_mm=offset)
     clock = SimClock()
     clock.attach(grasp)
     levels = NoiseLevels.of(noise_level)
     noise = NoiseUnit.draw(sensor_rng, levels)
+    calibration = drawn_force_calibration(
+        sensor_name, seed, gel=gel, scatter=0.0 if levels == NoiseLevels.of(0) else SCATTER
+    )
     return SimRig(
         arm=SimArm(grasp, clock),
         gripper=SimGripper(grasp, clock, force_gain),
-        sensor=SimSensor(grasp, clock, sensor, noise, seed, drift_level=levels.drift),
+        sensor=SimSensor(
+            grasp,
+            clock,
+            sensor,
+            noise,
+            seed,
+            drift_level=levels.drift,
+            force_scale=calibration.scale,
+        ),
         clock=clock,
         grasp=grasp,
         start_pose=START_POSE,
+        force_calibration=calibration,
         first_force_n=first_force_n or FIRST_TOUCH_N,
     )
 
