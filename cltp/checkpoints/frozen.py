@@ -143,8 +143,9 @@ def noisy_frames(
     for heights, sensor in zip(height_mm, sensors, strict=True):
         spread = spread_of(sensor)
         gain = spread.gain_log_ratio if rng.random() < augmentation.uncalibrated else 0.0
-        if augmentation.noise_level > 0 and rng.random() >= augmentation.clean:
-            unit = NoiseUnit.draw(rng, augmentation.noise_level, gain_log_ratio=gain, spread=spread)
+        if augmentation.is_noisy and rng.random() >= augmentation.clean:
+            levels = augmentation.draw_levels(rng)
+            unit = NoiseUnit.draw(rng, levels, gain_log_ratio=gain, spread=spread)
             heights = unit.apply(heights, sensor, rng)
         frames.append(render(heights - np.float32(np.median(heights)), sensor))
     return torch.stack(frames)

@@ -13,8 +13,10 @@ from numpy.typing import NDArray
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.placement import draw_placement, move
-from cltp.tactile.encoder_input import scaled
+from cltp.errors import TouchError
+from cltp.tactile.encoder_input import in_lattice, scaled
 from cltp.tactile.markers import densified, marker_cloud
+from cltp.tactile.noise_levels import NoiseLevels, NoiseRange
 from cltp.tactile.point_layout import EVEN, Sampling
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
@@ -50,16 +52,32 @@ class Augmentation:
     """Random variation of contacts.
 
     Attributes:
-        noise_level: ``level`` of ``NoiseUnit.draw``; 0 leaves the heights clean.
+        noise_level: ``level`` of ``NoiseUnit.draw``, one for all errors or one for each; 0 leaves
+            the heights clean. A range draws the level of each error anew for each sample.
         uncalibrated: Fraction of samples whose unit also has unequal gradient gains.
         mirror: Whether contacts are mirrored along x, along y and along both.
         clean: Fraction of samples without noise, as of a perfect sensor.
     """
 
-    noise_level: float = 1.0
+    noise_level: float | NoiseLevels | NoiseRange = 1.0
     uncalibrated: float = 0.25
     mirror: bool = True
     clean: float = 0.0
+
+    @property
+    def is_noisy(self) -> bool:
+        """Whether samples have any noise, but for the ``clean`` ones."""
+        return self.noise_level != 0
+
+    @property
+    def loses_points(self) -> bool:
+        """Whether samples can miss points."""
+        return not isinstance(self.noise_level, float | int) and self.noise_level.missing > 0
+
+    def draw_levels(self, rng: np.random.Generator) -> float | NoiseLevels:
+        """The level of one sample's noise."""
+        level = self.noise_level
+        return level.draw(rng) if isinstance(level, NoiseRange) else level
 
 
 CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0, mirror=False)
@@ -77,6 +95,9 @@ class Sampler:
         sampling: Layout of the points.
         moved: Fraction of contacts that are shifted and turned on the pad
             (``cltp.data.placement``).
+
+    Raises:
+        TouchError: Points can be missing, and ``sampling`` is not the even one.
     """
 
     def __init__(
@@ -90,6 +111,8 @@ class Sampler:
     ) -> None:
         self.dataset, self.sampling, self.moved = dataset, sampling, moved
         self.augmentation = augmentation or Augmentation()
+        if self.augmentation.loses_points and sampling != EVEN:
+            raise TouchError(f"points can be missing from the even layout alone, got {sampling}")
         self.seed = seed
         self._orders: dict[int, NDArray[np.int64]] = {}
 
@@ -150,15 +173,19 @@ class Sampler:
         spread = spread_of(sensor)
         gain = spread.gain_log_ratio if rng.random() < varied.uncalibrated else 0.0
         unit = None
-        if varied.noise_level > 0 and not (varied.clean > 0 and rng.random() < varied.clean):
-            unit = NoiseUnit.draw(rng, varied.noise_level, gain_log_ratio=gain, spread=spread)
+        if varied.is_noisy and not (varied.clean > 0 and rng.random() < varied.clean):
+            levels = varied.draw_levels(rng)
+            unit = NoiseUnit.draw(rng, levels, gain_log_ratio=gain, spread=spread)
         if sensor.markers is not None:
             sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
             dense = densified(sparse, rng=rng, num_points=self.sampling.side**2)
             return scaled(dense.points_mm, sensor)
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
-        return scaled(sampled(height_mm, sensor, self.sampling, rng), sensor)
+        points = sampled(height_mm, sensor, self.sampling, rng)
+        if unit is not None and (unit.point_loss > 0 or unit.shuffled):
+            points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
+        return scaled(points, sensor)
 
 
 def mirrored(

@@ -24,7 +24,7 @@ from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray, TactileCloud
-from cltp.tactile.measure import cell_means
+from cltp.tactile.measure import cell_means, cells_of
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -83,8 +83,9 @@ class UntouchedGel:
                 f"the untouched gel needs at least 2 frames of one sensor, got {len(frames)}"
             )
         self._sensor = frames[0].sensor
-        cells = [cell_means(frame) for frame in frames]
-        self._mean = np.nanmean(cells, axis=0)
+        self._cells = min(cells_of(frame) for frame in frames)  # frames can miss points
+        cells = [cell_means(frame, self._cells) for frame in frames]
+        self._mean = _mean(cells)
         count = len(frames)
         noise = [_responses(frame - self._mean, self._sensor) for frame in cells]
         # A frame of the mean differs less from it than a new frame does.
@@ -101,8 +102,15 @@ class UntouchedGel:
             raise TouchError(
                 f"expected a cloud of {self._sensor.name}, got one of {cloud.sensor.name}"
             )
-        responses = _responses(cell_means(cloud) - self._mean, self._sensor)
+        responses = _responses(cell_means(cloud, self._cells) - self._mean, self._sensor)
         return _evidence(responses, self._least_mm)
+
+
+def _mean(cells_mm: Sequence[FloatArray]) -> FloatArray:
+    """Mean of cells over frames; NaN where no frame has a point."""
+    count = np.isfinite(cells_mm).sum(axis=0)
+    with np.errstate(invalid="ignore"):
+        return np.asarray(np.nansum(cells_mm, axis=0) / count)
 
 
 def touches_alone(cloud: TactileCloud) -> ContactEvidence:

@@ -36,16 +36,24 @@ def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.fl
 
 
 def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:
+    """The points of a cloud as ``in_lattice`` orders them."""
+    return in_lattice(cloud.points_mm, cloud.sensor)
+
+
+def in_lattice(points: NDArray[np.float32], sensor: SensorSpec) -> NDArray[np.float32]:
     """One point in each of 32 × 32 cells of the sensing area, from the top left row by row.
 
-    A cloud that is stratified already is returned as it is. Otherwise each cell takes the cloud's
-    own point nearest to its centre. A cell without a point takes, at its centre, the mean of the
-    four nearest points weighted by inverse distance.
+    Points that are stratified already are returned as they are. Otherwise each cell takes the own
+    point nearest to its centre, whatever the order of the points. A cell without a point takes, at
+    its centre, the mean of the four nearest points weighted by inverse distance.
+
+    Args:
+        points: Shape (N, 3), those of a ``TactileCloud`` [mm].
+        sensor: Its sensor.
 
     Returns:
         Shape (1024, 3), float32 [mm].
     """
-    points, sensor = cloud.points_mm, cloud.sensor
     column = np.floor((points[:, 0] / sensor.width_mm + 0.5) * LATTICE)
     row = np.floor((0.5 - points[:, 1] / sensor.height_mm) * LATTICE)
     cell = (np.clip(row, 0, LATTICE - 1) * LATTICE + np.clip(column, 0, LATTICE - 1)).astype(int)

@@ -59,10 +59,10 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     if in_contact is False or depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):
         return NO_CONTACT_STATE
     x, y = grid_axes_mm(cloud.sensor, *depths.shape)
-    filled = np.nan_to_num(depths, nan=0.0)
+    filled = _filled(depths)
     x_mm, y_mm = _centroid_mm(filled, depth, x, y)
     footprint = filled > FOOTPRINT_FRACTION * depth
-    fraction = float(footprint.sum() / np.isfinite(depths).sum())
+    fraction = float(footprint.mean())
     return ContactState(
         depth_mm=depth,
         x_mm=x_mm,
@@ -76,10 +76,18 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     )
 
 
-def cell_means(cloud: TactileCloud) -> FloatArray:
-    """Mean indentation in n × n cells over the sensing area [mm], NaN where there is no point."""
+def cells_of(cloud: TactileCloud) -> int:
+    """Cells along either side of the sensing area, of which each holds about one point."""
+    return min(_MAX_CELLS, math.isqrt(len(cloud.points_mm)))
+
+
+def cell_means(cloud: TactileCloud, n: int | None = None) -> FloatArray:
+    """Mean indentation in n × n cells over the sensing area [mm], NaN where there is no point.
+
+    By default n is ``cells_of`` the cloud.
+    """
     sensor, points = cloud.sensor, cloud.points_mm.astype(np.float64)
-    n = min(_MAX_CELLS, math.isqrt(len(points)))
+    n = cells_of(cloud) if n is None else n
     column = np.clip(((points[:, 0] / sensor.width_mm + 0.5) * n).astype(int), 0, n - 1)
     row = np.clip(((0.5 - points[:, 1] / sensor.height_mm) * n).astype(int), 0, n - 1)
     index = row * n + column
@@ -87,6 +95,15 @@ def cell_means(cloud: TactileCloud) -> FloatArray:
     total = np.bincount(index, weights=points[:, 2], minlength=n * n)
     with np.errstate(invalid="ignore"):
         return np.asarray((total / count).reshape(n, n))
+
+
+def _filled(cells_mm: FloatArray) -> FloatArray:
+    """Cells (n, n) [mm] where each one without a point has the value of the nearest with one."""
+    empty = ~np.isfinite(cells_mm)
+    if not empty.any():
+        return cells_mm
+    nearest = ndimage.distance_transform_edt(empty, return_distances=False, return_indices=True)
+    return np.asarray(cells_mm[tuple(nearest)])
 
 
 def _centroid_mm(

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from scipy.fft import dctn, idctn
 
 from cltp.errors import TouchError
+from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensors import SensorSpec
 
 
@@ -116,6 +117,8 @@ class NoiseUnit:
         border_mm: Width of the dead border: heights there are those at its inner edge [mm].
         marker_mm: Standard deviation of a marker's position, new in every frame [mm].
         marker_loss: Probability that a marker is not detected in a frame.
+        point_loss: Probability that a point of a cloud is missing in a frame.
+        shuffled: Whether the points of a frame come in a random order.
     """
 
     depth_scale: float = 1.0
@@ -129,12 +132,14 @@ class NoiseUnit:
     border_mm: float = 0.0
     marker_mm: float = 0.0
     marker_loss: float = 0.0
+    point_loss: float = 0.0
+    shuffled: bool = False
 
     @classmethod
     def draw(
         cls,
         rng: np.random.Generator,
-        level: float = 1.0,
+        level: float | NoiseLevels = 1.0,
         *,
         gain_log_ratio: float = 0.0,
         spread: NoiseSpread = MINI_SPREAD,
@@ -143,7 +148,8 @@ class NoiseUnit:
 
         Args:
             rng: Source of the draws.
-            level: Factor on every spread: 1 is the measured sensor, 0 a perfect one.
+            level: Factor on every spread, or one for each kind: 1 is the measured sensor, 0 a
+                perfect one. The same generator gives the same draws times other factors.
             gain_log_ratio: Largest |ln(gain_x / gain_y)|; ``spread.gain_log_ratio`` for
                 uncalibrated units. The product of both gains is 1.
             spread: Spread of the model of sensor, from ``spread_of``.
@@ -151,25 +157,30 @@ class NoiseUnit:
         Raises:
             TouchError: ``level`` or ``gain_log_ratio`` is negative or not finite.
         """
-        if not (0 <= level < math.inf and 0 <= gain_log_ratio < math.inf):
-            raise TouchError(f"noise needs levels of 0 or more, got {level} and {gain_log_ratio}")
+        if not 0 <= gain_log_ratio < math.inf:
+            raise TouchError(f"noise needs a gain ratio of 0 or more, got {gain_log_ratio}")
+        levels = NoiseLevels.of(level)
         half_ratio = 0.5 * rng.uniform(-gain_log_ratio, gain_log_ratio)
         return cls(
             # Uniform: the notes give a range, not a distribution.
             depth_scale=max(
-                0.05, 1.0 + level * rng.uniform(-spread.depth_scale, spread.depth_scale)
+                0.05, 1.0 + levels.scale * rng.uniform(-spread.depth_scale, spread.depth_scale)
             ),
-            tilt_x=level * rng.normal(0.0, spread.tilt),
-            tilt_y=level * rng.normal(0.0, spread.tilt),
+            tilt_x=levels.tilt * rng.normal(0.0, spread.tilt),
+            tilt_y=levels.tilt * rng.normal(0.0, spread.tilt),
             gain_x=math.exp(half_ratio),
             gain_y=math.exp(-half_ratio),
-            drift_mm=level * spread.drift_mm,
-            fine_mm=level * spread.fine_mm,
+            drift_mm=levels.drift * spread.drift_mm,
+            fine_mm=levels.fine * spread.fine_mm,
             drift_length_mm=spread.drift_length_mm,
             # Without a border nothing is drawn: draws after the unit must stay reproducible.
-            border_mm=level * rng.uniform(0, spread.border_mm) if spread.border_mm > 0 else 0.0,
-            marker_mm=level * spread.marker_mm,
-            marker_loss=min(1.0, level * spread.marker_loss),
+            border_mm=levels.drift * rng.uniform(0, spread.border_mm)
+            if spread.border_mm > 0
+            else 0.0,
+            marker_mm=levels.fine * spread.marker_mm,
+            marker_loss=max(levels.missing, min(1.0, levels.fine * spread.marker_loss)),
+            point_loss=levels.missing,
+            shuffled=levels.shuffled,
         )
 
     def apply(
@@ -196,6 +207,14 @@ class NoiseUnit:
             noisy = _without_border(noisy, sensor, self.border_mm)
         noisy -= np.median(noisy)
         return noisy
+
+    def received(
+        self, points: NDArray[np.float32], rng: np.random.Generator
+    ) -> NDArray[np.float32]:
+        """The points (N, 3) of one frame that arrive, in the order in which they arrive."""
+        if self.point_loss > 0:  # else nothing is drawn: later draws must stay reproducible
+            points = points[rng.random(len(points)) >= self.point_loss]
+        return rng.permutation(points) if self.shuffled else points
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

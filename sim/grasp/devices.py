@@ -206,7 +206,8 @@ class SimSensor(_Device):
     """A ``tacgrasp.rig.protocols.TactileSensor`` that reads the gel of a simulated grasp.
 
     Its errors: those of the unit, a slow drift that goes on in time whether the gel is touched or
-    not, a reconstruction error that scales with the contact, and fine noise, new in every frame.
+    not, a reconstruction error that scales with the contact, and fine noise and missing points, new
+    in every frame.
     ``take_reference`` takes the drift of the moment away.
     """
 
@@ -280,6 +281,7 @@ class SimSensor(_Device):
         self._check_connected()
         self._clock.advance(FRAME_S)
         heights, stamp = self.height_mm(), self._clock.stamp()
-        return cloud_from_heights(
+        cloud = cloud_from_heights(
             heights, self._spec, rng=self._rng, stamp=stamp, force_scale=self._force_scale
         )
+        return replace(cloud, points_mm=self._noise.received(cloud.points_mm, self._frame_rng))

@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from cltp.sensing.force_calibration import ForceCalibration
+from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import sensor_named
 from primitives.devices import Pose
@@ -147,7 +148,7 @@ def build(
     start_offset_mm: tuple[float, float] | None = None,
     first_force_n: float | None = None,
     gripper_force_gain: float | None = None,
-    noise_level: float = 1.0,
+    noise_level: float | NoiseLevels = 1.0,
     gel: GelMaterial | None = None,
 ) -> SimRig:
     """Draw an episode: a body, its position on the pad, a gripper force gain, a sensor unit.
@@ -163,7 +164,8 @@ def build(
         first_force_n: Largest commanded force until something is felt, instead of
             ``FIRST_TOUCH_N`` [N].
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
-        noise_level: 1 is the noise of the measured sensor, 0 a perfect one.
+        noise_level: 1 is the noise of the measured sensor, 0 a perfect one; or a level for each
+            error.
         gel: Gel of both fingers; None for the sensor's nominal one. Its force calibration is drawn
             around its own stiffness.
 
@@ -185,9 +187,10 @@ def build(
     grasp = Grasp(fingers=FlatFingers(body, sensor, gel or gel_of(sensor_name)), body_xy_mm=offset)
     clock = SimClock()
     clock.attach(grasp)
-    noise = NoiseUnit.draw(sensor_rng, noise_level)
+    levels = NoiseLevels.of(noise_level)
+    noise = NoiseUnit.draw(sensor_rng, levels)
     calibration = drawn_force_calibration(
-        sensor_name, seed, gel=gel, scatter=SCATTER if noise_level > 0 else 0.0
+        sensor_name, seed, gel=gel, scatter=0.0 if levels == NoiseLevels.of(0) else SCATTER
     )
     return SimRig(
         arm=SimArm(grasp, clock),
@@ -198,7 +201,7 @@ def build(
             sensor,
             noise,
             seed,
-            drift_level=noise_level,
+            drift_level=levels.drift,
             force_scale=calibration.scale,
         ),
         clock=clock,

@@ -1,0 +1,84 @@
+"""Batches of noisy clouds: what training draws is what a live encoder is given."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import NOISY, Augmentation, Sampler, sampled
+from cltp.errors import TouchError
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.encoder_input import LATTICE, encoder_input
+from cltp.tactile.noise_levels import WIDE, NoiseLevels
+from cltp.tactile.point_layout import EVEN, FINE
+from cltp.tactile.sensor_noise import NoiseUnit
+from cltp.tactile.sensors import SENSORS
+from tests.fakes.fake_contacts import write_contacts
+
+MINI = SENSORS["gelsight_mini"]
+LOSSY = NoiseLevels(missing=0.3, shuffled=True)
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory) -> ContactDataset:
+    folder: Path = tmp_path_factory.mktemp("contacts")
+    write_contacts(folder, {Split.TRAIN: range(6)})
+    return ContactDataset(folder)
+
+
+def sampler_of(data: ContactDataset, level, **changes) -> Sampler:
+    return Sampler(
+        data, Augmentation(noise_level=level, uncalibrated=0.0, mirror=False), seed=1, **changes
+    )
+
+
+def test_a_sample_with_missing_and_shuffled_points_is_what_the_live_encoder_gets(data):
+    height_mm = data.height_mm(2)
+    drawn = sampler_of(data, LOSSY).cloud(height_mm, MINI, np.random.default_rng(9))
+
+    rng = np.random.default_rng(9)
+    rng.random()  # whether the unit is calibrated
+    unit = NoiseUnit.draw(rng, LOSSY)
+    points = sampled(unit.apply(height_mm, MINI, rng), MINI, EVEN, rng)
+    live = TactileCloud(points_mm=unit.received(points, rng), sensor=MINI)
+    assert len(live.points_mm) < 0.8 * len(points)
+    np.testing.assert_array_equal(drawn, encoder_input(live))
+
+
+def test_missing_points_are_filled_in_cell_by_cell(data):
+    whole, lossy = (
+        sampler_of(data, NoiseLevels(fine=0, drift=0, tilt=0, scale=0, missing=missing))
+        for missing in (0.0, 0.3)
+    )
+    for index in range(6):
+        full, batch = (
+            each.cloud(data.height_mm(index), MINI, np.random.default_rng(index))
+            for each in (whole, lossy)
+        )
+        assert batch.shape == full.shape == (LATTICE**2, 3)
+        assert (batch != full).any(axis=1).mean() == pytest.approx(0.3, abs=0.05)
+        assert np.corrcoef(batch[:, 2], full[:, 2])[0, 1] > 0.9
+
+
+def test_wide_noise_gives_every_sample_noise_of_its_own_strength(data):
+    sampler, rng, flat = sampler_of(data, WIDE), np.random.default_rng(0), np.zeros((76, 102))
+    depths = np.array([sampler.cloud(flat, MINI, rng)[:, 2] for _ in range(200)])
+    roughness = np.abs(np.diff(depths, axis=1)).mean(axis=1)
+    assert np.percentile(roughness, 90) > 4 * np.percentile(roughness, 10)
+
+
+def test_the_same_seed_draws_the_same_wide_noise(data):
+    one, two = (sampler_of(data, WIDE).batch(np.arange(6), 4).points for _ in range(2))
+    np.testing.assert_array_equal(one, two)
+
+
+def test_the_default_noise_is_named_as_it_always_was():
+    # stages compare this text with the one of an earlier checkpoint
+    assert str(NOISY) == "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
+
+
+def test_missing_points_are_refused_for_layouts_that_follow_no_even_lattice(data):
+    with pytest.raises(TouchError, match="even layout"):
+        sampler_of(data, LOSSY, sampling=FINE)
