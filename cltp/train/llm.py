@@ -15,8 +15,9 @@ reading can be copied instead.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Protocol
 
@@ -34,7 +35,7 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Sampler
 from cltp.encoder.encoder import Encoded
-from cltp.encoder.heads import with_read_numbers
+from cltp.encoder.heads import scaled_force, with_read_numbers
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.states import ContactState
@@ -52,6 +53,10 @@ STAGES = {
 
 FINE_TUNING = {"joint": Schedule(steps=600, batch_size=16, learning_rate=4e-4)}
 """The stages of a training that starts from other weights."""
+
+UNIT_FACTORS = (0.5, 2.0)
+"""Range of the factors from nominal newtons to newtons, log-uniform. Our choice: wider than units
+differ, so that the language model takes newtons from the readings, which a calibration scales."""
 
 ACTION_WEIGHT = 4.0
 """Weight of the one token that moves the robot, beside about sixty that describe."""
@@ -165,14 +170,18 @@ class _Learner:
         batches = prefetched(self._batches(stage, number))
 
         def losses(step: int) -> dict[str, Tensor]:
-            encoded, packed = next(batches)
+            encoded, factors, packed = next(batches)
             packed = Packed(*(part.to(self.run.workers.device) for part in packed))
-            touch = self.model.projected(encoded) if encoded is not None else None
+            touch = None
+            if encoded is not None and factors is not None:
+                touch = self.model.projected(encoded, factors.to(self.run.workers.device))
             return self.model.loss(touch, packed)
 
         stage.train(losses)
 
-    def _batches(self, stage: Stage, number: int) -> Iterator[tuple[Encoded | None, Packed]]:
+    def _batches(
+        self, stage: Stage, number: int
+    ) -> Iterator[tuple[Encoded | None, Tensor | None, Packed]]:
         sampler = Sampler(self.data, self.augmentation, seed=1000 * self.run.seed + number)
         size = stage.schedule.batch_size
         for step in range(stage.step, stage.schedule.steps):
@@ -180,6 +189,7 @@ class _Learner:
             if stage.name == "text":
                 states = [self.data.state(int(i)) for i in rng.integers(len(self.data), size=size)]
                 encoded, readings, num_touch = None, states, 0
+                factors = None
             else:
                 batch = sampler.numbered(size, step)
                 states, num_touch = batch.states, self.model.num_touch
@@ -187,11 +197,24 @@ class _Learner:
                     points = torch.from_numpy(batch.points).to(self.run.workers.device)
                     encoded = self.model.encoder(points)
                     numbers = self.model.heads(encoded.pooled).numbers
-                readings = with_read_numbers(states, numbers)
+                factors = _unit_factors(size, rng)
+                states = [
+                    replace(state, force_n=state.force_n * factor)
+                    for state, factor in zip(states, factors.tolist(), strict=True)
+                ]
+                readings = with_read_numbers(states, scaled_force(numbers.cpu(), factors))
             exchanges = [
                 self.lessons.captions(reading, rng)
                 if stage.name == "projector"
                 else self.lessons.mixed(state, reading, rng)
                 for state, reading in zip(states, readings, strict=True)
             ]
-            yield encoded, pack(self.words, exchanges, num_touch, action_weight=ACTION_WEIGHT)
+            packed = pack(self.words, exchanges, num_touch, action_weight=ACTION_WEIGHT)
+            yield encoded, factors, packed
+
+
+def _unit_factors(size: int, rng: np.random.Generator) -> Tensor:
+    """Newtons per nominal newton of each sample's unit, shape (size,); of half of them 1."""
+    low, high = (math.log(limit) for limit in UNIT_FACTORS)
+    drawn = np.exp(rng.uniform(low, high, size)) ** (rng.random(size) < 0.5)
+    return torch.from_numpy(drawn.astype(np.float32))
