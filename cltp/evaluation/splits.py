@@ -14,6 +14,7 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Augmentation
 from cltp.errors import TouchError
+from cltp.tactile.noise_levels import WIDE
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,8 +48,9 @@ EVALUATION_SPLITS = (
     EvaluationSplit("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
 )
 
-LEARNING_NOISE = Augmentation(clean=0.5)
-"""Noise of the contacts that methods and probes learn from: half of them have none."""
+LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2)
+"""Noise of the contacts that methods and probes learn from: drawn from wide ranges, none in a fifth
+of them."""
 
 
 def evaluation_splits(data_dir: Path, names: tuple[str, ...] = ()) -> list[EvaluationSplit]:

@@ -69,7 +69,7 @@ class NoiseRange:
     The order of the points is not drawn: ``cltp.tactile.encoder_input`` sorts them.
     """
 
-    factor: tuple[float, float] = (0.2, 4.0)
+    factor: tuple[float, float] = (0.05, 4.0)
     scale: float = 1.0
     missing: float = 0.3
     with_missing: float = 0.5
@@ -94,8 +94,8 @@ class NoiseRange:
 
 
 WIDE = NoiseRange()
-"""Noise of training: on a GelSight Mini fine noise of 2 to 40 µm, drift of 0.008 to 0.16 mm, tilt
-of 0.0006 to 0.012 mm per mm, depth scale ±15 %, and in half of the samples up to 30 % of the points
+"""Noise of training: on a GelSight Mini fine noise of 0.5 to 40 µm, drift of 0.002 to 0.16 mm, tilt
+of 0.00015 to 0.012 mm per mm, depth scale ±15 %, and in half of the samples up to 30 % of the points
 missing.
 
 Source: what is drawn with one amplitude fails at twice that amplitude (project's notes, 'Noise
