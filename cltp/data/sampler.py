@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.placement import draw_placement, move
-from cltp.errors import TouchError
 from cltp.tactile.encoder_input import in_lattice, scaled
 from cltp.tactile.markers import densified, marker_cloud
 from cltp.tactile.noise_levels import NoiseLevels, NoiseRange
@@ -69,11 +68,6 @@ class Augmentation:
         """Whether samples have any noise, but for the ``clean`` ones."""
         return self.noise_level != 0
 
-    @property
-    def loses_points(self) -> bool:
-        """Whether samples can miss points."""
-        return not isinstance(self.noise_level, float | int) and self.noise_level.missing > 0
-
     def draw_levels(self, rng: np.random.Generator) -> float | NoiseLevels:
         """The level of one sample's noise."""
         level = self.noise_level
@@ -96,8 +90,8 @@ class Sampler:
         moved: Fraction of contacts that are shifted and turned on the pad
             (``cltp.data.placement``).
 
-    Raises:
-        TouchError: Points can be missing, and ``sampling`` is not the even one.
+    Points can be missing from the even layout alone: it is the one that sensors' clouds are brought
+    into, where the gaps are filled.
     """
 
     def __init__(
@@ -111,8 +105,6 @@ class Sampler:
     ) -> None:
         self.dataset, self.sampling, self.moved = dataset, sampling, moved
         self.augmentation = augmentation or Augmentation()
-        if self.augmentation.loses_points and sampling != EVEN:
-            raise TouchError(f"points can be missing from the even layout alone, got {sampling}")
         self.seed = seed
         self._orders: dict[int, NDArray[np.int64]] = {}
 
@@ -183,7 +175,8 @@ class Sampler:
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
         points = sampled(height_mm, sensor, self.sampling, rng)
-        if unit is not None and (unit.point_loss > 0 or unit.shuffled):
+        is_partial = unit is not None and (unit.point_loss > 0 or unit.shuffled)
+        if unit is not None and is_partial and self.sampling == EVEN:
             points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
         return scaled(points, sensor)
 

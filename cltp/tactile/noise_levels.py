@@ -95,8 +95,8 @@ class NoiseRange:
 
 WIDE = NoiseRange()
 """Noise of training: on a GelSight Mini fine noise of 0.5 to 40 µm, drift of 0.002 to 0.16 mm, tilt
-of 0.00015 to 0.012 mm per mm, depth scale ±15 %, and in half of the samples up to 30 % of the points
-missing.
+of 0.00015 to 0.012 mm per mm, depth scale ±15 %, and in half of the samples up to 30 % of the
+points missing.
 
 Source: what is drawn with one amplitude fails at twice that amplitude (project's notes, 'Noise
 cliffs'), so each is drawn at least three times as wide as measured; the depth scale's ±15 % is the

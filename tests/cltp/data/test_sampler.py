@@ -8,7 +8,6 @@ import pytest
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Augmentation, Sampler, sampled
-from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import LATTICE, encoder_input
 from cltp.tactile.noise_levels import WIDE, NoiseLevels
@@ -79,6 +78,7 @@ def test_the_default_noise_is_named_as_it_always_was():
     assert str(NOISY) == "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
 
 
-def test_missing_points_are_refused_for_layouts_that_follow_no_even_lattice(data):
-    with pytest.raises(TouchError, match="even layout"):
-        sampler_of(data, LOSSY, sampling=FINE)
+def test_points_are_missing_from_the_even_layout_alone(data):
+    lossy, whole = (sampler_of(data, level, sampling=FINE) for level in (LOSSY, 1.0))
+    points = [each.batch(np.arange(2), 0).points for each in (lossy, whole)]
+    assert points[0].shape == points[1].shape == (2, 4 * LATTICE**2, 3)

@@ -44,7 +44,7 @@ def test_wide_levels_cover_at_least_three_times_what_is_measured_log_uniformly()
     drawn = [WIDE.draw(rng) for _ in range(4000)]
     for name in ("fine", "drift", "tilt"):
         logs = np.log([getattr(levels, name) for levels in drawn])
-        assert np.exp(logs.min()) == pytest.approx(0.2, rel=0.02)
+        assert np.exp(logs.min()) == pytest.approx(0.05, rel=0.02)
         assert np.exp(logs.max()) == pytest.approx(4.0, rel=0.02)
         assert np.median(logs) == pytest.approx((logs.min() + logs.max()) / 2, abs=0.1)
     assert {levels.scale for levels in drawn} == {1.0}
