@@ -29,6 +29,7 @@ from cltp.checkpoints.tac3d_llm import (
     write_card,
 )
 from cltp.data.dataset import ContactDataset
+from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.texts.tokenizer import Words
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
@@ -102,7 +103,7 @@ def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp trai
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
         run = TrainingRun(data=data, out=out, seed=seed, report=report)
-        train_llm(run, words, lessons, start=request.start)
+        train_llm(run, words, lessons, augmentation=LEARNING_NOISE, start=request.start)
     if _digest(out) == before:
         return  # nothing was left to do: the card with its scores still holds
     facts = {
