@@ -1,0 +1,180 @@
+"""How far a contact has moved on the pad between two clouds: registration of their heights.
+
+The heights after are those before, shifted and scaled, on a broad background that may have changed:
+drift and tilt are quadratic over the pad. Shift, scale and background are fitted together, so that
+neither broad drift nor a grip that relaxes counts as motion. A centroid of what lies above a
+threshold, in comparison, moves with every change of the noise.
+
+A body that slides along an edge of its own (a peg along its axis) does not show; its spread along
+that direction is then as large as what was assumed before anything was seen, ``PRIOR_MM``.
+
+Loads no torch. Source: image registration after Lucas and Kanade (1981), started from the best of a
+grid of shifts; the choice of the background and of the prior is ours.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter, map_coordinates
+
+from cltp.errors import TouchError
+from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
+from cltp.tactile.measure import cell_means
+from cltp.tactile.sensors import SensorSpec
+
+PRIOR_MM = 4.0
+"""Standard deviation of a shift along either axis before anything is seen [mm]. Our choice: a body
+that has moved further is mostly off the pad."""
+
+SMOOTHING_MM = 0.6
+"""Width of the Gaussian that heights are smoothed with before they are compared [mm]."""
+
+_REACH_MM, _STEP_MM, _ROUNDS = 6.0, 1.0, 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactShift:
+    """Motion of a contact.
+
+    Attributes:
+        x_mm, y_mm: Shift on the pad [mm, gel frame].
+        spread_mm: Standard deviation along the direction that is known worst [mm].
+        scale: Heights after over heights before.
+    """
+
+    x_mm: float
+    y_mm: float
+    spread_mm: float
+    scale: float
+
+    @property
+    def length_mm(self) -> float:
+        """Length of the shift [mm]."""
+        return math.hypot(self.x_mm, self.y_mm)
+
+
+def contact_shift(before: TactileCloud, after: TactileCloud) -> ContactShift:
+    """Register two clouds of one sensor.
+
+    Raises:
+        TouchError: Clouds of different sensors.
+    """
+    if before.sensor.name != after.sensor.name:
+        raise TouchError(
+            f"expected clouds of one sensor, got {before.sensor.name} and {after.sensor.name}"
+        )
+    cells = [cell_means(cloud) for cloud in (before, after)]
+    if cells[0].shape != cells[1].shape:
+        raise TouchError(
+            f"expected clouds of one density, got {cells[0].shape} and {cells[1].shape} cells"
+        )
+    fit = _Fit(*(_smooth(each, before.sensor) for each in cells), before.sensor)
+    return fit.refined(fit.coarse())
+
+
+class _Fit:
+    """Heights before and after, and the background between them."""
+
+    def __init__(self, before: FloatArray, after: FloatArray, sensor: SensorSpec) -> None:
+        rows, columns = before.shape
+        x, y = grid_axes_mm(sensor, rows, columns)
+        u, v = np.meshgrid(2 * x / sensor.width_mm, 2 * y / sensor.height_mm)
+        terms = [np.ones_like(u), u, v, u * u, u * v, v * v]
+        self._background, _ = np.linalg.qr(np.stack([term.ravel() for term in terms], axis=1))
+        self._pitch_mm = sensor.width_mm / columns, sensor.height_mm / rows
+        self._grid = np.mgrid[0:rows, 0:columns].astype(float)
+        down, self._slope_x = np.gradient(before, self._pitch_mm[1], self._pitch_mm[0])
+        self._slope_y = -down  # rows run downwards
+        self._before, self._after = before, self._without(after.ravel())
+
+    def _without(self, heights: FloatArray) -> FloatArray:
+        """Heights (N,) or (N, K) without their background."""
+        return np.asarray(heights - self._background @ (self._background.T @ heights))
+
+    def _shifted(self, field: FloatArray, x_mm: float, y_mm: float) -> FloatArray:
+        """A field where the contact has moved by (x, y), without its background, (N,)."""
+        rows = self._grid[0] + y_mm / self._pitch_mm[1]
+        columns = self._grid[1] - x_mm / self._pitch_mm[0]
+        moved = map_coordinates(field, [rows, columns], order=1, mode="nearest")
+        return self._without(moved.ravel())
+
+    def coarse(self) -> FloatArray:
+        """The most probable shift of a grid, (2,) [mm]."""
+        steps = np.arange(-_REACH_MM, _REACH_MM + _STEP_MM / 2, _STEP_MM)
+        shifts = np.stack([each.ravel() for each in np.meshgrid(steps, steps)], axis=1)
+        errors = np.array([float((self._rest(shift)[1] ** 2).sum()) for shift in shifts])
+        variance = _CORRELATED * max(float(errors.min()) / len(self._after), 1e-12)
+        improbable = errors / variance + (shifts**2).sum(axis=1) / PRIOR_MM**2
+        return np.asarray(shifts[int(np.argmin(improbable))])
+
+    def _rest(self, shift_mm: FloatArray) -> tuple[float, FloatArray]:
+        """Scale that fits best under a shift, and what is then left over, (N,) [mm]."""
+        moved = self._shifted(self._before, *shift_mm)
+        scale = max(float(moved @ self._after) / max(float(moved @ moved), 1e-12), 0.0)
+        return scale, self._after - scale * moved
+
+    def _seen(self, shift_mm: FloatArray) -> FloatArray:
+        """Directions along which the contact has slopes of its own and not those of noise, (K, 2).
+
+        Noise has slopes too. Half of those of what is left over are the noise of the heights
+        before.
+        """
+        scale, rest = self._rest(shift_mm)
+        slopes = scale * np.stack([self._slope_x.ravel(), self._slope_y.ravel()], axis=1)
+        down, right = np.gradient(rest.reshape(self._before.shape), *self._pitch_mm[::-1])
+        noise = np.stack([right.ravel(), -down.ravel()], axis=1)
+        energies, directions = np.linalg.eigh(slopes.T @ slopes)
+        noise_energies = np.einsum("ik,ij,jk->k", directions, noise.T @ noise / 2, directions)
+        return np.asarray(directions.T[noise_energies < _MOST_NOISE * energies])
+
+    def refined(self, shift_mm: FloatArray) -> ContactShift:
+        """Gauss and Newton from a shift [mm], along what is seen; the spread is what remains."""
+        seen = self._seen(shift_mm)
+        shift = seen.T @ (seen @ shift_mm) if len(seen) else np.zeros(2)
+        covariance = np.eye(2) * PRIOR_MM**2
+        for _ in range(_ROUNDS if len(seen) else 0):
+            scale, rest = self._rest(shift)
+            slopes = [self._shifted(slope, *shift) for slope in (self._slope_x, self._slope_y)]
+            moved = self._shifted(self._before, *shift)
+            along = -scale * np.stack(slopes, axis=1) @ seen.T
+            design = np.concatenate([along, moved[:, None]], axis=1)
+            variance = _CORRELATED * max(float(rest.var()), 1e-12)
+            prior = np.diag([1 / PRIOR_MM**2] * len(seen) + [1e-9])
+            information = design.T @ design / variance + prior
+            pull = design.T @ rest / variance - prior @ np.append(seen @ shift, 0.0)
+            step = np.linalg.solve(information, pull)[: len(seen)]
+            shift = shift + seen.T @ step * min(
+                1.0, _STEP_MM / max(float(np.linalg.norm(step)), 1e-9)
+            )
+            known = np.linalg.inv(information)[: len(seen), : len(seen)]
+            blind = np.eye(2) - seen.T @ seen
+            covariance = seen.T @ known @ seen + blind * PRIOR_MM**2
+        return ContactShift(
+            x_mm=float(shift[0]),
+            y_mm=float(shift[1]),
+            spread_mm=math.sqrt(float(np.linalg.eigvalsh(covariance)[-1])),
+            scale=self._rest(shift)[0],
+        )
+
+
+_MOST_NOISE = 0.5
+"""Fraction of the energy of slopes along a direction from which on they are noise."""
+
+_CORRELATED = 12.0
+"""Cells over which what is left over is one error: smoothing and reconstruction errors are
+correlated over one to two millimetres."""
+
+
+def _smooth(cells_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
+    """Cells smoothed by ``SMOOTHING_MM``; those without points count nothing."""
+    known = np.isfinite(cells_mm).astype(float)
+    sigma = [
+        SMOOTHING_MM / (sensor.height_mm / cells_mm.shape[0]),
+        SMOOTHING_MM / (sensor.width_mm / cells_mm.shape[1]),
+    ]
+    weight = gaussian_filter(known, sigma, mode="nearest")
+    heights = gaussian_filter(np.nan_to_num(cells_mm, nan=0.0), sigma, mode="nearest")
+    return np.asarray(heights / np.maximum(weight, 1e-6))
