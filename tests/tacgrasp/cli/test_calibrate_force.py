@@ -44,10 +44,10 @@ def test_an_existing_file_is_kept_unless_it_may_be_replaced(out, capsys):
     [
         (["--loads", "1", "2"], "needs 3 to 50 loads, got 2"),
         (["--loads", "2", "1", "5"], "loads must rise, got 2 1 5"),
-        (["--loads", "-1", "2", "5"], "above 0 N"),
-        (["--loads", "0", "2", "5"], "above 0 N"),
+        (["--loads", "-1", "2", "5"], "loads are 0.01 to 100 N"),
+        (["--loads", "0", "2", "5"], "loads are 0.01 to 100 N"),
         (["--loads", "1", "2", "2.5"], "3 times the smallest"),
-        (["--loads", "1", "2", "nan"], "above 0 N"),
+        (["--loads", "1", "2", "nan"], "loads are 0.01 to 100 N"),
         (["--loads", "1", "2", "many"], "--loads"),
         (["--by", "hand"], "--by must be one of weights, gripper"),
         (["--rig", "none.yaml"], "none.yaml"),
