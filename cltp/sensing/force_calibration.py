@@ -29,13 +29,16 @@ MIN_LOADS = 3
 MAX_LOADS = 50
 MIN_RANGE = 3.0
 """Least ratio of the largest to the smallest load: less can't tell a factor from an offset."""
-MAX_LOAD_N = 100.0
+MIN_LOAD_N, MAX_LOAD_N = 0.01, 100.0
 MAX_SPREAD = 0.30
 """Largest relative residual. Above it the pad is dirty, the sensor drifts, or it is another one."""
 MAX_AGE_DAYS = 180.0
 """Largest age [days] unless a rig's file says otherwise: gels stiffen and wear. Our choice."""
 
 ADVICE = "calibrate: tacgrasp calibrate force"
+MAX_TEXT = 200
+"""Longest unit or source in a file [characters]."""
+
 _MAX_BYTES = 100_000  # ours has 1 kB
 
 
@@ -139,15 +142,15 @@ def check_load_values(loads_n: Sequence[float]) -> None:
             f"a force calibration needs {MIN_LOADS} to {MAX_LOADS} loads, got {len(loads_n)} "
             f"({listed}); give more, like 0.5 1 2 5"
         )
-    if not all(0 < load <= MAX_LOAD_N for load in loads_n):
+    if not all(MIN_LOAD_N <= load <= MAX_LOAD_N for load in loads_n):
         raise TouchError(
-            f"loads are above 0 N and at most {MAX_LOAD_N:g} N, got {listed}; give newtons "
+            f"loads are {MIN_LOAD_N:g} to {MAX_LOAD_N:g} N, got {listed}; give newtons "
             "(100 g weigh 0.981 N)"
         )
     if any(b <= a for a, b in pairwise(loads_n)):
         raise TouchError(
-            f"loads must rise, got {listed}; give each once, the smallest first, so that the gel "
-            "is never unloaded"
+            f"loads must rise, got {listed}; give each once, the smallest first: a gel "
+            "remembers a larger one"
         )
     if loads_n[-1] < MIN_RANGE * loads_n[0]:
         raise TouchError(
@@ -242,10 +245,12 @@ def _checked(record: Any, kind: type) -> dict[str, Any]:
         raise TouchError(f"expected the fields {', '.join(expected)}")
     for field in fields(kind):
         value, wanted = record[field.name], types.get(str(field.type))
-        if wanted is float and type(value) is int:
+        if wanted is float and type(value) is int and abs(value) < 1e6:
             record[field.name] = value = float(value)
         if wanted is not None and type(value) is not wanted:
             raise TouchError(f"{field.name} must be {field.type}, got {str(value)[:40]!r}")
+        if isinstance(value, str) and not (value.isprintable() and len(value) <= MAX_TEXT):
+            raise TouchError(f"{field.name} must be one line of at most {MAX_TEXT} characters")
     return record
 
 

@@ -29,6 +29,9 @@ CALIBRATE = (
 )
 
 
+FORCE_CHECK = "force calibration"
+
+
 class SensorUnitSettings(SettingsBase):
     """What the settings of every sensor say about its unit.
 
@@ -86,17 +89,33 @@ def force_scale_of(settings: SensorUnitSettings, today: Today = datetime.date.to
     return UNCALIBRATED if calibration is None else calibration.scale
 
 
+def uncalibrated_refusal(settings: SensorUnitSettings) -> str:
+    """Reason not to grasp with a sensor whose forces are uncalibrated; empty for none."""
+    if settings.force_calibration is not None:
+        return ""
+    return (
+        f"the sensor's forces are {UNCALIBRATED.mark}; calibrate it: tacgrasp calibrate force, "
+        "then name the file as hardware.sensor.force_calibration in the rig's file; or accept "
+        "that with --allow-uncalibrated-force"
+    )
+
+
 def force_finding(settings: SensorUnitSettings, today: Today = datetime.date.today) -> Finding:
     """Check the force calibration for ``tacgrasp doctor``."""
-    name = "force calibration"
     try:
         calibration = load_unit_force(settings, today)
     except TouchError as error:
-        return finding("sensor", name, False, str(error), CALIBRATE)
+        return finding("sensor", FORCE_CHECK, False, str(error), CALIBRATE)
     if calibration is None:
-        return finding("sensor", name, False, f"none: forces are {UNCALIBRATED.mark}", CALIBRATE)
+        detail = f"none: forces are {UNCALIBRATED.mark}"
+        return finding("sensor", FORCE_CHECK, False, detail, CALIBRATE)
+    return good_finding(calibration, today())
+
+
+def good_finding(calibration: ForceCalibration, today: datetime.date) -> Finding:
+    """The finding of a calibration that fits its unit."""
     detail = (
-        f"{calibration.unit}, {calibration.age_days(today())} days old, factor "
+        f"{calibration.unit}, {calibration.age_days(today)} days old, factor "
         f"{calibration.factor:.3f} ± {calibration.spread:.1%} from {len(calibration.loads)} loads"
     )
-    return finding("sensor", name, True, detail)
+    return finding("sensor", FORCE_CHECK, True, detail)

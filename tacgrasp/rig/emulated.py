@@ -57,8 +57,13 @@ class EmulatedRig(HardwareRig):
         self.emulators.close()
 
 
-def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
+def start(config: RunConfig, hardware: HardwareConfig, *, centred: bool = False) -> EmulatedRig:
     """Start the emulators of the configured object and seed, and connect to them.
+
+    Args:
+        config: The run.
+        hardware: Devices of the rig's file.
+        centred: Start with the object in the middle of the pad.
 
     Raises:
         RobotError: They did not start, or a driver refuses them.
@@ -66,7 +71,7 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
         UsageError: The rig's file names a device without an emulator.
     """
     with tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder, ExitStack() as stack:
-        emulators = stack.enter_context(EmulatorProcess("rig", *_options(config)))
+        emulators = stack.enter_context(EmulatorProcess("rig", *_options(config, centred=centred)))
         settings = settings_for(config, hardware, emulators, Path(folder))
         first_force_n = float(str(emulators.ready["first_force_n"]))
         rig = connect(config, settings, first_force_n)
@@ -127,7 +132,7 @@ def emulated_calibration(
     )
 
 
-def _options(config: RunConfig) -> list[str]:
+def _options(config: RunConfig, *, centred: bool) -> list[str]:
     options = ["--object", config.object, "--seed", str(config.seed), "--sensor", config.sensor]
     optional = (
         ("--object-mesh", config.object_mesh),
@@ -136,4 +141,5 @@ def _options(config: RunConfig) -> list[str]:
     )
     for flag, value in optional:
         options += [flag, str(value)] if value is not None else []
-    return [*options, "--held"] if config.dry_run else options
+    flags = {"--held": config.dry_run, "--centred": centred}
+    return [*options, *(flag for flag, is_set in flags.items() if is_set)]

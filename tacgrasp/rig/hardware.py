@@ -180,8 +180,8 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
     _, check_sensor = _sensor_driver(hardware.sensor)
     arm_findings = preflight.check(hardware.arm)
     gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
-    force = force_finding(hardware.sensor)
-    return [_computer(), *arm_findings, *gripper_findings, *check_sensor(), force]
+    force = [force_finding(hardware.sensor)] if hardware.sensor.is_live else []
+    return [_computer(), *arm_findings, *gripper_findings, *check_sensor(), *force]
 
 
 def _computer() -> Finding:

@@ -20,6 +20,12 @@ from PIL import Image
 from rich.console import Console
 
 from cltp.errors import TouchError
+from cltp.sensing.force_calibration import (
+    ForceLoad,
+    fit_force,
+    load_force_calibration,
+    save_force_calibration,
+)
 from cltp.sensing.frames import FRAME_SUFFIXES, read_frame
 from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.sensors import SENSORS
@@ -401,6 +407,33 @@ def _read_yaml(data: bytes) -> None:
         load_with_limits(environment={"TACGRASP_ARM": text, "TACGRASP_INSTRUCTION": text})
 
 
+# -- force calibrations ---------------------------------------------------------------------------
+
+
+@cache
+def _force_file() -> bytes:
+    loads = [ForceLoad(load_n=load, read_n=0.8 * load) for load in (0.5, 1.0, 2.0)]
+    date = datetime.date(2026, 3, 1)
+    path = _file("force.json", b"")
+    save_force_calibration(
+        path, fit_force(loads, sensor="gelsight_mini", unit="mini-1", date=date, source="weights")
+    )
+    return path.read_bytes()
+
+
+_FORCE_WORDS = (b"NaN", b"1e999", b"-1", b"null", b"[]", b'"unit"', b'"factor":', b"10" * 200)
+
+
+def _force_case(rng: Random) -> bytes:
+    if rng.random() < 0.5:
+        return mutated(rng, _force_file(), _FORCE_WORDS)
+    return _odd_json(rng, _force_file())
+
+
+def _read_force(data: bytes) -> None:
+    load_force_calibration(_file("given.json", data))
+
+
 # -- what a policy said ---------------------------------------------------------------------------
 
 
@@ -458,6 +491,12 @@ TARGETS: tuple[FuzzTarget, ...] = (
     ),
     FuzzTarget(
         name="yaml", make_case=_yaml_case, read=_read_yaml, documented=(UsageError, RobotError)
+    ),
+    FuzzTarget(
+        name="force-calibration",
+        make_case=_force_case,
+        read=_read_force,
+        documented=(TouchError,),
     ),
     FuzzTarget(name="extraction", make_case=_extraction_case, read=_read_text, documented=()),
 )
