@@ -138,7 +138,8 @@ class LlmPolicy:
         points = encoder_input(observation.cloud)
         sampled = self._clock()
         penalties = ACTION_PENALTIES | dict.fromkeys(repeated_moves(self._moves), math.inf)
-        reply = self._talker.reply(points, instruction, penalties=penalties)
+        factor = observation.cloud.force_scale.factor
+        reply = self._talker.reply(points, instruction, penalties=penalties, force_factor=factor)
         replied = self._clock()
         extraction = extract(reply.text)
         stages = {
@@ -167,7 +168,8 @@ class LlmPolicy:
                 not end.
         """
         self.check(question)
-        reply = self._talker.reply(encoder_input(cloud), question)
+        factor = cloud.force_scale.factor
+        reply = self._talker.reply(encoder_input(cloud), question, force_factor=factor)
         if not reply.ended:
             raise PolicyError(
                 f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "

@@ -12,6 +12,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.segment import Segment
 from rich.text import Text
 
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from tacgrasp.base.printable import printable
@@ -69,11 +70,14 @@ def step_line(record: StepRecord, state: ContactState, elapsed_s: float) -> Text
     """One step: number, time, contact, D_t, action, force and duration."""
     note = f" | {record.note}" if record.note else ""
     line = Text(f"{record.index:3d} {elapsed_s:6.1f} s  ")
-    line.append(contact_text(state), style="cyan")
+    scale = record.cloud.force_scale
+    line.append(contact_text(state, scale), style="cyan")
     if record.decision is None:
         return line.append(f" | {PHASE_LABELS.get(record.phase, '')}{note}")
     action, executed = record.decision.action, record.executed
     line.append(f" | “{record.decision.text}”")
+    if not scale.is_calibrated:
+        line.append(f" (its N {scale.source})", style="yellow")
     line.append(f" | {action.value if action else 'no action'}", style="bold")
     if executed is None:
         line.append(f" | grip {record.gripper.force_n:.2f} N")
@@ -85,14 +89,15 @@ def step_line(record: StepRecord, state: ContactState, elapsed_s: float) -> Text
     return line.append(f" | {record.step_ms:.0f} ms{note}")
 
 
-def contact_text(state: ContactState) -> str:
-    """A contact in numbers; its words are those of D_t."""
+def contact_text(state: ContactState, scale: ForceScale) -> str:
+    """A contact in numbers, with the mark of the unit's forces; its words are those of D_t."""
     if not state.in_contact:
         return "no contact"
     cut = f", cut at the {' and '.join(sorted(state.cut))}" if state.cut else ""
+    mark = "" if scale.is_calibrated else f" ({scale.mark})"
     return (
         f"({state.x_mm:+.1f}, {state.y_mm:+.1f}) mm, {state.depth_mm:.2f} mm deep, "
-        f"{state.area_fraction:.0%}, {state.force_n:.1f} N{cut}"
+        f"{state.area_fraction:.0%}, {state.force_n:.1f} N{mark}{cut}"
     )
 
 

@@ -66,6 +66,21 @@ def restored(values: Tensor) -> Tensor:
     return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
 
 
+def scaled_force(numbers: Tensor, factor: float | Tensor) -> Tensor:
+    """Transformed numbers with the force in newtons instead of nominal newtons.
+
+    Args:
+        numbers: Shape (..., 5), transformed ``NUMBERS``, as the heads give them.
+        factor: Newtons per nominal newton, one number or (...), above 0
+            (``cltp.tactile.force_scale``). The number 1 gives ``numbers`` themselves.
+    """
+    if isinstance(factor, float | int) and factor == 1:
+        return numbers
+    *others, force = numbers.unbind(-1)
+    newtons = torch.expm1(2 * force.clamp(0, 5)) * factor
+    return torch.stack([*others, torch.where(force > 0, torch.log1p(newtons) / 2, force)], -1)
+
+
 def with_read_numbers(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
     """States with the heads' numbers in place of their own; words stay, and states without contact.
 

@@ -77,6 +77,7 @@ class Talker:
         *,
         max_tokens: int = MAX_TOKENS,
         penalties: Mapping[str, float] | None = None,
+        force_factor: float = 1.0,
     ) -> Reply:
         """Ask about one contact.
 
@@ -87,11 +88,12 @@ class Talker:
             penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which
                 are taken from their logits: a penalised action must be exp(penalty) times as
                 probable as the one that replaces it. An infinite penalty excludes an action.
+            force_factor: Newtons per nominal newton of the unit that measured the points.
         """
         marks = [self._clock()]
         encoded = self.model.encoder(torch.from_numpy(points)[None])
         marks.append(self._clock())
-        touch = self.model.projected(encoded)[0]
+        touch = self.model.projected(encoded, force_factor)[0]
         marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
         generate = partial(_own, self._fast) if self._fast is not None else _stock

@@ -14,7 +14,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.encoder import Encoded, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads
+from cltp.encoder.heads import HeadsOutput, StateHeads, scaled_force
 from cltp.llm.causal_lm import Language
 from cltp.llm.reading_tokens import NUM_READINGS, ReadingTokens
 from cltp.texts.exchange_packing import NOT_LEARNED, Packed
@@ -70,9 +70,17 @@ class Tac3dLlm(nn.Module):
         """Embeddings of scaled points (B, 1024, 3): shape (B, P, D)."""
         return self.projected(self.encoder(points))
 
-    def projected(self, encoded: Encoded) -> Tensor:
-        """Embeddings of an encoded batch: shape (B, P, D)."""
-        return self.projector(encoded.tokens, self.heads(encoded.pooled))
+    def projected(self, encoded: Encoded, force_factor: float | Tensor = 1.0) -> Tensor:
+        """Embeddings of an encoded batch: shape (B, P, D).
+
+        Args:
+            encoded: The batch.
+            force_factor: Newtons per nominal newton of its units, one number or (B,): the language
+                model is told newtons.
+        """
+        read = self.heads(encoded.pooled)
+        read = read._replace(numbers=scaled_force(read.numbers, force_factor))
+        return self.projector(encoded.tokens, read)
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.

@@ -146,8 +146,8 @@ def check_load_values(loads_n: Sequence[float]) -> None:
         )
     if any(b <= a for a, b in pairwise(loads_n)):
         raise TouchError(
-            f"loads must rise, got {listed}; give each once, the smallest first, so that the gel "
-            "is never unloaded"
+            f"loads must rise, got {listed}; give each once, the smallest first: a gel "
+            "remembers a larger one"
         )
     if loads_n[-1] < MIN_RANGE * loads_n[0]:
         raise TouchError(

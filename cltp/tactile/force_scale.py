@@ -14,6 +14,9 @@ from dataclasses import dataclass
 
 from cltp.errors import TouchError
 
+UNCALIBRATED_SOURCE = "uncalibrated"
+"""Source of the scale of a unit without a calibration, in episodes too."""
+
 MAX_FACTOR = 10.0
 """Largest factor, and one over the smallest: beyond it the sensor is not of its model."""
 
@@ -29,7 +32,7 @@ class ForceScale:
     Attributes:
         factor: Newtons per nominal newton.
         spread: Standard deviation of ln F that the factor leaves.
-        source: Origin of the factor; '' without a calibration.
+        source: Unit and day of the calibration; ``UNCALIBRATED_SOURCE`` without one.
 
     Raises:
         TouchError: A number that no unit has.
@@ -49,7 +52,7 @@ class ForceScale:
 
     @property
     def is_calibrated(self) -> bool:
-        return bool(self.source)
+        return self.source != UNCALIBRATED_SOURCE
 
     @property
     def mark(self) -> str:
@@ -57,8 +60,8 @@ class ForceScale:
         if self.is_calibrated:
             return ""
         low, high = (100 * (math.exp(sign * self.spread) - 1) for sign in (-1, 1))
-        return f"uncalibrated, {low:+.0f} to {high:+.0f} %"
+        return f"{UNCALIBRATED_SOURCE}, {low:+.0f} to {high:+.0f} %"
 
 
-UNCALIBRATED = ForceScale(factor=1.0, spread=UNCALIBRATED_SPREAD, source="")
+UNCALIBRATED = ForceScale(factor=1.0, spread=UNCALIBRATED_SPREAD, source=UNCALIBRATED_SOURCE)
 """Scale of a unit without a force calibration."""

@@ -26,6 +26,7 @@ class RigOptions:
         sensor: sensor whose sensing area the taxels cover
         first_force_n: largest commanded force until something is felt [N]; by default 0.6
         held: start with the object gripped between the fingers
+        centred: start with the object in the middle of the pad
         host: loopback address of the arm; by default one that is free
     """
 
@@ -36,6 +37,7 @@ class RigOptions:
     sensor: str = "gelsight_mini"
     first_force_n: float | None = None
     held: bool = False
+    centred: bool = False
     host: str | None = None
 
 

@@ -59,6 +59,7 @@ def run(options: RigOptions) -> None:
             mass_g=options.object_mass_g,
             sensor_name=options.sensor,
             first_force_n=options.first_force_n,
+            start_offset_mm=(0.0, 0.0) if options.centred else None,
         )
         if options.held:
             simulated.gripper.grip(simulated.first_force_n)

@@ -2,6 +2,6 @@
 
 Not here: the checks of one device (``tacgrasp.drivers``), the commands (``tacgrasp.cli``).
 
-May import: cltp, primitives, sim.emulators, sim.gel, tacgrasp, tacgrasp.base, tacgrasp.config,
-tacgrasp.drivers, tacgrasp.rig.
+May import: cltp, primitives, sim.emulators, sim.gel, sim.grasp, tacgrasp, tacgrasp.base,
+tacgrasp.config, tacgrasp.drivers, tacgrasp.rig.
 """

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import datetime
 import tempfile
 from collections.abc import Sequence
 from importlib import metadata
@@ -13,6 +14,7 @@ from tacgrasp.bringup.soak import soak_findings
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.force_scale import good_finding
 from tacgrasp.rig.hardware import device_findings
 
 LIBRARIES = {
@@ -36,12 +38,19 @@ def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]
     findings = _file_findings(config)
     if config.hardware is None:
         detail = "simulated: there is nothing to connect"
-        return [*findings, finding("rig", "devices", True, detail)]
+        return [*findings, finding("rig", "devices", True, detail), _drawn_force(config)]
     findings += _library_findings()
     if config.devices == "hardware":
         devices = device_findings(config.hardware, config.gripper.first_force_n)
         return [*findings, *devices, *_soak(config, config.hardware, soak_s)]
     return [*findings, *_emulated_findings(config, config.hardware, soak_s)]
+
+
+def _drawn_force(config: RunConfig) -> Finding:
+    """The calibration that the simulated sensor carries."""
+    from sim.grasp.force_calibration import drawn_force_calibration
+
+    return good_finding(drawn_force_calibration(config.sensor, config.seed), datetime.date.today())
 
 
 def _soak(config: RunConfig, hardware: HardwareConfig, seconds: float) -> list[Finding]:
@@ -83,7 +92,7 @@ def _emulated_findings(config: RunConfig, hardware: HardwareConfig, soak_s: floa
             tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder,
         ):
             ready = ", ".join(f"{name} {value}" for name, value in emulators.ready.items())
-            settings = settings_for(hardware, emulators, Path(folder))
+            settings = settings_for(config, hardware, emulators, Path(folder))
             first_force_n = config.gripper.first_force_n
             if first_force_n is None:
                 first_force_n = float(str(emulators.ready["first_force_n"]))

@@ -193,7 +193,8 @@ class Jogger:
         cloud = self._rig.sensor.read()
         if self._sense.in_contact(cloud):
             self._gripper.feel(self._sense.felt_force(cloud))
-        return contact_text(contact_state(cloud, in_contact=self._sense.in_contact(cloud)))
+        state = contact_state(cloud, in_contact=self._sense.in_contact(cloud))
+        return contact_text(state, cloud.force_scale)
 
     def _step(self, step: JogStep) -> str:
         start = self._rig.arm.pose()

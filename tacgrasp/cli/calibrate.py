@@ -1,4 +1,4 @@
-"""``tacgrasp calibrate gelsight-mini|background|gripper|pad-axes``: measurements on a bench."""
+"""``tacgrasp calibrate background|force|gelsight-mini|gripper|pad-axes``: bench measurements."""
 
 from __future__ import annotations
 
@@ -9,8 +9,14 @@ from pathlib import Path
 from typing import Any
 
 from tacgrasp.base.errors import UsageError
-from tacgrasp.cli import calibrate_background, calibrate_gripper, calibrate_pad_axes
+from tacgrasp.cli import (
+    calibrate_background,
+    calibrate_force,
+    calibrate_gripper,
+    calibrate_pad_axes,
+)
 from tacgrasp.cli.calibrate_background import CalibrateBackgroundFlags
+from tacgrasp.cli.calibrate_force import CalibrateForceFlags
 from tacgrasp.cli.calibrate_gripper import CalibrateGripperFlags, parse_date
 from tacgrasp.cli.calibrate_pad_axes import CalibratePadAxesFlags
 from tacgrasp.cli.flags import run_subcommand
@@ -49,6 +55,7 @@ def main(argv: Sequence[str]) -> int:
     commands: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
         "gelsight-mini": (CalibrateGelsightFlags, _gelsight_mini),
         "background": (CalibrateBackgroundFlags, calibrate_background.run),
+        "force": (CalibrateForceFlags, calibrate_force.run),
         "gripper": (CalibrateGripperFlags, calibrate_gripper.run),
         "pad-axes": (CalibratePadAxesFlags, calibrate_pad_axes.run),
     }

@@ -43,11 +43,13 @@ class RunFlags(RunConfig):
 
     Attributes:
         print_config: Print every value and its source, then the contract, and do nothing else.
+        allow_uncalibrated_force: Grasp on real devices without a force calibration of the sensor.
         events: File for the contract, every step and the end, one JSON object a line.
     """
 
     hardware: Annotated[HardwareConfig | None, tyro.conf.Suppress] = None
     print_config: bool = False
+    allow_uncalibrated_force: bool = False
     events: Annotated[Path | None, tyro.conf.arg(name="json")] = None
 
 
@@ -61,6 +63,7 @@ def main(argv: Sequence[str]) -> int:
     if flags.print_config:
         _print_config(config, sources, contract)
         return 0
+    _check_force_calibration(config, allowed=flags.allow_uncalibrated_force)
     writable(flags.events)
     with EventFile(flags.events) as events:
         outcome = _run(config, contract, events)
@@ -78,7 +81,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
     layers = parse_some(LayerFlags, argv)
     below, sources, hard = load_with_limits(layers.task, layers.rig, os.environ)
     values = {name: getattr(below, name) for name in type(below).model_fields}
-    default = RunFlags.model_construct(**values, print_config=False)
+    default = RunFlags.model_construct(**values, print_config=False, allow_uncalibrated_force=False)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
     tokens = {token.split("=")[0] for token in argv if token.startswith("--")}
     config = RunConfig(**{name: getattr(flags, name) for name in RunConfig.model_fields})
@@ -124,6 +127,18 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     for text in end_lines(outcome):
         console.print(text)
     return outcome
+
+
+def _check_force_calibration(config: RunConfig, *, allowed: bool) -> None:
+    """Refuse to move real devices by forces that are off by an unknown factor."""
+    from tacgrasp.drivers.force_scale import uncalibrated_refusal
+
+    if config.devices != "hardware" or config.hardware is None or config.dry_run or allowed:
+        return
+    sensor = config.hardware.sensor
+    reason = uncalibrated_refusal(sensor) if sensor.is_live else ""
+    if reason:
+        raise UsageError(f"{reason}; nothing moved")
 
 
 def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:

@@ -4,5 +4,5 @@ A driver imports its manufacturer's library where it uses it. An arm and a gripp
 contracts of ``primitives.devices``, a sensor that of ``tacgrasp.rig.protocols``. Not here: a whole
 rig (``tacgrasp.rig.hardware``), emulated devices (``sim.emulators``).
 
-May import: cltp, primitives.
+May import: cltp, primitives, tacgrasp.base.
 """

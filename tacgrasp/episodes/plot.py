@@ -136,7 +136,7 @@ def _outline_pad(axes: Axes, sensor: SensorSpec) -> None:
 
 
 def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: FloatArray) -> None:
-    """Commanded force and felt depth over time, with the actions between them."""
+    """Commanded and felt force, and felt depth, over time, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
     time_s = [step.stamp.monotonic_s - start_s for step in episode.steps]
     force = figure.add_subplot(grid[0, 0])
@@ -144,8 +144,14 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
     commanded = [step.gripper.force_n for step in episode.steps]
     force.step(time_s, commanded, where="post", color=_FORCE, lw=2)
     force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
-    force.set_ylabel("commanded\nforce [N]")
-    force.set_ylim(0, 1.35 * max(*commanded, 0.1))
+    felt = [(at_s, s.felt_force_n) for at_s, s in zip(time_s, episode.steps, strict=True)]
+    readings = [(at_s, reading) for at_s, reading in felt if reading is not None]
+    if readings:
+        values = np.array([[at_s, r.value, r.low, r.high] for at_s, r in readings]).T
+        spans = [values[1] - values[2], values[3] - values[1]]
+        force.errorbar(values[0], values[1], spans, fmt="s", color=_DEPTH, ms=5, capsize=3)
+    force.set_ylabel(force_label(episode))
+    force.set_ylim(0, 1.35 * max(*commanded, *(r.high for _, r in readings), 0.1))
     depth.plot(time_s, contacts[:, 2], "o-", color=_DEPTH, lw=2, ms=5)
     depth.set_ylabel("largest\nindentation [mm]")
     depth.set_ylim(0, 1.3 * max(contacts[:, 2].max(), 0.1))
@@ -158,6 +164,12 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
             axes.axvline(at_s, color=_MUTED, lw=0.6, alpha=0.5, ls=":")
     if len(episode.steps) <= MAX_PICTURES:
         _label_times(force, time_s, episode.steps)
+
+
+def force_label(episode: Episode) -> str:
+    """Label of the axis of forces: without a force calibration it says so."""
+    marks = {step.cloud.force_scale.mark for step in episode.steps} - {""}
+    return "\n".join(["force [N]: line commanded,", "squares felt", *sorted(marks)])
 
 
 def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord]) -> None:

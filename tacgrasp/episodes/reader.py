@@ -114,7 +114,9 @@ def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
     decision, action = _parse(Topic.DECISION, group), _parse(Topic.ACTION, group)
     return StepRecord(
         **state.shared(),
-        cloud=decode_cloud(group.get(Topic.CLOUD, b""), sensor, state.cloud_stamp),
+        cloud=decode_cloud(
+            group.get(Topic.CLOUD, b""), sensor, state.cloud_stamp, state.force_scale
+        ),
         decision=None if decision is None else decision.decision,
         executed=None if action is None else action.executed,
         step_ms=state.tick_ms,

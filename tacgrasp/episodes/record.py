@@ -27,6 +27,7 @@ from enum import StrEnum
 from typing import Any
 
 from cltp.tactile.cloud import Stamp, TactileCloud
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.contract import Contract
@@ -157,10 +158,12 @@ class StepState(StepFields):
         cloud_stamp: Capture time of the cloud [s]; the exact value (the cloud's own message
             rounds to ns), None when the cloud had no clock.
         tick_ms: Duration of the step [ms].
+        force_scale: The cloud's; uncalibrated in episodes of older versions.
     """
 
     cloud_stamp: Stamp | None
     tick_ms: float
+    force_scale: ForceScale = UNCALIBRATED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

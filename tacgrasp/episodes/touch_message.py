@@ -8,6 +8,7 @@ from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
 from google.protobuf.message import DecodeError
 
 from cltp.tactile.cloud import Stamp, TactileCloud
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 
 FRAME_ID = "gel"
@@ -32,7 +33,12 @@ def encode_cloud(cloud: TactileCloud, stamp: Stamp) -> bytes:
     return message.SerializeToString()
 
 
-def decode_cloud(data: bytes, sensor: SensorSpec, stamp: Stamp | None) -> TactileCloud:
+def decode_cloud(
+    data: bytes,
+    sensor: SensorSpec,
+    stamp: Stamp | None,
+    force_scale: ForceScale = UNCALIBRATED,
+) -> TactileCloud:
     """Restore a cloud from ``encode_cloud``.
 
     Raises:
@@ -48,4 +54,9 @@ def decode_cloud(data: bytes, sensor: SensorSpec, stamp: Stamp | None) -> Tactil
     if layout != _LAYOUT or message.point_stride != 12 or len(message.data) % 12:
         raise ValueError(f"the cloud's fields are {layout}; expected x, y, z as float32 [mm]")
     points = np.frombuffer(message.data, dtype=_LITTLE).reshape(-1, 3)
-    return TactileCloud(points_mm=points.astype(np.float32, copy=False), sensor=sensor, stamp=stamp)
+    return TactileCloud(
+        points_mm=points.astype(np.float32, copy=False),
+        sensor=sensor,
+        stamp=stamp,
+        force_scale=force_scale,
+    )

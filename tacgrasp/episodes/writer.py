@@ -119,7 +119,12 @@ class EpisodeWriter:
         if record.executed is not None:
             messages[Topic.ACTION] = self._json(ActionMessage(**common, executed=record.executed))
         messages[Topic.STATE] = self._json(
-            StepState(**record.shared(), cloud_stamp=record.cloud.stamp, tick_ms=record.step_ms)
+            StepState(
+                **record.shared(),
+                cloud_stamp=record.cloud.stamp,
+                tick_ms=record.step_ms,
+                force_scale=record.cloud.force_scale,
+            )
         )
         with self._durably(f"step {record.index}"):
             self._add(record.stamp, messages)

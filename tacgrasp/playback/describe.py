@@ -44,7 +44,7 @@ def describe(cloud: TactileCloud) -> list[str]:
     Raises:
         TouchError: The cloud can't be measured, or its z has the wrong sign.
     """
-    sensor = cloud.sensor
+    sensor, mark = cloud.sensor, cloud.force_scale.mark or "calibrated"
     state = contact_state(cloud, in_contact=is_touched(cloud))
     lines = [
         f"sensor    {sensor.name}, {sensor.width_mm:.1f} × {sensor.height_mm:.1f} mm",
@@ -58,7 +58,7 @@ def describe(cloud: TactileCloud) -> list[str]:
         f"depth     {state.depth} ({state.depth_mm:.2f} mm)",
         f"area      {state.area} ({state.area_fraction:.1%}, "
         f"{state.area_fraction * sensor.area_mm2:.0f} mm²)",
-        f"force     about {state.force_n:.2f} N (an estimate from the gel's shape)",
+        f"force     about {state.force_n:.2f} N (an estimate from the gel's shape, {mark})",
         f"cut       {', '.join(sorted(state.cut)) or 'no'}",
         f"caption   {caption(state)}",
     ]
@@ -81,9 +81,11 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -
         advice = f"nothing, the grasp is good (confidence {decision.confidence:.2f})"
     else:
         advice = f"no action: {decision.reason}"
+    scale = cloud.force_scale
+    mark = "" if scale.is_calibrated else f" (its N {scale.source})"
     return [
-        f"model     {description}",
+        f"model     {description}{mark}",
         f"asked     {instruction}",
-        f"says      {decision.text}",
+        f"says      {decision.text}{mark}",
         f"advice    {advice}",
     ]

@@ -14,10 +14,12 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
+from cltp.sensing.force_calibration import save_force_calibration
 from primitives.errors import RobotError
 from sim.emulators.dynamixel.fingers import Linkage
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.rig import FINGERS
+from sim.grasp.force_calibration import drawn_force_calibration
 from sim.grasp.rig import Truth
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.hardware import HardwareConfig
@@ -55,8 +57,13 @@ class EmulatedRig(HardwareRig):
         self.emulators.close()
 
 
-def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
+def start(config: RunConfig, hardware: HardwareConfig, *, centred: bool = False) -> EmulatedRig:
     """Start the emulators of the configured object and seed, and connect to them.
+
+    Args:
+        config: The run.
+        hardware: Devices of the rig's file.
+        centred: Start with the object in the middle of the pad.
 
     Raises:
         RobotError: They did not start, or a driver refuses them.
@@ -64,8 +71,8 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
         UsageError: The rig's file names a device without an emulator.
     """
     with tempfile.TemporaryDirectory(prefix="tacgrasp-") as folder, ExitStack() as stack:
-        emulators = stack.enter_context(EmulatorProcess("rig", *_options(config)))
-        settings = settings_for(hardware, emulators, Path(folder))
+        emulators = stack.enter_context(EmulatorProcess("rig", *_options(config, centred=centred)))
+        settings = settings_for(config, hardware, emulators, Path(folder))
         first_force_n = float(str(emulators.ready["first_force_n"]))
         rig = connect(config, settings, first_force_n)
         stack.pop_all()
@@ -74,12 +81,12 @@ def start(config: RunConfig, hardware: HardwareConfig) -> EmulatedRig:
 
 
 def settings_for(
-    hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
+    config: RunConfig, hardware: HardwareConfig, emulators: EmulatorProcess, folder: Path
 ) -> HardwareConfig:
     """Settings of the rig with the addresses of these emulators.
 
-    The gripper's calibration is the emulator's own line. It is written into ``folder``, which has
-    to last until the gripper is connected.
+    The gripper's calibration is the emulator's own line, the sensor's that of the simulated rig of
+    the same seed. They are written into ``folder``, which has to last until both are connected.
 
     Raises:
         UsageError: The sensor has no emulator.
@@ -92,12 +99,17 @@ def settings_for(
     ready = emulators.ready
     calibration = folder / "gripper_calibration.yaml"
     save_calibration(calibration, emulated_calibration(hardware.gripper))
+    force = folder / "force_calibration.json"
+    drawn = drawn_force_calibration(config.sensor, config.seed, unit=hardware.sensor.unit)
+    save_force_calibration(force, drawn)
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
             "arm": hardware.arm.for_emulator(host=str(ready["host"])),
             "gripper": hardware.gripper.for_emulator(**gripper),
-            "sensor": hardware.sensor.for_emulator(port=str(ready["sensor_port"])),
+            "sensor": hardware.sensor.for_emulator(
+                port=str(ready["sensor_port"]), force_calibration=force
+            ),
         }
     )
 
@@ -120,7 +132,7 @@ def emulated_calibration(
     )
 
 
-def _options(config: RunConfig) -> list[str]:
+def _options(config: RunConfig, *, centred: bool) -> list[str]:
     options = ["--object", config.object, "--seed", str(config.seed), "--sensor", config.sensor]
     optional = (
         ("--object-mesh", config.object_mesh),
@@ -129,4 +141,5 @@ def _options(config: RunConfig) -> list[str]:
     )
     for flag, value in optional:
         options += [flag, str(value)] if value is not None else []
-    return [*options, "--held"] if config.dry_run else options
+    flags = {"--held": config.dry_run, "--centred": centred}
+    return [*options, *(flag for flag, is_set in flags.items() if is_set)]

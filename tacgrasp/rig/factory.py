@@ -43,6 +43,21 @@ def make_rig(config: RunConfig) -> Rig:
     return hardware_rig.connect(config, config.hardware, config.gripper.first_force_n)
 
 
+def make_centred_rig(config: RunConfig) -> Rig:
+    """Build a simulated or emulated rig with the object in the middle of the pad, to calibrate it.
+
+    Raises:
+        UsageError: The simulator knows no such object, or the mesh doesn't exist.
+        RobotError: The emulators did not start.
+    """
+    from tacgrasp.rig import emulated as emulated_rig
+
+    _check_object(config)
+    if config.hardware is None:
+        return _simulated(config, centred=True)
+    return emulated_rig.start(config, config.hardware, centred=True)
+
+
 def _check_object(config: RunConfig) -> None:
     from sim.grasp.bodies import OBJECTS
 
@@ -54,7 +69,7 @@ def _check_object(config: RunConfig) -> None:
         raise UsageError(f"--object-mesh {config.object_mesh} does not exist")
 
 
-def _simulated(config: RunConfig) -> SimRig:
+def _simulated(config: RunConfig, *, centred: bool = False) -> SimRig:
     from sim.grasp.rig import build
 
     _check_object(config)
@@ -65,6 +80,7 @@ def _simulated(config: RunConfig) -> SimRig:
         mass_g=config.object_mass_g,
         sensor_name=config.sensor,
         first_force_n=config.gripper.first_force_n,
+        start_offset_mm=(0.0, 0.0) if centred else None,
     )
     if config.dry_run:  # on a real rig a person puts the object between the fingers
         rig.gripper.grip(rig.first_force_n)

@@ -26,7 +26,10 @@ pad's edge cuts or whose force is below ``CLEAR_N``. Source: 1.6 times the resid
 0.2 to 9 N): bias -0.16 to 0.14, standard deviation 0.11 to 0.16 on the pad; up to 0.32 of all."""
 
 CLEAR_N = 0.2
-"""Felt force from which it is clear [N]."""
+"""Felt force from which it is clear [nominal N: clear heights, whatever the gel's stiffness]."""
+
+SPREADS = 1.6
+"""Standard deviations of a unit's force scale in an interval, as in ``FELT_SPREAD``."""
 
 
 def _raise(error: TouchError, attempt: int) -> None:
@@ -92,12 +95,14 @@ class GelSense:
         return self._in_contact
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
-        """Force that a cloud suggests [N]; None without contact."""
+        """Force that a cloud suggests [N], within its unit's spread too; None without contact."""
         state = contact_state(cloud, in_contact=self.in_contact(cloud))
         if not state.in_contact or state.force_n <= 0:
             return None
-        is_clear = not state.cut and state.force_n >= CLEAR_N
-        factor = math.exp(FELT_SPREAD if is_clear else CUT_SPREAD)
+        scale = cloud.force_scale
+        is_clear = not state.cut and state.force_n >= CLEAR_N * scale.factor
+        read_spread = FELT_SPREAD if is_clear else CUT_SPREAD
+        factor = math.exp(math.hypot(read_spread, SPREADS * scale.spread))
         return Interval(
             value=state.force_n, low=state.force_n / factor, high=state.force_n * factor
         )

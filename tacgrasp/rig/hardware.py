@@ -23,6 +23,7 @@ from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.force_scale import force_finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
@@ -179,7 +180,8 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
     _, check_sensor = _sensor_driver(hardware.sensor)
     arm_findings = preflight.check(hardware.arm)
     gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
-    return [_computer(), *arm_findings, *gripper_findings, *check_sensor()]
+    force = [force_finding(hardware.sensor)] if hardware.sensor.is_live else []
+    return [_computer(), *arm_findings, *gripper_findings, *check_sensor(), *force]
 
 
 def _computer() -> Finding:

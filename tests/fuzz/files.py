@@ -169,7 +169,12 @@ def _messages() -> Messages:
     for index in range(2):
         step = step_record(index)
         common: dict[str, Any] = {"index": index, "stamp": step.stamp}
-        state = StepState(**step.shared(), cloud_stamp=step.cloud.stamp, tick_ms=step.step_ms)
+        state = StepState(
+            **step.shared(),
+            cloud_stamp=step.cloud.stamp,
+            tick_ms=step.step_ms,
+            force_scale=step.cloud.force_scale,
+        )
         decision = DecisionMessage(**common, decision=step.decision)
         messages += [
             (index + 1, Topic.CLOUD, encode_cloud(step.cloud, step.stamp)),

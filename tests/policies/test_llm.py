@@ -1,4 +1,5 @@
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.generation import Reply
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
@@ -226,3 +228,20 @@ def test_a_goal_outside_the_contract_is_named_as_beyond_it(text: str, is_beyond:
     assert bool(reason) is is_beyond
     assert not is_beyond or "outside 0.95-1.90 N" in reason
     assert goal_beyond(text, None) == ""
+
+
+def test_the_model_is_told_newtons_by_the_factor_of_the_cloud_s_unit(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy, factors = LlmPolicy(untrained), []
+
+    def answer(*_: object, force_factor: float = 1.0, **__: object) -> Reply:
+        factors.append(force_factor)
+        return reply("Action: <none>.", "<none>")
+
+    monkeypatch.setattr(policy.talker, "reply", answer)
+    cloud = replace(touch(), force_scale=ForceScale(factor=1.7, spread=0.05, source="unit a"))
+    policy.decide(Observation(cloud=cloud), wide_contract())
+    policy.ask(cloud, "Please hold the egg securely.")
+    policy.decide(Observation(cloud=touch()), wide_contract())
+    assert factors == [1.7, 1.7, 1.0]

@@ -76,7 +76,7 @@ class FaultBench:
         self._recovered_ms = LOADED_MS if is_loaded else RECOVERED_MS
         self._folder = tempfile.TemporaryDirectory(prefix="tacgrasp-faults-")
         self._background = Path(self._folder.name) / "background.png"
-        settings = settings_for(hardware, emulators, Path(self._folder.name))
+        settings = settings_for(config, hardware, emulators, Path(self._folder.name))
         self._hardware = settings.model_copy(update={"start": StartConfig(at="here")})
         self._rng = np.random.default_rng(config.seed)
 

@@ -88,7 +88,7 @@ def _connect(config: RunConfig, stack: ExitStack) -> _Devices:
         raise UsageError("rigs/emulated.yaml names no hardware")
     emulators = stack.enter_context(EmulatorProcess("rig"))
     folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="tacgrasp-"))
-    settings = settings_for(config.hardware, emulators, Path(folder))
+    settings = settings_for(config, config.hardware, emulators, Path(folder))
     sensor = connect_sensor(settings.sensor, config)
     stack.callback(sensor.disconnect)
     gripper = connect_gripper(settings.gripper)

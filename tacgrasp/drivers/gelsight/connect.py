@@ -14,6 +14,7 @@ from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import Finding, finding, read_durations_ms
+from tacgrasp.drivers.force_scale import force_scale_of
 from tacgrasp.drivers.gelsight.background import Background, average_frames, load_background
 from tacgrasp.drivers.gelsight.cameras import FrameSource, make_source
 from tacgrasp.drivers.gelsight.capture_thread import CapturedFrame, CaptureThread
@@ -49,9 +50,12 @@ def connect_gelsight(
     """
     sensor = sensor_named("gelsight_mini")
     calibration, background = load_unit_files(settings, now())
+    scale = force_scale_of(settings, lambda: now().date())
     photometer = Photometer(calibration.net, background.frame, sensor)
     open_source = partial(opener, settings, sensor)
-    gelsight = GelSightMini(settings, open_source, photometer, background.frame, rng=rng)
+    gelsight = GelSightMini(
+        settings, open_source, photometer, background.frame, rng=rng, force_scale=scale
+    )
     try:
         gelsight.wait_until_alive()
     except BaseException:

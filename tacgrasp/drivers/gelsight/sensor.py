@@ -14,6 +14,7 @@ from cltp.errors import TouchError
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.drivers.gelsight.background import check_still, mismatch
 from tacgrasp.drivers.gelsight.cameras import FrameSource, frame_problem
@@ -39,6 +40,7 @@ class GelSightMini:
         photometer: Photometer of the unit's calibration and stored background.
         background: The same background.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
+        force_scale: Force scale of the unit.
 
     Raises:
         TouchError: A recording can't be opened. A camera is opened in its thread, and
@@ -53,10 +55,11 @@ class GelSightMini:
         background: Frame,
         *,
         rng: np.random.Generator | None = None,
+        force_scale: ForceScale = UNCALIBRATED,
     ) -> None:
         self._settings, self._background = settings, background
         self._stored_photometer = self._photometer = photometer
-        self._rng = rng
+        self._rng, self._force_scale = rng, force_scale
         self._disconnected = False
         self._source: FrameSource | None = None
         self._thread: CaptureThread | None = None
@@ -99,7 +102,13 @@ class GelSightMini:
         captured = self._fresh_frame()
         try:
             heights = self._photometer.heights(captured.frame)
-            return cloud_from_heights(heights, self.spec, rng=self._rng, stamp=captured.stamp)
+            return cloud_from_heights(
+                heights,
+                self.spec,
+                rng=self._rng,
+                stamp=captured.stamp,
+                force_scale=self._force_scale,
+            )
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None
 

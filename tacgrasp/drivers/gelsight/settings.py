@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 from pydantic import Field, model_validator
 
-from tacgrasp.base.settings import Number, SettingsBase
+from tacgrasp.base.settings import Number
+from tacgrasp.drivers.force_scale import SensorUnitSettings
 
 
-class GelSightSettings(SettingsBase):
+class GelSightSettings(SensorUnitSettings):
     """A GelSight Mini: its camera, or a recording of one.
 
     Attributes:
@@ -20,7 +21,7 @@ class GelSightSettings(SettingsBase):
         images: Folder of images to play instead, in counting order, without its background.png.
         play_hz: Rate of a recording played like a camera [Hz]; None gives one image for each read.
         repeat: Start a recording again at its end; otherwise its end is an error.
-        unit: Name of the unit in its calibration and background.
+        unit: Name of the unit in its calibrations and background.
         calibration: File of this unit from ``tacgrasp calibrate gelsight-mini``; or 'shipped',
             which belongs to another unit, so that heights are rough.
         background: Frame of this unit's untouched gel; for a recording, any image.
@@ -33,7 +34,6 @@ class GelSightSettings(SettingsBase):
         connect_timeout_s: Longest wait for the first frame [s].
     """
 
-    sensor_name: ClassVar[str] = "gelsight_mini"
     kind: Literal["gelsight_mini"] = "gelsight_mini"
     device: int | str | None = None
     video: Path | None = None
@@ -60,6 +60,10 @@ class GelSightSettings(SettingsBase):
         if self.device is not None and (self.play_hz is not None or self.repeat):
             raise ValueError("play_hz and repeat are for video and images, not for a device")
         return self
+
+    @property
+    def sensor_name(self) -> str:
+        return "gelsight_mini"
 
     @property
     def is_camera(self) -> bool:

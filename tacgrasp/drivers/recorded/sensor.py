@@ -17,8 +17,10 @@ from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import NUM_POINTS, TactileCloud
 from cltp.tactile.encoder_input import lattice_points
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.force_scale import force_scale_of
 from tacgrasp.drivers.frame_folder import BACKGROUND, ended_message, list_recorded
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.stamps import real_stamp
@@ -39,6 +41,7 @@ class RecordedSensor:
         loaders: Loaders of the clouds, in order; each is called when it is played.
         sensor: Sensor of the recording.
         repeat: Start again at the end.
+        force_scale: Force scale of the unit; None is that of each recorded cloud.
     """
 
     def __init__(
@@ -48,8 +51,10 @@ class RecordedSensor:
         sensor: SensorSpec,
         *,
         repeat: bool = False,
+        force_scale: ForceScale | None = None,
     ) -> None:
         self._name, self._loaders, self._spec = name, loaders, sensor
+        self._force_scale = force_scale
         self._repeat, self._num_played, self._disconnected = repeat, 0, False
 
     @property
@@ -72,7 +77,10 @@ class RecordedSensor:
         cloud = self._loaders[self._num_played % len(self._loaders)]()
         self._num_played += 1
         points = cloud.points_mm if len(cloud.points_mm) == NUM_POINTS else lattice_points(cloud)
-        return TactileCloud(points_mm=points, sensor=self._spec, stamp=real_stamp())
+        scale = self._force_scale or cloud.force_scale
+        return TactileCloud(
+            points_mm=points, sensor=self._spec, stamp=real_stamp(), force_scale=scale
+        )
 
     def take_reference(self) -> None:
         """Nothing to take: recorded clouds are played as they are.
@@ -112,7 +120,8 @@ def connect_recorded(settings: RecordedSettings) -> RecordedSensor:
     else:
         raise TouchError(f"no recording {path}; expected an episode (.mcap) or a folder of clouds")
     log.info("%d recorded clouds are played from %s: nothing is felt", len(loaders), path)
-    return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat)
+    scale = None if settings.force_calibration is None else force_scale_of(settings)
+    return RecordedSensor(str(path), loaders, sensor, repeat=settings.repeat, force_scale=scale)
 
 
 def _episode_loaders(path: Path, sensor: SensorSpec) -> list[LoadCloud]:

@@ -7,10 +7,10 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from tacgrasp.base.settings import SettingsBase
+from tacgrasp.drivers.force_scale import SensorUnitSettings
 
 
-class RecordedSettings(SettingsBase):
+class RecordedSettings(SensorUnitSettings):
     """A recording in place of a sensor: nothing is felt.
 
     Attributes:

@@ -13,6 +13,7 @@ from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
 from tacgrasp.drivers.check import Finding, finding, read_durations_ms
+from tacgrasp.drivers.force_scale import force_scale_of
 from tacgrasp.drivers.serial_ports import claim, find_port, in_use_message
 from tacgrasp.drivers.taxels.sensor import TaxelArray
 from tacgrasp.drivers.taxels.settings import TaxelSettings
@@ -35,7 +36,8 @@ def connect_taxels(
             another device sends on it; or the grid does not fit the sensor.
     """
     sensor_named(settings.sensor)
-    array = TaxelArray(_open(settings), settings, rng=rng)
+    scale = force_scale_of(settings)
+    array = TaxelArray(_open(settings), settings, rng=rng, force_scale=scale)
     try:
         array.wait_until_alive()
     except BaseException:

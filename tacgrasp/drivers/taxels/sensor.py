@@ -28,6 +28,7 @@ from cltp.sensing.taxel_packets import (
 )
 from cltp.sensing.touch_files import ASPECT_TOLERANCE
 from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
@@ -93,12 +94,19 @@ class TaxelArray:
         port: Open and claimed port; closed by the array.
         settings: The sensor's section of the rig's file.
         rng: Jitters the points in their cells; None puts them at the cells' centres.
+        force_scale: Force scale of the unit.
     """
 
     def __init__(
-        self, port: Serial, settings: TaxelSettings, *, rng: np.random.Generator | None = None
+        self,
+        port: Serial,
+        settings: TaxelSettings,
+        *,
+        rng: np.random.Generator | None = None,
+        force_scale: ForceScale = UNCALIBRATED,
     ) -> None:
         self._port, self._settings, self._rng = port, settings, rng
+        self._force_scale = force_scale
         self._spec = sensor_named(settings.sensor)
         self._latest: Latest[_StampedFrame] = Latest()
         self._parser, self._numbers = PacketParser(), SequenceCount()
@@ -158,7 +166,13 @@ class TaxelArray:
                     f"{reference_mm.shape}: was it exchanged? Connect it again"
                 )
             heights_mm = (heights_mm - reference_mm).astype(np.float32)
-        return cloud_from_heights(heights_mm, self._spec, rng=self._rng, stamp=fresh.stamp)
+        return cloud_from_heights(
+            heights_mm,
+            self._spec,
+            rng=self._rng,
+            stamp=fresh.stamp,
+            force_scale=self._force_scale,
+        )
 
     def take_reference(self) -> None:
         """Subtract the mean of ``REFERENCE_FRAMES`` fresh frames from all later ones.

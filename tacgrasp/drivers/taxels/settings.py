@@ -6,10 +6,11 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
-from tacgrasp.base.settings import Number, SettingsBase
+from tacgrasp.base.settings import Number
+from tacgrasp.drivers.force_scale import SensorUnitSettings
 
 
-class TaxelSettings(SettingsBase):
+class TaxelSettings(SensorUnitSettings):
     """A taxel array on a serial port that speaks the packets of docs/taxels.md.
 
     Attributes:

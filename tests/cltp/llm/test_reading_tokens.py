@@ -88,3 +88,22 @@ def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
     )  # fmt: skip
     (reading,) = with_read_numbers([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
     assert (reading.depth_mm, reading.area_fraction, reading.force_n) == (0.0, 1.0, 0.0)
+
+
+def test_the_factor_of_a_unit_changes_the_token_of_the_force_alone() -> None:
+    torch.manual_seed(0)
+    words = Words.train(["a few words"] * 3, size=300)
+    encoder = TactileEncoder(PRESETS["tiny"])
+    heads = StateHeads(2 * encoder.config.dim)
+    with torch.no_grad():
+        heads.out.bias += 1.0  # a force above 0
+    language = Language(small_lm(words, dim=48, layers=1), words=words)
+    model = Tac3dLlm(encoder, heads, Projector(48, 48), language)
+    with torch.no_grad():
+        encoded = model.encoder(torch.rand(2, 1024, 3))
+        nominal, scaled = (model.projected(encoded, factor) for factor in (1.0, 1.7))
+        batch = model.projected(encoded, torch.tensor([1.0, 1.7]))
+    changed = (nominal - scaled).abs().amax(dim=(0, 2)) > 1e-6
+    assert changed.tolist() == [False] * (model.num_touch - 1) + [True]
+    torch.testing.assert_close(batch[0], nominal[0])
+    torch.testing.assert_close(batch[1], scaled[1])

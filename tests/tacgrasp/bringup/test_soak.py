@@ -39,7 +39,7 @@ def test_all_devices_are_read_side_by_side_and_the_one_that_loses_readings_is_na
     emulators, tmp_path
 ):
     config = patient_config(tmp_path)
-    hardware = settings_for(config.hardware, emulators, tmp_path)
+    hardware = settings_for(config, config.hardware, emulators, tmp_path)
     good = soak_findings(hardware, config, 1.0)
     assert [finding.device for finding in good] == ["arm", "gripper", "sensor"]
     assert all("success" in finding.detail for finding in good)

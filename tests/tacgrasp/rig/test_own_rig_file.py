@@ -5,13 +5,16 @@ The devices are emulated, but the rig's file says ``hardware`` and names their a
 
 import copy
 import io
+import json
 import re
 
 import numpy as np
 import pytest
 import yaml
 
+from cltp.sensing.force_calibration import load_force_calibration, save_force_calibration
 from sim.emulators.process.spawn import EmulatorProcess
+from sim.grasp.force_calibration import drawn_force_calibration
 from tacgrasp.__main__ import main
 from tacgrasp.drivers.dynamixel.calibration import save_calibration
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
@@ -29,9 +32,8 @@ def emulators():
         yield running
 
 
-@pytest.fixture
-def rig(emulators, tmp_path):
-    """The fields of a rig file that fits these devices; its calibration lies beside it."""
+def rig_of(emulators, tmp_path):
+    """The fields of a rig file that fits these devices; its calibrations lie beside it."""
     rig, ready = fields(), emulators.ready
     rig["devices"] = "hardware"
     rig["gripper"]["first_force_n"] = float(ready["first_force_n"])
@@ -39,8 +41,16 @@ def rig(emulators, tmp_path):
     rig["hardware"]["gripper"]["port"] = ready["gripper_port"]
     rig["hardware"]["sensor"]["port"] = ready["sensor_port"]
     settings = DynamixelSettings.model_validate(rig["hardware"]["gripper"])
+    force = drawn_force_calibration("gelsight_mini", 2, unit="emulated")
+    save_force_calibration(tmp_path / "force.json", force)
+    rig["hardware"]["sensor"]["force_calibration"] = "force.json"
     save_calibration(tmp_path / settings.calibration, emulated_calibration(settings))
-    yield rig
+    return rig
+
+
+@pytest.fixture
+def rig(emulators, tmp_path):
+    yield rig_of(emulators, tmp_path)
     for device in ("ur", "dynamixel", "taxels"):
         emulators.control.clear(device)
 
@@ -256,6 +266,92 @@ def test_the_environment_can_not_change_what_is_bolted_to_the_bench(
     code, message = complaint(rig, tmp_path, capsys)
     assert code == 2
     assert "hardware is set in the rig's file alone" in message
+
+
+def force_file(folder, **changes):
+    path = folder / "force.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | changes))
+
+
+BAD_FORCE_FILES = {
+    "of another unit": ({"unit": "mini-2"}, "of another unit: of mini-2, this one is emulated"),
+    "of another sensor": ({"sensor": "digit"}, "of another sensor: of digit"),
+    "too old": ({"date": "2020-01-31"}, "days old, at most 180"),
+    "of the future": ({"date": "2120-01-31"}, "after today"),
+    "changed": ({"factor": 2.0}, "it was changed by hand"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_FORCE_FILES)
+def test_a_force_calibration_that_does_not_fit_is_refused(name, rig, emulators, tmp_path, capsys):
+    changes, expected = BAD_FORCE_FILES[name]
+    force_file(tmp_path, **changes)
+    before = positions(emulators)
+    code, message = complaint(rig, tmp_path, capsys)
+    assert code == 3
+    assert expected in message
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_without_a_force_calibration_real_devices_do_not_grasp(rig, emulators, tmp_path, capsys):
+    del rig["hardware"]["sensor"]["force_calibration"]
+    before = positions(emulators)
+    code, message = complaint(rig, tmp_path, capsys)
+    assert code == 2
+    for part in ("uncalibrated, -26 to +35 %", "tacgrasp calibrate force", "--allow-uncalibrated"):
+        assert part in message
+    assert positions(emulators) == pytest.approx(before, abs=1e-9)
+
+
+def test_with_the_flag_an_uncalibrated_run_goes_on_to_its_devices(rig, tmp_path, capsys):
+    del rig["hardware"]["sensor"]["force_calibration"]
+    rig["hardware"]["arm"]["host"] = "127.77.254.254"
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    argv = ["run", "--rig", str(path), "--policy", "rules", "--record", str(tmp_path)]
+    assert main([*argv, "--allow-uncalibrated-force"]) == 3
+    assert "127.77.254.254" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("is_calibrated", [True, False])
+def test_doctor_looks_at_the_force_calibration(is_calibrated, rig, tmp_path, capsys):
+    if not is_calibrated:
+        del rig["hardware"]["sensor"]["force_calibration"]
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    main(["doctor", "--rig", str(path)])
+    (line,) = [x for x in capsys.readouterr().out.splitlines() if "force calibration" in x]
+    assert ("NOT OK" in line, "tacgrasp calibrate force" in line) == (not is_calibrated,) * 2
+    assert ("emulated, 0 days old, factor" in line) == is_calibrated
+
+
+def test_weights_on_real_devices_need_a_person(rig, tmp_path, capsys, monkeypatch):
+    path = tmp_path / "mine.yaml"
+    path.write_text(yaml.safe_dump(rig))
+    monkeypatch.setattr("sys.stdin", io.StringIO("\n" * 20))
+    out = tmp_path / "new.json"
+    assert main(["calibrate", "force", "--rig", str(path), "--out", str(out)]) == 2
+    printed = capsys.readouterr()
+    assert "weights need a person at a terminal" in printed.err
+    assert printed.err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_the_calibrated_gripper_calibrates_the_sensor_of_a_new_unit(tmp_path, capsys):
+    with EmulatorProcess("rig", "--seed", "2", "--object", "egg", "--centred") as running:
+        path = tmp_path / "mine.yaml"
+        path.write_text(yaml.safe_dump(rig_of(running, tmp_path)))
+        (tmp_path / "force.json").unlink()  # as of a new unit
+        argv = ["calibrate", "force", "--rig", str(path), "--by", "gripper"]
+        assert main([*argv, "--loads", "0.5", "1", "2"]) == 0, capsys.readouterr().err
+    assert f"next      tacgrasp doctor --rig {path}" in capsys.readouterr().out
+    made = load_force_calibration(tmp_path / "force.json")
+    assert (made.sensor, made.unit, made.source) == (
+        "gelsight_mini",
+        "emulated",
+        "the calibrated gripper",
+    )
+    assert [load.load_n for load in made.loads] == pytest.approx([0.5, 1, 2], abs=0.02)
 
 
 @pytest.mark.slow

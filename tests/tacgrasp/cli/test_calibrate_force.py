@@ -1,0 +1,94 @@
+"""``tacgrasp calibrate force`` on the simulated rig, and what it refuses and keeps."""
+
+import pytest
+
+from cltp.sensing.force_calibration import load_force_calibration
+from sim.grasp.devices import SimGripper
+from tacgrasp.__main__ import main
+
+QUICK = ["--loads", "0.5", "1", "2"]
+
+
+@pytest.fixture
+def out(tmp_path):
+    return tmp_path / "force.json"
+
+
+def calibrate(out, *flags):
+    return main(["calibrate", "force", "--out", str(out), *flags])
+
+
+@pytest.mark.parametrize("by", ["weights", "gripper"])
+def test_the_simulated_rig_is_calibrated_without_a_person(out, capsys, by):
+    assert calibrate(out, *QUICK, "--by", by) == 0
+    printed = capsys.readouterr().out
+    for part in ("fitted [N]", "N per nominal N", f"written   {out}, for simulated", "next  "):
+        assert part in printed
+    made = load_force_calibration(out)
+    assert [load.load_n for load in made.loads] == pytest.approx([0.5, 1, 2])
+    assert made.factor == pytest.approx(1.0, abs=0.25)
+    assert [path.name for path in out.parent.iterdir()] == [out.name]
+
+
+def test_an_existing_file_is_kept_unless_it_may_be_replaced(out, capsys):
+    out.write_text("mine")
+    assert calibrate(out, *QUICK) == 2
+    assert "exists and is kept; give --overwrite" in capsys.readouterr().err
+    assert out.read_text() == "mine"
+    assert calibrate(out, *QUICK, "--overwrite") == 0
+    assert len(load_force_calibration(out).loads) == 3
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        (["--loads", "1", "2"], "needs 3 to 50 loads, got 2"),
+        (["--loads", "2", "1", "5"], "loads must rise, got 2 1 5"),
+        (["--loads", "-1", "2", "5"], "above 0 N"),
+        (["--loads", "0", "2", "5"], "above 0 N"),
+        (["--loads", "1", "2", "2.5"], "3 times the smallest"),
+        (["--loads", "1", "2", "nan"], "above 0 N"),
+        (["--loads", "1", "2", "many"], "--loads"),
+        (["--by", "hand"], "--by must be one of weights, gripper"),
+        (["--rig", "none.yaml"], "none.yaml"),
+        (["--object", "cup"], "no object 'cup'"),
+    ],
+)
+def test_what_makes_no_calibration_is_one_line_and_writes_nothing(out, capsys, flags, message):
+    assert calibrate(out, *flags) == 2
+    error = capsys.readouterr().err
+    assert message in error
+    assert error.count("\n") == 1
+    assert not list(out.parent.iterdir())
+
+
+def test_a_folder_that_is_missing_is_named_before_anything_is_measured(tmp_path, capsys):
+    assert calibrate(tmp_path / "none" / "force.json") == 2
+    assert "is no folder" in capsys.readouterr().err
+
+
+def test_an_interrupted_measurement_keeps_the_old_file_and_its_readings(out, capsys, monkeypatch):
+    out.write_text("mine")
+    grip, grips = SimGripper.grip, []
+
+    def interrupted(self, force_n):
+        grips.append(force_n)
+        if len(grips) == 3:
+            raise KeyboardInterrupt
+        return grip(self, force_n)
+
+    monkeypatch.setattr(SimGripper, "grip", interrupted)
+    try:
+        code = calibrate(out, *QUICK, "--overwrite")
+    except KeyboardInterrupt:
+        code = 130
+    assert code == 130
+    assert out.read_text() == "mine"
+    assert "force.json.unfinished; continue with --resume" in capsys.readouterr().out
+    out.unlink()
+    assert calibrate(out, *QUICK) == 2
+    assert "holds the readings of an interrupted measurement" in capsys.readouterr().err
+    assert calibrate(out, *QUICK, "--resume") == 0
+    assert len(grips) == 4  # the last load alone is put on again
+    assert len(load_force_calibration(out).loads) == 3
+    assert [path.name for path in out.parent.iterdir()] == [out.name]

@@ -1,0 +1,59 @@
+"""The interval of a felt force: the reading's, and the spread of the unit's scale."""
+
+import math
+from dataclasses import replace
+
+import pytest
+
+from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
+from cltp.tactile.measure import contact_state
+from sim.grasp.rig import build
+from tacgrasp.rig.gel_sense import FELT_SPREAD, SPREADS, GelSense
+
+
+class Scaled:
+    """A sensor whose clouds carry another scale."""
+
+    def __init__(self, sensor, scale):
+        self._sensor, self._scale = sensor, scale
+
+    def read(self):
+        return replace(self._sensor.read(), force_scale=self._scale)
+
+    def take_reference(self):
+        self._sensor.take_reference()
+
+
+def felt(scale):
+    rig = build("egg", 3, start_offset_mm=(0.0, 0.0))
+    sensor = Scaled(rig.sensor, scale)
+    sense = GelSense(sensor)
+    sense.take_reference()
+    rig.grasp.close(2.0)
+    cloud = sensor.read()
+    return contact_state(cloud).force_n, sense.felt_force(cloud)
+
+
+@pytest.mark.parametrize("spread", [0.0, 0.05, UNCALIBRATED.spread])
+def test_the_interval_of_a_clear_force_holds_the_reading_s_and_the_unit_s_spread(spread):
+    read_n, interval = felt(ForceScale(factor=1.0, spread=spread, source="unit a"))
+    half = math.hypot(FELT_SPREAD, SPREADS * spread)
+    assert interval.value == pytest.approx(read_n)
+    assert math.log(interval.high / interval.value) == pytest.approx(half)
+    assert math.log(interval.value / interval.low) == pytest.approx(half)
+
+
+def test_an_uncalibrated_force_has_nearly_twice_the_interval_of_a_calibrated_one():
+    half = [
+        math.log(felt(scale)[1].high / felt(scale)[1].value)
+        for scale in (UNCALIBRATED, ForceScale(factor=1.0, spread=0.05, source="unit a"))
+    ]
+    assert half[0] / half[1] == pytest.approx(1.83, abs=0.02)
+
+
+@pytest.mark.parametrize("factor", [0.6, 1.7])
+def test_the_felt_force_is_in_newtons_of_the_unit(factor):
+    nominal_n = felt(ForceScale(factor=1.0, spread=0.05, source="unit a"))[1].value
+    assert felt(ForceScale(factor=factor, spread=0.05, source="unit a"))[1].value == pytest.approx(
+        factor * nominal_n
+    )
