@@ -1,7 +1,8 @@
 """Contacts of the robustness benchmark under a condition, and what reads them.
 
 Every contact has the same draws of noise under every condition, times other levels, so that
-conditions are compared on pairs.
+conditions are compared on pairs; an error of level 0 draws nothing, and what is drawn after it then
+differs.
 
 Contacts of another gel are pressed anew: the same objects at the same forces or depths, from a seed
 that no training uses. What is read from their heights is multiplied by the factor of the gel's
@@ -23,6 +24,7 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.placement import Placement, move
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.errors import TouchError
+from cltp.tactile.cloud import NUM_POINTS
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState
@@ -135,7 +137,7 @@ def sample(
         states.append(state)
     batch = Batch(
         index=np.array(kept, dtype=np.int64),
-        points=np.stack(points),
+        points=np.array(points, dtype=np.float32).reshape(len(kept), NUM_POINTS, 3),
         height_mm=heights,
         sensors=sensors,
         states=states,

@@ -23,7 +23,9 @@ from numpy.typing import NDArray
 from rich.console import Console
 
 from cltp.data.dataset import ContactDataset
+from cltp.errors import TouchError
 from cltp.evaluation.scores import Predictions
+from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.loop.strawberry import FIXED_FORCES_N
 from tacgrasp.benchmarks.pool import each_result
@@ -150,6 +152,11 @@ def _read_contacts(bench: _Bench, source: ContactSource, subject: str, jobs: lis
         parts = list(islice(results, len(blocks)))
         sampled = source.sampled(nuisance, condition)
         states = sampled.batch.states
+        if not states:
+            raise TouchError(
+                f"no contact of {source.data} can be read under {nuisance}: a contact turns only "
+                "where the gel at the pad's border is at rest; take a larger data set"
+            )
         predictions = Predictions(
             torch.from_numpy(np.concatenate([classes for classes, _ in parts])),
             np.concatenate([numbers for _, numbers in parts]),
@@ -173,6 +180,8 @@ def _read_block(
     nuisance, condition = jobs[number // num_blocks]
     first = number % num_blocks * BLOCK
     sampled = source.sampled(nuisance, condition, slice(first, first + BLOCK))
+    if not sampled.batch.states:  # there are fewer, or none of these can be turned
+        return np.zeros((0, len(CLASSES)), np.int64), np.zeros((0, len(NUMBERS)))
     predictions = readers.read(readers.READERS[subject](source.weights), sampled)
     return predictions.classes.numpy(), predictions.numbers
 
