@@ -30,8 +30,9 @@ START_POSE = Pose(
 )
 """Fingers pointing down: TCP z along base -z, TCP x along base x."""
 
-PAD_X_IN_TCP = (1.0, 0.0, 0.0)
-PAD_Y_IN_TCP = (0.0, 0.0, -1.0)
+PadAxis = tuple[float, float, float]
+PAD_X_IN_TCP: PadAxis = (1.0, 0.0, 0.0)
+PAD_Y_IN_TCP: PadAxis = (0.0, 0.0, -1.0)
 
 MAX_WIDTH_M = 0.11
 MAX_FORCE_N = 20.0
@@ -112,8 +113,15 @@ class SimArm(_Device):
 
     _name = "arm"
 
-    def __init__(self, grasp: Grasp, clock: SimClock) -> None:
+    def __init__(
+        self,
+        grasp: Grasp,
+        clock: SimClock,
+        pad_x_in_tcp: PadAxis = PAD_X_IN_TCP,
+        pad_y_in_tcp: PadAxis = PAD_Y_IN_TCP,
+    ) -> None:
         self._grasp, self._clock = grasp, clock
+        self._pad_axes = (pad_x_in_tcp, pad_y_in_tcp)
         self._pose = START_POSE
 
     def pose(self) -> Pose:
@@ -139,9 +147,7 @@ class SimArm(_Device):
             raise LimitError("the simulated arm keeps its orientation; only the position may move")
         base_from_tcp = Rotation.from_rotvec(np.array(self._pose.rotvec_rad))
         by_m = pose.position_m - self._pose.position_m
-        by_mm = tuple(
-            float(1000 * base_from_tcp.apply(axis) @ by_m) for axis in (PAD_X_IN_TCP, PAD_Y_IN_TCP)
-        )
+        by_mm = tuple(float(1000 * base_from_tcp.apply(axis) @ by_m) for axis in self._pad_axes)
         seconds = self._grasp.move((by_mm[0], by_mm[1]), speed_m_s, acceleration_m_s2)
         self._clock.advance(seconds)
         self._pose = pose

@@ -3,7 +3,8 @@
 Each grip takes one contact solve (``sim.gel.layer``); the static friction of both patches limits
 the load. The body's motion over time is in ``sim.grasp.world``.
 
-World and pad share axes: x right, y up (towards the palm), gravity along -y. Both fingers carry
+World and pad share axes: x right, y up (towards the palm), gravity along -y; on a turned pad
+(``sim.grasp.turned_pad``) gravity is along -x. Both fingers carry
 the same gel, one of them the camera. The pad ends with the sensing area: the part of a patch beyond
 it carries nothing, so that the rest carries all of the force, at a higher pressure.
 
@@ -148,8 +149,14 @@ def _find_worst(
 class FlatFingers:
     """Solves contact and friction of one body between the two fingers of a sensor's gripper."""
 
-    def __init__(self, body: Body, sensor: SensorSpec, material: GelMaterial) -> None:
-        self.body = body
+    def __init__(
+        self,
+        body: Body,
+        sensor: SensorSpec,
+        material: GelMaterial,
+        up: tuple[float, float] = (0.0, 1.0),
+    ) -> None:
+        self.body, self.up = body, up
         self.sensor = sensor
         self._pitch_mm = sensor.width_mm / COLUMNS
         self._x_mm, self._y_mm = grid_axes_mm(sensor, ROWS, COLUMNS)
@@ -174,15 +181,21 @@ class FlatFingers:
     def slip_minimum_n(self, accelerations_m_s2: Sequence[tuple[float, float]]) -> float:
         """Smallest true force [N] that holds the body, centred, through all accelerations.
 
+        Accelerations are (sideways, upwards), whichever way the pad is mounted [m/s²].
         Interpolated between eight forces from 0.04 to 16 N, where it nearly is a power law.
         """
         forces = np.geomspace(0.04, 16, 8)
         patches = self.press_many([(0.0, 0.0)] * len(forces), forces.tolist())
         margins = [
-            min(self.resistance(patch, each).margin for each in accelerations_m_s2)
+            min(self.resistance(patch, self._on_pad(each)).margin for each in accelerations_m_s2)
             for patch in patches
         ]
         return float(np.exp(np.interp(0.0, np.log(margins), np.log(forces))))
+
+    def _on_pad(self, sideways_and_up: tuple[float, float]) -> tuple[float, float]:
+        """Components along the pad's x and y."""
+        (sideways, upwards), (up_x, up_y) = sideways_and_up, self.up
+        return sideways * up_y + upwards * up_x, upwards * up_y - sideways * up_x
 
     def gap_mm(self, offset_mm: tuple[float, float]) -> FloatArray:
         """Gap between pad and body, over the pad [mm]."""
@@ -241,8 +254,8 @@ class FlatFingers:
         friction = self._friction_of(patch)
         half_mass = self.body.mass_kg / 2
         load = friction.push.copy()
-        load[0] -= half_mass * acceleration_m_s2[0]
-        load[1] -= half_mass * (GRAVITY_M_S2 + acceleration_m_s2[1])
+        for axis in (0, 1):
+            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
         margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
             near = _neighbours(motion, spread)

@@ -29,6 +29,13 @@ from sim.grasp.devices import (
 )
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.force_calibration import SCATTER, drawn_force_calibration
+from sim.grasp.turned_pad import (
+    TURNED_PAD_X_IN_TCP,
+    TURNED_PAD_Y_IN_TCP,
+    TURNED_UP,
+    UPRIGHT_UP,
+    turned,
+)
 from sim.grasp.world import Grasp
 
 BENCHMARK_SEED = 1_000_000
@@ -150,6 +157,7 @@ def build(
     gripper_force_gain: float | None = None,
     noise_level: float | NoiseLevels = 1.0,
     gel: GelMaterial | None = None,
+    is_turned: bool = False,
 ) -> SimRig:
     """Draw an episode: a body, its position on the pad, a gripper force gain, a sensor unit.
 
@@ -168,6 +176,8 @@ def build(
             error.
         gel: Gel of both fingers; None for the sensor's nominal one. Its force calibration is drawn
             around its own stiffness.
+        is_turned: Whether the sensor is mounted a quarter turn (``sim.grasp.turned_pad``). The
+            position of the body is drawn on the pad as ever.
 
     Raises:
         RobotError: The object is unknown.
@@ -184,7 +194,10 @@ def build(
     u = tails + (1 - 2 * tails) * world_rng.random(4)
     offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
     force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
-    grasp = Grasp(fingers=FlatFingers(body, sensor, gel or gel_of(sensor_name)), body_xy_mm=offset)
+    up = TURNED_UP if is_turned else UPRIGHT_UP
+    body = turned(body) if is_turned else body
+    fingers = FlatFingers(body, sensor, gel or gel_of(sensor_name), up)
+    grasp = Grasp(fingers=fingers, body_xy_mm=offset)
     clock = SimClock()
     clock.attach(grasp)
     levels = NoiseLevels.of(noise_level)
@@ -192,8 +205,10 @@ def build(
     calibration = drawn_force_calibration(
         sensor_name, seed, gel=gel, scatter=0.0 if levels == NoiseLevels.of(0) else SCATTER
     )
+    pad_x = TURNED_PAD_X_IN_TCP if is_turned else PAD_X_IN_TCP
+    pad_y = TURNED_PAD_Y_IN_TCP if is_turned else PAD_Y_IN_TCP
     return SimRig(
-        arm=SimArm(grasp, clock),
+        arm=SimArm(grasp, clock, pad_x, pad_y),
         gripper=SimGripper(grasp, clock, force_gain),
         sensor=SimSensor(
             grasp,
@@ -209,6 +224,8 @@ def build(
         start_pose=START_POSE,
         force_calibration=calibration,
         first_force_n=first_force_n or FIRST_TOUCH_N,
+        pad_x_in_tcp=pad_x,
+        pad_y_in_tcp=pad_y,
     )
 
 

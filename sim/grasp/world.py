@@ -114,7 +114,8 @@ class Grasp:
         self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
         if self.patch is not None:
             self.body_xy_mm = (self.body_xy_mm[0] + by_mm[0], self.body_xy_mm[1] + by_mm[1])
-            self._lifted_mm = max(0.0, self._lifted_mm + by_mm[1])
+            rise_mm = by_mm[0] * self.fingers.up[0] + by_mm[1] * self.fingers.up[1]
+            self._lifted_mm = max(0.0, self._lifted_mm + rise_mm)
             if self._lifted_mm > 0:
                 push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
                 self.load(push, ramp)

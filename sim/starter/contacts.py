@@ -60,13 +60,16 @@ choice: two thirds of the thickness, beyond which linear elasticity does not hol
 _LIGHTER_TRIES = 4
 
 
-def make_group(seed: int, group: int, sensor: SensorSpec) -> list[Contact]:
+def make_group(
+    seed: int, group: int, sensor: SensorSpec, gel: GelMaterial | None = None
+) -> list[Contact]:
     """Make the contacts of one group, in the order of their series.
 
     Args:
         seed: Random seed of the data set, below ``BENCHMARK_SEED``.
         group: Number of the group; its first series is ``GROUP_SERIES * group``.
         sensor: The sensor.
+        gel: Gel to press; None for the group's own.
 
     Returns:
         ``GROUP_CONTACTS`` contacts.
@@ -79,7 +82,7 @@ def make_group(seed: int, group: int, sensor: SensorSpec) -> list[Contact]:
             f"data are made from seeds 0 to {BENCHMARK_SEED - 1} (larger ones are for benchmarks) "
             f"and groups from 0, got seed {seed}, group {group}"
         )
-    gel = GELS[int(np.random.default_rng([seed, group, 2]).integers(len(GELS)))]
+    gel = gel or GELS[int(np.random.default_rng([seed, group, 2]).integers(len(GELS)))]
     first = GROUP_SERIES * group
     series = [draw_series(seed, first + i, sensor) for i in range(GROUP_SERIES)]
     contacts: dict[int, list[Contact]] = {}

@@ -6,7 +6,7 @@ Not here: what is done with a seed.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from typing import TypeVar
@@ -30,14 +30,34 @@ def map_seeds(
         function: A function of a module, or a partial of one; sent to the processes.
         seeds: Random seeds.
     """
-    results: list[T] = []
+    return list(each_result(console, name, function, seeds))
+
+
+def each_result(
+    console: Console,
+    name: str,
+    function: Callable[[int], T],
+    seeds: Sequence[int],
+    *,
+    workers: int | None = None,
+) -> Iterator[T]:
+    """As ``map_seeds``, one result after the other.
+
+    Args:
+        console: Shows the progress when it is a terminal.
+        name: Words beside the progress bar.
+        function: A function of a module, or a partial of one; sent to the processes.
+        seeds: Random seeds, or other numbers.
+        workers: Number of processes; None for one a core.
+    """
     # spawned, not forked: torch's threads don't survive a fork
     with (
-        ProcessPoolExecutor(os.cpu_count(), get_context("spawn"), initializer=one_thread) as pool,
+        ProcessPoolExecutor(
+            workers or os.cpu_count(), get_context("spawn"), initializer=one_thread
+        ) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task(name, total=len(seeds))
-        for result in pool.map(function, seeds, chunksize=1 + len(seeds) // 200):
-            results.append(result)
+        for result in pool.map(function, seeds, chunksize=1 + min(len(seeds) // 200, 9)):
+            yield result
             progress.advance(task)
-    return results

@@ -83,6 +83,50 @@ class MissedSettings(ModelBenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class RobustnessSettings(ModelBenchmarkSettings):
+    """Measure what is right, and what is grasped, under each nuisance of a sensor at each level.
+
+    The table is long: choose subjects and nuisances to make it in parts, with --resume.
+
+    Attributes:
+        json: File to write the figures to, after every condition.
+        data: Data set whose test split is read. Default: contacts are pressed for the purpose.
+        contacts: Number of contacts that heads and captions read in each cell.
+        episodes: Number of episodes in each cell of the policies, one random seed each.
+        first_seed: First seed of the episodes. Seeds from 1000000 on are kept for benchmarks.
+        task: Task of the grasps.
+        subjects: What is measured: heads, captions, rules, llm, fixed_force, separated by commas.
+        nuisances: Names of the nuisances, separated by commas. Default: all.
+        workers: Number of processes. Default: one a core.
+        quick: Take 40 contacts and 4 episodes, to try it.
+        resume: Go on with the figures in the file of --json.
+        plot: File (.png) to draw the figures to.
+    """
+
+    data: Path | None = None
+    contacts: int = 500
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    task: str = "strawberry"
+    subjects: str = "heads,captions,rules,llm"
+    nuisances: str = ""
+    workers: int | None = None
+    quick: bool = False
+    resume: bool = False
+    plot: Path | None = None
+
+    def __post_init__(self) -> None:
+        if min(self.contacts, self.episodes, self.workers or 1) < 1 or self.first_seed < 0:
+            raise UsageError(
+                "--contacts, --episodes and --workers must be at least 1, --first-seed at least 0"
+            )
+        if self.resume and self.json is None:
+            raise UsageError("--resume needs --json, the file of the figures to go on with")
+        if self.plot is not None and self.plot.suffix.lower() != ".png":
+            raise UsageError(f"--plot expects a file ending in .png, got {self.plot}")
+
+
+@dataclass(frozen=True, kw_only=True)
 class SoakSettings(BenchmarkSettings):
     """Run recorded episodes in one process, one by one; exit code 1 if memory or open files grow.
 

@@ -13,6 +13,7 @@ from tacgrasp.cli.flags import run_subcommand, writable
 BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
     "missed": (settings.MissedSettings, "loop.missed"),
+    "robustness": (settings.RobustnessSettings, "robustness.run"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
@@ -38,4 +39,5 @@ def main(argv: Sequence[str]) -> int:
 def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(values.json)
     writable(getattr(values, "markdown", None))
+    writable(getattr(values, "plot", None))
     return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)

@@ -17,7 +17,7 @@ from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import rotate
 from primitives.limits import check_workspace
-from tacgrasp.config.schema import RunConfig, VerifyConfig
+from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Verification
@@ -41,8 +41,7 @@ def verify_by_lifting(
     settings = config.verify
     start = rig.arm.pose()
     lifted = _shifted(start, UP * settings.lift_mm / 1000)
-    pad_x = rotate(start.rotvec_rad, np.array(config.pad.x_axis))
-    sideways = _shifted(lifted, pad_x * settings.shake_mm / 1000)
+    sideways = _shifted(lifted, level_axis(start, config.pad) * settings.shake_mm / 1000)
     for pose in (lifted, sideways):
         check_workspace(pose, config.limits())
     before = contact_state(steps.observe(StepPhase.VERIFY_BEFORE))
@@ -59,8 +58,14 @@ def verify_by_lifting(
     return verification
 
 
+def level_axis(pose: Pose, pad: PadConfig) -> NDArray[np.float64]:
+    """Of the pad's axes at a pose, the one nearest to the horizontal, base frame."""
+    axes = [rotate(pose.rotvec_rad, np.array(axis)) for axis in (pad.x_axis, pad.y_axis)]
+    return min(axes, key=lambda axis: abs(float(axis @ UP)))
+
+
 def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
-    """Accelerations of a held body in the verification, (x, y) of the pad [m/s²]."""
+    """Accelerations of a held body in the verification, (sideways, upwards) [m/s²]."""
     shake = verify.shake_acceleration_m_s2 if verify.shakes else 0.0
     return [(0.0, verify.acceleration_m_s2), (shake, 0.0), (-shake, 0.0)]
 

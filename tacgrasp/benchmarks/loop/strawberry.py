@@ -85,18 +85,23 @@ class EpisodeResult:
 
 
 def run_seed(
-    config: RunConfig, contestants: Sequence[Contestant], seed: int
+    config: RunConfig,
+    contestants: Sequence[Contestant],
+    seed: int,
+    make: Callable[..., SimRig] = build,
 ) -> list[EpisodeResult]:
-    """Run each contestant in the same episode, without records."""
+    """Run each contestant in the same episode, without records, on a rig that ``make`` builds."""
     config = config.model_copy(update={"seed": seed, "on_failure": "hold"})  # a release is no drop
-    rig = build(config.object, seed, sensor_name=config.sensor)
+    rig = make(config.object, seed, sensor_name=config.sensor)
     slip_minimum = rig.grasp.fingers.slip_minimum_n(accelerations(config.verify))
-    return [_run_one(config, contestant, slip_minimum) for contestant in contestants]
+    return [_run_one(config, contestant, slip_minimum, make) for contestant in contestants]
 
 
-def _run_one(config: RunConfig, contestant: Contestant, slip_minimum_n: float) -> EpisodeResult:
+def _run_one(
+    config: RunConfig, contestant: Contestant, slip_minimum_n: float, make: Callable[..., SimRig]
+) -> EpisodeResult:
     name, force_n = contestant
-    rig = build(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
+    rig = make(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
     contract = contract_of(config)
     if name == "oracle":  # it follows the truth, not the contract

@@ -8,8 +8,10 @@ from dataclasses import replace
 import pytest
 
 from cltp.tactile.states import Area, ContactState, Depth, Position
-from tacgrasp.config.schema import VerifyConfig
-from tacgrasp.runtime.verify import compare
+from sim.grasp.devices import PAD_X_IN_TCP, PAD_Y_IN_TCP, START_POSE
+from sim.grasp.turned_pad import TURNED_PAD_X_IN_TCP, TURNED_PAD_Y_IN_TCP
+from tacgrasp.config.schema import PadConfig, VerifyConfig
+from tacgrasp.runtime.verify import compare, level_axis
 
 SETTINGS = VerifyConfig(min_area_ratio=0.6, min_depth_ratio=0.6)
 HELD = ContactState(
@@ -56,3 +58,10 @@ def test_nothing_felt_before_the_lift_does_not_pass() -> None:
     verification = compare(NOTHING, HELD, SETTINGS, slip_mm=1.0)
     assert not verification.passed
     assert math.isnan(verification.shift_mm)
+
+
+def test_a_shake_is_level_however_the_sensor_is_mounted() -> None:
+    upright = PadConfig(x_axis=PAD_X_IN_TCP, y_axis=PAD_Y_IN_TCP)
+    mounted = PadConfig(x_axis=TURNED_PAD_X_IN_TCP, y_axis=TURNED_PAD_Y_IN_TCP)
+    assert level_axis(START_POSE, upright) == pytest.approx([1.0, 0.0, 0.0])
+    assert level_axis(START_POSE, mounted) == pytest.approx([-1.0, 0.0, 0.0])

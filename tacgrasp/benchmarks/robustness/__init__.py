@@ -1,0 +1,8 @@
+"""The robustness benchmark: each nuisance of a sensor at several levels, all others nominal.
+
+Not here: the nuisances themselves (``cltp.tactile.sensor_noise``, ``sim.grasp``), episodes
+(``tacgrasp.benchmarks.loop``).
+
+May import: cltp, sim.gel, sim.grasp, sim.starter, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
+tacgrasp.benchmarks.loop, tacgrasp.config, tacgrasp.lessons.
+"""
