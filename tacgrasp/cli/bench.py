@@ -21,6 +21,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "gel": (settings.GelSettings, "sensing.gel"),
     "contact": (settings.ContactSettings, "sensing.contact"),
     "touch": (settings.TouchSettings, "sensing.touch"),
+    "noise": (settings.NoiseSettings, "sensing.noise"),
     "balls": (settings.BallsSettings, "sensing.balls"),
     "ball-captions": (settings.BallCaptionsSettings, "sensing.ball_captions"),
     "encoder": (settings.EncoderSettings, "learning.encoder"),
@@ -38,4 +39,5 @@ def main(argv: Sequence[str]) -> int:
 def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(values.json)
     writable(getattr(values, "markdown", None))
+    writable(getattr(values, "plot", None))
     return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)
