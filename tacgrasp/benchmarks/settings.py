@@ -230,13 +230,15 @@ class TouchSettings(BenchmarkSettings):
 
     Attributes:
         bodies: Number of bodies of each kind, four grasps each.
+        untouched: Number of nearly untouched frames, one random seed each from 5000 on.
     """
 
     bodies: int = 60
+    untouched: int = 1000
 
     def __post_init__(self) -> None:
-        if self.bodies < 1:
-            raise UsageError("--bodies must be at least 1")
+        if min(self.bodies, self.untouched) < 1:
+            raise UsageError("--bodies and --untouched must be at least 1")
 
 
 @dataclass(frozen=True, kw_only=True)
