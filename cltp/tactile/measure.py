@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
+from cltp.tactile.local_volume import local_volume_mm3
+from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
     NO_CONTACT_STATE,
     ContactState,
@@ -52,7 +54,8 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
-    from the displaced volume [nominal N], times the factor of the unit's force calibration.
+    from the volume that is displaced locally [nominal N], so that tilt and broad drift are no force,
+    times the factor of the unit's force calibration.
     """
     depths = cell_means(cloud)
     depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
@@ -68,7 +71,7 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
         x_mm=x_mm,
         y_mm=y_mm,
         area_fraction=fraction,
-        force_n=cloud.force_scale.factor * force_from(filled, depth, cloud.sensor.area_mm2),
+        force_n=cloud.force_scale.factor * force_from(depths, cloud.sensor),
         depth=depth_word(depth),
         position=position_word(x_mm, y_mm, cloud.sensor),
         area=area_word(fraction),
@@ -136,18 +139,22 @@ def cut_sides(footprint: NDArray[np.bool_], *, least: int, width: int = 1) -> fr
     return frozenset(side for side, border in borders.items() if border.sum() >= least)
 
 
-STIFFNESS_N_PER_MM3 = 0.167
-"""Force over displaced volume. Fitted; see ``force_from``."""
+STIFFNESS_N_PER_MM3 = 0.137
+"""Force over locally displaced volume, for a gel of nominal stiffness. ``tacgrasp bench touch``
+prints it fitted anew: copy it here when the gel's nominal modulus or thickness changes."""
 
 
-def force_from(depths: FloatArray, depth: float, sensing_mm2: float) -> float:
+def force_from(cells_mm: FloatArray, sensor: SensorSpec) -> float:
     """Normal force [nominal N] that a displaced volume suggests, for a GelSight Mini's gel.
 
-    F = k V, V [mm³] the volume above a fifth of the depth. Source: fit to simulated berries,
-    tomatoes, eggs and pegs with noise (seeds below 1000): the best of seven power laws in volume,
-    depth and area, none of which was better by more than a hundredth. The residual is 0.15-0.32
-    (one standard deviation of ln F, firm to soft, above 0.4 N), most of it the sensor's drift;
-    ``tacgrasp bench touch`` prints it anew.
+    F = k V, V [mm³] from ``cltp.tactile.local_volume``.
+
+    Args:
+        cells_mm: Shape (n, n), mean indentation in cells [mm], NaN where nothing is known.
+        sensor: The sensor.
+
+    Source: fit to simulated berries, tomatoes, eggs and pegs with noise (seeds below 1000): the
+    best of seven power laws in volume, depth and area, none of which was better by more than a
+    hundredth. ``tacgrasp bench touch`` prints the residual.
     """
-    mean = float(np.clip(depths - max(0.2 * depth, 0.02), 0, None).mean())
-    return STIFFNESS_N_PER_MM3 * mean * sensing_mm2
+    return STIFFNESS_N_PER_MM3 * local_volume_mm3(cells_mm, sensor)

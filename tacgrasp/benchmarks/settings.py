@@ -274,13 +274,15 @@ class TouchSettings(BenchmarkSettings):
 
     Attributes:
         bodies: Number of bodies of each kind, four grasps each.
+        untouched: Number of nearly untouched frames, one random seed each from 5000 on.
     """
 
     bodies: int = 60
+    untouched: int = 1000
 
     def __post_init__(self) -> None:
-        if self.bodies < 1:
-            raise UsageError("--bodies must be at least 1")
+        if min(self.bodies, self.untouched) < 1:
+            raise UsageError("--bodies and --untouched must be at least 1")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -304,6 +306,32 @@ class BallsSettings(BenchmarkSettings):
     def __post_init__(self) -> None:
         if not 1.0 <= self.diameter_mm <= 100.0 or self.folds < 2:
             raise UsageError("--diameter-mm must be 1 to 100 and --folds at least 2")
+
+
+@dataclass(frozen=True, kw_only=True)
+class NoiseSettings(BenchmarkSettings):
+    """Measure the errors of real GelSight Mini heights outside the contacts of a pressed ball.
+
+    Attributes:
+        data: Folder of the frames.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel. Default: background.png in the folder.
+        calibration: Calibration of the unit. Default: the shipped one, made from presses of a
+            6.31 mm ball on one unit.
+        plot: PNG file to draw spectrum and correlation to.
+        seed: Random seed of the simulated closings of the ideal detector.
+    """
+
+    data: Path
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    calibration: Path | None = None
+    plot: Path | None = None
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.diameter_mm <= 100.0 or self.seed < 0:
+            raise UsageError("--diameter-mm must be 1 to 100 and --seed at least 0")
 
 
 @dataclass(frozen=True, kw_only=True)

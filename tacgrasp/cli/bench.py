@@ -22,6 +22,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "gel": (settings.GelSettings, "sensing.gel"),
     "contact": (settings.ContactSettings, "sensing.contact"),
     "touch": (settings.TouchSettings, "sensing.touch"),
+    "noise": (settings.NoiseSettings, "sensing.noise"),
     "balls": (settings.BallsSettings, "sensing.balls"),
     "ball-captions": (settings.BallCaptionsSettings, "sensing.ball_captions"),
     "encoder": (settings.EncoderSettings, "learning.encoder"),

@@ -2,7 +2,7 @@
 
 Not here: scores of learned models on data sets (``tacgrasp.training``).
 
-May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.benchmarks,
+May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
 tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.playback,
 tacgrasp.rig.
 """
