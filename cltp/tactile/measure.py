@@ -54,8 +54,8 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
-    from the volume that is displaced locally [nominal N], so that tilt and broad drift are no force,
-    times the factor of the unit's force calibration.
+    from the volume that is displaced locally [nominal N], so that tilt and broad drift are no
+    force, times the factor of the unit's force calibration.
     """
     depths = cell_means(cloud)
     depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
@@ -139,7 +139,7 @@ def cut_sides(footprint: NDArray[np.bool_], *, least: int, width: int = 1) -> fr
     return frozenset(side for side, border in borders.items() if border.sum() >= least)
 
 
-STIFFNESS_N_PER_MM3 = 0.137
+STIFFNESS_N_PER_MM3 = 0.39
 """Force over locally displaced volume, for a gel of nominal stiffness. ``tacgrasp bench touch``
 prints it fitted anew: copy it here when the gel's nominal modulus or thickness changes."""
 
