@@ -66,7 +66,7 @@ def run_episode(
         Exception: A bug in a called function; the robot has been made safe and the episode ended.
     """
     _ = contract.terms  # a refused one ends here
-    steps = Steps(rig, config.loop, recorder, observers)
+    steps = Steps(rig, config.loop, recorder, observers, sense)
     end = EndOfEpisode(EndReason.FAULT, "stopped by an unforeseen error; this is a bug")
     step: Step | None = None
     verification: Verification | None = None

@@ -5,8 +5,8 @@ drift and tilt are quadratic over the pad. Shift, scale and background are fitte
 neither broad drift nor a grip that relaxes counts as motion. A centroid of what lies above a
 threshold, in comparison, moves with every change of the noise.
 
-A body that slides along an edge of its own (a peg along its axis) does not show; its spread along
-that direction is then as large as what was assumed before anything was seen, ``PRIOR_MM``.
+A motion along which the contact looks the same (a peg along its axis) does not show: there the
+shift is 0.
 
 Loads no torch. Source: image registration after Lucas and Kanade (1981), started from the best of a
 grid of shifts; the choice of the background and of the prior is ours.
@@ -22,7 +22,7 @@ from scipy.ndimage import gaussian_filter, map_coordinates
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
-from cltp.tactile.measure import cell_means
+from cltp.tactile.measure import cell_means, cells_of
 from cltp.tactile.sensors import SensorSpec
 
 PRIOR_MM = 4.0
@@ -41,7 +41,8 @@ class ContactShift:
 
     Attributes:
         x_mm, y_mm: Shift on the pad [mm, gel frame].
-        spread_mm: Standard deviation along the direction that is known worst [mm].
+        spread_mm: Standard deviation of the shift, along the worse of the directions that show;
+            ``PRIOR_MM`` where none does [mm].
         scale: Heights after over heights before.
     """
 
@@ -66,12 +67,10 @@ def contact_shift(before: TactileCloud, after: TactileCloud) -> ContactShift:
         raise TouchError(
             f"expected clouds of one sensor, got {before.sensor.name} and {after.sensor.name}"
         )
-    cells = [cell_means(cloud) for cloud in (before, after)]
-    if cells[0].shape != cells[1].shape:
-        raise TouchError(
-            f"expected clouds of one density, got {cells[0].shape} and {cells[1].shape} cells"
-        )
-    fit = _Fit(*(_smooth(each, before.sensor) for each in cells), before.sensor)
+    count = min(cells_of(before), cells_of(after))
+    cells = [cell_means(cloud, count) for cloud in (before, after)]
+    smooth_before, smooth_after = (_smooth(each, before.sensor) for each in cells)
+    fit = _Fit(smooth_before, smooth_after, before.sensor)
     return fit.refined(fit.coarse())
 
 
@@ -86,8 +85,8 @@ class _Fit:
         self._background, _ = np.linalg.qr(np.stack([term.ravel() for term in terms], axis=1))
         self._pitch_mm = sensor.width_mm / columns, sensor.height_mm / rows
         self._grid = np.mgrid[0:rows, 0:columns].astype(float)
-        down, self._slope_x = np.gradient(before, self._pitch_mm[1], self._pitch_mm[0])
-        self._slope_y = -down  # rows run downwards
+        down, right = np.gradient(before, *self._pitch_mm[::-1])
+        self._slope_x, self._slope_y = np.asarray(right), np.asarray(-down)  # rows run downwards
         self._before, self._after = before, self._without(after.ravel())
 
     def _without(self, heights: FloatArray) -> FloatArray:
@@ -134,7 +133,7 @@ class _Fit:
         """Gauss and Newton from a shift [mm], along what is seen; the spread is what remains."""
         seen = self._seen(shift_mm)
         shift = seen.T @ (seen @ shift_mm) if len(seen) else np.zeros(2)
-        covariance = np.eye(2) * PRIOR_MM**2
+        covariance = np.eye(1) * PRIOR_MM**2
         for _ in range(_ROUNDS if len(seen) else 0):
             scale, rest = self._rest(shift)
             slopes = [self._shifted(slope, *shift) for slope in (self._slope_x, self._slope_y)]
@@ -149,9 +148,7 @@ class _Fit:
             shift = shift + seen.T @ step * min(
                 1.0, _STEP_MM / max(float(np.linalg.norm(step)), 1e-9)
             )
-            known = np.linalg.inv(information)[: len(seen), : len(seen)]
-            blind = np.eye(2) - seen.T @ seen
-            covariance = seen.T @ known @ seen + blind * PRIOR_MM**2
+            covariance = np.linalg.inv(information)[: len(seen), : len(seen)]
         return ContactShift(
             x_mm=float(shift[0]),
             y_mm=float(shift[1]),

@@ -158,9 +158,14 @@ class Steps:
     """
 
     def __init__(
-        self, rig: Rig, bounds: LoopConfig, recorder: Recorder, observers: Sequence[Observer]
+        self,
+        rig: Rig,
+        bounds: LoopConfig,
+        recorder: Recorder,
+        observers: Sequence[Observer],
+        sense: GelSense | None = None,
     ) -> None:
-        self._rig, self._bounds = rig, bounds
+        self._rig, self._bounds, self._sense = rig, bounds, sense
         self._recorder, self._observers = recorder, observers
         self.num_steps = self.num_actions = self.num_empty = 0
         self.started_s = rig.clock.monotonic()
@@ -215,7 +220,7 @@ class Steps:
         self._notes.append(f"{type(error).__name__}: {error}")
         self._rig.clock.sleep(self._bounds.wait_s)
 
-    def observe(self, phase: StepPhase) -> TactileCloud:
+    def observe(self, phase: StepPhase) -> Readings:
         """Read and record one observation of the verification, with the loop's retries.
 
         Raises:
@@ -225,12 +230,12 @@ class Steps:
         """
         for attempt in count(1):
             try:
-                observation = read_observation(self._rig)
+                observation = read_observation(self._rig, self._sense)
                 break
             except TouchError as error:
                 self.survive(error, attempt)
         self.record(Step(observation=observation, phase=phase))
-        return observation.cloud
+        return observation
 
     def record(self, step: Step, executed: Executed | None = None, note: str = "") -> None:
         """Record a step with its executed action, then inform the observers.

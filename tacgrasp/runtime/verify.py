@@ -6,13 +6,11 @@ The simulator's truth is recorded as well, but never used here.
 
 from __future__ import annotations
 
-import math
-
 import numpy as np
 from numpy.typing import NDArray
 
 from cltp.tactile.measure import contact_state
-from cltp.tactile.states import ContactState
+from cltp.tactile.shift import contact_shift
 from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import rotate
@@ -21,7 +19,11 @@ from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import Verification
-from tacgrasp.runtime.steps import Steps
+from tacgrasp.runtime.steps import Readings, Steps
+
+SURELY = 2.0
+"""Standard deviations by which a shift must exceed its limit, as 2.3 % of unmoved ones would at the
+limit itself."""
 
 UP = np.array([0.0, 0.0, 1.0])
 """Direction against gravity, base frame."""
@@ -44,13 +46,13 @@ def verify_by_lifting(
     sideways = _shifted(lifted, level_axis(start, config.pad) * settings.shake_mm / 1000)
     for pose in (lifted, sideways):
         check_workspace(pose, config.limits())
-    before = contact_state(steps.observe(StepPhase.VERIFY_BEFORE))
+    before = steps.observe(StepPhase.VERIFY_BEFORE)
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
     _move(rig, lifted, settings, settings.acceleration_m_s2)
     for pose in shake:
         _move(rig, pose, settings, settings.shake_acceleration_m_s2)
     rig.clock.sleep(settings.hold_s)
-    after = contact_state(steps.observe(StepPhase.VERIFY_AFTER))
+    after = steps.observe(StepPhase.VERIFY_AFTER)
     verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if not verification.passed:
         # an object that is still held must not fall when it is released
@@ -71,32 +73,36 @@ def accelerations(verify: VerifyConfig) -> list[tuple[float, float]]:
 
 
 def compare(
-    before: ContactState, after: ContactState, settings: VerifyConfig, *, slip_mm: float
+    before: Readings, after: Readings, settings: VerifyConfig, *, slip_mm: float
 ) -> Verification:
-    """Compare the contact before and after the lift with slip limit [mm] and thresholds."""
-    if not before.in_contact:
+    """Compare the contact before and after the lift with slip limit [mm] and thresholds.
+
+    The limit is for what surely moved: ``SURELY`` standard deviations of the reading lie above it.
+    """
+    states = [contact_state(each.cloud, in_contact=each.in_contact) for each in (before, after)]
+    if not states[0].in_contact:
         return Verification(passed=False, message="nothing was felt before the lift")
-    if not after.in_contact:
+    if not states[1].in_contact:
         return Verification(passed=False, message="nothing is felt any more after the lift")
-    shift_mm = math.hypot(after.x_mm - before.x_mm, after.y_mm - before.y_mm)
-    area_ratio = after.area_fraction / before.area_fraction
-    depth_ratio = after.depth_mm / before.depth_mm
+    shift = contact_shift(before.cloud, after.cloud)
+    moved = f"moved {shift.length_mm:.1f} mm"
     problems = []
-    if not shift_mm <= slip_mm:  # not finite is a problem too
-        problems.append(f"the contact moved {shift_mm:.1f} mm (at most {slip_mm:g})")
-    for name, ratio, least in (
-        ("area", area_ratio, settings.min_area_ratio),
-        ("depth", depth_ratio, settings.min_depth_ratio),
-    ):
-        if not ratio >= least:
-            problems.append(f"{ratio:.0%} of its {name} is left (at least {least:.0%})")
-    summary = f"held through the lift: moved {shift_mm:.1f} mm, {area_ratio:.0%} of the area left"
+    if not shift.length_mm - SURELY * shift.spread_mm <= slip_mm:  # not finite is a problem too
+        problems.append(f"the contact {moved} (at most {slip_mm:g})")
+    if not shift.scale >= settings.min_depth_ratio:
+        least = settings.min_depth_ratio
+        problems.append(f"{shift.scale:.0%} of its depth is left (at least {least:.0%})")
+    area_ratio = states[1].area_fraction / states[0].area_fraction
+    if not area_ratio >= settings.min_area_ratio:
+        least = settings.min_area_ratio
+        problems.append(f"{area_ratio:.0%} of its area is left (at least {least:.0%})")
+    summary = f"held through the lift: {moved}, {shift.scale:.0%} of the depth left"
     return Verification(
         passed=not problems,
         message="; ".join(problems) or summary,
-        shift_mm=shift_mm,
+        shift_mm=shift.length_mm,
         area_ratio=area_ratio,
-        depth_ratio=depth_ratio,
+        depth_ratio=shift.scale,
     )
 
 

@@ -3,52 +3,66 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
+import numpy as np
 import pytest
 
-from cltp.tactile.states import Area, ContactState, Depth, Position
+from cltp.tactile.cloud import Stamp, cloud_from_heights, grid_axes_mm
+from cltp.tactile.sensors import SENSORS
+from primitives.devices import GripperState
 from sim.grasp.devices import PAD_X_IN_TCP, PAD_Y_IN_TCP, START_POSE
 from sim.grasp.turned_pad import TURNED_PAD_X_IN_TCP, TURNED_PAD_Y_IN_TCP
 from tacgrasp.config.schema import PadConfig, VerifyConfig
+from tacgrasp.runtime.steps import Readings
 from tacgrasp.runtime.verify import compare, level_axis
 
 SETTINGS = VerifyConfig(min_area_ratio=0.6, min_depth_ratio=0.6)
-HELD = ContactState(
-    depth_mm=0.5,
-    x_mm=0.0,
-    y_mm=0.0,
-    area_fraction=0.1,
-    force_n=1.0,
-    depth=Depth.MODERATE,
-    position=Position.CENTERED,
-    area=Area.MEDIUM,
-)
-NOTHING = replace(HELD, depth_mm=0.0, area_fraction=0.0, depth=None, position=None, area=None)
+MINI = SENSORS["gelsight_mini"]
+X, Y = np.meshgrid(*grid_axes_mm(MINI, 60, 80))
+
+
+def reading(
+    x_mm: float = 0.0, depth_mm: float = 0.3, *, in_contact: bool | None = True
+) -> Readings:
+    """A round contact, 8 mm across."""
+    heights = depth_mm * np.clip(1 - ((X - x_mm) ** 2 + Y**2) / 16, 0, None)
+    return Readings(
+        cloud=cloud_from_heights(heights, MINI),
+        tcp_pose=START_POSE,
+        gripper=GripperState(width_m=0.03, force_n=1.0, closed=True),
+        stamp=Stamp(monotonic_s=0.0, wall_s=0.0),
+        started_s=0.0,
+        in_contact=depth_mm > 0,
+    )
+
+
+HELD, NOTHING = reading(), reading(depth_mm=0.0)
 
 
 def test_an_unchanged_contact_passes() -> None:
     verification = compare(HELD, HELD, SETTINGS, slip_mm=1.0)
     assert verification.passed
-    assert (verification.shift_mm, verification.area_ratio) == (0.0, 1.0)
+    assert verification.shift_mm == pytest.approx(0.0, abs=0.01)
+    assert verification.depth_ratio == pytest.approx(1.0, abs=0.01)
+    assert verification.area_ratio == 1.0
 
 
 def test_the_shift_is_the_distance_on_the_pad() -> None:
-    verification = compare(HELD, replace(HELD, x_mm=0.3, y_mm=-0.4), SETTINGS, slip_mm=1.0)
-    assert verification.shift_mm == pytest.approx(0.5)
+    verification = compare(HELD, reading(x_mm=0.5), SETTINGS, slip_mm=1.0)
+    assert verification.shift_mm == pytest.approx(0.5, abs=0.05)
     assert verification.passed
 
 
 @pytest.mark.parametrize(
     ("after", "message"),
     [
-        (replace(HELD, x_mm=0.8, y_mm=0.8), "moved 1.1 mm"),
-        (replace(HELD, area_fraction=0.05), "50% of its area"),
-        (replace(HELD, depth_mm=0.25), "50% of its depth"),
+        (reading(x_mm=2.0), "moved 2.0 mm"),
+        (reading(depth_mm=0.15), "50% of its depth"),
+        (reading(radius_mm=2.8), "of its area"),
         (NOTHING, "nothing is felt any more"),
     ],
 )
-def test_a_changed_contact_does_not_pass_and_says_why(after: ContactState, message: str) -> None:
+def test_a_changed_contact_does_not_pass_and_says_why(after: Readings, message: str) -> None:
     verification = compare(HELD, after, SETTINGS, slip_mm=1.0)
     assert not verification.passed
     assert message in verification.message
