@@ -21,11 +21,9 @@ MINI = SENSORS["gelsight_mini"]
 X, Y = np.meshgrid(*grid_axes_mm(MINI, 60, 80))
 
 
-def reading(
-    x_mm: float = 0.0, depth_mm: float = 0.3, *, in_contact: bool | None = True
-) -> Readings:
-    """A round contact, 8 mm across."""
-    heights = depth_mm * np.clip(1 - ((X - x_mm) ** 2 + Y**2) / 16, 0, None)
+def reading(x_mm: float = 0.0, depth_mm: float = 0.3, radius_mm: float = 4.0) -> Readings:
+    """A round contact; without depth, nothing."""
+    heights = depth_mm * np.clip(1 - ((X - x_mm) ** 2 + Y**2) / radius_mm**2, 0, None)
     return Readings(
         cloud=cloud_from_heights(heights, MINI),
         tcp_pose=START_POSE,
