@@ -83,6 +83,23 @@ class MissedSettings(ModelBenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class VerifierSettings(BenchmarkSettings):
+    """Count false alarms and missed slips of 2 mm of the verification by touch.
+
+    Attributes:
+        episodes: Number of bodies of each kind, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+    """
+
+    episodes: int = 400
+    first_seed: int = 1_000_000
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+
+@dataclass(frozen=True, kw_only=True)
 class RobustnessSettings(ModelBenchmarkSettings):
     """Measure what is right, and what is grasped, under each nuisance of a sensor at each level.
 

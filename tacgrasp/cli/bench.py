@@ -14,6 +14,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
     "missed": (settings.MissedSettings, "loop.missed"),
     "robustness": (settings.RobustnessSettings, "robustness.run"),
+    "verifier": (settings.VerifierSettings, "loop.verifier"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
