@@ -72,7 +72,12 @@ class Scripted:
         )
 
     def reply(
-        self, points: np.ndarray, prompt: str, *, penalties: Mapping[str, float] | None = None
+        self,
+        points: np.ndarray,
+        prompt: str,
+        *,
+        penalties: Mapping[str, float] | None = None,
+        force_factor: float = 1.0,
     ) -> Reply:
         return self._reply
 
