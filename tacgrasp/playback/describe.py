@@ -81,11 +81,11 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -
         advice = f"nothing, the grasp is good (confidence {decision.confidence:.2f})"
     else:
         advice = f"no action: {decision.reason}"
-    scale = cloud.force_scale
-    mark = "" if scale.is_calibrated else f" (its N {scale.source})"
+    mark = cloud.force_scale.mark
     return [
-        f"model     {description}{mark}",
+        f"model     {description}",
         f"asked     {instruction}",
-        f"says      {decision.text}{mark}",
+        f"says      {decision.text}",
         f"advice    {advice}",
+        *([f"forces    {mark}, in the model's texts too"] if mark else []),
     ]

@@ -72,7 +72,12 @@ class Scripted:
         )
 
     def reply(
-        self, points: np.ndarray, prompt: str, *, penalties: Mapping[str, float] | None = None
+        self,
+        points: np.ndarray,
+        prompt: str,
+        *,
+        penalties: Mapping[str, float] | None = None,
+        force_factor: float = 1.0,
     ) -> Reply:
         return self._reply
 
@@ -142,6 +147,7 @@ def test_describe_also_gives_the_models_caption_and_advice(
     lines = dict(line.split(None, 1) for line in capsys.readouterr().out.splitlines())
     assert lines["caption"].startswith("an object, pressed")
     assert lines["model"] == GOOD
+    assert lines["forces"] == "uncalibrated, -26 to +35 %, in the model's texts too"
     assert lines["asked"] == "Pick the strawberry gently, without bruising it."
     assert lines["advice"] == "decrease_force (confidence 0.93)"
     assert main(["describe", touch, "--weights", str(weights), "--instruction", "Hold it."]) == 0
