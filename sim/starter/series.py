@@ -18,6 +18,7 @@ from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DEPTH_LIMITS_MM, Shape, Texture
 from sim.grasp.bodies import Body, Range, draw_body
+from sim.grasp.turned_pad import turned
 from sim.starter.shapes import IndenterPose, draw_indenter, gap_mm, relief_mm
 from sim.tcl3d.poses import position_within
 
@@ -37,6 +38,9 @@ BODY_FORCE_N: dict[str, Range] = {
 """True forces: from a first touch, which is felt at about 0.1 N, to several times the goal."""
 
 _BODY_CHANCE = {"strawberry": 0.5, "cherry_tomato": 0.17, "egg": 0.16, "peg": 0.17}
+TURNED_FRACTION = 0.3
+"""Fraction of the bodies that a sensor mounted a quarter turn presses; indenters have any turn."""
+
 _BODY_TEXTURE = {"strawberry": Texture.BUMPY}  # achenes; the others are smooth
 _BODY_REACH_MM = np.array([12.0, 9.5])
 
@@ -94,6 +98,8 @@ def num_loads(number: int) -> int:
 def _body_series(number: int, rng: np.random.Generator, sensor: SensorSpec) -> Series:
     name = str(rng.choice(list(_BODY_CHANCE), p=list(_BODY_CHANCE.values())))
     body = draw_body(name, rng, TAILS)
+    if rng.random() < TURNED_FRACTION:
+        body = turned(body)
     x, y = grid_axes_mm(sensor, ROWS, COLUMNS)
     while True:
         x_mm, y_mm = position_within(rng, _BODY_REACH_MM).tolist()

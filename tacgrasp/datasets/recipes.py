@@ -32,7 +32,7 @@ from tacgrasp.datasets.requests import GenerateRequest
 SETS = ("tcl3d", "starter")
 STARTER_CONTACTS = 24_000
 
-STARTER_MAKER, TCL3D_MAKER = "1", "tcl3d 1"
+STARTER_MAKER, TCL3D_MAKER = "2", "tcl3d 1"
 """Versions of the recipes; raised when the same seed gives other contacts."""
 
 SHARD_GROUPS = 5

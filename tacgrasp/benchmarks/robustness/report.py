@@ -24,7 +24,7 @@ from tacgrasp.benchmarks.robustness.store import (
     ORACLE,
     POLICY_SUBJECTS,
     VERIFIED,
-    Result,
+    CellResult,
     Store,
     job_name,
 )
@@ -50,7 +50,7 @@ def print_tables(console: Console, store: Store) -> None:
         console.print(table)
 
 
-def _rows(store: Store, subject: str) -> list[tuple[str, float, Result, Mapping[str, float]]]:
+def _rows(store: Store, subject: str) -> list[tuple[str, float, CellResult, Mapping[str, float]]]:
     rows = []
     for nuisance, levels in NUISANCES.items():
         for level, condition in levels.items():

@@ -41,7 +41,7 @@ from tacgrasp.benchmarks.robustness.store import (
     ORACLE,
     POLICY_SUBJECTS,
     VERIFIED,
-    Result,
+    CellResult,
     Store,
     job_name,
 )
@@ -127,7 +127,7 @@ class _Bench:
                 self.console, "cells", function, range(count), workers=self.workers
             )
 
-    def add(self, subject: str, job: _Job, result: Result, left: int) -> None:
+    def add(self, subject: str, job: _Job, result: CellResult, left: int) -> None:
         """Keep a result, and say how long ``left`` more of its kind take."""
         self.store.add(job_name(subject, *job), result)
         nuisance, condition = job
@@ -161,7 +161,7 @@ def _read_contacts(bench: _Bench, source: ContactSource, subject: str, jobs: lis
             torch.from_numpy(np.concatenate([classes for classes, _ in parts])),
             np.concatenate([numbers for _, numbers in parts]),
         )
-        result = Result(
+        result = CellResult(
             n=len(states),
             seconds=(time.monotonic() - began) / len(states),
             values=readers.percent_right(predictions, states),
@@ -169,7 +169,9 @@ def _read_contacts(bench: _Bench, source: ContactSource, subject: str, jobs: lis
         )
         bench.add(subject, (nuisance, condition), result, len(missing) - number)
         if condition in (NOMINAL, Condition(turn_deg=0)):
-            constant = Result(n=len(states), seconds=0.0, values=readers.constant_answer(states))
+            constant = CellResult(
+                n=len(states), seconds=0.0, values=readers.constant_answer(states)
+            )
             bench.store.add(job_name(CONSTANT, nuisance, condition), constant)
 
 
@@ -198,7 +200,7 @@ def _run_episodes(
     for number, (nuisance, condition) in enumerate(missing, start=1):
         began = time.monotonic()
         verified = list(islice(results, len(seeds)))
-        result = Result(
+        result = CellResult(
             n=len(seeds),
             seconds=(time.monotonic() - began) / len(seeds),
             values={VERIFIED: 100 * sum(verified) / len(seeds)},
@@ -222,7 +224,7 @@ def _sweep_fixed_force(bench: _Bench, config: RunConfig, seeds: range) -> None:
     results = bench.each(partial(_verified_by_force, config, seeds), count * len(seeds))
     rates = [list(islice(results, len(seeds))) for _ in range(count)]
     best = max(rates, key=sum)
-    result = Result(
+    result = CellResult(
         n=len(seeds),
         seconds=(time.monotonic() - began) / len(seeds) / count,
         values={VERIFIED: 100 * sum(best) / len(seeds)},

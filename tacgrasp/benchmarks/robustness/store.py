@@ -29,7 +29,7 @@ VERIFIED = "verified_percent"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Result:
+class CellResult:
     """A subject under a condition.
 
     Attributes:
@@ -67,7 +67,7 @@ class Store:
 
     path: Path | None
     about: Mapping[str, Any]
-    results: dict[str, Result] = field(default_factory=dict)
+    results: dict[str, CellResult] = field(default_factory=dict)
 
     def read(self, *, resume: bool) -> None:
         """Read earlier results.
@@ -101,7 +101,7 @@ class Store:
                 f"--json {self.path} holds figures of {', '.join(differing)}; name another file"
             )
 
-    def add(self, name: str, result: Result) -> None:
+    def add(self, name: str, result: CellResult) -> None:
         """Add a result, and write the file."""
         self.results[name] = result
         write_figures(self.path, self.report())
@@ -148,7 +148,7 @@ def _finite(value: float) -> float | None:
     return round(value, 2) if math.isfinite(value) else None
 
 
-def _plain(result: Result) -> dict[str, Any]:
+def _plain(result: CellResult) -> dict[str, Any]:
     return {
         "n": result.n,
         "seconds": round(result.seconds, 4),
@@ -158,12 +158,12 @@ def _plain(result: Result) -> dict[str, Any]:
     }
 
 
-def _read(stored: Mapping[str, Any]) -> Result:
+def _read(stored: Mapping[str, Any]) -> CellResult:
     values, limits = (
         {name: math.nan if value is None else float(value) for name, value in stored[key].items()}
         for key in ("values", "limits")
     )
-    return Result(
+    return CellResult(
         n=int(stored["n"]),
         seconds=float(stored["seconds"]),
         values=values,

@@ -11,6 +11,7 @@ from cltp.data.contact import Split
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Area, Depth, Position, Shape, Side, Texture, area_word, depth_word
 from sim.grasp.rig import BENCHMARK_SEED
+from sim.starter import series
 from sim.starter.contacts import DEEPEST_MM, GROUP_CONTACTS, GROUP_SERIES, make_group, split_of
 from sim.starter.series import BODY_FORCE_N, COLUMNS, ROWS, draw_series, num_loads
 from sim.tcl3d.labels import in_contact, label
@@ -181,3 +182,11 @@ def test_a_deeper_press_is_made_lighter_until_the_gel_can_bear_it(monkeypatch):
     monkeypatch.setattr(made, "draw_series", harder)
     depths = [contact.state.depth_mm for contact in make_group(3, 0, MINI)]
     assert 0.9 * DEEPEST_MM < max(depths) < 1.05 * DEEPEST_MM
+
+
+def test_some_bodies_lie_as_a_sensor_mounted_a_quarter_turn_meets_them(monkeypatch):
+    lying = []
+    monkeypatch.setattr(series, "turned", lambda body: lying.append(body) or body)
+    for number in range(80):
+        series._body_series(number, np.random.default_rng(number), MINI)
+    assert len(lying) == pytest.approx(80 * series.TURNED_FRACTION, abs=12)

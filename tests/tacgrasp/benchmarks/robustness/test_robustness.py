@@ -11,7 +11,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.robustness.conditions import NOMINAL, NUISANCES
 from tacgrasp.benchmarks.robustness.readers import constant_answer
 from tacgrasp.benchmarks.robustness.report import draw
-from tacgrasp.benchmarks.robustness.store import Result, Store, job_name
+from tacgrasp.benchmarks.robustness.store import CellResult, Store, job_name
 from tests.fakes.tiny_weights import make_data, make_weights, state
 
 ABOUT = {"episodes": 4, "first_seed": 1_000_000}
@@ -83,7 +83,9 @@ def stored(path, about=ABOUT) -> Store:
 def test_figures_are_read_back_as_they_were_written(tmp_path):
     store = stored(tmp_path / "f.json")
     name = job_name("heads", "fine", NOMINAL)
-    result = Result(n=3, seconds=0.5, values={"shape": math.nan, "depth": 66.67}, verified="101")
+    result = CellResult(
+        n=3, seconds=0.5, values={"shape": math.nan, "depth": 66.67}, verified="101"
+    )
     store.add(name, result)
     again = stored(tmp_path / "f.json")
     again.read(resume=True)
@@ -106,7 +108,7 @@ def test_other_files_are_refused_before_anything_is_measured(
     tmp_path, content, about, resume, message
 ):
     path = tmp_path / "f.json"
-    stored(path).add("a", Result(n=1, seconds=1.0, values={}))
+    stored(path).add("a", CellResult(n=1, seconds=1.0, values={}))
     if content is not None:
         path.write_text(content)
     with pytest.raises(UsageError, match=message) as caught:
