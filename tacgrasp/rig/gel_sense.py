@@ -34,7 +34,11 @@ def _raise(error: TouchError, attempt: int) -> None:
 
 
 class GelSense:
-    """Contact and felt force of one sensor, against its gel with open fingers."""
+    """Contact and felt force of one sensor, against its gel with open fingers.
+
+    The reference follows slow drift in every frame that is clearly untouched, and never in one of
+    a contact (``cltp.tactile.contact_test.UntouchedGel.follow``).
+    """
 
     def __init__(self, sensor: TactileSensor) -> None:
         """Take a connected sensor.
@@ -89,11 +93,16 @@ class GelSense:
             gel = self._untouched
             self._in_contact = None if gel is None else gel.test(cloud).in_contact
             self._cloud = cloud
+            if gel is not None and self._in_contact is False:
+                gel.follow(cloud)
         return self._in_contact
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
         """Force that a cloud suggests [N]; None without contact."""
-        state = contact_state(cloud, in_contact=self.in_contact(cloud))
+        in_contact = self.in_contact(cloud)
+        if self._untouched is not None:
+            cloud = self._untouched.without_drift(cloud)
+        state = contact_state(cloud, in_contact=in_contact)
         if not state.in_contact or state.force_n <= 0:
             return None
         is_clear = not state.cut and state.force_n >= CLEAR_N
