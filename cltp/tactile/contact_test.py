@@ -7,7 +7,7 @@ contact shows as a response that is far above the noise of the untouched gel som
 
 ``UntouchedGel`` tests against frames of the open fingers of the same closing, which is the test of
 the loop: it measures the noise of those frames, and drift gets into it only as far as the gel
-creeps during a closing.
+creeps during a closing. While nothing touches it follows the drift, within bounds: see ``follow``.
 ``touches_alone`` tests a single cloud, whose drift is unknown, and so needs a deeper contact.
 
 Loads no torch. Not here: depth, position, area and force of a contact (``cltp.tactile.measure``).
@@ -17,13 +17,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import FloatArray, TactileCloud
+from cltp.tactile.cloud import FloatArray, TactileCloud, heights_at
 from cltp.tactile.measure import cell_means, cells_of
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
@@ -50,6 +50,29 @@ closings at nine standard deviations; responses of these closings reach 0.011, 0
 noise included."""
 
 
+FOLLOWED_RATIO = 0.5
+"""Frames with a response below this part of a contact's least response are followed."""
+
+FOLLOWED_TOTAL = 1.0
+"""What has been followed responds with at most this part of a contact's least response. So a
+contact of twice the least response is found however slowly it came: none can be learned away. Our
+choice."""
+
+FOLLOWED_PART = 0.5
+"""Part of a change that one frame takes into the reference: its noise counts for little."""
+
+FOLLOWED_MM_S = 0.03
+"""Most that the reference changes anywhere [mm/s]. Our choice: drift of 0.3 mm in a minute moves at
+0.03 mm/s at most; a finger that closes is a hundred times as fast."""
+
+FOLLOWED_PAUSE_S, FRAME_S = 1.0, 0.04
+"""Longest time between two frames that counts for the rate, and the time where clouds bear none."""
+
+FOLLOWED_SCALES_MM = (1.6, 5.0)
+"""Changes are averaged with a Gaussian of the first width before they are followed; where that
+would respond too much, with the second, which keeps what is broad [mm]."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContactEvidence:
     """Result of a test.
@@ -57,12 +80,14 @@ class ContactEvidence:
     Attributes:
         in_contact: Whether something touches the gel.
         ratio: Largest response over the least response of a contact; 1 and more is a contact.
+        largest: The same of the largest response of either sign.
         is_inverted: Whether the gel seems to rise where a contact would press it in: z has the
             wrong sign.
     """
 
     in_contact: bool
     ratio: float
+    largest: float
     is_inverted: bool = False
 
 
@@ -91,6 +116,9 @@ class UntouchedGel:
         # A frame of the mean differs less from it than a new frame does.
         factor = math.sqrt((1 + 1 / count) / (1 - 1 / count))
         self._least_mm = THRESHOLD * factor * np.std(noise, axis=(0, 2, 3)) + np.array(CREEP_MM)
+        self._drift_mm = np.zeros_like(self._mean)
+        stamp = frames[-1].stamp
+        self._last_s = None if stamp is None else stamp.monotonic_s
 
     def test(self, cloud: TactileCloud) -> ContactEvidence:
         """Test whether something touches the gel now.
@@ -98,12 +126,61 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
+        self._check_sensor(cloud)
+        change = cell_means(cloud, self._cells) - self._mean - self._drift_mm
+        return _evidence(_responses(change, self._sensor), self._least_mm)
+
+    def follow(self, cloud: TactileCloud) -> None:
+        """Let the reference follow slow drift towards a frame in which nothing touches.
+
+        A frame that responds with ``FOLLOWED_RATIO`` of a contact's least response, in either
+        direction, changes nothing. The reference moves by at most ``FOLLOWED_MM_S``, and in all
+        by what responds with at most ``FOLLOWED_TOTAL``: broad drift is followed all the way,
+        what is local only in part.
+
+        Raises:
+            TouchError: A cloud of another sensor.
+        """
+        if self.test(cloud).largest >= FOLLOWED_RATIO:
+            return
+        change = cell_means(cloud, self._cells) - self._mean - self._drift_mm
+        most_mm = FOLLOWED_MM_S * self._seconds_to(cloud)
+        for scale_mm in FOLLOWED_SCALES_MM:
+            smooth = FOLLOWED_PART * _smoothed(change, self._sensor, scale_mm)
+            drift_mm = self._drift_mm + np.clip(smooth, -most_mm, most_mm)
+            responses = np.abs(_responses(drift_mm, self._sensor)).max(axis=(1, 2))
+            if (responses <= FOLLOWED_TOTAL * self._least_mm).all():
+                self._drift_mm = drift_mm
+                return
+
+    def _seconds_to(self, cloud: TactileCloud) -> float:
+        """Time since the last frame that was followed [s]."""
+        if cloud.stamp is None:
+            return FRAME_S
+        last_s, self._last_s = self._last_s, cloud.stamp.monotonic_s
+        if last_s is None:
+            return FRAME_S
+        return min(max(self._last_s - last_s, 0.0), FOLLOWED_PAUSE_S)
+
+    def without_drift(self, cloud: TactileCloud) -> TactileCloud:
+        """The cloud less the drift that has been followed since the reference.
+
+        Raises:
+            TouchError: A cloud of another sensor.
+        """
+        self._check_sensor(cloud)
+        if not self._drift_mm.any():
+            return cloud
+        points = cloud.points_mm.astype(np.float64)
+        drift = heights_at(self._drift_mm, points[:, 0], points[:, 1], self._sensor)
+        points[:, 2] -= drift
+        return replace(cloud, points_mm=points.astype(np.float32))
+
+    def _check_sensor(self, cloud: TactileCloud) -> None:
         if cloud.sensor.name != self._sensor.name:
             raise TouchError(
                 f"expected a cloud of {self._sensor.name}, got one of {cloud.sensor.name}"
             )
-        responses = _responses(cell_means(cloud, self._cells) - self._mean, self._sensor)
-        return _evidence(responses, self._least_mm)
 
 
 def _mean(cells_mm: Sequence[FloatArray]) -> FloatArray:
@@ -137,7 +214,10 @@ def _evidence(responses: FloatArray, least_mm: FloatArray) -> ContactEvidence:
     raised = float((-responses.min(axis=(1, 2)) / least_mm).max())
     is_inverted = raised >= 1 and pressed < MIN_PRESSED * raised
     return ContactEvidence(
-        in_contact=pressed >= 1 and not is_inverted, ratio=pressed, is_inverted=is_inverted
+        in_contact=pressed >= 1 and not is_inverted,
+        ratio=pressed,
+        largest=max(pressed, raised),
+        is_inverted=is_inverted,
     )
 
 
@@ -167,13 +247,19 @@ def _drift_gain(scale_mm: float, length_mm: float) -> float:
 
 def _responses(cells_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
     """Responses of the filters, shape (scales, n, n) [mm]; cells without points count nothing."""
+    return np.stack(
+        [
+            _smoothed(cells_mm, sensor, scale) - _smoothed(cells_mm, sensor, 2 * scale)
+            for scale in SCALES_MM
+        ]
+    )
+
+
+def _smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:
+    """Averages with a Gaussian of width ``scale_mm``, shape (n, n) [mm], of the known cells."""
     known = np.isfinite(cells_mm).astype(np.float64)
-    filled = np.nan_to_num(cells_mm, nan=0.0)
     pitch = sensor.height_mm / cells_mm.shape[0], sensor.width_mm / cells_mm.shape[1]
-
-    def smooth(scale_mm: float) -> FloatArray:
-        sigma = [scale_mm / each for each in pitch]
-        weight = gaussian_filter(known, sigma, mode="nearest")
-        return gaussian_filter(filled, sigma, mode="nearest") / np.maximum(weight, 1e-6)
-
-    return np.stack([smooth(scale) - smooth(2 * scale) for scale in SCALES_MM])
+    sigma = [scale_mm / each for each in pitch]
+    weight = gaussian_filter(known, sigma, mode="nearest")
+    filled = np.nan_to_num(cells_mm, nan=0.0)
+    return np.asarray(gaussian_filter(filled, sigma, mode="nearest") / np.maximum(weight, 1e-6))

@@ -25,6 +25,10 @@ pad's edge cuts or whose force is below ``CLEAR_N``. Source: 1.6 times the resid
 ``cltp.tactile.measure.force_from`` on simulated strawberries, tomatoes, eggs and pegs (40 of each,
 0.2 to 9 N): bias -0.16 to 0.14, standard deviation 0.11 to 0.16 on the pad; up to 0.32 of all."""
 
+KEPT_RATIO = 0.6
+"""Least response of a contact that goes on, over that of one that begins. Our choice: above what is
+followed as drift (``cltp.tactile.contact_test.FOLLOWED_RATIO``)."""
+
 CLEAR_N = 0.2
 """Felt force from which it is clear [nominal N: clear heights, whatever the gel's stiffness]."""
 
@@ -37,7 +41,11 @@ def _raise(error: TouchError, attempt: int) -> None:
 
 
 class GelSense:
-    """Contact and felt force of one sensor, against its gel with open fingers."""
+    """Contact and felt force of one sensor, against its gel with open fingers.
+
+    The reference follows slow drift in every frame that is clearly untouched, and never in one of
+    a contact (``cltp.tactile.contact_test.UntouchedGel.follow``).
+    """
 
     def __init__(self, sensor: TactileSensor) -> None:
         """Take a connected sensor.
@@ -68,7 +76,7 @@ class GelSense:
         """
         self._repeated(self._sensor.take_reference)
         frames = [self._repeated(self._sensor.read) for _ in range(NUM_FRAMES)]
-        self._untouched, self._cloud = UntouchedGel(frames), None
+        self._untouched, self._cloud, self._in_contact = UntouchedGel(frames), None, False
 
     def read_contact(self) -> bool:
         """Read a new frame and test it.
@@ -89,14 +97,29 @@ class GelSense:
     def in_contact(self, cloud: TactileCloud) -> bool | None:
         """Whether something touches the gel in a cloud; None before the first reference."""
         if cloud is not self._cloud:  # the observation and the executor ask about the same frame
-            gel = self._untouched
-            self._in_contact = None if gel is None else gel.test(cloud).in_contact
+            if self._untouched is not None:
+                self._in_contact = self._tested(cloud, self._untouched)
             self._cloud = cloud
         return self._in_contact
 
+    def _tested(self, cloud: TactileCloud, gel: UntouchedGel) -> bool:
+        """Whether a contact begins, or goes on, in a new cloud; without one, the drift is followed.
+
+        A contact at the edge of what is felt would come and go with the noise.
+        """
+        evidence = gel.test(cloud)
+        least = KEPT_RATIO if self._in_contact else 1.0
+        if evidence.ratio >= least and not evidence.is_inverted:
+            return True
+        gel.follow(cloud)
+        return False
+
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
         """Force that a cloud suggests [N], within its unit's spread too; None without contact."""
-        state = contact_state(cloud, in_contact=self.in_contact(cloud))
+        in_contact = self.in_contact(cloud)
+        if self._untouched is not None:
+            cloud = self._untouched.without_drift(cloud)
+        state = contact_state(cloud, in_contact=in_contact)
         if not state.in_contact or state.force_n <= 0:
             return None
         scale = cloud.force_scale

@@ -21,6 +21,9 @@ from rich.console import Console
 
 from cltp.sensing.calibration import default_calibration, load_calibration
 from cltp.sensing.photometric import Photometer
+from cltp.tactile.cloud import cloud_from_heights
+from cltp.tactile.contact_test import touches_alone
+from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.sensing.ideal_detector import DetectorFigures, detect
@@ -92,13 +95,37 @@ def run(settings: NoiseSettings) -> None:
     rng = np.random.default_rng(settings.seed)
     detectors = {kind: detect(measured[kind][1].spectrum, sensor, rng) for kind in
                  ("between", "background")}  # fmt: skip
-    figures = _figures(parts, {kind: one for kind, (one, _) in measured.items()}, detectors)
+    figures = {"felt_outside": felt_outside(parts, sensor)} | _figures(
+        parts, {kind: one for kind, (one, _) in measured.items()}, detectors
+    )
     _print(Console(), figures)
     if settings.plot is not None:
         from tacgrasp.benchmarks.sensing.noise_plot import write_plot  # loads matplotlib
 
         write_plot(settings.plot, {kind: curves for kind, (_, curves) in measured.items()})
     write_figures(settings.json, figures)
+
+
+def felt_outside(parts: Sequence[UntouchedPart], sensor: SensorSpec) -> dict[str, Any]:
+    """What is felt on frames whose contact is replaced by the median of what is outside it.
+
+    ``if_contact`` takes each frame for a contact; ``in_contact`` is the fraction that the test of
+    a single frame does take for one, and ``by_depth`` what ``contact_state`` says by itself.
+    """
+    rng = np.random.default_rng(0)
+    clouds = []
+    for part in parts:
+        middle = np.median(part.height_mm[part.outside])
+        heights = np.where(part.outside, part.height_mm, middle)
+        clouds.append(cloud_from_heights(heights, sensor, rng=rng))
+    taken = [contact_state(cloud, in_contact=True).force_n for cloud in clouds]
+    by_depth = [contact_state(cloud).force_n for cloud in clouds]
+    return {
+        "in_contact": float(np.mean([touches_alone(cloud).in_contact for cloud in clouds])),
+        "by_depth_p95_n": float(np.percentile(by_depth, 95)),
+        "if_contact_p50_n": float(np.median(taken)),
+        "if_contact_p95_n": float(np.percentile(taken, 95)),
+    }
 
 
 def _difference(one: UntouchedPart, other: UntouchedPart) -> Field:
@@ -210,6 +237,12 @@ def _print(console: Console, figures: dict[str, Any]) -> None:
     console.print(
         f"slopes under the balls over the balls' own: x {figures['gain_x']:.3f}, "
         f"y {figures['gain_y']:.3f}; ln of their ratio {low:+.3f} to {high:+.3f} (10-90 %)"
+    )
+    felt = figures["felt_outside"]
+    console.print(
+        f"felt with the contacts cut out: taken for a contact {felt['in_contact']:.0%}; by depth "
+        f"{felt['by_depth_p95_n']:.2f} N (95 %); if each were a contact "
+        f"{felt['if_contact_p50_n']:.2f} N in the median, {felt['if_contact_p95_n']:.2f} N (95 %)"
     )
     for key, words in (
         ("contact", "the noise between frames"),

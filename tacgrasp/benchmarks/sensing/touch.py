@@ -50,6 +50,9 @@ UNTOUCHED_N = Range(low=0.0, high=0.02)
 SINCE_REFERENCE_S = Range(low=0.5, high=30.0, log=True)
 """Time between their reference and them [s]: a closing takes two seconds, a hold more."""
 
+OPEN_FRAME_S = 0.5
+"""Time between the frames that are read meanwhile, of open fingers [s]."""
+
 MOST_FELT_N = 0.2
 """Target: at most this is felt in 95 % of them [N]."""
 
@@ -90,7 +93,7 @@ def run(settings: TouchSettings) -> None:
     samples: list[GraspSample] = []
     for name in OBJECTS:
         seeds = track(range(bodies), name, console=console, disable=not console.is_terminal)
-        of_object = [sample for seed in seeds for sample in _samples(name, seed)]
+        of_object = [sample for seed in seeds for sample in grasp_samples(name, seed)]
         figures["objects"][name] = _figures(of_object)
         samples += of_object
     figures["stiffness_n_per_mm3"] = fitted_stiffness(samples)
@@ -106,7 +109,8 @@ def run(settings: TouchSettings) -> None:
     write_figures(settings.json, figures)
 
 
-def _samples(name: str, seed: int) -> list[GraspSample]:
+def grasp_samples(name: str, seed: int) -> list[GraspSample]:
+    """Press one body at some positions, each with a force of its own."""
     rig = build(name, seed)
     rng = np.random.default_rng([seed, 9])
     offsets = [
@@ -147,25 +151,25 @@ def fitted_stiffness(samples: Sequence[GraspSample]) -> float:
 
 
 def felt_untouched(num: int) -> dict[str, Any]:
-    """What is felt on nearly untouched frames, each of its own unit, drift and berry.
+    """What is felt on nearly untouched frames, each of its own unit and drift.
 
     ``felt_untouched`` is what the loop feels: tested against the open fingers, some time ago.
     ``felt_untouched_untested`` takes every such frame for a contact.
     """
-    rigs = [build("strawberry", UNTOUCHED_SEED + body) for body in range(20)]
+    contacts = [_light_contact(UNTOUCHED_SEED + body) for body in range(20)]
     felt_n: list[float] = []
     untested_n: list[float] = []
     for seed in range(UNTOUCHED_SEED, UNTOUCHED_SEED + num):
-        rng, rig = np.random.default_rng([seed, 1]), rigs[seed % len(rigs)]
-        offset_mm = OFFSET_X_MM.quantile(rng.random()), OFFSET_Y_MM.quantile(rng.random())
-        patch = rig.grasp.fingers.press(offset_mm, UNTOUCHED_N.quantile(rng.random()))
+        rng, (rig, patch) = np.random.default_rng([seed, 1]), contacts[seed % len(contacts)]
         clock = SimClock()
         clock.advance(rng.uniform(0, 600))
         sensor = SimSensor(rig.grasp, clock, rig.sensor.spec, NoiseUnit.draw(rng), seed)
         rig.grasp.patch = None
         sense = GelSense(sensor)
         sense.take_reference()
-        clock.advance(SINCE_REFERENCE_S.quantile(rng.random()))
+        for _ in range(round(SINCE_REFERENCE_S.quantile(rng.random()) / OPEN_FRAME_S)):
+            clock.advance(OPEN_FRAME_S)
+            sense.in_contact(sensor.read())
         rig.grasp.patch = patch
         cloud = sensor.read()
         felt = sense.felt_force(cloud)
@@ -175,6 +179,13 @@ def felt_untouched(num: int) -> dict[str, Any]:
         "felt_untouched": _quantiles(felt_n),
         "felt_untouched_untested": _quantiles(untested_n),
     }
+
+
+def _light_contact(seed: int) -> tuple[SimRig, Patch]:
+    """A berry that touches the gel of its rig with a force of ``UNTOUCHED_N``."""
+    rig, rng = build("strawberry", seed), np.random.default_rng([seed, 9])
+    offset_mm = OFFSET_X_MM.quantile(rng.random()), OFFSET_Y_MM.quantile(rng.random())
+    return rig, rig.grasp.fingers.press(offset_mm, UNTOUCHED_N.quantile(rng.random()))
 
 
 def _quantiles(felt_n: Sequence[float]) -> dict[str, float]:

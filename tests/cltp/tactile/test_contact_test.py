@@ -2,10 +2,17 @@
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import cloud_from_heights
-from cltp.tactile.contact_test import UntouchedGel, touches_alone
+from cltp.tactile.cloud import Stamp, cloud_from_heights
+from cltp.tactile.contact_test import (
+    FOLLOWED_MM_S,
+    FOLLOWED_TOTAL,
+    UntouchedGel,
+    touches_alone,
+)
 from cltp.tactile.sensor_noise import NoiseUnit, smooth_field
 from cltp.tactile.sensors import sensor_named
 
@@ -81,3 +88,59 @@ def test_a_single_frame_tells_a_press_from_drift(rng):
         assert not touches_alone(untouched).in_contact
         pressed = unit.apply(bump(0.4), MINI, rng)
         assert touches_alone(cloud_from_heights(pressed, MINI, rng=rng)).in_contact
+
+
+def stamped(heights, t_s):
+    stamp = Stamp(monotonic_s=t_s, wall_s=t_s)
+    return cloud_from_heights(heights, MINI, stamp=stamp)
+
+
+def gel_of_noise(seed):
+    rng = np.random.default_rng(seed)
+    frames = [stamped(rng.normal(0, 0.01, SHAPE), 0.04 * i) for i in range(5)]
+    return UntouchedGel(frames)
+
+
+@settings(max_examples=12, deadline=None)
+@given(
+    seconds=st.floats(1, 600),
+    radius_mm=st.floats(0.8, 5),
+    depth_mm=st.floats(0.02, 0.6),
+    x_mm=st.floats(-8, 8),
+    y_mm=st.floats(-6, 6),
+    seed=st.integers(0, 9),
+)
+def test_no_press_is_so_slow_that_the_reference_learns_it_away(
+    seconds, radius_mm, depth_mm, x_mm, y_mm, seed
+):
+    followed, fresh = gel_of_noise(seed), gel_of_noise(seed)
+    press = bump(depth_mm, radius_mm, x_mm, y_mm)
+    for part in np.linspace(0, 1, 40):
+        followed.follow(stamped(part * press, 0.2 + part * seconds))
+    now = stamped(press, 0.2 + seconds)
+    if fresh.test(now).ratio >= 1 + FOLLOWED_TOTAL:
+        assert followed.test(now).in_contact
+
+
+def test_the_reference_follows_broad_drift_and_a_contact_is_found_on_it(rng):
+    drift = 0.2 * smooth_field(SHAPE, MINI, 15.0, rng)
+    followed, fresh = gel_of_noise(0), gel_of_noise(0)
+    for part in np.linspace(0, 1, 300):
+        followed.follow(stamped(part * drift, 0.2 + 60 * part))
+    now = stamped(drift, 61)
+    assert not followed.test(now).in_contact
+    left = followed.without_drift(now).points_mm[:, 2] - np.mean(now.points_mm[:, 2])
+    assert np.std(left) < 0.5 * np.std(fresh.without_drift(now).points_mm[:, 2])
+    assert followed.test(stamped(drift + bump(0.1, 1.5), 61)).in_contact
+
+
+def test_the_reference_is_still_during_a_contact_and_follows_no_faster_than_its_rate():
+    gel = gel_of_noise(0)
+    touched = stamped(bump(0.3), 0.4)
+    for _ in range(50):
+        gel.follow(touched)
+    assert gel.without_drift(touched) is touched
+    raised = stamped(np.full(SHAPE, 0.5), 0.7)
+    gel.follow(raised)
+    change = raised.points_mm[:, 2] - gel.without_drift(raised).points_mm[:, 2]
+    np.testing.assert_allclose(change, FOLLOWED_MM_S * (0.7 - 0.16), rtol=1e-4)

@@ -6,6 +6,7 @@ from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensor_noise import (
     MINI_SPREAD,
     NoiseUnit,
+    SlowDrift,
     integrated_with_gains,
     smooth_field,
     spread_of,
@@ -108,3 +109,15 @@ def test_borders_are_drawn_up_to_the_widest():
     widths = [NoiseUnit.draw(rng, spread=digit).border_mm for _ in range(200)]
     assert 0 <= min(widths) < 0.1
     assert 0.9 < max(widths) <= 1.0
+
+
+def test_slow_drifts_are_drawn_from_a_calibrated_unit_s_to_the_largest_seen() -> None:
+    unit = NoiseUnit.draw(np.random.default_rng(0))
+    spreads = [
+        float(SlowDrift.draw(np.random.default_rng(seed), SHAPE, MINI, unit).at(0.0).std())
+        for seed in range(300)
+    ]
+    low, middle, high = np.percentile(spreads, [2, 50, 98])
+    assert 0.003 < low < 0.015
+    assert 0.015 < middle < 0.08
+    assert 0.1 < high < 0.5

@@ -1,0 +1,73 @@
+"""The volume of a contact: its own, whatever is tilted, broad or elsewhere."""
+
+import numpy as np
+import pytest
+
+from cltp.tactile.cloud import grid_axes_mm
+from cltp.tactile.local_volume import local_volume_mm3, white_noise_mm
+from cltp.tactile.sensor_noise import smooth_field
+from cltp.tactile.sensors import sensor_named
+
+SENSOR = sensor_named("gelsight_mini")
+X, Y = np.meshgrid(*grid_axes_mm(SENSOR, 32, 32))
+
+
+def bump(x_mm=0.0, y_mm=0.0, depth_mm=0.3, radius_mm=3.0):
+    """A paraboloid of the given depth and foot radius."""
+    square = (X - x_mm) ** 2 + (Y - y_mm) ** 2
+    return depth_mm * np.clip(1 - square / radius_mm**2, 0, None)
+
+
+VOLUME = np.pi * 3.0**2 / 2 * 0.3 * 0.8**2
+"""Of a paraboloid's top four fifths."""
+
+
+@pytest.mark.parametrize(
+    "background",
+    [
+        0.0 * X,
+        0.02 * X - 0.01 * Y,
+        0.003 * X * X - 0.002 * X * Y + 0.001 * Y * Y - 0.2,
+        np.full_like(X, 0.4),
+    ],
+    ids=["flat", "tilted", "broad", "lost zero"],
+)
+@pytest.mark.parametrize("place", [(0, 0), (4, -3)])
+def test_what_is_tilted_or_broad_is_no_volume(background, place):
+    volume = local_volume_mm3(bump(*place) + background, SENSOR)
+    assert volume == pytest.approx(VOLUME, rel=0.06)
+
+
+def test_what_is_elsewhere_is_no_volume():
+    both = bump(-4, 0) + bump(6, 5, depth_mm=0.15, radius_mm=1.5)
+    assert local_volume_mm3(both, SENSOR) == pytest.approx(VOLUME, rel=0.06)
+
+
+def test_a_tilted_gel_of_a_real_size_displaces_next_to_nothing():
+    rng = np.random.default_rng(0)
+    volumes = [
+        local_volume_mm3(
+            0.3 * smooth_field((32, 32), SENSOR, 40.0, rng)
+            + 0.01 * (rng.normal() * X + rng.normal() * Y)
+            + rng.normal(0, 0.005, (32, 32)),
+            SENSOR,
+        )
+        for _ in range(200)
+    ]
+    plain = 0.05 * SENSOR.area_mm2  # what a mean of 0.05 mm would count as
+    assert np.percentile(volumes, 95) < 0.05 * plain
+
+
+def test_cells_without_points_are_left_out():
+    cells = bump()
+    cells[np.random.default_rng(0).random(cells.shape) < 0.1] = np.nan
+    assert local_volume_mm3(cells, SENSOR) == pytest.approx(VOLUME, rel=0.15)
+
+
+def test_noise_is_measured_beside_a_contact():
+    noise = np.random.default_rng(0).normal(0, 0.004, X.shape)
+    assert white_noise_mm(bump() + noise) == pytest.approx(0.004, rel=0.2)
+
+
+def test_a_flat_gel_displaces_nothing():
+    assert local_volume_mm3(np.zeros((32, 32)), SENSOR) == 0.0
