@@ -116,7 +116,8 @@ def sample(
     kept, points, heights, sensors, states, exact = [], [], [], [], [], []
     for index in indices:
         sensor = sensor_named(data.column("sensor")[index])
-        height_mm, state = data.height_mm(index), data.state(index)
+        height_mm = data.height_mm(index)
+        state = data.nominal_state(index) if condition.gel is None else data.state(index)
         if condition.turn_deg is not None:
             try:
                 moved = move(height_mm, state, sensor, QUARTER_TURN)
