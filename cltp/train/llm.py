@@ -51,7 +51,7 @@ STAGES = {
     "joint": Schedule(steps=1800, batch_size=16, learning_rate=1e-3),
 }
 
-FINE_TUNING = {"joint": Schedule(steps=600, batch_size=16, learning_rate=4e-4)}
+FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
 """The stages of a training that starts from other weights."""
 
 UNIT_FACTORS = (0.5, 2.0)
