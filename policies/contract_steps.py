@@ -55,6 +55,29 @@ def softened(contract: Contract) -> Contract:
     )
 
 
+def refuted(contract: Contract, felt: Interval | None) -> dict[Primitive | None, str]:
+    """Decisions that go against what is clearly felt, with the reason of each; None is success.
+
+    Raises:
+        LimitError: The contract is refused.
+    """
+    if felt is None:
+        return {}
+    band = contract.terms.force_n
+    is_above, is_below = felt.value / CLEARLY > band.high, felt.value * CLEARLY < band.low
+    reasons: dict[Primitive | None, str] = {}
+    if is_above:
+        above = f"{felt.value:.2f} N is felt, above {band.high:.2f} N"
+        reasons[Primitive.INCREASE_FORCE] = f"more force, but {above}"
+    if is_below:
+        below = f"{felt.value:.2f} N is felt, below {band.low:.2f} N"
+        reasons[Primitive.DECREASE_FORCE] = f"less force, but {below}"
+    if is_above or is_below:
+        wanted = f"{band.low:.2f}-{band.high:.2f} N"
+        reasons[None] = f"success, but {felt.value:.2f} N is felt, not {wanted}"
+    return reasons
+
+
 def beyond(
     contract: Contract,
     action: Primitive | None,
@@ -68,18 +91,10 @@ def beyond(
     A decision is beyond when it goes against what is clearly felt: success outside the bands, more
     force above the band, less below it.
     """
-    band = contract.terms.force_n
-    if felt is not None:
-        felt = Interval(value=felt.value, low=felt.value / CLEARLY, high=felt.value * CLEARLY)
-        if action is Primitive.INCREASE_FORCE and felt.low > band.high:
-            return f"more force, but {felt.value:.2f} N is felt, above {band.high:.2f} N"
-        if action is Primitive.DECREASE_FORCE and felt.high < band.low:
-            return f"less force, but {felt.value:.2f} N is felt, below {band.low:.2f} N"
-    if action is not None or not success:
-        return ""
-    if felt is not None and (felt.low > band.high or felt.high < band.low):
-        return f"success, but {felt.value:.2f} N is felt, not {band.low:.2f}-{band.high:.2f} N"
-    return "" if state is None else _outside(contract, state)
+    is_success = action is None and success
+    if (action is not None or is_success) and (reason := refuted(contract, felt).get(action)):
+        return reason
+    return _outside(contract, state) if is_success and state is not None else ""
 
 
 def _outside(contract: Contract, state: ContactState) -> str:

@@ -18,7 +18,7 @@ from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
-from policies.contract_steps import target_of
+from policies.contract_steps import refuted, target_of
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.observation import Observation
@@ -121,11 +121,16 @@ class LlmPolicy:
         Raises:
             LimitError: The contract is refused.
         """
-        target = target_of(contract).force_n
-        return self.follow(observation, known_wording(target, observation.felt_force_n), target)
+        target, felt = target_of(contract).force_n, observation.felt_force_n
+        barred = [f"<{action or 'none'}>" for action in refuted(contract, felt)]
+        return self.follow(observation, known_wording(target, felt), target, barred)
 
     def follow(
-        self, observation: Observation, instruction: str, target: Band | None = None
+        self,
+        observation: Observation,
+        instruction: str,
+        target: Band | None = None,
+        barred: Sequence[str] = (),
     ) -> Decision:
         """Decide for an instruction in words that the model was taught.
 
@@ -133,11 +138,13 @@ class LlmPolicy:
             observation: What is felt.
             instruction: The words.
             target: Force band that D_t may not leave [N]; None for any.
+            barred: Tokens of actions that what is felt refutes; the most probable other is taken.
         """
         begin = self._clock()
         points = encoder_input(observation.cloud)
         sampled = self._clock()
-        penalties = ACTION_PENALTIES | dict.fromkeys(repeated_moves(self._moves), math.inf)
+        excluded = (*repeated_moves(self._moves), *barred)
+        penalties = ACTION_PENALTIES | dict.fromkeys(excluded, math.inf)
         factor = observation.cloud.force_scale.factor
         reply = self._talker.reply(points, instruction, penalties=penalties, force_factor=factor)
         replied = self._clock()
