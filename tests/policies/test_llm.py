@@ -1,3 +1,4 @@
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -34,7 +35,7 @@ from policies.llm import (
 from primitives import Primitive
 from primitives.contract import Band
 from primitives.sense import Interval
-from tests.fakes.contracts import wide_contract
+from tests.fakes.contracts import contract, wide_contract
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -245,3 +246,28 @@ def test_the_model_is_told_newtons_by_the_factor_of_the_cloud_s_unit(
     policy.ask(cloud, "Please hold the egg securely.")
     policy.decide(Observation(cloud=touch()), wide_contract())
     assert factors == [1.7, 1.7, 1.0]
+
+
+@pytest.mark.parametrize(
+    ("felt_n", "barred"),
+    [
+        (0.3, {"<none>", "<decrease_force>"}),
+        (1.2, set()),
+        (4.0, {"<none>", "<increase_force>"}),
+        (None, set()),
+    ],
+)
+def test_what_is_clearly_felt_bars_the_decisions_against_it(
+    felt_n: float | None, barred: set[str], untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    asked: list[dict[str, float]] = []
+
+    def record(_points: object, _prompt: str, **options: object) -> Reply:
+        asked.append(options["penalties"])  # type: ignore[arg-type]
+        return reply("Action: <reset>.", "<reset>")
+
+    monkeypatch.setattr(policy.talker, "reply", record)
+    felt = None if felt_n is None else Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    policy.decide(Observation(cloud=touch(), felt_force_n=felt), contract(0.95, 1.9, 2.4))
+    assert {name for name, nats in asked[0].items() if nats == math.inf} == barred

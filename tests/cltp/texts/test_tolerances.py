@@ -66,7 +66,7 @@ def test_about_two_thirds_of_ideal_readings_of_a_noisy_cap_lie_within_them(depth
 def test_a_cap_worked_out_by_hand():
     within = tolerances(cap_state(depth_mm=0.4, radius_mm=2.0, force_n=1.0), MINI)
     assert within.depth_mm == pytest.approx(math.hypot(0.04, 0.4 * 0.15 / math.sqrt(3)))
-    slope = math.hypot(0.04 * math.sqrt(2 / 24), 0.003)
+    slope = math.hypot(0.04 * math.sqrt(2 / 20), 0.003)
     cell = MINI.width_mm / 32 / math.sqrt(12)
     assert within.position_mm == pytest.approx(math.hypot(slope * 4 / 0.8, cell))
     assert within.area_mm2 == pytest.approx(math.pi * 4 * 0.04 / 0.4)

@@ -100,7 +100,7 @@ def test_a_reply_has_the_contact_the_goal_the_action_and_the_reason() -> None:
 
 def test_the_same_contact_is_advised_otherwise_for_another_goal() -> None:
     band = task_goals()["strawberry"].force_n
-    state = contact(force_n=(band.low * band.high) ** 0.5)
+    state = contact(depth_mm=0.12, force_n=(band.low * band.high) ** 0.5)
     assert "<none>" in advice_reply(state, task_goals()["strawberry"])
     assert "<increase_force>" in advice_reply(state, task_goals()["peg"])
     assert "<decrease_force>" in advice_reply(state, task_goals()["cherry_tomato"])
