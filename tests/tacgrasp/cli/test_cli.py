@@ -96,7 +96,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
         (
             ["bench"],
-            "expects one of strawberry, missed, robustness, verifier, soak, latency, rigs, drivers, faults, gel",
+            "expects one of strawberry, missed, robustness, verifier, soak, latency, rigs",
         ),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
