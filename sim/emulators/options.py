@@ -24,7 +24,7 @@ class RigOptions:
         object_mass_g: mass of the mesh [g]; by default from its volume
         seed: random seed of the object, its pose, the gripper and the sensor noise
         sensor: sensor whose sensing area the taxels cover
-        first_force_n: largest commanded force until something is felt [N]; by default 0.6
+        first_force_n: largest commanded force until something is felt [N]; by default 1.0
         held: start with the object gripped between the fingers
         centred: start with the object in the middle of the pad
         host: loopback address of the arm; by default one that is free

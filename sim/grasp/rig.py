@@ -5,7 +5,7 @@ Benchmarks and records read the truth from ``SimRig.truth``; a policy never does
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -46,8 +46,13 @@ OFFSET_X_MM = Range(low=-11.0, high=11.0)
 OFFSET_Y_MM = Range(low=-8.5, high=8.5)
 GRIPPER_FORCE_GAIN = Range(low=0.5, high=2.0, log=True)
 
-FIRST_TOUCH_N = 0.6
-"""Largest commanded force until something is felt [N]: 0.3 N times the largest force gain."""
+FINE_PART = Range(low=0.05, high=1.0, log=True)
+"""Fine noise of a unit over that of ``cltp.tactile.sensor_noise``, drawn: from 0.5 µm, near the 0.2
+µm of the one that was measured, to 10 µm."""
+
+FIRST_TOUCH_N = 1.0
+"""Largest commanded force until something is felt [N]: 0.5 N of the weakest gripper. A contact that
+the pad's edge cuts is felt from 0.4 N on; others of stronger grippers long before."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,8 +177,8 @@ def build(
         first_force_n: Largest commanded force until something is felt, instead of
             ``FIRST_TOUCH_N`` [N].
         gripper_force_gain: Ratio of true to commanded force, instead of the draw.
-        noise_level: 1 is the noise of the measured sensor, 0 a perfect one; or a level for each
-            error.
+        noise_level: 1 is the noise of units as they differ, 0 a perfect one; or a level for each
+            error, taken as it is.
         gel: Gel of both fingers; None for the sensor's nominal one. Its force calibration is drawn
             around its own stiffness.
         is_turned: Whether the sensor is mounted a quarter turn (``sim.grasp.turned_pad``). The
@@ -201,6 +206,9 @@ def build(
     clock = SimClock()
     clock.attach(grasp)
     levels = NoiseLevels.of(noise_level)
+    if not isinstance(noise_level, NoiseLevels):
+        part = FINE_PART.quantile(np.random.default_rng([seed, 7]).random())
+        levels = replace(levels, fine=part * levels.fine)
     noise = NoiseUnit.draw(sensor_rng, levels)
     calibration = drawn_force_calibration(
         sensor_name, seed, gel=gel, scatter=0.0 if levels == NoiseLevels.of(0) else SCATTER

@@ -158,8 +158,8 @@ class GripperConfig(SettingsBase):
     Attributes:
         min_force_n: Smallest commanded force [N].
         max_force_n: Largest commanded force [N].
-        first_force_n: Largest commanded force of an approach until something is felt [N]: 0.3 N
-            times the largest factor by which the true force may differ from it. None: 0.6 N in a
+        first_force_n: Largest commanded force of an approach until something is felt [N]: 0.5 N
+            times the largest factor by which it may exceed the true force. None: 1 N in a
             simulated world, whose factor is up to 2; real devices need a value.
         max_force_gain: Largest ratio of true to commanded force. Until something is felt, no
             command times this may pass the contract's limit. The simulated gripper's is up to 2.

@@ -85,12 +85,12 @@ def test_pairs_keep_to_their_quotas_and_use_a_contact_once(data_dir: Path) -> No
 def test_an_answer_that_noise_decides_is_not_clear() -> None:
     goal = task_goals()["strawberry"]
     middle = math.sqrt(goal.force_n.low * goal.force_n.high)
-    centred = state(0.0, 0.0, 0.3, middle)
-    at_the_limit = state(0.0, 0.0, 0.3, 0.99 * goal.force_n.high)
+    centred = state(0.0, 0.0, 0.15, middle)
+    at_the_limit = state(0.0, 0.0, 0.15, 0.99 * goal.force_n.high)
     assert answer_for(centred, goal, clear=True) == NONE
     assert answer_for(at_the_limit, goal, clear=False) == NONE
     assert answer_for(at_the_limit, goal, clear=True) is None
-    barely_off = state(goal.x_mm.high + 0.1, 0.0, 0.3, middle)
+    barely_off = state(goal.x_mm.high + 0.1, 0.0, 0.15, middle)
     assert answer_for(barely_off, goal, clear=False) == "move_right"
     assert answer_for(barely_off, goal, clear=True) is None
 
