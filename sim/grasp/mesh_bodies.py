@@ -1,13 +1,14 @@
 """Bodies from scanned meshes (millimetres): any closed mesh can be grasped in simulation.
 
 The mesh is turned so that the fingers close on a narrow side that bulges in the middle, and the
-longer of its other extents is upright. Its height field is cast with rays (open3d). It is rigid and
-cannot be bruised.
+longer of its other extents is upright. Its height field is cast with rays (open3d). Stiffness,
+friction and bruise force are those of the drawn body whose place it takes, unless given.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -22,23 +23,60 @@ from sim.objects.meshes import IntArray, checked_mesh, ray_scene, volume_and_cen
 DENSITY_G_PER_MM3 = 0.3e-3
 """Density of a mesh without a given mass. Our assumption: household objects are hollow or light."""
 
-RIGID_MPA = 2000.0
-UNBRUISED_N = 1000.0
+MASS_G = (0.1, 5000.0)
+YOUNG_MPA = (0.005, 5e5)
+"""Range of Young's moduli [MPa], from the softest gelatine to tungsten carbide."""
+
+BRUISE_N = (0.05, 2000.0)
+"""Range of bruise forces [N]. Our choice: the gripper presses with 20 N at most."""
+
 MAX_OPENING_MM = 1000 * MAX_WIDTH_M
 _EXTENT_WEIGHT = 0.05  # hollow [mm] that outweighs a narrower grasp, per mm of width
 
 
-def body_from_mesh(path: Path, *, mass_g: float | None, template: Body) -> Body:
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ScannedObject:
+    """A mesh to grasp, and what is known of its material.
+
+    Attributes:
+        path: PLY, OBJ, STL or OFF file of a closed mesh in millimetres.
+        mass_g: Mass [g]; None: from its volume and ``DENSITY_G_PER_MM3``.
+        young_mpa: Young's modulus [MPa]; None: that of the drawn body.
+        bruise_n: Force of flat gelled fingers that just bruises it [N]; None: that of the drawn
+            body.
+
+    Raises:
+        TouchError: A number outside its range.
+    """
+
+    path: Path
+    mass_g: float | None = None
+    young_mpa: float | None = None
+    bruise_n: float | None = None
+
+    def __post_init__(self) -> None:
+        for what, value, (low, high), unit in (
+            ("mass", self.mass_g, MASS_G, "g"),
+            ("Young's modulus", self.young_mpa, YOUNG_MPA, "MPa"),
+            ("bruise force", self.bruise_n, BRUISE_N, "N"),
+        ):
+            if value is not None and not low <= value <= high:  # NaN too
+                raise TouchError(
+                    f"{self.path}: its {what} must be {low:g} to {high:g} {unit}, got {value:g}"
+                )
+
+
+def body_from_mesh(scanned: ScannedObject, template: Body) -> Body:
     """Turn a mesh into a body between the fingers.
 
     Args:
-        path: PLY, OBJ or STL file of a closed mesh in millimetres.
-        mass_g: Its mass [g]; None: from its volume.
-        template: Body with the friction of the new one.
+        scanned: The mesh.
+        template: Drawn body whose place it takes.
 
     Raises:
         TouchError: The mesh is refused by ``sim.objects.meshes``, or too large for the gripper.
     """
+    path, mass_g = scanned.path, scanned.mass_g
     vertices, faces = checked_mesh(path)
     extents = np.ptp(vertices, axis=0)
     if extents.min() > MAX_OPENING_MM:
@@ -68,10 +106,10 @@ def body_from_mesh(path: Path, *, mass_g: float | None, template: Body) -> Body:
         gyration_mm=math.hypot(width, height) / math.sqrt(12),
         thickness_mm=float(extents[closing]),
         mass_kg=mass_g / 1000,
-        young_mpa=RIGID_MPA,
-        poisson=0.3,
+        young_mpa=scanned.young_mpa or template.young_mpa,
+        poisson=template.poisson,
         friction=template.friction,
-        bruise_n=UNBRUISED_N,
+        bruise_n=scanned.bruise_n or template.bruise_n,
     )
 
 
