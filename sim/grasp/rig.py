@@ -189,7 +189,8 @@ def build(
     sensor = sensor_named(sensor_name)
     body = draw_body(object_name, world_rng, tails)
     if mesh is not None:
-        body = body_from_mesh(mesh, body)
+        pad_mm = (sensor.width_mm, sensor.height_mm)
+        body = body_from_mesh(mesh, body, pad_mm[::-1] if is_turned else pad_mm)
     u = tails + (1 - 2 * tails) * world_rng.random(4)
     offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
     force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
