@@ -70,6 +70,11 @@ class GraspPlace:
     from_com_mm: float
 
     @property
+    def yaw_deg(self) -> float:
+        """Closing direction about the vertical, from the mesh's +x towards +y, -90 to 90 [°]."""
+        return (math.degrees(math.atan2(self.closing[1], self.closing[0])) + 90.0) % 180.0 - 90.0
+
+    @property
     def body_from_mesh(self) -> FloatArray:
         """Rotation from the mesh's axes to the pad's: x right, y up, z towards the camera."""
         z = np.array(self.closing)
@@ -185,12 +190,16 @@ class _Refused:
     wide: int = 0
 
     def line(self) -> str:
-        total = self.no_room + self.small + self.off + self.wide
+        counts = {
+            "there is no room for a finger": self.no_room,
+            f"a patch is below {MIN_PATCH_MM2:g} mm²": self.small,
+            "a patch lies at the pad's edge": self.off,
+            f"the pads are more than {MAX_GRASP_MM:g} mm apart": self.wide,
+        }
+        reasons = ", ".join(f"at {count} {words}" for words, count in counts.items() if count)
         return (
-            f"none of {total} pairs of opposite surfaces of the mesh (+z up) can be grasped: at "
-            f"{self.no_room} there is no room for a finger, at {self.small} a patch is below "
-            f"{MIN_PATCH_MM2:g} mm², at {self.off} it lies at the pad's edge, {self.wide} are "
-            f"wider than {MAX_GRASP_MM:g} mm; turn or scale it"
+            f"none of {sum(counts.values())} pairs of opposite surfaces of the mesh (+z up) can be "
+            f"grasped: {reasons}; turn or scale it"
         )
 
 

@@ -108,7 +108,7 @@ def placed_body(
         pad_mm: Width and height of a pad [mm].
     """
     turn, volume_mm3, com = place.body_from_mesh, *volume_and_centre(vertices, faces)
-    mass_g = scanned.mass_g or max(1.0, DENSITY_G_PER_MM3 * volume_mm3)
+    mass_g = scanned.mass_g or _mass_g(volume_mm3)
     across, upright, _ = np.ptp(vertices @ turn.T, axis=0)
     com_x, com_y, _ = turn @ (com - np.array(place.centre_mm))
     return Body(
@@ -123,6 +123,15 @@ def placed_body(
         friction=template.friction,
         bruise_n=scanned.bruise_n or template.bruise_n,
     )
+
+
+def natural_mass_g(vertices: FloatArray, faces: IntArray) -> float:
+    """Mass of a mesh that is given none [g]."""
+    return _mass_g(volume_and_centre(vertices, faces)[0])
+
+
+def _mass_g(volume_mm3: float) -> float:
+    return max(1.0, DENSITY_G_PER_MM3 * volume_mm3)
 
 
 def _gap(

@@ -96,7 +96,10 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply"], "no.ply does not exist"),
         (["describe", "photo.tiff"], "expected a file ending in"),
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
-        (["bench"], "expects one of strawberry, missed, soak, latency, rigs, drivers, faults, gel"),
+        (
+            ["bench"],
+            "expects one of strawberry, missed, robustness, verifier, meshes",
+        ),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
