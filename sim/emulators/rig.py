@@ -86,14 +86,24 @@ def run(options: RigOptions) -> None:
 
 
 def _scanned(options: RigOptions) -> ScannedObject | None:
-    if options.object_mesh is None:
-        return None
-    return ScannedObject(
-        path=options.object_mesh,
-        mass_g=options.object_mass_g,
-        young_mpa=options.object_young_mpa,
-        bruise_n=options.object_bruise_n,
-    )
+    """The mesh to grasp, None for the drawn object.
+
+    Raises:
+        RobotError: A property of a mesh, and no mesh.
+        TouchError: A property outside its range.
+    """
+    numbers = {
+        "mass_g": options.object_mass_g,
+        "young_mpa": options.object_young_mpa,
+        "bruise_n": options.object_bruise_n,
+    }
+    if options.object_mesh is not None:
+        return ScannedObject(path=options.object_mesh, **numbers)
+    for name, value in numbers.items():
+        if value is not None:
+            flag = f"--object-{name.replace('_', '-')}"
+            raise RobotError(f"{flag} is that of a mesh; give --object-mesh too, or leave it out")
+    return None
 
 
 def _arm(host: str | None, world: SharedWorld) -> UrChild:

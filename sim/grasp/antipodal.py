@@ -5,7 +5,8 @@ horizontally; the search turns them about the vertical, and never tilts the mesh
 
 A grasp needs upright surface on both sides whose normals lie within the friction cone of the
 closing direction, a width that the gripper opens to, a patch on either pad that is large enough and
-not at the pad's edge, and room for both fingers. The one nearest to the centre of mass is chosen.
+not at the pad's edge, and room for both fingers. Of these, one near the centre of mass is chosen,
+whose patch does not fill the pad.
 
 Source: ray-cast antipodal sampling after Mahler et al., 'Dex-Net 2.0' (2017), section IV.
 
@@ -82,10 +83,16 @@ class GraspPlace:
         return np.stack([np.cross(y, z), y, z])
 
 
+_FELT_FRACTION, _FLAT_WEIGHT_MM = 0.4, 40.0
+"""Fraction of the pad above which a patch is felt badly, and the distance that outweighs a full pad
+and more of it. A face that fills the pad moves all of the gel alike, which photometric sensors do
+not measure (docs/world.md)."""
+
+
 def find_grasp(
     vertices: FloatArray, faces: IntArray, pad_mm: tuple[float, float], *, seed: int = 0
 ) -> GraspPlace:
-    """The grasp with two sufficient patches that is nearest to the centre of mass.
+    """The best grasp with two sufficient patches and room for both fingers.
 
     Args:
         vertices: Shape (V, 3), of a closed mesh, +z up [mm].
@@ -108,7 +115,7 @@ def find_grasp(
         batch = candidates.take(slice(first, first + _BATCH))
         # A finger touches the nearest surface, beside the sampled point: pads move to their patches
         batch = _recentred(batch, pads.touch(batch))
-        place = _best(batch, pads.touch(batch), com, refused)
+        place = _best(batch, pads.touch(batch), com, pad_mm[0] * pad_mm[1], refused)
         if place is not None:
             return place
     raise TouchError(refused.line())
@@ -204,7 +211,11 @@ class _Refused:
 
 
 def _best(
-    candidates: Candidates, touched: Touches, com: FloatArray, refused: _Refused
+    candidates: Candidates,
+    touched: Touches,
+    com: FloatArray,
+    pad_mm2: float,
+    refused: _Refused,
 ) -> GraspPlace | None:
     """The best candidate whose fingers have room and whose patches suffice, None for none."""
     width = touched.reach.sum(axis=0)
@@ -225,8 +236,10 @@ def _best(
         ((touched.reach[0] - touched.reach[1]) / 2)[:, None] * candidates.closing
     )
     distance = np.linalg.norm(centre - com, axis=1)
-    patch = _PATCH_WEIGHT_MM3 / np.maximum(touched.area.min(axis=0), MIN_PATCH_MM2)
-    best = int(np.argmin(np.where(usable, distance + _WIDTH_WEIGHT * width + patch, np.inf)))
+    patch = np.maximum(touched.area.min(axis=0), MIN_PATCH_MM2)
+    cost = distance + _WIDTH_WEIGHT * width + _PATCH_WEIGHT_MM3 / patch
+    cost += _FLAT_WEIGHT_MM * np.maximum(0.0, patch / pad_mm2 - _FELT_FRACTION)
+    best = int(np.argmin(np.where(usable, cost, np.inf)))
     x, y, z = (float(each) for each in sign[best] * candidates.closing[best])
     low, high = sorted(float(each) for each in touched.area[:, best])
     return GraspPlace(

@@ -89,7 +89,7 @@ class MeshesSettings(BenchmarkSettings):
     Attributes:
         data: Folder of the meshes [mm, +z up]; folders in it are searched too.
         names: Names of the meshes, without suffix, separated by commas. Default: all.
-        task: Task of every grasp. Default: strawberry, egg or peg, by the mesh's mass.
+        task: Task of every grasp. Default: strawberry, egg or peg, by mass and force.
         mass_g: Mass of every mesh [g]. Default: from its volume, 0.3 g/cm³.
         episodes: Number of episodes a mesh, one random seed each.
         first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.

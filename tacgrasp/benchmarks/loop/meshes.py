@@ -1,6 +1,6 @@
 """``tacgrasp bench meshes``: where each mesh of a folder is grasped, and whether that grasp holds.
 
-Each mesh is grasped by ``rules`` under the task that suits its mass, for a few seeds: position on
+Each mesh is grasped by ``rules`` under the task that suits it, for a few seeds: position on
 the pad, friction, stiffness and gripper are drawn as ever. What can't be grasped is listed with the
 reason. Not here: the search for the grasp (``sim.grasp.antipodal``).
 """
@@ -8,6 +8,7 @@ reason. Not here: the search for the grasp (``sim.grasp.antipodal``).
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import partial
 from pathlib import Path
@@ -21,7 +22,7 @@ from cltp.tactile.sensors import sensor_named
 from sim.grasp.antipodal import GraspPlace, find_grasp
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.mesh_bodies import ScannedObject, natural_mass_g
-from sim.grasp.rig import build
+from sim.grasp.rig import SimRig, build
 from sim.objects.meshes import SUFFIXES, checked_mesh
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, write_figures
@@ -30,10 +31,12 @@ from tacgrasp.benchmarks.loop.strawberry import EpisodeResult, run_seed
 from tacgrasp.benchmarks.pool import each_result
 from tacgrasp.benchmarks.settings import MeshesSettings
 from tacgrasp.config.layers import load
+from tacgrasp.config.schema import RunConfig
+from tacgrasp.runtime.verify import accelerations
 
 TASKS = ("strawberry", "egg", "peg")
-"""Tasks by the mass of their objects; a mesh gets the first whose objects are as heavy, or the
-last."""
+"""Tasks by their forces. A mesh gets the first whose objects are as heavy and whose least force
+holds it at the least friction; or else the last."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -129,12 +132,12 @@ def _attempt(settings: MeshesSettings, paths: list[Path], index: int) -> MeshRes
     try:
         vertices, faces = checked_mesh(path)
         mass_g = settings.mass_g or natural_mass_g(vertices, faces)
-        config = load(settings.task or _suited(mass_g))[0]
+        make = partial(build, mesh=ScannedObject(path=path, mass_g=settings.mass_g))
+        config = _suited(make, mass_g) if settings.task is None else load(settings.task)[0]
         sensor = sensor_named(config.sensor)
         place = find_grasp(vertices, faces, (sensor.width_mm, sensor.height_mm))
     except TouchError as error:
         return MeshResult(path=path, refused=str(error).removeprefix(f"{path}: "))
-    make = partial(build, mesh=ScannedObject(path=path, mass_g=settings.mass_g))
     seeds = range(settings.first_seed, settings.first_seed + settings.episodes)
     return MeshResult(
         path=path,
@@ -146,9 +149,17 @@ def _attempt(settings: MeshesSettings, paths: list[Path], index: int) -> MeshRes
     )
 
 
-def _suited(mass_g: float) -> str:
-    fitting = (task for task in TASKS if mass_g <= OBJECTS[task].mass_g.high)
-    return next(fitting, TASKS[-1])
+def _suited(make: Callable[..., SimRig], mass_g: float) -> RunConfig:
+    """The run under the task that suits a mesh, as ``TASKS`` says."""
+    for task in TASKS:
+        config, ranges = load(task)[0], OBJECTS[task]
+        if mass_g > ranges.mass_g.high:
+            continue
+        fingers = make(config.object, 0, sensor_name=config.sensor).grasp.fingers
+        needed_n = fingers.slip_minimum_n(accelerations(config.verify))
+        if needed_n * fingers.body.friction / ranges.friction.low <= config.goal.force_n[0]:
+            return config
+    return load(TASKS[-1])[0]
 
 
 def _caption(result: MeshResult) -> str:

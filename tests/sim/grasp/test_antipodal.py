@@ -47,7 +47,7 @@ def test_a_ball_is_held_across_its_middle():
 
 
 def test_a_box_is_held_on_its_narrow_upright_sides_whichever_way_it_faces():
-    lying = box((80.0, 12.0, 30.0))
+    lying = box((80.0, 12.0, 6.0))
     for degrees in (0, 35, 90):
         place = grasp(turned(lying, degrees, (0, 0, 1)))
         assert place.width_mm == pytest.approx(12.0, abs=0.05)
@@ -58,11 +58,17 @@ def test_a_box_is_held_on_its_narrow_upright_sides_whichever_way_it_faces():
 
 
 def test_fingers_close_horizontally_and_the_mesh_is_never_tilted():
-    place = grasp(turned(box((80.0, 12.0, 30.0)), 90, (1, 0, 0)))
+    place = grasp(turned(box((120.0, 12.0, 30.0)), 90, (1, 0, 0)))
     assert place.width_mm == pytest.approx(30.0, abs=0.05)  # the 12 mm are upright now
     assert place.closing[2] == 0.0
     np.testing.assert_allclose(place.body_from_mesh[1], (0, 0, 1))
     assert np.linalg.det(place.body_from_mesh) == pytest.approx(1.0)
+
+
+def test_a_face_that_fills_the_pad_is_left_for_one_that_can_be_felt():
+    place = grasp(box((80.0, 12.0, 30.0)))
+    assert place.width_mm == pytest.approx(80.0, abs=0.05)  # by its ends, which are 12 mm wide
+    assert place.patch_mm2[0] < 0.65 * PAD_MM[0] * PAD_MM[1]
 
 
 def test_a_mug_is_held_across_its_body_and_not_in_the_air_beside_its_handle():

@@ -35,16 +35,16 @@ def test_a_ball_becomes_a_ball(tmp_path):
 
 
 def test_a_long_box_lies_as_its_file_says_and_keeps_a_given_mass(tmp_path):
-    path = written(trimesh.creation.box((80.0, 12.0, 30.0)), tmp_path)
+    path = written(trimesh.creation.box((80.0, 12.0, 6.0)), tmp_path)
     body = body_from_mesh(ScannedObject(path=path, mass_g=50.0), LIKE)
     assert body.thickness_mm == pytest.approx(12.0)
     assert body.mass_kg == 0.05
     x_mm, y_mm = body.com_mm  # of the box's middle, from the pad's
     assert abs(x_mm) < 3
     assert abs(y_mm) < 3
-    inside = body.gap_on(np.array([-20.0, 20.0]), np.array([y_mm + 14.5, y_mm - 14.5]))
+    inside = body.gap_on(np.array([-20.0, 20.0]), np.array([y_mm + 2.8, y_mm - 2.8]))
     assert inside.max() == pytest.approx(0.0, abs=1e-3)
-    assert body.gap_on(np.array([0.0]), np.array([y_mm + 15.5]))[0, 0] > 1.0
+    assert body.gap_on(np.array([0.0]), np.array([y_mm + 3.2]))[0, 0] > 1.0
 
 
 def test_a_mesh_is_as_soft_and_bruisable_as_the_object_whose_place_it_takes(tmp_path):
@@ -87,6 +87,28 @@ def test_a_scanned_berry_bruises_where_one_of_steel_does_not(tmp_path):
     assert bruised("strawberry", 6.0)
     assert not bruised("strawberry", 1.0)
     assert not bruised("peg", 6.0)
+
+
+def test_where_a_mesh_bulges_beside_the_pad_the_body_is_nearer_to_the_finger(tmp_path):
+    bar = trimesh.creation.box((120.0, 20.0, 8.0))
+    boss = trimesh.creation.box((10.0, 22.0, 8.0)).apply_translation((18.0, 0.0, 0.0))
+    path = written(trimesh.util.concatenate([bar, boss]), tmp_path)
+    body = body_from_mesh(ScannedObject(path=path), LIKE)
+    beside = body.gap_mm[body.gap_mm.shape[0] // 2]  # along the bar
+    assert body.gap_on(np.zeros(1), np.zeros(1))[0, 0] == pytest.approx(0.0, abs=1e-3)
+    assert beside.min() == pytest.approx(-1.0, abs=0.01)
+
+
+def test_a_mug_is_grasped_and_lifted(tmp_path):
+    cup = trimesh.creation.annulus(r_min=37.0, r_max=40.0, height=60.0, sections=96)
+    handle = trimesh.creation.box((6.0, 8.0, 40.0)).apply_translation((54.0, 0.0, 0.0))
+    path = written(trimesh.util.concatenate([cup, handle]), tmp_path)
+    mesh = ScannedObject(path=path, mass_g=30.0)
+    grasp = build("peg", 0, mesh=mesh, start_offset_mm=(0.0, 0.0)).grasp
+    grasp.close(6.0)
+    grasp.move((0.0, 40.0), 0.1, 1.0)
+    assert grasp.patch is not None
+    assert not grasp.slipped
 
 
 def test_an_open_mesh_is_refused(tmp_path):
