@@ -6,7 +6,8 @@ import trimesh
 from trimesh.creation import annulus, box, cone, cylinder, icosphere
 
 from cltp import TouchError
-from sim.grasp.antipodal import MIN_PATCH_MM2, GraspPlace, find_grasp
+from sim.grasp.antipodal import FRICTION, MIN_PATCH_MM2, GraspPlace, find_grasp
+from sim.grasp.bodies import OBJECTS
 
 PAD_MM = (20.3, 15.2)
 
@@ -36,6 +37,10 @@ def mug(radius: float = 40.0, wall: float = 3.0, height: float = 60.0) -> trimes
             moved(box((4.0, 8.0, 40.0)), radius + 16, 0, 0),
         ]
     )
+
+
+def test_the_friction_cone_is_that_of_the_most_slippery_object():
+    assert min(ranges.friction.low for ranges in OBJECTS.values()) == FRICTION
 
 
 def test_a_ball_is_held_across_its_middle():
