@@ -22,6 +22,8 @@ class RigOptions:
         object: object between the fingers
         object_mesh: mesh file to use in place of the object [mm]
         object_mass_g: mass of the mesh [g]; by default from its volume
+        object_young_mpa: Young's modulus of the mesh [MPa]; by default the object's
+        object_bruise_n: force that bruises the mesh [N]; by default the object's
         seed: random seed of the object, its pose, the gripper and the sensor noise
         sensor: sensor whose sensing area the taxels cover
         first_force_n: largest commanded force until something is felt [N]; by default 1.0
@@ -33,6 +35,8 @@ class RigOptions:
     object: str = "strawberry"
     object_mesh: Path | None = None
     object_mass_g: float | None = None
+    object_young_mpa: float | None = None
+    object_bruise_n: float | None = None
     seed: int = 0
     sensor: str = "gelsight_mini"
     first_force_n: float | None = None

@@ -23,6 +23,7 @@ from sim.emulators.process.lifetime import WORLD_PRIORITY, request_real_time, se
 from sim.emulators.taxels.array import TaxelEmulator
 from sim.emulators.ur.child import UrChild
 from sim.emulators.world import SharedWorld
+from sim.grasp.mesh_bodies import ScannedObject
 from sim.grasp.rig import build
 
 TAXEL_RATE_HZ = 60.0
@@ -55,8 +56,7 @@ def run(options: RigOptions) -> None:
         simulated = build(
             options.object,
             options.seed,
-            mesh=options.object_mesh,
-            mass_g=options.object_mass_g,
+            mesh=_scanned(options),
             sensor_name=options.sensor,
             first_force_n=options.first_force_n,
             start_offset_mm=(0.0, 0.0) if options.centred else None,
@@ -83,6 +83,27 @@ def run(options: RigOptions) -> None:
                 "first_force_n": simulated.first_force_n,
             },
         )
+
+
+def _scanned(options: RigOptions) -> ScannedObject | None:
+    """The mesh to grasp, None for the drawn object.
+
+    Raises:
+        RobotError: A property of a mesh, and no mesh.
+        TouchError: A property outside its range.
+    """
+    numbers = {
+        "mass_g": options.object_mass_g,
+        "young_mpa": options.object_young_mpa,
+        "bruise_n": options.object_bruise_n,
+    }
+    if options.object_mesh is not None:
+        return ScannedObject(path=options.object_mesh, **numbers)
+    for name, value in numbers.items():
+        if value is not None:
+            flag = f"--object-{name.replace('_', '-')}"
+            raise RobotError(f"{flag} is that of a mesh; give --object-mesh too, or leave it out")
+    return None
 
 
 def _arm(host: str | None, world: SharedWorld) -> UrChild:

@@ -47,6 +47,7 @@ class Body:
         name: Name of its kind.
         gap_mm: Shape (N, N), height field on a square grid of ``PITCH_MM`` centred on the origin,
             row 0 at the top; 0 at the point nearest to the finger, ``NO_BODY_MM`` outside the body.
+            A mesh may bulge towards the finger beside the pad; the field is negative there.
         com_mm: Centre of mass (x, y) relative to that point [mm].
         gyration_mm: Radius of gyration about the closing axis [mm].
         thickness_mm: Extent along the closing direction [mm].

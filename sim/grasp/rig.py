@@ -6,7 +6,6 @@ Benchmarks and records read the truth from ``SimRig.truth``; a policy never does
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from cltp.tactile.sensors import sensor_named
 from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.gel.layer import GelMaterial, gel_of
-from sim.grasp.bodies import OBJECTS, Body, Range, draw_body
+from sim.grasp.bodies import OBJECTS, Range, draw_body
 from sim.grasp.devices import (
     PAD_X_IN_TCP,
     PAD_Y_IN_TCP,
@@ -29,6 +28,7 @@ from sim.grasp.devices import (
 )
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.force_calibration import SCATTER, drawn_force_calibration
+from sim.grasp.mesh_bodies import ScannedObject, body_from_mesh
 from sim.grasp.turned_pad import (
     TURNED_PAD_X_IN_TCP,
     TURNED_PAD_Y_IN_TCP,
@@ -154,8 +154,7 @@ def build(
     object_name: str,
     seed: int,
     *,
-    mesh: Path | None = None,
-    mass_g: float | None = None,
+    mesh: ScannedObject | None = None,
     sensor_name: str = "gelsight_mini",
     start_offset_mm: tuple[float, float] | None = None,
     first_force_n: float | None = None,
@@ -170,8 +169,8 @@ def build(
         object_name: A key of ``sim.grasp.bodies.OBJECTS``.
         seed: Random seed of the body, its position, the gripper and the sensor; below
         ``BENCHMARK_SEED`` from the 10-90 % quantiles.
-        mesh: Grasp this mesh (millimetres) instead of the drawn body.
-        mass_g: Mass of the mesh [g]; by default from its volume (see ``sim.grasp.mesh_bodies``).
+        mesh: Grasp this mesh instead of the drawn body, with the drawn body's friction and, where
+            the mesh has none of its own, its stiffness and bruise force.
         sensor_name: A key of ``cltp.tactile.sensors.SENSORS``.
         start_offset_mm: Position of the body on the pad at the start, instead of the draw [mm].
         first_force_n: Largest commanded force until something is felt, instead of
@@ -186,7 +185,7 @@ def build(
 
     Raises:
         RobotError: The object is unknown.
-        TouchError: The sensor is unknown.
+        TouchError: The sensor is unknown, or the mesh can't be grasped.
     """
     if object_name not in OBJECTS:
         raise RobotError(f"unknown object {object_name!r}; known: {', '.join(OBJECTS)}")
@@ -195,7 +194,8 @@ def build(
     sensor = sensor_named(sensor_name)
     body = draw_body(object_name, world_rng, tails)
     if mesh is not None:
-        body = _mesh_body(mesh, mass_g, body)
+        pad_mm = (sensor.width_mm, sensor.height_mm)
+        body = body_from_mesh(mesh, body, pad_mm[::-1] if is_turned else pad_mm)
     u = tails + (1 - 2 * tails) * world_rng.random(4)
     offset = start_offset_mm or (OFFSET_X_MM.quantile(u[0]), OFFSET_Y_MM.quantile(u[1]))
     force_gain = gripper_force_gain or GRIPPER_FORCE_GAIN.quantile(u[2])
@@ -235,9 +235,3 @@ def build(
         pad_x_in_tcp=pad_x,
         pad_y_in_tcp=pad_y,
     )
-
-
-def _mesh_body(mesh: Path, mass_g: float | None, drawn: Body) -> Body:
-    from sim.grasp.mesh_bodies import body_from_mesh  # loads open3d, which most runs don't need
-
-    return body_from_mesh(mesh, mass_g=mass_g, template=drawn)

@@ -83,6 +83,41 @@ class MissedSettings(ModelBenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class MeshesSettings(BenchmarkSettings):
+    """Find a grasp on every mesh of a folder, and try it with rules in simulated episodes.
+
+    Attributes:
+        data: Folder of the meshes [mm, +z up]; folders in it are searched too.
+        names: Names of the meshes, without suffix, separated by commas. Default: all.
+        task: Task of every grasp. Default: strawberry, egg or peg, by mass and force.
+        mass_g: Mass of every mesh [g]. Default: from its volume, 0.3 g/cm³.
+        episodes: Number of episodes a mesh, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+        plot: PNG file to draw the meshes and their grasps to.
+        workers: Number of processes. Default: one a core.
+    """
+
+    data: Path
+    names: str | None = None
+    task: str | None = None
+    mass_g: float | None = None
+    episodes: int = 3
+    first_seed: int = 1_000_000
+    plot: Path | None = None
+    workers: int | None = None
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+        if self.workers is not None and self.workers < 1:
+            raise UsageError(f"--workers must be at least 1, got {self.workers}")
+        if self.mass_g is not None and not 0.1 <= self.mass_g <= 5000:
+            raise UsageError(f"--mass-g must be 0.1 to 5000 g, got {self.mass_g:g}")
+        if not self.data.is_dir():
+            raise UsageError(f"--data {self.data} is no folder")
+
+
+@dataclass(frozen=True, kw_only=True)
 class VerifierSettings(BenchmarkSettings):
     """Count false alarms and missed slips of 2 mm of the verification by touch.
 

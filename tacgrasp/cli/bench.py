@@ -15,6 +15,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "missed": (settings.MissedSettings, "loop.missed"),
     "robustness": (settings.RobustnessSettings, "robustness.run"),
     "verifier": (settings.VerifierSettings, "loop.verifier"),
+    "meshes": (settings.MeshesSettings, "loop.meshes"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
     "rigs": (settings.RigsSettings, "loop.rigs"),

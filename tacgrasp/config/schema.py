@@ -221,8 +221,10 @@ class RunConfig(SettingsBase):
         weights: Folder of the language model's weights; none: the shipped weights.
         instruction: Instruction to the policy in plain English; by default the task's.
         object: Object between the fingers (simulated and emulated rigs only).
-        object_mesh: Mesh file [mm] of an object to grasp instead (simulated worlds only).
+        object_mesh: Mesh file [mm, +z up] to grasp instead (simulated and emulated rigs only).
         object_mass_g: Mass of that mesh [g]; none: computed from its volume.
+        object_young_mpa: Young's modulus of that mesh [MPa]; none: that of the object.
+        object_bruise_n: Force that bruises that mesh [N]; none: that of the object.
         seed: Random seed of the object, its pose, the gripper, the sensor and the random policy.
         sensor: Name of the tactile sensor; on a rig with drivers that of its driver.
         on_success: Gripper action after a verified grasp: hold or release.
@@ -240,7 +242,9 @@ class RunConfig(SettingsBase):
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
     object_mesh: Path | None = None
-    object_mass_g: Number | None = Field(default=None, gt=0, le=5000)
+    object_mass_g: Number | None = Field(default=None, ge=0.1, le=5000)
+    object_young_mpa: Number | None = Field(default=None, ge=0.005, le=5e5)
+    object_bruise_n: Number | None = Field(default=None, ge=0.05, le=2000)
     seed: int = Field(default=0, ge=0, lt=2**63)
     sensor: str = "gelsight_mini"
     goal: GoalConfig
@@ -280,6 +284,9 @@ class RunConfig(SettingsBase):
                 "devices: hardware needs gripper.first_force_n, the largest commanded force until "
                 "something is felt [N]"
             )
+        for name in ("object_mass_g", "object_young_mpa", "object_bruise_n"):
+            if self.object_mesh is None and getattr(self, name) is not None:
+                raise ValueError(f"{name} is that of a mesh; give object_mesh too, or leave it out")
         if self.verify.speed_m_s > self.arm.max_speed_m_s:
             raise ValueError(
                 f"verify.speed_m_s {self.verify.speed_m_s} is above arm.max_speed_m_s "

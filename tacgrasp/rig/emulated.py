@@ -137,6 +137,8 @@ def _options(config: RunConfig, *, centred: bool) -> list[str]:
     optional = (
         ("--object-mesh", config.object_mesh),
         ("--object-mass-g", config.object_mass_g),
+        ("--object-young-mpa", config.object_young_mpa),
+        ("--object-bruise-n", config.object_bruise_n),
         ("--first-force-n", config.gripper.first_force_n),
     )
     for flag, value in optional:

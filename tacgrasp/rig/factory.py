@@ -70,14 +70,22 @@ def _check_object(config: RunConfig) -> None:
 
 
 def _simulated(config: RunConfig, *, centred: bool = False) -> SimRig:
+    from sim.grasp.mesh_bodies import ScannedObject
     from sim.grasp.rig import build
 
     _check_object(config)
+    mesh = None
+    if config.object_mesh is not None:
+        mesh = ScannedObject(
+            path=config.object_mesh,
+            mass_g=config.object_mass_g,
+            young_mpa=config.object_young_mpa,
+            bruise_n=config.object_bruise_n,
+        )
     rig = build(
         config.object,
         config.seed,
-        mesh=config.object_mesh,
-        mass_g=config.object_mass_g,
+        mesh=mesh,
         sensor_name=config.sensor,
         first_force_n=config.gripper.first_force_n,
         start_offset_mm=(0.0, 0.0) if centred else None,

@@ -2,7 +2,7 @@
 
 Not here: injected faults (``tacgrasp.benchmarks.faults``).
 
-May import: cltp.tactile, policies, primitives, sim.emulators, sim.grasp, tacgrasp, tacgrasp.base,
-tacgrasp.benchmarks, tacgrasp.config, tacgrasp.drivers, tacgrasp.episodes, tacgrasp.rig,
-tacgrasp.runtime.
+May import: cltp, cltp.tactile, policies, primitives, sim.emulators, sim.grasp, sim.objects,
+tacgrasp, tacgrasp.base, tacgrasp.benchmarks, tacgrasp.config, tacgrasp.drivers, tacgrasp.episodes,
+tacgrasp.rig, tacgrasp.runtime.
 """

@@ -3,7 +3,9 @@
 import dataclasses
 
 import pytest
+import trimesh
 
+from primitives.errors import RobotError
 from sim.emulators.process.spawn import EmulatorProcess
 from sim.emulators.rig import addresses
 from sim.grasp.rig import build
@@ -33,6 +35,26 @@ def test_each_world_is_the_one_that_the_simulated_rig_of_its_seed_has(two):
         truth |= {"offset_x_mm": x_mm, "offset_y_mm": y_mm}
         assert {name: facts[name] for name in truth} == pytest.approx(truth)
         assert emulated.ready["first_force_n"] == pytest.approx(rig.first_force_n)
+
+
+def test_a_mesh_has_the_properties_that_it_is_given(tmp_path):
+    path = tmp_path / "ball.ply"
+    trimesh.creation.icosphere(radius=14.0).export(path)
+    numbers = {"--object-mass-g": 12.0, "--object-young-mpa": 0.3, "--object-bruise-n": 2.5}
+    flags = [word for flag, value in numbers.items() for word in (flag, str(value))]
+    with EmulatorProcess("rig", "--object-mesh", str(path), *flags) as emulated:
+        facts = emulated.control.facts("world")
+    assert [facts[name] for name in ("mass_g", "young_mpa", "bruise_n")] == pytest.approx(
+        list(numbers.values())
+    )
+
+
+def test_a_property_of_a_mesh_without_a_mesh_is_refused():
+    with (
+        pytest.raises(RobotError, match="--object-bruise-n is that of a mesh; give --object-mesh"),
+        EmulatorProcess("rig", "--object-bruise-n", "2"),
+    ):
+        pass
 
 
 def test_every_device_answers_at_the_one_control_channel(two):

@@ -80,6 +80,8 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["run", "--sensor", "finger"], "unknown sensor 'finger'"),
         (["run", "--object", "anvil"], "no object 'anvil'; known: strawberry"),
         (["run", "--object-mesh", "no.ply"], "no.ply does not exist"),
+        (["run", "--object-bruise-n", "2"], "give object_mesh too"),
+        (["run", "--object-mesh", "x.ply", "--object-young-mpa", "1e9"], "less than or equal"),
         (["demo", "nope"], "unknown demo 'nope'; known: paper"),
         (["replay"], "EPISODE|PATH"),
         (["replay", "no.mcap"], "no.mcap does not exist"),
@@ -96,7 +98,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
         (
             ["bench"],
-            "expects one of strawberry, missed, robustness, verifier, soak, latency, rigs",
+            "expects one of strawberry, missed, robustness, verifier",
         ),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
