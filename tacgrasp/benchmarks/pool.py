@@ -5,16 +5,13 @@ Not here: what is done with a seed.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from typing import TypeVar
 
 from rich.console import Console
 from rich.progress import Progress
 
-from tacgrasp.benchmarks.figures import one_thread
+from tacgrasp.base.worker_pool import worker_pool
 
 T = TypeVar("T")
 
@@ -50,11 +47,8 @@ def each_result(
         seeds: Random seeds, or other numbers.
         workers: Number of processes; None for one a core.
     """
-    # spawned, not forked: torch's threads don't survive a fork
     with (
-        ProcessPoolExecutor(
-            workers or os.cpu_count(), get_context("spawn"), initializer=one_thread
-        ) as pool,
+        worker_pool(workers) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task(name, total=len(seeds))
