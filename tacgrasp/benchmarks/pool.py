@@ -16,20 +16,6 @@ from tacgrasp.base.worker_pool import worker_pool
 T = TypeVar("T")
 
 
-def map_seeds(
-    console: Console, name: str, function: Callable[[int], T], seeds: Sequence[int]
-) -> list[T]:
-    """Results of a function for each seed, in their order, from one process a core.
-
-    Args:
-        console: Shows the progress when it is a terminal.
-        name: Words beside the progress bar.
-        function: A function of a module, or a partial of one; sent to the processes.
-        seeds: Random seeds.
-    """
-    return list(each_result(console, name, function, seeds))
-
-
 def each_result(
     console: Console,
     name: str,
@@ -38,7 +24,7 @@ def each_result(
     *,
     workers: int | None = None,
 ) -> Iterator[T]:
-    """As ``map_seeds``, one result after the other.
+    """Results of a function for each seed, in their order, from one process a core.
 
     Args:
         console: Shows the progress when it is a terminal.

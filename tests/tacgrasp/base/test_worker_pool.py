@@ -44,8 +44,11 @@ def wait_for_workers(process: subprocess.Popen[bytes], count: int) -> set[int]:
     raise AssertionError(f"{len(found)} processes instead of more than {count}")
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-@pytest.mark.parametrize("wait_s", [0.0, 3.0], ids=["while they start", "at work"])
+@pytest.mark.parametrize(
+    ("number", "wait_s"),
+    [(signal.SIGTERM, 3.0), (signal.SIGKILL, 0.0)],
+    ids=["terminated at work", "killed while they start"],
+)
 def test_a_benchmark_that_is_ended_leaves_no_worker_behind(number: int, wait_s: float) -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "tacgrasp", *BENCHMARK],
