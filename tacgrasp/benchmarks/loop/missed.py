@@ -34,6 +34,7 @@ from tacgrasp.benchmarks.settings import MissedSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
+from tacgrasp.console import make_table_console
 from tacgrasp.episodes import StepRecord
 from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig.gel_sense import GelSense
@@ -236,7 +237,7 @@ def run(settings: MissedSettings) -> bool:
         "policies": list(policies),
         "weights": weights_sum(weights or default_weights()) if "llm" in policies else None,
     }
-    console, store = Console(), SeedResults(path=settings.json, about=about)
+    console, store = make_table_console(), SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)
     function = partial(run_seed, weights, policies)
     by_seed = store.map_seeds(console, "episodes", list[MissedResult], function, seeds)

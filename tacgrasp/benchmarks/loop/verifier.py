@@ -27,6 +27,7 @@ from tacgrasp.benchmarks.results_file import SeedResults
 from tacgrasp.benchmarks.settings import VerifierSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import VerifyConfig
+from tacgrasp.console import make_table_console
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.outcome import Verification
 from tacgrasp.runtime.steps import Readings, read_observation
@@ -68,7 +69,7 @@ def run(settings: VerifierSettings) -> None:
     Raises:
         UsageError: The file of ``--json`` holds something that is not gone on with.
     """
-    console, seeds = Console(), settings.seeds
+    console, seeds = make_table_console(), settings.seeds
     about = {"benchmark": "verifier", "first_seed": settings.first_seed, "episodes": len(seeds)}
     store = SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)

@@ -34,6 +34,7 @@ from tacgrasp.benchmarks.results_file import SeedResults
 from tacgrasp.benchmarks.settings import ContactSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.terms import contract_of
+from tacgrasp.console import make_table_console
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 
@@ -79,8 +80,7 @@ def run(settings: ContactSettings) -> bool:
     about = {"benchmark": "contact", "closings": closings, "first_seed": first, "bodies": bodies}
     store = SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)
-    console = Console()
-    console = console if console.is_terminal else Console(width=160)
+    console = make_table_console()
     air_seeds = range(first, first + closings)
     ratios = store.map_seeds(console, "closings in air", float, largest_ratio, air_seeds)
     figures = false_alarms(ratios, first)
