@@ -46,7 +46,7 @@ class ResumableSettings(BenchmarkSettings):
 
     Attributes:
         json: File to write the figures to, after every few seeds.
-        quick: Take few seeds, to try it.
+        quick: Take 8 seeds, to try it.
         resume: Go on with the figures in the file of --json, if settings and weights are the same.
     """
 
@@ -196,6 +196,7 @@ class ContactSettings(ResumableSettings):
         first_seed: First random seed of the closings. The limits of the test were chosen on seeds
             below 10000.
         bodies: Number of bodies of each kind, two positions each.
+        quick: Take 24 closings and 8 bodies of each kind, to try it.
     """
 
     closings: int = 1200
