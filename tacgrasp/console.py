@@ -5,6 +5,7 @@ Not here: measuring the contact (``cltp.tactile.measure``), deciding (``policies
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable
 
 from rich.console import Console, ConsoleOptions, RenderableType
@@ -16,11 +17,16 @@ from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from tacgrasp.base.printable import printable
+from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes.record import PHASE_LABELS, StepRecord, TruthFacts
-from tacgrasp.runtime.outcome import EndReason, Outcome
+from tacgrasp.runtime.end_text import end_text
+from tacgrasp.runtime.outcome import Outcome
 
 COMPLETED = "Grasp completed successfully"
-"""Final line of Algorithm 1; printed for a verified grasp only."""
+"""Final line of Algorithm 1; printed for a verified grasp, in simulation an unbruised one."""
+
+END_COLUMNS = 100
+"""Largest width of the lines of the end."""
 
 
 class SafeConsole(Console):
@@ -101,20 +107,31 @@ def contact_text(state: ContactState, scale: ForceScale) -> str:
     )
 
 
-def end_lines(outcome: Outcome) -> list[Text]:
-    """Reason of the end, counts, the truth if known, and the paper's last line after a success."""
-    lines = [
-        Text(f"end: {outcome.reason} - {outcome.message}", style="bold"),
-        Text(
-            f"{outcome.num_actions} actions in {outcome.num_steps} steps, "
-            f"{outcome.duration_s:.1f} s; {outcome.safe_state}"
+def end_lines(outcome: Outcome, config: RunConfig) -> list[Text]:
+    """Why the episode ended, its counts, the truth if known, what happened in plain words.
+
+    The paper's last line follows a completed grasp. No line is wider than ``END_COLUMNS``.
+    """
+    actions = "1 action" if outcome.num_actions == 1 else f"{outcome.num_actions} actions"
+    paragraphs = [
+        (f"end: {outcome.label} - {outcome.message}", ""),
+        (
+            f"{actions} in {outcome.num_steps} steps, {outcome.duration_s:.1f} s; "
+            f"{outcome.safe_state}",
+            "",
         ),
+        *([(f"truth: {truth_text(outcome.truth)}", "")] if outcome.truth is not None else []),
+        (end_text(outcome, config), "bold"),
     ]
-    if outcome.truth is not None:
-        lines.append(Text(f"truth: {truth_text(outcome.truth)}"))
-    if outcome.reason is EndReason.SUCCESS:
-        lines.append(Text(COMPLETED, style="bold green"))
-    return lines
+    if outcome.completed:
+        paragraphs.append((COMPLETED, "bold green"))
+    return [
+        Text(line, style=style)
+        for paragraph, style in paragraphs
+        for line in textwrap.wrap(
+            paragraph, END_COLUMNS, subsequent_indent="  ", break_on_hyphens=False
+        )
+    ]
 
 
 def truth_text(truth: TruthFacts) -> str:

@@ -84,7 +84,9 @@ def run_recorded(
             raise
         message = f"{outcome.message}; {error}"
         outcome = replace(outcome, reason=EndReason.FAULT, message=message)
-    return outcome, path
+    if outcome.truth is None:
+        return outcome, path
+    return replace(outcome, slip_minimum_n=slip_minimum_of(rig, config)), path
 
 
 def run_unrecorded(

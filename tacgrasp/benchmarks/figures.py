@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -34,14 +33,6 @@ def times_ms(
 def median_ms(call: Callable[[], object], repeats: int) -> float:
     """Median duration of a call [ms]."""
     return median(times_ms(call, repeats))
-
-
-def one_thread() -> None:
-    """Initialise a worker process among others on the same cores."""
-    import torch
-
-    torch.set_num_threads(1)
-    os.environ["OMP_NUM_THREADS"] = "1"
 
 
 def number_table(title: str, columns: Sequence[str], text: Sequence[str] = ("",)) -> Table:

@@ -5,32 +5,17 @@ Not here: what is done with a seed.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
+from concurrent.futures.process import BrokenProcessPool
 from typing import TypeVar
 
 from rich.console import Console
 from rich.progress import Progress
 
-from tacgrasp.benchmarks.figures import one_thread
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.worker_pool import worker_pool
 
 T = TypeVar("T")
-
-
-def map_seeds(
-    console: Console, name: str, function: Callable[[int], T], seeds: Sequence[int]
-) -> list[T]:
-    """Results of a function for each seed, in their order, from one process a core.
-
-    Args:
-        console: Shows the progress when it is a terminal.
-        name: Words beside the progress bar.
-        function: A function of a module, or a partial of one; sent to the processes.
-        seeds: Random seeds.
-    """
-    return list(each_result(console, name, function, seeds))
 
 
 def each_result(
@@ -41,7 +26,7 @@ def each_result(
     *,
     workers: int | None = None,
 ) -> Iterator[T]:
-    """As ``map_seeds``, one result after the other.
+    """Results of a function for each seed, in their order, from one process a core.
 
     Args:
         console: Shows the progress when it is a terminal.
@@ -49,15 +34,21 @@ def each_result(
         function: A function of a module, or a partial of one; sent to the processes.
         seeds: Random seeds, or other numbers.
         workers: Number of processes; None for one a core.
+
+    Raises:
+        UsageError: A process was killed from outside.
     """
-    # spawned, not forked: torch's threads don't survive a fork
     with (
-        ProcessPoolExecutor(
-            workers or os.cpu_count(), get_context("spawn"), initializer=one_thread
-        ) as pool,
+        worker_pool(workers) as pool,
         Progress(console=console, disable=not console.is_terminal) as progress,
     ):
         task = progress.add_task(name, total=len(seeds))
-        for result in pool.map(function, seeds, chunksize=1 + min(len(seeds) // 200, 9)):
-            yield result
-            progress.advance(task)
+        try:
+            for result in pool.map(function, seeds, chunksize=1 + min(len(seeds) // 200, 9)):
+                yield result
+                progress.advance(task)
+        except BrokenProcessPool:
+            raise UsageError(
+                "a process of the benchmark was killed (out of memory?); free memory, then start "
+                "it again, with --resume where it has that"
+            ) from None

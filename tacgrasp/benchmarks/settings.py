@@ -36,50 +36,81 @@ class ModelBenchmarkSettings(BenchmarkSettings):
     weights: Path | None = None
 
 
+QUICK_SEEDS = 8
+"""Number of seeds with ``--quick``."""
+
+
 @dataclass(frozen=True, kw_only=True)
-class StrawberrySettings(ModelBenchmarkSettings):
+class ResumableSettings(BenchmarkSettings):
+    """What a benchmark takes that goes on after it was ended.
+
+    Attributes:
+        json: File to write the figures to, after every few seeds.
+        quick: Take 8 seeds, to try it.
+        resume: Go on with the figures in the file of --json, if settings and weights are the same.
+    """
+
+    quick: bool = False
+    resume: bool = False
+
+    def __post_init__(self) -> None:
+        if self.resume and self.json is None:
+            raise UsageError("--resume needs --json, the file of the figures to go on with")
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeedSettings(ResumableSettings):
+    """What a benchmark takes that runs the same for each seed.
+
+    Attributes:
+        episodes: Number of random seeds.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+    @property
+    def seeds(self) -> range:
+        """All seeds, or the first few with --quick."""
+        count = min(QUICK_SEEDS, self.episodes) if self.quick else self.episodes
+        return range(self.first_seed, self.first_seed + count)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StrawberrySettings(ModelBenchmarkSettings, SeedSettings):
     """Grasp many simulated bodies with each policy, and count how the grasps end.
 
     Attributes:
         task: Task of the grasps.
         object: Object between the fingers; none: the task's.
         instruction: Instruction; none: the task's.
-        episodes: Number of bodies, one random seed each.
-        first_seed: First seed. Seeds from 1000000 on are kept for this benchmark.
         policies: Names of the policies, separated by commas.
     """
 
     task: str = "strawberry"
     object: str | None = None
     instruction: str | None = None
-    episodes: int = 200
-    first_seed: int = 1_000_000
     policies: str = "rules,fixed_force,random,oracle"
-
-    def __post_init__(self) -> None:
-        if self.episodes < 1 or self.first_seed < 0:
-            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
 
 
 @dataclass(frozen=True, kw_only=True)
-class MissedSettings(ModelBenchmarkSettings):
+class MissedSettings(ModelBenchmarkSettings, SeedSettings):
     """Close the fingers beside the berry, and count what follows; exit code 1 off the targets.
 
     As many ordinary episodes of the same seeds show how often a berry that is touched is reset.
 
     Attributes:
         episodes: Number of missed and of ordinary episodes, one random seed each.
-        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
         policies: Names of the policies, separated by commas.
     """
 
-    episodes: int = 200
-    first_seed: int = 1_000_000
     policies: str = "llm,rules"
-
-    def __post_init__(self) -> None:
-        if self.episodes < 1 or self.first_seed < 0:
-            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -118,24 +149,18 @@ class MeshesSettings(BenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
-class VerifierSettings(BenchmarkSettings):
+class VerifierSettings(SeedSettings):
     """Count false alarms and missed slips of 2 mm of the verification by touch.
 
     Attributes:
         episodes: Number of bodies of each kind, one random seed each.
-        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
     """
 
     episodes: int = 400
-    first_seed: int = 1_000_000
-
-    def __post_init__(self) -> None:
-        if self.episodes < 1 or self.first_seed < 0:
-            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
 
 
 @dataclass(frozen=True, kw_only=True)
-class RobustnessSettings(ModelBenchmarkSettings):
+class RobustnessSettings(ModelBenchmarkSettings, ResumableSettings):
     """Measure what is right, and what is grasped, under each nuisance of a sensor at each level.
 
     The table is long: choose subjects and nuisances to make it in parts, with --resume.
@@ -151,7 +176,6 @@ class RobustnessSettings(ModelBenchmarkSettings):
         nuisances: Names of the nuisances, separated by commas. Default: all.
         workers: Number of processes. Default: one a core.
         quick: Take 40 contacts and 4 episodes, to try it.
-        resume: Go on with the figures in the file of --json.
         plot: File (.png) to draw the figures to.
     """
 
@@ -163,17 +187,14 @@ class RobustnessSettings(ModelBenchmarkSettings):
     subjects: str = "heads,captions,rules,llm"
     nuisances: str = ""
     workers: int | None = None
-    quick: bool = False
-    resume: bool = False
     plot: Path | None = None
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if min(self.contacts, self.episodes, self.workers or 1) < 1 or self.first_seed < 0:
             raise UsageError(
                 "--contacts, --episodes and --workers must be at least 1, --first-seed at least 0"
             )
-        if self.resume and self.json is None:
-            raise UsageError("--resume needs --json, the file of the figures to go on with")
         if self.plot is not None and self.plot.suffix.lower() != ".png":
             raise UsageError(f"--plot expects a file ending in .png, got {self.plot}")
 
@@ -202,7 +223,7 @@ class SoakSettings(BenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
-class ContactSettings(BenchmarkSettings):
+class ContactSettings(ResumableSettings):
     """Count false contacts in air and missed light contacts; exit code 1 with too many false ones.
 
     Attributes:
@@ -210,6 +231,7 @@ class ContactSettings(BenchmarkSettings):
         first_seed: First random seed of the closings. The limits of the test were chosen on seeds
             below 10000.
         bodies: Number of bodies of each kind, two positions each.
+        quick: Take 24 closings and 8 bodies of each kind, to try it.
     """
 
     closings: int = 1200
@@ -217,8 +239,19 @@ class ContactSettings(BenchmarkSettings):
     bodies: int = 150
 
     def __post_init__(self) -> None:
+        super().__post_init__()
         if min(self.closings, self.bodies) < 1 or self.first_seed < 0:
             raise UsageError("--closings and --bodies must be at least 1, --first-seed at least 0")
+
+    @property
+    def num_closings(self) -> int:
+        """Number of closings, a few at each level of the noise with --quick."""
+        return min(3 * QUICK_SEEDS, self.closings) if self.quick else self.closings
+
+    @property
+    def num_bodies(self) -> int:
+        """Number of bodies of each kind, a few with --quick."""
+        return min(QUICK_SEEDS, self.bodies) if self.quick else self.bodies
 
 
 @dataclass(frozen=True, kw_only=True)

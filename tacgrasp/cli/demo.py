@@ -38,7 +38,7 @@ def main(argv: Sequence[str]) -> int:
     result = play(flags.name, flags.record, [StepPrinter(console)])
     demo = DEMOS[flags.name]
     console.print(f"episode: {result.path}")
-    for line in end_lines(result.outcome):
+    for line in end_lines(result.outcome, result.config):
         console.print(line)
     script = ", ".join([*demo.actions, demo.end])
     if result.as_scripted:

@@ -47,6 +47,7 @@ def main(argv: Sequence[str]) -> int:
             raise UsageError(f"{flag} needs --decide")
     from tacgrasp.console import StepPrinter, make_console, truth_text
     from tacgrasp.episodes import read_episode
+    from tacgrasp.episodes.record import end_label
 
     episode = read_episode(flags.episode)
     console = make_console()
@@ -64,7 +65,7 @@ def main(argv: Sequence[str]) -> int:
     if end is None:
         console.print("end: not recorded; the run was killed or crashed")
         return 0
-    console.print(f"end: {end.reason} - {end.message}")
+    console.print(f"end: {end_label(end.reason, end.truth)} - {end.message}")
     if end.truth is not None:
         console.print(f"truth: {truth_text(end.truth)}")
     return 0

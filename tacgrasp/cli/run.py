@@ -23,11 +23,10 @@ if TYPE_CHECKING:
     from tacgrasp.runtime.events import EventFile
 
 EXIT_CODES = {
-    EndReason.SUCCESS: 0,
     EndReason.FAULT: 3,
     EndReason.OPERATOR: 130,
 }
-"""Exit codes of some ends; every other end is 1: the run was sound, the grasp was not good."""
+"""Exit codes of some ends; a completed grasp is 0, any other end 1: a sound run, no good grasp."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +68,7 @@ def main(argv: Sequence[str]) -> int:
         outcome = _run(config, contract, events)
     if config.dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
         return 0  # the one decision of a dry run was made
-    return EXIT_CODES.get(outcome.reason, 1)
+    return 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)
 
 
 def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
@@ -98,7 +97,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     from tacgrasp.console import StepPrinter, end_lines, make_console
     from tacgrasp.policy_factory import make_policy
     from tacgrasp.rig.factory import make_rig
-    from tacgrasp.run import run_recorded, slip_minimum_of
+    from tacgrasp.run import run_recorded
 
     if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
         raise UsageError(
@@ -120,11 +119,11 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
             console.print(line)
         watch: list[Observer] = [StepPrinter(console), events.step]
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
-        events.end(outcome, slip_minimum_of(rig, config))
+        events.end(outcome)
     finally:
         rig.disconnect()
     console.print(f"episode: {path}")
-    for text in end_lines(outcome):
+    for text in end_lines(outcome, config):
         console.print(text)
     return outcome
 

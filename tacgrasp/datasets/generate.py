@@ -8,16 +8,12 @@ number of machines can make the missing ones, and the result is that of an undis
 from __future__ import annotations
 
 import json
-import multiprocessing
-import os
 import re
-import threading
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
-import torch
 from rich.console import Console
 
 from cltp.data.dataset import ContactDataset
@@ -25,6 +21,7 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.worker_pool import num_cores, worker_pool
 from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
 from tacgrasp.datasets.recipes import DatasetRecipe, recipe
@@ -43,7 +40,7 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
         UsageError: A value out of range, or a folder that holds the data of another command.
         TouchError: The folder is not a data set of this version, or can't be written.
     """
-    workers = len(os.sched_getaffinity(0)) if request.workers is None else request.workers
+    workers = num_cores() if request.workers is None else request.workers
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
     plan, out = recipe(request), request.out
@@ -108,18 +105,15 @@ def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterato
             for job in jobs:
                 yield _make_shard(job, plan)
         return
-    spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
-    pool = ProcessPoolExecutor(workers, mp_context=spawn, initializer=_start_worker)
     try:
-        for future in as_completed([pool.submit(_make_shard, job, plan) for job in jobs]):
-            yield future.result()
+        with worker_pool(workers) as pool:
+            for future in as_completed([pool.submit(_make_shard, job, plan) for job in jobs]):
+                yield future.result()
     except BrokenProcessPool as error:
         raise TouchError(
             "a worker that made contacts was killed (out of memory?); the same command goes on "
             "where it stopped, with fewer --workers if need be"
         ) from error
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 def _make_shard(job: _Job, plan: DatasetRecipe) -> int:
@@ -136,19 +130,6 @@ def _make_shard(job: _Job, plan: DatasetRecipe) -> int:
             f"can't write contacts to {out}: {error}; the same command goes on from there"
         ) from error
     return number
-
-
-def _start_worker() -> None:
-    torch.set_num_threads(1)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
-
-
-def _end_with_parent() -> None:
-    """End the worker when its parent is killed; it would wait for work for ever."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
 
 
 def _open(out: Path, about: Mapping[str, str]) -> None:

@@ -15,7 +15,7 @@ from rich.table import Table
 
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase
+from tacgrasp.episodes.record import Episode, EpisodeEnd, StepPhase, end_label
 
 _YES_NO = {True: "yes", False: "no", None: "not tried"}
 
@@ -78,7 +78,9 @@ def info(path: Path) -> Table:
         "duration": f"{duration_s(episode):.2f} s",
         "steps": _steps_text(episode),
         "actions": ", ".join(f"{count} × {name}" for name, count in actions.items()),
-        "end": end.reason if end else "not recorded: the run was killed or crashed",
+        "end": end_label(end.reason, end.truth)
+        if end
+        else "not recorded: the run was killed or crashed",
         "message": end.message if end else "",
         "declared success": _YES_NO[end.declared_success] if end else "",
         "verified success": _YES_NO[end.verified_success] if end else "",
@@ -102,10 +104,10 @@ def _row(path: Path) -> list[str]:
         reason = escape(str(error).removeprefix(f"{path} "))
         return [name, "", "", "", f"[red]{reason}[/red]", "", "", "", "", size]
     end = episode.end
-    outcome = end.reason if end else "no end recorded"
+    outcome = end_label(end.reason, end.truth) if end else "no end recorded"
+    colour = "green" if outcome == "success" else "yellow"
     if not episode.complete:
         outcome += ", unfinished: recover it"
-    colour = "green" if end and end.verified_success else "yellow"
     return [
         name,
         escape(episode.header.task),

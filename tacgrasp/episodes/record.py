@@ -43,6 +43,21 @@ TruthFacts = Mapping[str, bool | int | float | str | None]
 """Facts that only a simulator knows (slipped, bruised, held, ...), by name, units in the names."""
 
 
+def end_label(reason: str, truth: TruthFacts | None) -> str:
+    """Reason of an end for people: what was bruised or lost is not called a success.
+
+    A success is declared and verified by touch, which feels no bruise; a simulator knows.
+    """
+    if reason != "success" or truth is None:
+        return reason
+    harms = [name for name in ("dropped", "slipped") if truth.get(name)]
+    if not harms and not truth.get("held", True):
+        harms.append("not held")
+    if truth.get("bruised") or truth.get("bruised_at_start"):
+        harms.append("bruised")
+    return f"verified by touch, but {' and '.join(harms)}" if harms else reason
+
+
 class Topic(StrEnum):
     """MCAP channels of an episode."""
 

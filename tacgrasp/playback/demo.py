@@ -15,7 +15,7 @@ from primitives import Primitive
 from sim.grasp.rig import build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.config.layers import load
-from tacgrasp.config.schema import GoalConfig
+from tacgrasp.config.schema import GoalConfig, RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.episodes import StepRecord
 from tacgrasp.policy_factory import make_policy
@@ -109,12 +109,14 @@ class DemoResult:
         outcome: Outcome of its episode.
         path: File of its episode.
         actions: Executed actions.
+        config: Its run.
         as_scripted: Whether actions and end were those of the script.
     """
 
     outcome: Outcome
     path: Path
     actions: tuple[Primitive, ...]
+    config: RunConfig
     as_scripted: bool
 
 
@@ -156,4 +158,10 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoRes
     finally:
         rig.disconnect()
     as_scripted = tuple(actions) == demo.actions and outcome.reason is demo.end
-    return DemoResult(outcome=outcome, path=path, actions=tuple(actions), as_scripted=as_scripted)
+    return DemoResult(
+        outcome=outcome,
+        path=path,
+        actions=tuple(actions),
+        config=config,
+        as_scripted=as_scripted,
+    )

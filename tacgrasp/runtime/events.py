@@ -78,7 +78,7 @@ class EventFile:
             },
         )
 
-    def end(self, outcome: Outcome, slip_minimum_n: float | None) -> None:
+    def end(self, outcome: Outcome) -> None:
         """The end, with the simulator's truth where there is one."""
         truth = outcome.truth or {}
         bruised = [truth[name] for name in ("bruised", "bruised_at_start") if name in truth]
@@ -91,7 +91,7 @@ class EventFile:
                 "bruised": any(bruised) if bruised else None,
                 "dropped": truth.get("dropped"),
                 "peak_force_n": truth.get("peak_force_n"),
-                "slip_minimum_n": slip_minimum_n,
+                "slip_minimum_n": outcome.slip_minimum_n,
                 "steps": outcome.num_steps,
                 "actions": outcome.num_actions,
             },

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tacgrasp.episodes.record import StepRecord, TruthFacts
+from tacgrasp.episodes.record import StepRecord, TruthFacts, end_label
 
 
 class EndReason(StrEnum):
@@ -57,6 +57,10 @@ class Outcome:
         duration_s: Time from the first command to the safe state [s]; includes simulated motion.
         safe_state: State of the gripper afterwards, for people.
         truth: Facts from the simulator just before the safe state; None on a real rig.
+        slip_minimum_n: Least true force that would have held the simulated body, centred [N]; None
+            where it was not computed.
+        peak_felt_n: Largest force felt at a step [N]; None when none was.
+        force_mark: Mark of the sensor's forces; empty for a calibrated unit.
     """
 
     reason: EndReason
@@ -68,6 +72,19 @@ class Outcome:
     duration_s: float
     safe_state: str
     truth: TruthFacts | None = None
+    slip_minimum_n: float | None = None
+    peak_felt_n: float | None = None
+    force_mark: str = ""
+
+    @property
+    def label(self) -> str:
+        """The reason for people, in simulation held against the truth."""
+        return end_label(self.reason, self.truth)
+
+    @property
+    def completed(self) -> bool:
+        """Verified, and neither bruised nor lost as far as is known."""
+        return self.label == EndReason.SUCCESS
 
 
 Observer = Callable[[StepRecord], None]

@@ -82,6 +82,8 @@ def close(ending: Ending) -> Outcome:
             duration_s=steps.elapsed_s,
             safe_state=safe_state,
             truth=truth,
+            peak_felt_n=steps.peak_felt_n,
+            force_mark=steps.force_mark,
         )
         refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))
     if refusals and outcome.reason is not EndReason.FAULT:

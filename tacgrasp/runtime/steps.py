@@ -154,6 +154,8 @@ class Steps:
         num_steps: Steps recorded so far, verification included.
         num_actions: Actions executed so far.
         num_empty: Closings on nothing in a row, each followed by the runtime's own reset.
+        peak_felt_n: Largest force felt at a step so far [N]; None before any was felt.
+        force_mark: Mark of the sensor's forces; empty for a calibrated unit.
         started_s: Start of the episode on the rig's monotonic clock [s].
     """
 
@@ -168,6 +170,8 @@ class Steps:
         self._rig, self._bounds, self._sense = rig, bounds, sense
         self._recorder, self._observers = recorder, observers
         self.num_steps = self.num_actions = self.num_empty = 0
+        self.peak_felt_n: float | None = None
+        self.force_mark = ""
         self.started_s = rig.clock.monotonic()
         self._num_blanks = 0
         self._last: Step | None = None
@@ -249,6 +253,7 @@ class Steps:
             self.num_actions += 1
         if step.observation.in_contact is not None and executed is not None:
             self.num_empty = 0 if step.observation.in_contact else self.num_empty + 1
+        self._note_felt(step.observation)
         record = StepRecord(
             index=self.num_steps,
             phase=step.phase,
@@ -272,6 +277,11 @@ class Steps:
             self._num_blanks = 0
         for observer in self._observers:
             observer(record)
+
+    def _note_felt(self, observation: Readings) -> None:
+        if observation.felt_force_n is not None:
+            self.peak_felt_n = max(self.peak_felt_n or 0.0, observation.felt_force_n.value)
+            self.force_mark = observation.cloud.force_scale.mark
 
     def record_cut_short(self, step: Step | None, message: str) -> None:
         """Record a step that the end of the episode interrupted before its own record began.

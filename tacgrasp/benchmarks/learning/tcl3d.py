@@ -12,10 +12,8 @@ from __future__ import annotations
 
 import json
 import math
-import multiprocessing
 import subprocess
 import time
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
 from functools import partial
 from pathlib import Path
@@ -27,6 +25,7 @@ from rich.table import Table
 
 from sim.gel.layer import ElasticLayer
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.benchmarks.figures import times_ms, write_figures
 from tacgrasp.benchmarks.learning.timed_contacts import (
     COLUMNS,
@@ -47,7 +46,6 @@ _WARM_UP = 6
 
 
 def _worker(numbers: list[int], device: str) -> StageTimes:
-    torch.set_num_threads(1)
     make(numbers[:_WARM_UP], device)  # the first calls of libraries take longer
     return make(numbers, device)
 
@@ -55,8 +53,7 @@ def _worker(numbers: list[int], device: str) -> StageTimes:
 def throughput(series: int, workers: int, device: str) -> tuple[float, list[StageTimes]]:
     """Contacts per second while all processes work, and each one's times."""
     parts = [list(range(first, series, workers)) for first in range(workers)]
-    spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
-    with ProcessPoolExecutor(workers, mp_context=spawn) as pool:
+    with worker_pool(workers) as pool:
         times = list(pool.map(_worker, parts, [device] * workers))
     # All processes were at work from the last begin to the first end.
     span = min(each.end_s for each in times) - max(each.begin_s for each in times)

@@ -27,15 +27,16 @@ from policies import Policy
 from primitives import Primitive
 from sim.grasp.rig import SimRig, build
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.strawberry import wilson
-from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
 from tacgrasp.benchmarks.settings import MissedSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
+from tacgrasp.console import make_table_console
 from tacgrasp.episodes import StepRecord
-from tacgrasp.policy_factory import make_policy
+from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.outcome import EndReason, Outcome
@@ -218,9 +219,10 @@ def run(settings: MissedSettings) -> bool:
         Whether each policy keeps ``TARGETS``.
 
     Raises:
-        UsageError: A policy that does not feel.
+        UsageError: A policy that does not feel, or a file with figures of something else.
     """
-    weights, episodes, first_seed = settings.weights, settings.episodes, settings.first_seed
+    weights, seeds, first_seed = settings.weights, settings.seeds, settings.first_seed
+    episodes = len(seeds)
     policies = tuple(name.strip() for name in settings.policies.split(","))
     if not set(policies) <= set(POLICIES):
         raise UsageError(
@@ -228,9 +230,17 @@ def run(settings: MissedSettings) -> bool:
         )
     for name in policies:
         _policy(name, weights)  # an error shows here, not in a process
-    console = Console()
-    seeds = range(first_seed, first_seed + episodes)
-    by_seed = map_seeds(console, "episodes", partial(run_seed, weights, policies), seeds)
+    about = {
+        "benchmark": "missed",
+        "first_seed": first_seed,
+        "episodes": episodes,
+        "policies": list(policies),
+        "weights": weights_sum(weights or default_weights()) if "llm" in policies else None,
+    }
+    console, store = make_table_console(), SeedResults(path=settings.json, about=about)
+    store.read(resume=settings.resume)
+    function = partial(run_seed, weights, policies)
+    by_seed = store.map_seeds(console, "episodes", list[MissedResult], function, seeds)
     by_policy = {name: [each[i] for each in by_seed] for i, name in enumerate(policies)}
     figures = {name: summary(results) for name, results in by_policy.items()}
     report = {
@@ -241,7 +251,7 @@ def run(settings: MissedSettings) -> bool:
         "episodes_by_policy": {n: [asdict(r) for r in rs] for n, rs in by_policy.items()},
     }
     _print(console, figures, episodes, first_seed)
-    write_figures(settings.json, report)
+    store.write(report)
     return all(map(keeps_targets, figures.values()))
 
 

@@ -6,15 +6,14 @@ several rigs side by side. The reason of the end and the truth are compared.
 
 from __future__ import annotations
 
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict, dataclass
 from functools import partial
-from multiprocessing import get_context
 
 from rich.progress import Progress
 
 from primitives import RobotError
-from tacgrasp.benchmarks.figures import one_thread, write_figures
+from tacgrasp.base.worker_pool import worker_pool
+from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import RigsSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
@@ -79,9 +78,7 @@ def run(settings: RigsSettings) -> bool:
     make_policy(policy, configs[0])  # an error shows here, not in a worker
     console, pairs = make_console(), []
     with (
-        ProcessPoolExecutor(
-            settings.parallel, get_context("spawn"), initializer=one_thread
-        ) as pool,
+        worker_pool(settings.parallel) as pool,
         Progress(console=console, transient=True) as progress,
     ):
         task = progress.add_task("episodes", total=seeds)

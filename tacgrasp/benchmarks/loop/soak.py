@@ -19,7 +19,8 @@ from rich.console import Console
 
 from policies import Policy
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.figures import one_thread, write_figures
+from tacgrasp.base.worker_pool import one_thread
+from tacgrasp.benchmarks.figures import write_figures
 from tacgrasp.benchmarks.settings import SoakSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig

@@ -7,6 +7,7 @@ touch was needed. Rates have Wilson intervals.
 from __future__ import annotations
 
 import math
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass, replace
 from functools import lru_cache, partial
@@ -23,14 +24,15 @@ from primitives.contract import Band
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.figures import number_table, write_figures
-from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.figures import number_table
+from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
 from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
+from tacgrasp.console import make_table_console
 from tacgrasp.episodes.record import StepRecord
-from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
+from tacgrasp.policy_factory import POLICIES, default_weights, load_llm, make_policy
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.verify import accelerations
@@ -61,6 +63,7 @@ class EpisodeResult:
         chose_first_force: Whether the policy chose the force of the first grasp (``fixed_force``);
             a bruise of that grasp is then the policy's.
         objected: Whether what was felt objected to the contract.
+        seconds: Time that the episode took of one core [s].
     """
 
     seed: int
@@ -72,6 +75,7 @@ class EpisodeResult:
     slip_minimum_n: float
     chose_first_force: bool = False
     objected: bool = False
+    seconds: float = 0.0
 
     @property
     def bruised(self) -> bool:
@@ -100,7 +104,7 @@ def run_seed(
 def _run_one(
     config: RunConfig, contestant: Contestant, slip_minimum_n: float, make: Callable[..., SimRig]
 ) -> EpisodeResult:
-    name, force_n = contestant
+    began_s, (name, force_n) = time.process_time(), contestant
     rig = make(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
     sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
     contract = contract_of(config)
@@ -126,6 +130,7 @@ def _run_one(
         slip_minimum_n=slip_minimum_n,
         chose_first_force=force_n is not None,
         objected=bool(objections),
+        seconds=time.process_time() - began_s,
     )
 
 
@@ -189,6 +194,10 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
     figures["median_peak_force_over_slip_minimum"] = median(
         r.truth.peak_force_n / r.slip_minimum_n for r in results
     )
+    figures["median_final_force_over_slip_minimum"] = median(
+        r.truth.force_n / r.slip_minimum_n for r in results
+    )
+    figures["seconds_per_episode"] = median(r.seconds for r in results)
     ends = sorted({r.reason for r in results})
     figures["ends"] = {end: sum(r.reason == end for r in results) for end in ends}
     return figures
@@ -198,10 +207,9 @@ def run(settings: StrawberrySettings) -> None:
     """Run the benchmark, print its table and write its figures.
 
     Raises:
-        UsageError: An unknown policy.
+        UsageError: An unknown policy, or a file with figures of something else.
     """
     config = _config(settings)
-    episodes, first_seed = settings.episodes, settings.first_seed
     policies = [name.strip() for name in settings.policies.split(",")]
     names = [*POLICIES, "oracle"]
     unknown = [name for name in policies if name not in names]
@@ -215,9 +223,9 @@ def run(settings: StrawberrySettings) -> None:
     for name in policies:
         forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
         contestants += [(name, force_n) for force_n in forces]
-    console = Console()
-    seeds = range(first_seed, first_seed + episodes)
-    by_seed = map_seeds(console, "episodes", partial(run_seed, config, contestants), seeds)
+    console, store = make_table_console(), _store(settings, config, policies)
+    function = partial(run_seed, config, contestants)
+    by_seed = store.map_seeds(console, "episodes", list[EpisodeResult], function, settings.seeds)
     results = {
         contestant: [each[i] for each in by_seed] for i, contestant in enumerate(contestants)
     }
@@ -234,14 +242,35 @@ def run(settings: StrawberrySettings) -> None:
         "task": config.task,
         "object": config.object,
         "instruction": config.instruction,
-        "first_seed": first_seed,
-        "episodes": episodes,
+        "first_seed": settings.first_seed,
+        "episodes": len(by_seed),
         "policies": figures,
         "fixed_force_sweep_n": sweep,
         "episodes_by_policy": details,
     }
-    _print(console, figures, sweep, episodes, first_seed)
-    write_figures(settings.json, report)
+    _print(console, figures, sweep, len(by_seed), settings.first_seed)
+    store.write(report)
+
+
+def _store(settings: StrawberrySettings, config: RunConfig, policies: list[str]) -> SeedResults:
+    """The results so far.
+
+    Raises:
+        UsageError: The file of ``--json`` holds something that is not gone on with.
+    """
+    about = {
+        "benchmark": "strawberry",
+        "task": config.task,
+        "object": config.object,
+        "instruction": config.instruction,
+        "first_seed": settings.first_seed,
+        "episodes": len(settings.seeds),
+        "policies": policies,
+        "weights": weights_sum(config.weights or default_weights()) if "llm" in policies else None,
+    }
+    store = SeedResults(path=settings.json, about=about)
+    store.read(resume=settings.resume)
+    return store
 
 
 def _config(settings: StrawberrySettings) -> RunConfig:
@@ -281,8 +310,10 @@ def _print(
         "objected",
         "actions",
     ]
-    columns += ["peak force / slip minimum", "ends"]
+    columns += ["final / slip minimum", "peak / slip minimum", "ends"]
     table = number_table(title, columns, ("policy", "ends"))
+    times = ", ".join(f"{name} {row['seconds_per_episode']:.2f} s" for name, row in figures.items())
+    table.caption = f"median time of an episode on one core: {times}"
     for name, row in figures.items():
 
         def rate(event: str, row: dict[str, Any] = row) -> str:
@@ -297,6 +328,7 @@ def _print(
             f"{100 * row['dropped_rate']:.1f} %",
             f"{100 * row['objected_rate']:.1f} %",
             f"{row['median_actions']:g}",
+            f"{row['median_final_force_over_slip_minimum']:.1f}",
             f"{row['median_peak_force_over_slip_minimum']:.1f}",
             ", ".join(f"{end} {count}" for end, count in row["ends"].items()),
         )

@@ -21,12 +21,13 @@ from cltp.tactile.measure import contact_state
 from primitives.contract import Band
 from sim.grasp.bodies import OBJECTS, Range
 from sim.grasp.rig import SimRig, build
-from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.strawberry import wilson
-from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.results_file import SeedResults
 from tacgrasp.benchmarks.settings import VerifierSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import VerifyConfig
+from tacgrasp.console import make_table_console
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.runtime.outcome import Verification
 from tacgrasp.runtime.steps import Readings, read_observation
@@ -63,16 +64,23 @@ class VerifierSample:
 
 
 def run(settings: VerifierSettings) -> None:
-    """Measure, print a table and write the figures."""
-    console = Console()
-    seeds = range(settings.first_seed, settings.first_seed + settings.episodes)
+    """Measure, print a table and write the figures.
+
+    Raises:
+        UsageError: The file of ``--json`` holds something that is not gone on with.
+    """
+    console, seeds = make_table_console(), settings.seeds
+    about = {"benchmark": "verifier", "first_seed": settings.first_seed, "episodes": len(seeds)}
+    store = SeedResults(path=settings.json, about=about)
+    store.read(resume=settings.resume)
     figures: dict[str, Any] = {"first_seed": settings.first_seed, "objects": {}}
     for name in OBJECTS:
         config = load(name)[0]
         sample = partial(verify_seed, name, config.verify, config.goal.goal().force_n)
-        figures["objects"][name] = _figures(map_seeds(console, name, sample, seeds))
+        samples = store.map_seeds(console, name, VerifierSample, sample, seeds)
+        figures["objects"][name] = _figures(samples)
     _print(console, figures)
-    write_figures(settings.json, figures)
+    store.write(figures)
 
 
 def verify_seed(name: str, verify: VerifyConfig, force_n: Band, seed: int) -> VerifierSample:

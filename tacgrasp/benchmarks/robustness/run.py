@@ -7,7 +7,6 @@ under the same condition. Seeds are paired: every condition has the same contact
 
 from __future__ import annotations
 
-import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Iterator
@@ -29,6 +28,7 @@ from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.loop.strawberry import FIXED_FORCES_N
 from tacgrasp.benchmarks.pool import each_result
+from tacgrasp.benchmarks.results_file import weights_sum
 from tacgrasp.benchmarks.robustness import readers
 from tacgrasp.benchmarks.robustness.conditions import NOMINAL, NUISANCES, Condition
 from tacgrasp.benchmarks.robustness.contacts import ContactSource
@@ -74,7 +74,7 @@ def run(settings: RobustnessSettings) -> None:
     num_contacts = QUICK_CONTACTS if settings.quick else settings.contacts
     episodes = QUICK_EPISODES if settings.quick else settings.episodes
     about = {
-        "weights": _weights_sum(weights),
+        "weights": weights_sum(weights),
         "data": None if settings.data is None else ContactDataset(settings.data).checksum()[:16],
         "contacts": num_contacts,
         "episodes": episodes,
@@ -248,11 +248,3 @@ def _names(text: str, known: tuple[str, ...]) -> list[str]:
     if unknown := [name for name in names if name not in known]:
         raise UsageError(f"unknown {', '.join(unknown)}; known: {', '.join(known)}")
     return names
-
-
-def _weights_sum(weights: Path) -> str:
-    """What names weights: the checksum of their manifests, which hold those of their files."""
-    total = hashlib.sha256()
-    for path in sorted(weights.glob("*/manifest.json")):
-        total.update(path.read_bytes())
-    return total.hexdigest()[:16]

@@ -5,15 +5,14 @@ The file holds them twice: ``results``, from which a later call goes on, and ``c
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import write_figures
+from tacgrasp.benchmarks.results_file import read_results
 from tacgrasp.benchmarks.robustness.conditions import GEL_NUISANCES, NUISANCES, Condition
 
 CONTACT_SUBJECTS = ("heads", "captions")
@@ -76,30 +75,7 @@ class Store:
             UsageError: The file holds figures and ``resume`` is not set, or those of something
                 else.
         """
-        if self.path is None or not self.path.is_file() or self.path.stat().st_size == 0:
-            return
-        if not resume:
-            raise UsageError(
-                f"--json {self.path} holds something already: --resume goes on with figures, or "
-                "name another file"
-            )
-        try:
-            stored = json.loads(self.path.read_text(encoding="utf-8"))
-            about = stored["about"]
-            self.results = {name: _read(each) for name, each in stored["results"].items()}
-        except (OSError, ValueError, TypeError, KeyError, AttributeError):
-            raise UsageError(
-                f"--json {self.path} does not hold figures of bench robustness; name another file"
-            ) from None
-        differing = [
-            f"{name} {about.get(name)!r} instead of {value!r}"
-            for name, value in self.about.items()
-            if about.get(name) != value
-        ]
-        if differing:
-            raise UsageError(
-                f"--json {self.path} holds figures of {', '.join(differing)}; name another file"
-            )
+        self.results = read_results(self.path, "robustness", self.about, _read, resume=resume)
 
     def add(self, name: str, result: CellResult) -> None:
         """Add a result, and write the file."""

@@ -28,12 +28,13 @@ from sim.grasp.bodies import OBJECTS
 from sim.grasp.devices import SimClock, SimSensor
 from sim.grasp.fingers import Patch
 from sim.grasp.rig import OFFSET_X_MM, OFFSET_Y_MM, SimRig, build
-from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.strawberry import wilson
-from tacgrasp.benchmarks.pool import map_seeds
+from tacgrasp.benchmarks.results_file import SeedResults
 from tacgrasp.benchmarks.settings import ContactSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.terms import contract_of
+from tacgrasp.console import make_table_console
 from tacgrasp.rig.factory import make_executor
 from tacgrasp.rig.gel_sense import GelSense
 
@@ -71,24 +72,38 @@ def run(settings: ContactSettings) -> bool:
 
     Returns:
         Whether at most ``MAX_FALSE_PER_CLOSING`` of the closings had a false alarm.
+
+    Raises:
+        UsageError: The file of ``--json`` holds something that is not gone on with.
     """
-    closings, first, bodies = settings.closings, settings.first_seed, settings.bodies
-    console = Console()
-    console = console if console.is_terminal else Console(width=160)
-    ratios = map_seeds(console, "closings in air", largest_ratio, range(first, first + closings))
+    closings, bodies, first = settings.num_closings, settings.num_bodies, settings.first_seed
+    about = {"benchmark": "contact", "closings": closings, "first_seed": first, "bodies": bodies}
+    store = SeedResults(path=settings.json, about=about)
+    store.read(resume=settings.resume)
+    console = make_table_console()
+    air_seeds = range(first, first + closings)
+    ratios = store.map_seeds(console, "closings in air", float, largest_ratio, air_seeds)
     figures = false_alarms(ratios, first)
     figures |= {key: {} for key in ("missed_by_force", "least_force_n")}
     figures |= {key: {} for key in ("ideal_missed_by_force", "ideal_least_force_n")}
     figures["approach_peak_n"] = {}
     for name in OBJECTS:
-        of_bodies = map_seeds(console, name, partial(grasp_samples, name), range(bodies))
+        of_bodies = store.map_seeds(
+            console, name, list[ContactSample], partial(grasp_samples, name), range(bodies)
+        )
         samples = [sample for of_body in of_bodies for sample in of_body]
         for prefix in ("", "ideal_"):
             missed = np.mean([getattr(s, f"{prefix}missed") for s in samples], axis=0).tolist()
             by_force = {f"{f:g}": rate for f, rate in zip(FORCES_N, missed, strict=True)}
             figures[f"{prefix}missed_by_force"][name] = by_force
             figures[f"{prefix}least_force_n"][name] = least_force_n(missed)
-        peaks = map_seeds(console, name, partial(approach_peak_n, name), range(bodies))
+        peaks = store.map_seeds(
+            console,
+            f"{name}, approach",
+            float | None,
+            partial(approach_peak_n, name),
+            range(bodies),
+        )
         forces_n = [peak_n for peak_n in peaks if peak_n is not None]
         p50, p99 = np.percentile(forces_n, [50, 99]) if forces_n else (math.nan, math.nan)
         figures["approach_peak_n"][name] = {
@@ -96,7 +111,7 @@ def run(settings: ContactSettings) -> bool:
             "not_found": len(peaks) - len(forces_n),
         }  # fmt: skip
     _print(console, figures, bodies)
-    write_figures(settings.json, {"contact": figures})
+    store.write({"contact": figures})
     return bool(figures["false_per_closing"] <= MAX_FALSE_PER_CLOSING)
 
 

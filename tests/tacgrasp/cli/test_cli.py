@@ -15,6 +15,7 @@ from tacgrasp.__main__ import COMMANDS, main, usage
 from tacgrasp.base import package_check
 from tacgrasp.base.errors import UsageError
 from tacgrasp.console import COMPLETED
+from tacgrasp.episodes.listing import table
 from tests.paths import ROOT
 
 Capture = pytest.CaptureFixture[str]
@@ -96,10 +97,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply"], "no.ply does not exist"),
         (["describe", "photo.tiff"], "expected a file ending in"),
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
-        (
-            ["bench"],
-            "expects one of strawberry, missed, robustness, verifier",
-        ),
+        (["bench"], "expects one of strawberry, missed, robustness, verifier"),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
@@ -216,6 +214,24 @@ def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(
     assert code == 0
     assert printed.rstrip().endswith(COMPLETED)
     assert len(list(tmp_path.glob("strawberry-*.mcap"))) == 1
+
+
+def test_a_bruised_grasp_that_touch_verified_is_not_called_a_success(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    crushing = ["--goal.force-n", "4", "5", "--goal.limit-n", "8"]
+    argv = ["run", "--policy", "rules", "--seed", SUCCEEDS, *crushing, "--record", str(tmp_path)]
+    assert main(argv) == 1
+    end = capsys.readouterr().out.partition("\nepisode: ")[2]
+    assert "end: verified by touch, but bruised - " in end
+    assert "Bruised after the first touch." in end
+    assert "success" not in end
+    recorded = next(tmp_path.glob("*.mcap"))
+    assert main(["replay", str(recorded)]) == 0
+    assert "end: verified by touch, but bruised - " in capsys.readouterr().out
+    cells = [str(cell) for column in table([recorded]).columns for cell in column.cells]
+    assert any("verified by touch, but bruised" in cell for cell in cells)
+    assert not any("success" in cell for cell in cells)
 
 
 def test_a_dry_run_decides_and_does_not_call_anything_successful(

@@ -5,6 +5,7 @@ import json
 import pytest
 
 from tacgrasp.__main__ import main
+from tacgrasp.benchmarks.settings import StrawberrySettings, VerifierSettings
 from tests.fakes.contracts import STRAWBERRY
 
 SEED = 1_000_003
@@ -25,6 +26,28 @@ def test_a_strawberry_under_the_pegs_task_is_held_to_its_own_terms(tmp_path):
     assert episode["objected"]
     assert not episode["bruised"]
     assert episode["truth"]["peak_force_n"] <= STRAWBERRY.limit_n
+
+
+def test_the_figures_of_a_policy_have_their_names_and_agree_with_its_episodes(tmp_path, capsys):
+    report = figures(tmp_path, "--quick")
+    row, (episode,) = report["policies"]["rules"], report["episodes_by_policy"]["rules"]
+    truth, least_n = episode["truth"], episode["slip_minimum_n"]
+    assert row["verified_success_rate"] == episode["verified"]
+    assert row["bruised_rate"] == episode["bruised"]
+    assert row["bruised_at_start_rate"] == truth["bruised_at_start"]
+    assert row["dropped_rate"] == truth["dropped"]
+    assert row["median_actions"] == episode["actions"]
+    assert row["median_final_force_over_slip_minimum"] == truth["force_n"] / least_n
+    assert row["median_peak_force_over_slip_minimum"] == truth["peak_force_n"] / least_n
+    assert row["seconds_per_episode"] == episode["seconds"] > 0
+    assert f"one core: rules {episode['seconds']:.2f} s" in capsys.readouterr().out
+
+
+def test_quick_takes_eight_seeds_and_never_more_than_were_asked_for():
+    assert StrawberrySettings(quick=True).seeds == range(1_000_000, 1_000_008)
+    assert StrawberrySettings(quick=True, episodes=3, first_seed=5).seeds == range(5, 8)
+    assert len(StrawberrySettings().seeds) == 200
+    assert len(VerifierSettings().seeds) == 400
 
 
 @pytest.mark.parametrize(
