@@ -30,6 +30,7 @@ _LEAST_POINTS = 12  # grid points in contact, 0.2 mm²
 _PART_POINTS = 4  # grid points from which a dot or an arm counts
 _TOUCHED = 0.85  # part of a face in view that must touch
 _IN_VIEW = {False: 0.97, True: 0.62}  # part of a whole face on the pad: whole contacts, cut ones
+_RING_IN_VIEW = 0.82  # a ring of which less is seen is a crescent
 _BORDER = 0.34  # part of the outline at the border of a cut contact
 _SIMILAR = 0.3  # size of the second bar or crest over that of the largest
 _SMALL_AREA = 0.05  # fraction of the pad that a small contact covers at most
@@ -82,9 +83,10 @@ def _is_whole(touched: Touched, cut: bool) -> bool:
     face = touched.parts == 0
     if not face.any():
         return False
+    least = _RING_IN_VIEW if touched.shape is Shape.RING else _IN_VIEW[cut]
     in_view = float(face.sum()) * touched.pitch_mm**2 / _face_mm2(touched.body)
     touching = float(touched.closed[face].mean())
-    return in_view >= _IN_VIEW[cut] and touching >= _TOUCHED
+    return in_view >= least and touching >= _TOUCHED
 
 
 def _face_mm2(body: HeightBody) -> float:
@@ -131,11 +133,11 @@ def _has_parts(touched: Touched, cut: bool) -> bool:
     if len(counts) < needed:
         return False
     alike = touched.shape is Shape.DOTS or counts[needed - 1] > _SIMILAR * counts[0]
-    return bool(alike and (touched.shape is Shape.WAVE or _is_narrow(touched)))
+    return bool(alike and (touched.shape is not Shape.DOTS or _stands_free(touched)))
 
 
-def _is_narrow(touched: Touched) -> bool:
-    """Nothing of the base under dots or bars touches."""
+def _stands_free(touched: Touched) -> bool:
+    """Whether the base under dots hardly touches."""
     return bool(
         np.count_nonzero(touched.touching & (touched.parts < 0))
         < 0.3 * np.count_nonzero(touched.touching)

@@ -1,7 +1,7 @@
 """Contacts of the second generator: draws a body, presses it, labels it, and keeps what is clear.
 
-Contact ``number`` of a seed has the shape ``number`` modulo 19, and follows from both alone. A
-contact whose label a careful person would doubt is drawn again. Heights are clean.
+A contact follows from its seed alone, and its shape is that of the seed modulo 19. A contact whose
+label a careful person would doubt is drawn again. Heights are clean.
 
 Not here: noise (``sim.independent.noise``), files of contacts (``cltp.data``).
 """
@@ -9,8 +9,7 @@ Not here: noise (``sim.independent.noise``), files of contacts (``cltp.data``).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import torch
@@ -41,11 +40,14 @@ DEPTHS_MM = ((0.15, 0.3), (0.3, 0.6), (0.6, 0.9), (0.9, 1.25))
 SHALLOW_MM = (0.06, 0.15)
 _SHARP = (Shape.PEAK, Shape.EDGE, Shape.CORNER, Shape.WAVE)
 _LEAST_SHARP_MM = 0.35
-_IMPOSSIBLE = {(Shape.PLANE, "small"), (Shape.PLANE, "cut"), (Shape.WAVE, "small")} | {
-    (shape, "shallow") for shape in _SHARP
-}
+_IMPOSSIBLE = {
+    (Shape.PLANE, "small"),
+    (Shape.PLANE, "cut"),
+    (Shape.WAVE, "small"),
+    (Shape.CRESCENT, "cut"),
+} | {(shape, "shallow") for shape in _SHARP}
 
-TEXTURED_FRACTION = 0.65
+TEXTURED_FRACTION = 0.85
 """Fraction of the bodies that can carry a texture which have one."""
 
 _TRIES = 400
@@ -72,104 +74,132 @@ class _Grid:
         return cls(x_mm=wide_x, y_mm=wide_y, pitch_mm=pitch)
 
 
-def make_contact(seed: int, number: int, sensor: SensorSpec) -> Contact:
+def make_contact(seed: int, sensor: SensorSpec) -> Contact:
     """Make one contact.
 
     Args:
         seed: Random seed.
-        number: Number of the contact, from 0.
         sensor: The sensor; its heights are ``ROWS`` × ``COLUMNS``.
 
     Raises:
-        ValueError: A number is negative.
+        ValueError: The seed is negative.
     """
-    if seed < 0 or number < 0:
-        raise ValueError(f"seed and number must be 0 or more, got {seed} and {number}")
-    shape = list(Shape)[number % len(Shape)]
+    if seed < 0:
+        raise ValueError(f"the seed of a contact must be 0 or more, got {seed}")
     grid = _Grid.of(sensor)
-    rng = np.random.default_rng([seed, number, 271])
-    kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
-    if (shape, kind) in _IMPOSSIBLE:
-        kind = "ordinary"
-    wish = Texture.SMOOTH
-    if rng.random() < TEXTURED_FRACTION:
-        wish = list(Texture)[1 + int(rng.integers(len(Texture) - 1))]
-    for _ in range(_TRIES):
-        contact = _attempt(shape, kind, wish, grid, sensor, rng, seed=seed, number=number)
+    rng = np.random.default_rng([seed, 271])
+    wish = _Wish.draw(list(Shape)[seed % len(Shape)], rng)
+    for number in range(_TRIES):
+        if number == _TRIES // 2:
+            wish = replace(wish, kind="ordinary")
+        drawn = _Press.draw(wish, grid, sensor, rng)
+        contact = drawn.contact(grid, sensor, seed) if drawn is not None else None
         if contact is not None:
             return contact
-    raise RuntimeError(f"no clear {kind} {shape} in {_TRIES} draws of seed {seed}, {number}")
+    raise RuntimeError(f"no clear {wish} in {_TRIES} draws of seed {seed}")
 
 
-def make_contacts(seed: int, count: int, sensor: SensorSpec) -> Iterator[Contact]:
-    """Contacts 0 to ``count`` - 1 of a seed."""
-    return (make_contact(seed, number, sensor) for number in range(count))
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Wish:
+    """What a contact shall be; a body that can't carry the texture is smooth."""
+
+    shape: Shape
+    kind: str
+    texture: Texture
+
+    @classmethod
+    def draw(cls, shape: Shape, rng: np.random.Generator) -> _Wish:
+        kind = str(rng.choice(list(KINDS), p=list(KINDS.values())))
+        texture = Texture.SMOOTH
+        if rng.random() < TEXTURED_FRACTION:
+            texture = list(Texture)[1 + int(rng.integers(len(Texture) - 1))]
+        impossible = (shape, kind) in _IMPOSSIBLE
+        return cls(shape=shape, kind="ordinary" if impossible else kind, texture=texture)
 
 
-def _attempt(
-    shape: Shape,
-    kind: str,
-    wish: Texture,
-    grid: _Grid,
-    sensor: SensorSpec,
-    rng: np.random.Generator,
-    *,
-    seed: int,
-    number: int,
-) -> Contact | None:
-    """Draw and press once; None where the label would be in doubt."""
-    recipe = PressRecipe(depth_mm=_depth_mm(shape, kind, rng), small=kind == "small")
-    body = draw_body(shape, recipe, rng)
-    gel = MembraneGel.draw(rng)
-    u, v, base = _placed(body, kind == "cut", recipe, grid, sensor, rng)
-    can_have = body.textured and recipe.depth_mm >= LEAST_DEPTH_MM
-    texture = wish if can_have else Texture.SMOOTH
-    relief = draw_relief(texture, recipe.depth_mm, rng, grid.x_mm, grid.y_mm)
-    surface = body.behind_mm(u, v)
-    covered = surface < NO_BODY_MM
-    if not covered[grid.seen].any():
-        return None
-    gap = surface + base + relief.behind_mm
-    gap = np.where(covered, gap - gap[grid.seen][covered[grid.seen]].min(), NO_BODY_MM)
-    solved = press(gap, recipe.depth_mm, gel, grid.pitch_mm)
-    height = solved.height_mm[grid.seen].astype(np.float32)
-    pressure = solved.pressure_kpa[grid.seen].astype(np.float32)
-    closed = in_contact(torch.from_numpy(pressure[None]), grid.pitch_mm)[0]
-    touched = Touched(
-        shape=shape,
-        body=body,
-        bare_gap_mm=surface[grid.seen],
-        touching=pressure > 0,
-        closed=closed,
-        parts=body.parts(u, v)[grid.seen],
-        pitch_mm=grid.pitch_mm,
-    )
-    force_n = 1e-3 * float(pressure.sum()) * grid.pitch_mm**2
-    state = label(
-        height_mm=height,
-        pressure_kpa=pressure,
-        touching=closed,
-        force_n=force_n,
-        sensor=sensor,
-        shape=shape,
-        texture=texture,
-    )
-    if not is_clear(touched, cut=kind == "cut", small=recipe.small, state=state):
-        return None
-    if not _shows(relief, texture, solved.height_mm[grid.seen], closed, grid.pitch_mm):
-        return None
-    return Contact(
-        height_mm=height,
-        sensor=sensor,
-        state=state,
-        object=f"{shape}: {body.variant}, {kind}",
-        series=number,
-        split=Split.TEST,
-        seed=seed,
-        unsure=frozenset(uncertain_labels(state, sensor)),
-        approach_mm=recipe.depth_mm,
-        peak_kpa=float(pressure.max()),
-    )
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Press:
+    """A body over the gel, and what it is pressed with; arrays are those of the grid."""
+
+    wish: _Wish
+    body: HeightBody
+    parts: NDArray[np.int64]
+    surface_mm: FloatArray
+    gap_mm: FloatArray
+    texture: Texture
+    relief: Relief
+    recipe: PressRecipe
+    gel: MembraneGel
+
+    @classmethod
+    def draw(
+        cls, wish: _Wish, grid: _Grid, sensor: SensorSpec, rng: np.random.Generator
+    ) -> _Press | None:
+        """Draw everything; None where no part of the body is over the pad."""
+        depth_mm = _depth_mm(wish.shape, wish.kind, rng)
+        recipe = PressRecipe(depth_mm=depth_mm, small=wish.kind == "small")
+        body, gel = draw_body(wish.shape, recipe, rng), MembraneGel.draw(rng)
+        u, v, base = _placed(body, wish.kind == "cut", recipe, grid, sensor, rng)
+        can_have = body.textured and depth_mm >= LEAST_DEPTH_MM
+        texture = wish.texture if can_have else Texture.SMOOTH
+        relief = draw_relief(texture, depth_mm, rng, grid.x_mm, grid.y_mm)
+        surface = body.behind_mm(u, v)
+        covered = surface < NO_BODY_MM
+        if not covered[grid.seen].any():
+            return None
+        gap = surface + base + relief.behind_mm
+        return cls(
+            wish=wish,
+            body=body,
+            parts=body.parts(u, v),
+            surface_mm=surface,
+            gap_mm=np.where(covered, gap - gap[grid.seen][covered[grid.seen]].min(), NO_BODY_MM),
+            texture=texture,
+            relief=relief,
+            recipe=recipe,
+            gel=gel,
+        )
+
+    def contact(self, grid: _Grid, sensor: SensorSpec, seed: int) -> Contact | None:
+        """Press and label; None where the label would be in doubt."""
+        solved = press(self.gap_mm, self.recipe.depth_mm, self.gel, grid.pitch_mm)
+        height = solved.height_mm[grid.seen].astype(np.float32)
+        pressure = solved.pressure_kpa[grid.seen].astype(np.float32)
+        closed = in_contact(torch.from_numpy(pressure[None]), grid.pitch_mm)[0]
+        touched = Touched(
+            shape=self.wish.shape,
+            body=self.body,
+            bare_gap_mm=self.surface_mm[grid.seen],
+            touching=pressure > 0,
+            closed=closed,
+            parts=self.parts[grid.seen],
+            pitch_mm=grid.pitch_mm,
+        )
+        state = label(
+            height_mm=height,
+            pressure_kpa=pressure,
+            touching=closed,
+            force_n=1e-3 * float(pressure.sum()) * grid.pitch_mm**2,
+            sensor=sensor,
+            shape=self.wish.shape,
+            texture=self.texture,
+        )
+        if not is_clear(touched, cut=self.wish.kind == "cut", small=self.recipe.small, state=state):
+            return None
+        if not _shows(self.relief, solved.height_mm[grid.seen], closed, grid.pitch_mm):
+            return None
+        return Contact(
+            height_mm=height,
+            sensor=sensor,
+            state=state,
+            object=f"{self.wish.shape}: {self.body.variant}, {self.wish.kind}",
+            series=seed,
+            split=Split.TEST,
+            seed=seed,
+            unsure=frozenset(uncertain_labels(state, sensor)),
+            approach_mm=self.recipe.depth_mm,
+            peak_kpa=float(pressure.max()),
+        )
 
 
 def _depth_mm(shape: Shape, kind: str, rng: np.random.Generator) -> float:
@@ -207,11 +237,9 @@ def _placed(
     return u, v, np.asarray(base)
 
 
-def _shows(
-    relief: Relief, texture: Texture, height: FloatArray, closed: NDArray[np.bool_], pitch_mm: float
-) -> bool:
+def _shows(relief: Relief, height: FloatArray, closed: NDArray[np.bool_], pitch_mm: float) -> bool:
     """Whether a texture has room and leaves a mark, so that it can be told from a smooth face."""
-    if texture is Texture.SMOOTH:
+    if relief.pitch_mm == 0:
         return True
     width_mm = math.sqrt(float(closed.sum())) * pitch_mm
     broad = gaussian_filter(height, 0.5 * relief.pitch_mm / pitch_mm)

@@ -138,11 +138,20 @@ def _ring(recipe: PressRecipe, rng: np.random.Generator) -> HeightBody:
     )
 
 
+def _bite(radius: float, rng: np.random.Generator) -> tuple[float, float]:
+    """Radius and shift of the circle that is taken from another, whose horns stay well apart."""
+    while True:
+        bite, thick = radius * rng.uniform(0.75, 1.1), radius * rng.uniform(0.3, 0.6)
+        shift = bite - radius + thick
+        horn = (radius**2 + shift**2 - bite**2) / (2 * radius * shift)
+        if -0.3 < horn < 0.6:  # 53 to 107 degrees from the middle of the opening
+            return bite, shift
+
+
 def _crescent(recipe: PressRecipe, rng: np.random.Generator) -> HeightBody:
     radius = rng.uniform(1.8, 2.5) if recipe.small else rng.uniform(2.5, 6.5)
     if rng.random() < 0.6:
-        bite = radius * rng.uniform(0.7, 1.0)
-        shift = bite - radius + radius * rng.uniform(0.3, 0.55)
+        bite, shift = _bite(radius, rng)
         return _face(
             "moon",
             lambda u, v: moon(u, v, radius, bite, shift),

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import uniform_filter1d
+from scipy.ndimage import distance_transform_edt, uniform_filter1d
 
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
@@ -25,7 +25,7 @@ def disturbed(
 ) -> tuple[NDArray[np.float32], NDArray[np.bool_]]:
     """Heights (H, W) [mm] as such a sensor reports them, with median 0, and a mask of blind points.
 
-    Heights at blind points are undisturbed guesses; a reader must not use them.
+    A blind point has the height of the nearest other one.
     """
     rows, columns = height_mm.shape
     x, y = np.meshgrid(np.linspace(-1, 1, columns), np.linspace(1, -1, rows))
@@ -42,6 +42,8 @@ def disturbed(
         off_x, off_y = (x - centre_x) * sensor.width_mm / 2, (y - centre_y) * sensor.height_mm / 2
         blind |= np.hypot(off_x, off_y) < rng.uniform(*SPOT_RADIUS_MM)
     noisy -= np.median(noisy[~blind])
+    nearest = distance_transform_edt(blind, return_distances=False, return_indices=True)
+    noisy = noisy[tuple(nearest)]
     return noisy.astype(np.float32), blind
 
 

@@ -18,9 +18,9 @@ Profile = Callable[[FloatArray], FloatArray]
 
 
 def _bar(rng: np.random.Generator, widest: float = 1.4) -> tuple[Profile, float]:
-    """A bar's surface over the distance from its middle line, flat or roof-like, and half width."""
+    """A bar with bevelled rims: its surface over the distance from its middle, its half width."""
     half = rng.uniform(0.25, 0.5 * widest)
-    bevel, steep = half * rng.uniform(0.2, 0.9), rng.uniform(0.5, 1.5)
+    bevel, steep = half * rng.uniform(0.15, 0.5), rng.uniform(0.5, 1.5)
     return (lambda distance: bevelled(distance - half, bevel, steep)), half
 
 
@@ -123,14 +123,15 @@ def _thrown(rng: np.random.Generator, spacing: float, reach: FloatArray, most: i
 
 def _dots(recipe: PressRecipe, rng: np.random.Generator) -> HeightBody:
     """Bumps thrown at random: few to dozens, round or longish, of uneven height."""
-    spacing = rng.uniform(1.6, 2.0) if recipe.small else rng.uniform(1.6, 3.6)
-    dense = not recipe.small and rng.random() < 0.7
-    reach = rng.uniform(3, 9, 2) if dense else spacing * rng.uniform(1.1, 1.9, 2)
+    dense = not recipe.small and rng.random() < 0.65
+    spacing = rng.uniform(1.2, 2.2) if dense or recipe.small else rng.uniform(1.6, 3.6)
+    reach = rng.uniform(3.5, 9, 2) if dense else spacing * rng.uniform(1.1, 1.9, 2)
     centres = _thrown(rng, spacing, reach, 5 if recipe.small else 60 if dense else 8)
     count, longish = len(centres), rng.random() < 0.5
     radius = spacing * rng.uniform(0.26, 0.36) * (1 + rng.uniform(-0.12, 0.12, count))
     aspect = rng.uniform(1.3, 1.9, count) if longish else np.ones(count)
-    angle = rng.uniform(0, math.pi, count)
+    # Longish dots lie at random, or nearly along one direction.
+    angle = rng.uniform(0, math.pi, count) * (1.0 if rng.random() < 0.5 else 0.15)
     sunk = rng.uniform(0, 0.3, count) * recipe.depth_mm
     tall, bend = rng.uniform(0.5, 1.0), 0.5 / rng.uniform(25, 80) * (rng.random() < 0.3)
     base = 1.6
