@@ -186,37 +186,40 @@ def labels_of(data: ContactDataset, rows: NDArray[np.int64]) -> Labels:
 
 
 def scores(answers: Tensor, labels: Labels) -> dict[str, Any]:
-    """Percent right of each dimension, with numbers and 95 % intervals, and of shape by group."""
+    """Percent right of each dimension, with numbers and 95 % intervals, by class and by group.
+
+    Returns:
+        A figure for each dimension, None without labels; ``n`` and ``interval`` by dimension;
+        ``by_class`` by dimension and class; ``shape_by_group``; and ``shape_read_as``, the three
+        wrong shapes that are read most often in each group.
+    """
     right = (answers == labels.classes).numpy()
-    labelled = (labels.classes >= 0).numpy()
-    figures: dict[str, Any] = {
-        "n": {},
-        "interval": {},
-        "by_class": {},
-        "shape_by_group": {},
-        "shape_read_as": {},
-    }
-    for number, name in enumerate(CLASSES):
-        good, total = int(right[labelled[:, number], number].sum()), int(labelled[:, number].sum())
-        figures[name] = 100 * good / total if total else None
-        figures["n"][name] = total
-        figures["interval"][name] = [100 * limit for limit in wilson(good, total)]
-        of_class = {}
-        for code, word in enumerate(CLASSES[name]):
-            mask = (labels.classes[:, number] == code).numpy()
-            if mask.any():
-                part = float(right[mask, number].mean())
-                of_class[word] = {"right": 100 * part, "n": int(mask.sum())}
-        figures["by_class"][name] = of_class
-    names = CLASSES["shape"]
+    figures: dict[str, Any] = {"n": {}, "interval": {}, "by_class": {}}
+    for number, (name, words) in enumerate(CLASSES.items()):
+        codes = labels.classes[:, number].numpy()
+        count = _counted(right[:, number], codes >= 0)
+        figures[name] = count["right"] if count["n"] else None
+        figures["n"][name] = count["n"]
+        limits = wilson(int(right[codes >= 0, number].sum()), count["n"])
+        figures["interval"][name] = [100 * limit for limit in limits]
+        by_class = {word: _counted(right[:, number], codes == i) for i, word in enumerate(words)}
+        figures["by_class"][name] = {w: figure for w, figure in by_class.items() if figure["n"]}
+    shapes, labelled = CLASSES["shape"], (labels.classes[:, _SHAPE] >= 0).numpy()
+    figures["shape_by_group"], figures["shape_read_as"] = {}, {}
     for group, mask in labels.groups.items():
-        chosen = mask & labelled[:, _SHAPE]
-        good, total = int(right[chosen, _SHAPE].sum()), int(chosen.sum())
-        if total:
-            figures["shape_by_group"][group] = {"right": 100 * good / total, "n": total}
-            wrong = Counter(names[i] for i in answers[chosen & ~right[:, _SHAPE], _SHAPE].tolist())
-            figures["shape_read_as"][group] = dict(wrong.most_common(3))
+        chosen = mask & labelled
+        if chosen.any():
+            figures["shape_by_group"][group] = _counted(right[:, _SHAPE], chosen)
+            wrong = answers[torch.from_numpy(chosen & ~right[:, _SHAPE]), _SHAPE].tolist()
+            counts = Counter(shapes[code] for code in wrong)
+            figures["shape_read_as"][group] = dict(counts.most_common(3))
     return figures
+
+
+def _counted(right: NDArray[np.bool_], mask: NDArray[np.bool_]) -> dict[str, Any]:
+    """Percent right among some contacts, and their number."""
+    n = int(mask.sum())
+    return {"right": 100 * float(right[mask].mean()) if n else None, "n": n}
 
 
 def constant_answer(classes: Tensor) -> dict[str, float | None]:
