@@ -28,7 +28,7 @@ from sim.independent.recipe import HeightBody, PressRecipe, log_uniform
 from sim.independent.reliefs import LEAST_DEPTH_MM, Relief, draw_relief
 from sim.tcl3d.labels import in_contact, label, uncertain_labels
 
-ROWS, COLUMNS = 120, 160
+COLUMNS = 160
 _MARGIN = 24
 """Grid points of gel beyond the sensing area, on every side."""
 
@@ -65,7 +65,8 @@ class _Grid:
 
     @classmethod
     def of(cls, sensor: SensorSpec) -> _Grid:
-        x, y = grid_axes_mm(sensor, ROWS, COLUMNS)
+        rows = round(COLUMNS * sensor.height_mm / sensor.width_mm)
+        x, y = grid_axes_mm(sensor, rows, COLUMNS)
         pitch = sensor.width_mm / COLUMNS
         beyond = pitch * np.arange(1, _MARGIN + 1)
         x = np.concatenate([x[0] - beyond[::-1], x, x[-1] + beyond])
@@ -79,7 +80,7 @@ def make_contact(seed: int, sensor: SensorSpec) -> Contact:
 
     Args:
         seed: Random seed.
-        sensor: The sensor; its heights are ``ROWS`` × ``COLUMNS``.
+        sensor: The sensor; its heights have ``COLUMNS`` columns and square points.
 
     Raises:
         ValueError: The seed is negative.

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from cltp.tactile.sensors import sensor_named
+from cltp.tactile.sensors import SENSORS, sensor_named
 from cltp.tactile.states import Shape, Texture, area_word, depth_word, position_word
 from sim.independent.contacts import SHALLOW_MM, make_contact
 from sim.independent.faces import TRIANGLES, triangle_angles
@@ -62,6 +62,12 @@ def test_triangles_have_the_angles_of_their_kind(kind):
         assert degrees[0] > 14
         assert (degrees[2] > 100) == (kind == "obtuse")
         assert (degrees[0] < 30) == (kind == "slender" or (kind == "obtuse" and degrees[0] < 30))
+
+
+def test_points_are_square_on_every_sensor():
+    for sensor in SENSORS.values():
+        rows, columns = make_contact(2, sensor).height_mm.shape
+        assert sensor.height_mm / rows == pytest.approx(sensor.width_mm / columns)
 
 
 def test_a_negative_seed_is_refused():
