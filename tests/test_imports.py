@@ -179,5 +179,32 @@ def test_an_import_loads_neither_torch_nor_open3d_nor_a_device_sdk(statement):
     assert done.stdout.strip() == "[]"
 
 
+FOR_TESTS_ALONE = "sim.independent"
+LEARNING = ("cltp.train", "tacgrasp.training", "tacgrasp.datasets", "sim.starter", "sim.tcl3d")
+
+
+def reached(graph, folder):
+    """Folders that a folder imports from, directly or by way of others."""
+    found, left = set(), [folder]
+    while left:
+        new = graph.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def test_nothing_that_trains_or_makes_data_reaches_the_generator_for_tests():
+    graph = {folder: set(targets) for folder, targets in arrows().items()}
+    assert FOR_TESTS_ALONE in folders()
+    assert not [folder for folder in LEARNING if FOR_TESTS_ALONE in reached(graph, folder)]
+    users = {folder for folder, targets in graph.items() if FOR_TESTS_ALONE in targets}
+    assert all(folder.startswith("tacgrasp.benchmarks.") for folder in users)
+
+
+def test_the_search_for_what_is_reached_follows_arrows():
+    graph = {"a": {"b"}, "b": {"c"}, "d": {"a"}}
+    assert reached(graph, "a") == {"b", "c"}
+
+
 def test_every_package_is_read():
     assert {name.split(".")[0] for name in trees()} == set(PACKAGES)

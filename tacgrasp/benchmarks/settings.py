@@ -200,6 +200,36 @@ class RobustnessSettings(ModelBenchmarkSettings, ResumableSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class OtherSimSettings(ModelBenchmarkSettings):
+    """Read contacts of another simulator, clean and noisy, zero-shot and by the state heads.
+
+    Attributes:
+        data: Data set, or folder with labels.csv and heights [mm], that is read in the place of
+            the second generator's contacts (docs/data-tools.md says what it holds).
+        sensor: Sensor of the contacts.
+        contacts: Number of contacts.
+        first_seed: Random seed of the first contact; each has its own. With --data: of the noise.
+        quick: Take 95 contacts, five of each shape, to try it.
+        sheet: File (.png) for pictures of the first 60 contacts with their labels.
+    """
+
+    data: Path | None = None
+    sensor: str = "gelsight_mini"
+    contacts: int = 608
+    first_seed: int = 1_000_000
+    quick: bool = False
+    sheet: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.contacts < 1 or self.first_seed < 0:
+            raise UsageError("--contacts must be at least 1 and --first-seed at least 0")
+        if self.data is not None and not self.data.is_dir():
+            raise UsageError(f"--data {self.data} is not a folder")
+        if self.sheet is not None and self.sheet.suffix.lower() != ".png":
+            raise UsageError(f"--sheet expects a file ending in .png, got {self.sheet}")
+
+
+@dataclass(frozen=True, kw_only=True)
 class SoakSettings(BenchmarkSettings):
     """Run recorded episodes in one process, one by one; exit code 1 if memory or open files grow.
 

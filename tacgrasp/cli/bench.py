@@ -16,6 +16,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "robustness": (settings.RobustnessSettings, "robustness.run"),
     "verifier": (settings.VerifierSettings, "loop.verifier"),
     "meshes": (settings.MeshesSettings, "loop.meshes"),
+    "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
@@ -43,4 +44,5 @@ def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(values.json)
     writable(getattr(values, "markdown", None))
     writable(getattr(values, "plot", None))
+    writable(getattr(values, "sheet", None))
     return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)

@@ -58,16 +58,18 @@ def contact_card(data: ContactDataset, index: int) -> Image.Image:
     return card
 
 
-def pages(data: ContactDataset, indices: Sequence[int], per_page: int = 8) -> Iterator[Image.Image]:
-    """Pages of cards, two side by side."""
+def pages(
+    data: ContactDataset, indices: Sequence[int], per_page: int = 8, columns: int = _COLUMNS
+) -> Iterator[Image.Image]:
+    """Pages of cards, ``columns`` side by side."""
     for start in range(0, len(indices), per_page):
         cards = [contact_card(data, int(index)) for index in indices[start : start + per_page]]
-        rows = -(-len(cards) // _COLUMNS)
+        rows = -(-len(cards) // columns)
         width = max(card.width for card in cards) + _GAP
         height = max(card.height for card in cards) + _GAP
-        page = Image.new("RGB", (_COLUMNS * width + _GAP, rows * height + _GAP), _PAPER)
+        page = Image.new("RGB", (columns * width + _GAP, rows * height + _GAP), _PAPER)
         for number, card in enumerate(cards):
-            row, column = divmod(number, _COLUMNS)
+            row, column = divmod(number, columns)
             page.paste(card, (_GAP + column * width, _GAP + row * height))
         yield page
 

@@ -211,7 +211,12 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
     series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
-    state, measured = _with_labels(contact_state(cloud_from_heights(heights, sensor)), cells)
+    cloud = cloud_from_heights(heights, sensor)
+    # A tip that is finer than a cell of the measurement touches as well.
+    shallow = source.least_depth_mm != NO_CONTACT_MM
+    touching = highest >= source.least_depth_mm if shallow else None
+    measured_state = contact_state(cloud, in_contact=touching)
+    state, measured = _with_labels(measured_state, cells, source.least_depth_mm)
     return Contact(
         height_mm=heights,
         sensor=sensor,
@@ -224,7 +229,7 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
 
 
 def _with_labels(
-    state: ContactState, cells: Mapping[str, str]
+    state: ContactState, cells: Mapping[str, str], least_mm: float
 ) -> tuple[ContactState, frozenset[str]]:
     """A measured state with the table's labels in it, and the names of its measured fields."""
     labels = dict(_labels(cells))
@@ -233,7 +238,7 @@ def _with_labels(
         if named:
             raise RowError(
                 f"labelled ({', '.join(named)}), but nothing touches: the heights stay below "
-                f"{NO_CONTACT_MM} mm; leave its labels empty to import it as no contact"
+                f"{least_mm:g} mm; leave its labels empty to import it as no contact"
             )
         return state, MEASURED
     measured = MEASURED - set(labels)

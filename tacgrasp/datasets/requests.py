@@ -58,6 +58,8 @@ class ImportRequest:
         sensor: Sensor that measured the contacts.
         background: Frame of the same unit with nothing touching it (frames only).
         calibration: Calibration of the unit (frames only). Default: the shipped one.
+        least_depth_mm: Heights that stay below this are no contact, and must not be labelled as
+            one. Less than the default is for heights without noise.
     """
 
     folder: tyro.conf.Positional[Path]
@@ -66,8 +68,11 @@ class ImportRequest:
     sensor: str = "gelsight_mini"
     background: Path | None = None
     calibration: Path | None = None
+    least_depth_mm: float = 0.10
 
     def __post_init__(self) -> None:
+        if not 0 < self.least_depth_mm <= 1:
+            raise UsageError(f"--least-depth-mm must be 0 to 1, got {self.least_depth_mm:g}")
         if not self.folder.is_dir():
             raise UsageError(f"{self.folder} is not a folder; expected that of the measured files")
 
