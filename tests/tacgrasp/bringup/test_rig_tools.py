@@ -45,7 +45,7 @@ def test_every_device_of_a_rig_is_looked_at_and_the_verdict_is_the_exit_code(tmp
     assert any("ur-rtde" in line for line in lines)
     assert any("calibration" in line and "days old" in line for line in lines)
     (first,) = [line for line in lines if "first force" in line]
-    assert "0.6 N until something is felt" in first
+    assert "1 N until something is felt" in first
     assert "the least command is 0.007 N" in first
 
 

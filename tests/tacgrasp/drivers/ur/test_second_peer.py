@@ -100,7 +100,11 @@ def test_it_connects_reads_moves_stops_and_disconnects(peer, arm):
         ("freeze", "no new data from the controller"),
         ("force 90", "contact force 90.0 N"),
         ("force nan", "finite"),
-        ("drop", "link to the controller dropped|program on the controller does not run"),
+        # the SDK's own thread can crash on a reset link; the worker is a process for that reason
+        (
+            "drop",
+            "link to the controller dropped|program on the controller does not run|worker ended",
+        ),
     ],
 )
 def test_a_fault_is_latched_with_its_reason_and_the_arm_comes_to_rest(peer, arm, fault, reason):
