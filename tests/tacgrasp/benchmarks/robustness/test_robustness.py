@@ -33,6 +33,7 @@ def cell(report: dict, **wanted) -> dict:
     return found
 
 
+@pytest.mark.slow
 def test_a_tiny_run_has_all_cells_and_goes_on_with_further_subjects(tmp_path):
     make_weights(tmp_path / "weights")
     make_data(tmp_path / "data", 12)
