@@ -50,10 +50,11 @@ class Wire:
         self._requested = False
 
     def _update(self) -> None:
-        if self._requested == self.plugged:
+        requested = self._requested  # another thread may change it meanwhile
+        if requested == self.plugged:
             return
         self.link.unlink(missing_ok=True)
-        if self._requested:
+        if requested:
             self._master, self._slave = pty.openpty()
             tty.setraw(self._slave)  # nothing must be echoed before a client sets it up
             os.set_blocking(self._master, False)
@@ -61,7 +62,7 @@ class Wire:
         else:
             os.close(self._slave)
             os.close(self._master)
-        self.plugged = self._requested
+        self.plugged = requested
 
     def lock(self) -> None:
         """Lock the port as another program would.
