@@ -156,7 +156,7 @@ def _loaded(
         )
     # a new unit has no calibration yet, and an old one must not be needed to replace it
     settings = config.hardware.sensor.model_copy(update={"force_calibration": None})
-    sensor = connect_sensor(settings, config)
+    sensor = connect_sensor(settings)
     try:
         if flags.by == "weights":
             yield sensor, PersonLoads(_ask), "weights on the pad"

@@ -123,7 +123,7 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     commands = CommandLog(time.monotonic)
     with ExitStack() as stack:
         try:
-            sensor = connect_sensor(hardware.sensor, config)
+            sensor = connect_sensor(hardware.sensor)
         except (
             TouchError
         ) as error:  # before an episode begins, a rig without its sensor is unusable
@@ -156,15 +156,14 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     )
 
 
-def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor:
-    """Connect a sensor; its points are drawn as on the simulated sensor of the same seed.
+def connect_sensor(settings: SensorSettings) -> WatchedSensor:
+    """Connect a sensor.
 
     Raises:
         TouchError: The sensor can't be reached or used.
     """
-    rng = np.random.default_rng([config.seed, 2])
     connect_driver, _ = _sensor_driver(settings)
-    return connect_driver(rng=rng)
+    return connect_driver()
 
 
 def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> list[Finding]:
@@ -201,7 +200,7 @@ def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
     if isinstance(settings, RecordedSettings):
         from tacgrasp.drivers.recorded import sensor as recorded
 
-        return lambda rng: recorded.connect_recorded(settings), partial(recorded.check, settings)
+        return partial(recorded.connect_recorded, settings), partial(recorded.check, settings)
     from tacgrasp.drivers.taxels import connect as taxels
 
     return partial(taxels.connect_taxels, settings), partial(taxels.check, settings)

@@ -133,7 +133,7 @@ class FaultBench:
 
             connect_gripper(self._hardware.gripper).disconnect()
         elif device == "taxels":
-            connect_sensor(self._hardware.sensor, self._config).disconnect()
+            connect_sensor(self._hardware.sensor).disconnect()
         else:
             from tacgrasp.drivers.gelsight.connect import connect_gelsight
             from tacgrasp.drivers.gelsight.settings import GelSightSettings

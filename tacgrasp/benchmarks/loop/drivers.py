@@ -89,7 +89,7 @@ def _connect(config: RunConfig, stack: ExitStack) -> _Devices:
     emulators = stack.enter_context(EmulatorProcess("rig"))
     folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="tacgrasp-"))
     settings = settings_for(config, config.hardware, emulators, Path(folder))
-    sensor = connect_sensor(settings.sensor, config)
+    sensor = connect_sensor(settings.sensor)
     stack.callback(sensor.disconnect)
     gripper = connect_gripper(settings.gripper)
     stack.callback(gripper.disconnect)
