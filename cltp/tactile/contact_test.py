@@ -42,7 +42,7 @@ air at 25 Hz). ``tacgrasp bench contact``: with ``CREEP_MM``, 1 of 1200 closings
 the largest response is 0.53 of the least of a contact in the median, and 1.14 at most.
 """
 
-CREEP_MM = (0.0005, 0.0035, 0.0105)
+CREEP_MM = (0.005, 0.007, 0.0125)
 """Drift's part of the least response of a contact, by scale [mm]: what the gel creeps during a
 closing. Source: without it the slow drift of the simulated sensor is a contact in 12 % of 1200
 closings at nine standard deviations; responses of these closings reach 0.011, 0.012 and 0.020 mm,
