@@ -5,6 +5,7 @@ Not here: heights from frames (``cltp.sensing.photometric``), live capture (``ta
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,9 @@ FRAME_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp")
 DARK_LEVEL = 10.0
 """Mean (of 255) below which a frame was taken without light. Our choice: the frames that we have
 are at 92; without light a camera is at 0 to 3."""
+
+JPEG_QUALITY = 92
+"""Quality of frames in records, of 100. Our choice: for people; heights are stored as a cloud."""
 
 Frame = NDArray[np.uint8]
 
@@ -53,6 +57,15 @@ def read_frame(path: Path, sensor: SensorSpec) -> Frame:
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise TouchError(f"{path} can't be read whole: {error}") from None
     return check_frame(frame, sensor, str(path))
+
+
+def jpeg_of(frame: Frame) -> bytes:
+    """A frame as a JPEG file of quality ``JPEG_QUALITY``."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.fromarray(frame).save(file, format="JPEG", quality=JPEG_QUALITY)
+    return file.getvalue()
 
 
 def check_frame(frame: NDArray[np.generic], sensor: SensorSpec, name: str = "the frame") -> Frame:

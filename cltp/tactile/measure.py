@@ -100,6 +100,11 @@ def cell_means(cloud: TactileCloud, n: int | None = None) -> FloatArray:
         return np.asarray((total / count).reshape(n, n))
 
 
+def height_cells(cloud: TactileCloud) -> FloatArray:
+    """Mean indentation in square-ish cells [mm], row 0 = top, none of them empty; for pictures."""
+    return _filled(cell_means(cloud))
+
+
 def _filled(cells_mm: FloatArray) -> FloatArray:
     """Cells (n, n) [mm] where each one without a point has the value of the nearest with one."""
     empty = ~np.isfinite(cells_mm)
