@@ -131,16 +131,16 @@ def step_lines(record: StepRecord, state: ContactState, elapsed_s: float) -> lis
     act = action_text(record)
     line = Text(_INDENT)
     if record.decision is not None:
-        line.append(f"“{last_words(record.decision.text, room - len(act) - 6)}” → ")
+        line.append(f"“{last_words(record.decision.text, room - len(act) - 5)}” → ")
     line.append(act, style="bold")
     return [felt, line, *_remarks(record)]
 
 
 def verbose_lines(record: StepRecord, state: ContactState, elapsed_s: float) -> list[Text]:
     """One step with everything that is known of it for people, wrapped at ``COLUMNS``."""
-    head = Text(f"{record.index:3d} {elapsed_s:6.1f} s  ")
-    parts = [*felt_parts(record, state), record.cloud.force_scale.mark]
-    lines = [head.append(", ".join(filter(None, parts)), style="cyan")]
+    parts = filter(None, [*felt_parts(record, state), record.cloud.force_scale.mark])
+    head = wrapped(f"{record.index} {elapsed_s:6.1f} s  {', '.join(parts)}", 2, len(_INDENT))
+    lines = [Text(line, style="cyan") for line in head]
     decision, executed = record.decision, record.executed
     rows = [("phase", PHASE_LABELS.get(record.phase, ""))]
     if decision is not None:
@@ -205,7 +205,7 @@ def last_words(text: str, room: int) -> str:
     if len(text) <= room:
         return text
     sentences, kept = _SENTENCE_END.split(text), ""
-    while sentences and len(sentences[-1]) + len(kept) + 3 <= room:
+    while sentences and len(f"… {sentences[-1]} {kept}".strip()) <= room:
         kept = f"{sentences.pop()} {kept}".strip()
     return f"… {kept}" if kept else textwrap.shorten(text, max(room, 8), placeholder=" …")
 

@@ -21,7 +21,7 @@ def shown(width: int, height: int = 40, num_steps: int = 3) -> str:
     console = Console(file=io.StringIO(), force_terminal=True, width=width, height=height)
     with LiveTable(CONTRACT, console) as table:
         for index in range(num_steps):
-            felt = Interval(value=1.0 + index, low=0.7, high=4.4)
+            felt = Interval(value=1.0 + index % 3, low=0.7, high=4.4)
             table(replace(step_record(index % 8), index=index, felt_force_n=felt, in_contact=True))
         console.file.truncate(0)
         console.file.seek(0)
