@@ -116,30 +116,40 @@ class StepPrinter:
         elapsed_s = record.stamp.monotonic_s - self._started_s
         state = contact_state(record.cloud, in_contact=record.in_contact)
         lines = verbose_lines if self._verbose else step_lines
-        for line in lines(record, state, elapsed_s):
+        for line in lines(record, state, elapsed_s, width_of(self._console)):
             self._console.print(line)
 
 
-def step_lines(record: StepRecord, state: ContactState, elapsed_s: float) -> list[Text]:
-    """One step: what is felt, then what is said and done; each at most ``COLUMNS`` wide.
+def width_of(console: Console) -> int:
+    """Width of what is printed: that of a terminal, at most ``COLUMNS``."""
+    return min(console.width, COLUMNS) if console.is_terminal else COLUMNS
+
+
+def step_lines(
+    record: StepRecord, state: ContactState, elapsed_s: float, width: int = COLUMNS
+) -> list[Text]:
+    """One step: what is felt, then what is said and done; each at most ``width`` wide.
 
     More lines follow only where a limit changed the command, or a failure was survived.
     """
     felt = Text(f"{record.index:3d} {elapsed_s:6.1f} s  ")
-    felt.append(_fitted(felt_parts(record, state), COLUMNS - len(felt)), style="cyan")
-    room = COLUMNS - len(_INDENT)
+    felt.append(_fitted(felt_parts(record, state), width - len(felt)), style="cyan")
+    room = width - len(_INDENT)
     act = action_text(record)
     line = Text(_INDENT)
     if record.decision is not None:
         line.append(f"“{last_words(record.decision.text, room - len(act) - 5)}” → ")
     line.append(act, style="bold")
-    return [felt, line, *_remarks(record)]
+    line.truncate(width, overflow="ellipsis")
+    return [felt, line, *_remarks(record, width)]
 
 
-def verbose_lines(record: StepRecord, state: ContactState, elapsed_s: float) -> list[Text]:
-    """One step with everything that is known of it for people, wrapped at ``COLUMNS``."""
+def verbose_lines(
+    record: StepRecord, state: ContactState, elapsed_s: float, width: int = COLUMNS
+) -> list[Text]:
+    """One step with everything that is known of it for people, wrapped at ``width``."""
     parts = filter(None, [*felt_parts(record, state), record.cloud.force_scale.mark])
-    head = wrapped(f"{record.index} {elapsed_s:6.1f} s  {', '.join(parts)}", 2, len(_INDENT))
+    head = wrapped(f"{record.index} {elapsed_s:6.1f} s  {', '.join(parts)}", 2, len(_INDENT), width)
     lines = [Text(line, style="cyan") for line in head]
     decision, executed = record.decision, record.executed
     rows = [("phase", PHASE_LABELS.get(record.phase, ""))]
@@ -153,8 +163,8 @@ def verbose_lines(record: StepRecord, state: ContactState, elapsed_s: float) -> 
     rows.append(("took", f"{record.step_ms:.0f} ms"))
     for name, value in rows:
         if value:
-            lines += [Text(line) for line in wrapped(f"{name:10}  {value}", 4, 16)]
-    return [*lines, *_remarks(record)]
+            lines += [Text(line) for line in wrapped(f"{name:10}  {value}", 4, 16, width)]
+    return [*lines, *_remarks(record, width)]
 
 
 def felt_parts(record: StepRecord, state: ContactState) -> list[str]:
@@ -207,13 +217,13 @@ def last_words(text: str, room: int) -> str:
     sentences, kept = _SENTENCE_END.split(text), ""
     while sentences and len(f"… {sentences[-1]} {kept}".strip()) <= room:
         kept = f"{sentences.pop()} {kept}".strip()
-    return f"… {kept}" if kept else textwrap.shorten(text, max(room, 8), placeholder=" …")
+    return f"… {kept}" if kept else "… " + text[-max(room - 2, 8) :].partition(" ")[2]
 
 
-def wrapped(text: str, indent: int = 0, hanging: int = 2) -> list[str]:
-    """Lines of at most ``COLUMNS``, the first indented by ``indent``, the others by ``hanging``."""
+def wrapped(text: str, indent: int = 0, hanging: int = 2, width: int = COLUMNS) -> list[str]:
+    """Lines of at most ``width``, the first indented by ``indent``, the others by ``hanging``."""
     spaces = {"initial_indent": " " * indent, "subsequent_indent": " " * hanging}
-    return textwrap.wrap(text, COLUMNS, break_on_hyphens=False, **spaces)
+    return textwrap.wrap(text, width, break_on_hyphens=False, **spaces)
 
 
 def contact_text(state: ContactState, scale: ForceScale) -> str:
@@ -231,10 +241,10 @@ def contact_text(state: ContactState, scale: ForceScale) -> str:
     return ", ".join(filter(None, parts))
 
 
-def end_lines(outcome: Outcome, config: RunConfig) -> list[Text]:
+def end_lines(outcome: Outcome, config: RunConfig, width: int = COLUMNS) -> list[Text]:
     """Why the episode ended, its counts, the truth if known, what happened in plain words.
 
-    The paper's last line follows a completed grasp. No line is wider than ``COLUMNS``.
+    The paper's last line follows a completed grasp. No line is wider than ``width``.
     """
     actions = "1 action" if outcome.num_actions == 1 else f"{outcome.num_actions} actions"
     paragraphs = [
@@ -249,7 +259,9 @@ def end_lines(outcome: Outcome, config: RunConfig) -> list[Text]:
     ]
     if outcome.completed:
         paragraphs.append((COMPLETED, "bold green"))
-    return [Text(line, style=style) for text, style in paragraphs for line in wrapped(text)]
+    return [
+        Text(line, style=style) for text, style in paragraphs for line in wrapped(text, width=width)
+    ]
 
 
 def truth_text(truth: TruthFacts) -> str:
@@ -271,11 +283,11 @@ def _fitted(parts: list[str], room: int) -> str:
     return ", ".join(parts)
 
 
-def _remarks(record: StepRecord) -> list[Text]:
+def _remarks(record: StepRecord, width: int) -> list[Text]:
     """What limits changed and which failures were survived, for people; mostly nothing."""
     changes = [] if record.executed is None else list(record.executed.clamped)
     notes = [record.note] if record.note else []
-    lines = [line for each in [*changes, *notes] for line in wrapped(each, len(_INDENT), 16)]
+    lines = [line for each in [*changes, *notes] for line in wrapped(each, len(_INDENT), 16, width)]
     return [Text(line, style="yellow") for line in lines]
 
 

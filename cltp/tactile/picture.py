@@ -66,7 +66,7 @@ def picture(
     return np.asarray(np.rint(255 * shaded.clip(0, 1) ** (1 / 1.3)), dtype=np.uint8)
 
 
-DEPTH_STOPS_MM = (-0.1, 0.0, 0.05, 0.15, 0.3, 0.6, 0.9, 1.3)
+DEPTH_STOPS_MM = (-0.1, 0.0, 0.05, 0.1, 0.3, 0.6, 0.9, 1.3)
 """Heights at equal distances along the colour scale [mm]: finer where a berry presses, and with the
 limits of the depth classes among them."""
 
@@ -74,9 +74,9 @@ _STOP_COLOURS = np.array(
     [  # below the untouched surface, at it, then with growing depth
         (38, 70, 122),
         (24, 28, 38),
-        (84, 36, 92),
-        (140, 46, 92),
-        (184, 58, 82),
+        (108, 42, 116),
+        (164, 52, 110),
+        (206, 66, 78),
         (236, 108, 50),
         (250, 186, 66),
         (255, 248, 200),

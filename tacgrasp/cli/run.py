@@ -102,7 +102,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 
 def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
-    from tacgrasp.console import end_lines, make_console, working, wrapped
+    from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
     from tacgrasp.run import run_recorded
     from tacgrasp.viewer.server import require_rerun
 
@@ -122,7 +122,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
         for text in (start, *contract_lines(contract)):
             indent = 2 if text.startswith("  ") else 0
-            for line in wrapped(text.strip(), indent, indent + 2):
+            for line in wrapped(text.strip(), indent, indent + 2, width_of(console)):
                 console.print(line)
         watch = [_printer(contract, console, stack, verbose=flags.verbose), events.step]
         if flags.view:
@@ -130,7 +130,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
         events.end(outcome)
     console.print(f"episode: {path}")
-    for text in end_lines(outcome, config):
+    for text in end_lines(outcome, config, width_of(console)):
         console.print(text)
     return outcome
 
@@ -165,7 +165,7 @@ def _connect(config: RunConfig, stack: ExitStack) -> tuple[Policy, Rig]:
 def _viewer(config: RunConfig, contract: Contract, console: Console, stack: ExitStack) -> Observer:
     """A viewer that shows every step; a window stays open, a page ends with the run."""
     from tacgrasp.viewer.feed import Feed
-    from tacgrasp.viewer.scene import Scene
+    from tacgrasp.viewer.scene import RerunScene
     from tacgrasp.viewer.server import Viewer, has_display
     from tacgrasp.viewer.show import pad_of
 
@@ -173,7 +173,7 @@ def _viewer(config: RunConfig, contract: Contract, console: Console, stack: Exit
     if viewer.page:
         console.print(f"open {viewer.page} in a browser on this computer")
         stack.callback(viewer.close)
-    scene = Scene(viewer.stream("run"), contract, pad_of(config))
+    scene = RerunScene(viewer.stream("run"), contract, pad_of(config))
     feed = Feed(scene.step)
     stack.callback(feed.close)
     return feed

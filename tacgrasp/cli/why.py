@@ -27,7 +27,7 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(WhyFlags, argv, prog="tacgrasp why")
     from rich.text import Text
 
-    from tacgrasp.console import make_console, wrapped
+    from tacgrasp.console import make_console, width_of, wrapped
     from tacgrasp.episodes import read_episode
     from tacgrasp.episodes.why import explain, first_trouble
 
@@ -36,6 +36,6 @@ def main(argv: Sequence[str]) -> int:
     for name, value in explain(episode, str(flags.episode)):
         line = f"{name:15}  {' '.join(value.split())}"
         is_command = value.startswith("tacgrasp ")  # stays in one piece, to be copied
-        for part in [line] if is_command else wrapped(line, 0, 17):
+        for part in [line] if is_command else wrapped(line, 0, 17, width_of(console)):
             console.print(Text(part, style="bold" if name == "trouble" else ""))
     return 0 if first_trouble(episode) is None else 1

@@ -17,10 +17,10 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import height_cells
 from cltp.tactile.picture import DEPTH_PALETTE, DEPTH_STOPS_MM, depth_levels
 
-WIDTH_PX = 240
+WIDTH_PX = 200
 """Width of the gel in the picture; its height follows from the sensing area."""
 
-SCALE_PX = 64
+SCALE_PX = 60
 """Width of the colour scale beside it."""
 
 _WHITE, _DARK = 255, 33  # levels of the palette for the scale's text and ground
@@ -31,9 +31,9 @@ def height_image(cloud: TactileCloud) -> NDArray[np.uint8]:
     """Levels of ``DEPTH_PALETTE``, shape (H, W): the gel, row 0 = top, and the scale in mm."""
     sensor = cloud.sensor
     rows = round(WIDTH_PX * sensor.height_mm / sensor.width_mm)
-    cells = Image.fromarray(height_cells(cloud).astype(np.float32))
-    heights = np.asarray(cells.resize((WIDTH_PX, rows), Image.Resampling.BILINEAR))
-    return np.hstack([depth_levels(heights), _scale(rows)])
+    cells = Image.fromarray(depth_levels(height_cells(cloud)))
+    gel = np.asarray(cells.resize((WIDTH_PX, rows), Image.Resampling.BILINEAR))
+    return np.hstack([gel, _scale(rows)])
 
 
 def height_png(cloud: TactileCloud) -> bytes:
@@ -50,6 +50,7 @@ def _scale(rows: int) -> NDArray[np.uint8]:
     """The colour scale, shape (rows, SCALE_PX): deepest on top, with a number at every stop."""
     image = Image.new("L", (SCALE_PX, rows), _DARK)
     draw, font = ImageDraw.Draw(image), ImageFont.load_default(11)
+    draw.fontmode = "1"  # a level between text and ground would be another colour
     top, bottom = 2 * _MARGIN + 6, rows - _MARGIN
     draw.text((_MARGIN - 2, 3), "depth mm", fill=_WHITE, font=font)
     for y in range(top, bottom):

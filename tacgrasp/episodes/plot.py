@@ -69,9 +69,10 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     scale = Normalize(0, len(DEPTH_PALETTE) - 1)
     for index, step in enumerate(drawn):
         _draw_cloud(figure.add_subplot(pictures[divmod(index, _COLUMNS)]), step, scale)
-    bar = figure.add_axes((0.945, bottom, 0.012, top - bottom))
+    bar = figure.add_axes((0.94, bottom, 0.012, top - bottom))
     stops = list(depth_levels(np.array(DEPTH_STOPS_MM)))
-    drawn_bar = figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, label="indentation [mm]")
+    drawn_bar = figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar)
+    bar.set_title("depth [mm]", fontsize=9.5, pad=6)
     drawn_bar.set_ticks(stops, labels=[f"{stop:g}" for stop in DEPTH_STOPS_MM])
     contacts = np.array([_contact(step.cloud) for step in episode.steps])
     _draw_curves(figure, curves, episode, contacts)
@@ -216,7 +217,7 @@ def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord
     for at_s, step in zip(time_s, steps, strict=True):
         if at_s < free_s:
             continue
-        free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
+        free_s = at_s + 0.04 * (time_s[-1] - time_s[0])
         axes.annotate(
             _caption(step).removeprefix("→ ").replace("_", " "),
             (at_s, 0.99),
@@ -237,7 +238,12 @@ def _draw_path(axes: Axes, episode: Episode, contacts: FloatArray) -> None:
     for third in (-1, 1):  # the nine cells of the position words
         axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
         axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
-    felt = contacts[:, 2] > 0.05
+    felt = np.array(
+        [
+            depth_mm > 0.05 if step.in_contact is None else step.in_contact
+            for step, depth_mm in zip(episode.steps, contacts[:, 2], strict=True)
+        ]
+    )
     x, y = contacts[felt, :2].T
     axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
     axes.scatter(x, y, c=range(len(x)), cmap="viridis", s=60, zorder=3, ec="white")

@@ -19,7 +19,7 @@ from cltp.tactile.force_scale import UNCALIBRATED_SOURCE
 from cltp.tactile.measure import contact_state
 from primitives.contract import Contract
 from primitives.sense import Interval
-from tacgrasp.console import COLUMNS, SafeConsole, action_text, cut_text, last_words, place_text
+from tacgrasp.console import COLUMNS, SafeConsole, action_text, last_words, place_text
 from tacgrasp.episodes.record import StepRecord
 
 REFRESHES_PER_S = 4.0
@@ -56,6 +56,7 @@ class LiveTable:
         self._console = console or SafeConsole(highlight=False, markup=False)
         self._rows: list[_Row] = []
         self._started_s: float | None = None
+        self._is_calibrated = True
         self._spinner = Spinner("dots", Text("closing the fingers …", style="dim"))
         self._live = Live(
             self, console=self._console, refresh_per_second=REFRESHES_PER_S, transient=True
@@ -77,6 +78,7 @@ class LiveTable:
 
     def __call__(self, record: StepRecord) -> None:
         """Add a step; drawing it is left to the table's thread."""
+        self._is_calibrated = record.cloud.force_scale.is_calibrated
         if record.contract is not None:
             self._contract = record.contract
         if self._started_s is None:
@@ -99,9 +101,9 @@ class LiveTable:
         state = contact_state(record.cloud, in_contact=record.in_contact)
         cells = "nothing touches\n "
         if state.in_contact:
-            cut = cut_text(state)
-            cells = f"{state.depth_mm:.2f} mm deep, {state.area_fraction:.0%}\n{place_text(state)}"
-            cells += f", {cut}" if cut else ""
+            place = place_text(state).removeprefix("at ")
+            cut = ", cut" if state.cut else ""
+            cells = f"{state.depth_mm:.2f} mm, {state.area_fraction:.0%}{cut}\n{place}"
         action = Text(action_text(record), style="bold")
         if record.executed is not None and record.executed.clamped:
             action.append(f" ({record.executed.clamped[0]})", style="yellow")
@@ -109,14 +111,14 @@ class LiveTable:
             action.append(f" ({record.note})", style="yellow")
         return _Row(
             index=str(record.index),
-            time=f"{elapsed_s:.1f} s",
-            felt=self._felt(record.felt_force_n, calibrated=record.cloud.force_scale.is_calibrated),
+            time=f"{elapsed_s:.1f}",
+            felt=self._felt(record.felt_force_n),
             contact=cells,
             text="" if record.decision is None else record.decision.text,
             action=action,
         )
 
-    def _felt(self, felt: Interval | None, *, calibrated: bool) -> Text:
+    def _felt(self, felt: Interval | None) -> Text:
         """The felt force, coloured by the contract, over its interval."""
         if felt is None:
             return Text("-\n ")
@@ -124,18 +126,19 @@ class LiveTable:
         style = "green" if felt.value in terms.force_n else "yellow"
         style = "red" if felt.value > terms.limit_n else style
         text = Text(f"{felt.value:.2f} N", style=style)
-        text.append(f"\n{felt.low:.2f}-{felt.high:.2f}", style="dim")
-        return text if calibrated else text.append(f"\n{UNCALIBRATED_SOURCE}", style="yellow")
+        return text.append(f"\n{felt.low:.2f}-{felt.high:.2f}", style="dim")
 
     def _table(self, rows: list[_Row], width: int) -> Table:
         band = self._contract.terms.force_n
         table = Table(box=None, width=width, header_style="dim", padding=(0, 2, 0, 0))
-        table.add_column("step", justify="right", width=4, no_wrap=True)
-        table.add_column("time", justify="right", width=7, no_wrap=True)
-        table.add_column(f"felt force\n{band.low:.2f}-{band.high:.2f} N", width=12)
-        table.add_column("contact", width=26)
-        table.add_column("said, and done")
-        room = max(12, width - 4 - 7 - 12 - 26 - 4 * 2 - 1)
+        widths = (4, 6, 12, 17)
+        mark = "" if self._is_calibrated else f"\n{UNCALIBRATED_SOURCE}"
+        table.add_column("step", justify="right", width=widths[0], no_wrap=True)
+        table.add_column("time\n[s]", justify="right", width=widths[1], no_wrap=True)
+        table.add_column(f"felt force\n{band.low:.2f}-{band.high:.2f} N{mark}", width=widths[2])
+        table.add_column("depth, area\nplace", width=widths[3])
+        table.add_column("said, and done", ratio=1)
+        room = max(12, width - sum(widths) - 2 * (len(widths) + 1))
         for row in rows:
             text = _cut(f"“{last_words(row.text, room - 2)}”" if row.text else "", room)
             last = Text(f"{text}\n" if text else "")

@@ -2,7 +2,7 @@
 
 Entities:
 
-    base/tcp/gel            the arm's pose, and the gel on it [m]
+    base/tcp/gel            the arm's pose with its axes, and the gel on it [m]
     base/tcp/gel/surface    the deformed surface, in the colours of its depth
     base/tcp/gel/contact    where the contact is, and how deep
     touch/heights           the heights with their colour scale
@@ -29,9 +29,10 @@ from cltp.tactile.picture import DEPTH_PALETTE, depth_levels, picture
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import PadAxes
+from tacgrasp.console import action_text
 from tacgrasp.episodes.height_image import height_image
 from tacgrasp.episodes.record import EpisodeEnd, StepRecord, end_label
-from tacgrasp.episodes.view_messages import numbers, quaternion, step_text, tcp_from_gel
+from tacgrasp.episodes.view_messages import numbers, quaternion, tcp_from_gel
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -53,7 +54,7 @@ CAMERA_PX = 240
 """Width of the picture of a gel without a camera."""
 
 
-class Scene:
+class RerunScene:
     """Logs steps to a rerun stream.
 
     Args:
@@ -82,9 +83,10 @@ class Scene:
         for name, (number, _, _) in FORCES.items():
             if number in known:
                 self._stream.log(f"force/{name}", self._rr.Scalars(known[number]))
-        if text := step_text(record):
-            level = "WARN" if record.note else "INFO"
-            self._stream.log("text", self._rr.TextLog(text, level=level))
+        parts = [action_text(record), record.decision.text if record.decision else "", record.note]
+        level = "WARN" if record.note else "INFO"
+        text = " | ".join(filter(None, parts))
+        self._stream.log("text", self._rr.TextLog(text, level=level))
 
     def end(self, end: EpisodeEnd) -> None:
         """Log how the episode ended."""
@@ -142,7 +144,7 @@ class Scene:
         if jpeg is not None:
             frame = np.asarray(Image.open(io.BytesIO(jpeg)).convert("RGB"))
         else:
-            frame = picture(cells_mm, cloud.sensor, CAMERA_PX)
+            frame = picture(cells_mm, cloud.sensor, CAMERA_PX)  # as a camera would see it
         self._stream.log("touch/camera", rr.Image(frame))
 
     def _contact(self, cloud: TactileCloud, in_contact: bool | None) -> None:
@@ -158,6 +160,10 @@ class Scene:
     def _log_styles(self) -> None:
         rr, stream = self._rr, self._stream
         stream.log("base", rr.ViewCoordinates.RIGHT_HAND_Z_UP, static=True)
+        for entity, length_m in (("base/axes", 0.05), ("base/tcp/axes", 0.02)):
+            colours = [(200, 60, 50), (60, 150, 70), (60, 90, 200)]  # x, y, z
+            axes = rr.Arrows3D(vectors=length_m * np.eye(3), colors=colours, radii=0.0008)
+            stream.log(entity, axes, static=True)
         for name, (_, colour, width) in FORCES.items():
             lines = rr.SeriesLines(names=name.replace("_", " "), colors=colour, widths=width)
             stream.log(f"force/{name}", lines, static=True)
@@ -191,7 +197,9 @@ def blueprint() -> Any:
             ),
             rrb.Vertical(
                 rrb.Spatial2DView(name="heights", origin="touch/heights"),
-                rrb.Spatial2DView(name="camera", origin="touch/camera"),
+                rrb.Spatial2DView(
+                    name="camera (computed where there is none)", origin="touch/camera"
+                ),
             ),
             rrb.Vertical(
                 rrb.TimeSeriesView(name="force [N]", origin="force", contents=forces),

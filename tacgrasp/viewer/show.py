@@ -17,7 +17,7 @@ from primitives.execution import PadAxes
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import Episode
 from tacgrasp.rig.protocols import CameraSensor, Rig, TactileSensor
-from tacgrasp.viewer.scene import APPLICATION, Scene
+from tacgrasp.viewer.scene import APPLICATION, RerunScene
 
 if TYPE_CHECKING:
     import rerun as rr
@@ -28,7 +28,7 @@ RATE_HZ = 10.0
 
 def show_episode(episode: Episode, stream: rr.RecordingStream) -> int:
     """Log a recorded episode; returns its number of steps."""
-    scene = Scene(stream, episode.header.contract, episode.header.pad)
+    scene = RerunScene(stream, episode.header.contract, episode.header.pad)
     for step in episode.steps:
         scene.step(step)
     if episode.end is not None:
@@ -64,7 +64,7 @@ def show_rig(rig: Rig, config: RunConfig, stream: rr.RecordingStream, seconds: f
         TouchError: The sensor has failed.
         RobotError: Arm or gripper have failed.
     """
-    scene = Scene(stream, None, pad_of(config))
+    scene = RerunScene(stream, None, pad_of(config))
     return _watch(rig.sensor, seconds, scene, arm=lambda: (rig.arm.pose(), rig.gripper.state()))
 
 
@@ -74,13 +74,13 @@ def show_sensor(sensor: TactileSensor, stream: rr.RecordingStream, seconds: floa
     Raises:
         TouchError: The sensor has failed.
     """
-    return _watch(sensor, seconds, Scene(stream, None, None), arm=lambda: None)
+    return _watch(sensor, seconds, RerunScene(stream, None, None), arm=lambda: None)
 
 
 def _watch(
     sensor: TactileSensor,
     seconds: float,
-    scene: Scene,
+    scene: RerunScene,
     *,
     arm: Callable[[], tuple[Pose, GripperState] | None],
 ) -> int:

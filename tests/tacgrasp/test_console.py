@@ -107,7 +107,7 @@ def test_verbose_shows_all_of_the_text_the_command_and_the_duration() -> None:
 
 
 def test_an_untouched_gel_and_the_phases_of_the_lift_are_named() -> None:
-    felt, done = printed(step_record(0, phase=StepPhase.VERIFY_BEFORE))
+    _, done = printed(step_record(0, phase=StepPhase.VERIFY_BEFORE))
     assert done.strip() == "before the lift"
     assert "nothing touches the gel" in printed(replace(step_record(0), in_contact=False))[0]
 
@@ -129,7 +129,7 @@ def test_the_last_whole_sentences_of_a_text_are_kept() -> None:
     assert last_words(text, 100) == text
     assert last_words(text, 50) == "… It is off centre. Move the gripper downward."
     assert last_words(text, 30) == "… Move the gripper downward."
-    assert last_words("word " * 40, 20) == "word word word …"
+    assert last_words("word " * 40, 20) == "… word word word"
 
 
 class Terminal(io.StringIO):
