@@ -222,8 +222,13 @@ def last_words(text: str, room: int) -> str:
 
 def wrapped(text: str, indent: int = 0, hanging: int = 2, width: int = COLUMNS) -> list[str]:
     """Lines of at most ``width``, the first indented by ``indent``, the others by ``hanging``."""
-    spaces = {"initial_indent": " " * indent, "subsequent_indent": " " * hanging}
-    return textwrap.wrap(text, width, break_on_hyphens=False, **spaces)
+    return textwrap.wrap(
+        text,
+        width,
+        initial_indent=" " * indent,
+        subsequent_indent=" " * hanging,
+        break_on_hyphens=False,
+    )
 
 
 def contact_text(state: ContactState, scale: ForceScale) -> str:

@@ -130,8 +130,8 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
         events.end(outcome)
     console.print(f"episode: {path}")
-    for text in end_lines(outcome, config, width_of(console)):
-        console.print(text)
+    for end_line in end_lines(outcome, config, width_of(console)):
+        console.print(end_line)
     return outcome
 
 

@@ -57,7 +57,7 @@ def _scale(rows: int) -> NDArray[np.uint8]:
         level = round(255 * (bottom - 1 - y) / (bottom - 1 - top))
         draw.line([(_MARGIN, y), (_MARGIN + _BAR_PX, y)], fill=level)
     for number, stop_mm in enumerate(DEPTH_STOPS_MM):
-        y = bottom - 1 - (bottom - 1 - top) * number / (len(DEPTH_STOPS_MM) - 1)
-        place = (_MARGIN + _BAR_PX + 5, y)
+        down = (bottom - 1 - top) * number / (len(DEPTH_STOPS_MM) - 1)
+        place = (_MARGIN + _BAR_PX + 5, bottom - 1 - down)
         draw.text(place, f"{stop_mm:g}", fill=_WHITE, font=font, anchor="lm")
     return np.asarray(image)

@@ -6,6 +6,7 @@ import math
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -151,7 +152,7 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
     if readings:
         values = np.array([[at_s, r.value, r.low, r.high] for at_s, r in readings]).T
         spans = [values[1] - values[2], values[3] - values[1]]
-        style = {"fmt": "s-", "color": _DEPTH, "ms": 5, "lw": 1, "capsize": 3}
+        style: dict[str, Any] = {"fmt": "s-", "color": _DEPTH, "ms": 5, "lw": 1, "capsize": 3}
         force.errorbar(values[0], values[1], spans, label="felt", **style)
     force.set_ylabel(force_label(episode))
     force.set_ylim(0, 1.2 * max(*commanded, *(r.high for _, r in readings), *limits_n, 0.1))
@@ -201,7 +202,13 @@ def _draw_end(axes: Axes, episode: Episode) -> None:
     label, at_s = end_label(episode.end.reason, episode.end.truth), _end_s(episode)
     color = _GOOD if label == "success" else _BAD
     axes.axvline(at_s, color=color, lw=1.5)
-    text = {"rotation": 90, "va": "top", "ha": "right", "fontsize": 8, "color": color}
+    text: dict[str, Any] = {
+        "rotation": 90,
+        "va": "top",
+        "ha": "right",
+        "fontsize": 8,
+        "color": color,
+    }
     axes.annotate(label, (at_s, 0.97), xycoords=("data", "axes fraction"), **text)
 
 

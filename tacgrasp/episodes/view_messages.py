@@ -91,7 +91,7 @@ def _numbers_class() -> Any:
 
 Numbers = _numbers_class()
 
-SCHEMAS: dict[ViewTopic, Any] = {
+SCHEMAS: dict[str, Any] = {
     ViewTopic.TRANSFORMS: FrameTransforms,
     ViewTopic.HEIGHTS: CompressedImage,
     ViewTopic.CAMERA: CompressedImage,
@@ -103,7 +103,7 @@ SCHEMAS: dict[ViewTopic, Any] = {
 
 def step_messages(
     record: StepRecord, contract: Contract | None, pad: PadAxes | None
-) -> dict[ViewTopic, bytes]:
+) -> dict[str, bytes]:
     """A step for viewers.
 
     Args:
@@ -111,7 +111,7 @@ def step_messages(
         contract: Contract in force; None in a record without one.
         pad: The pad's axes in the TCP frame; without them the gel has no place on the arm.
     """
-    messages: dict[ViewTopic, Message] = {
+    messages: dict[str, Message] = {
         ViewTopic.TRANSFORMS: _transforms(record, pad),
         ViewTopic.HEIGHTS: _image(record.stamp, FRAME_ID, height_png(record.cloud), "png"),
         ViewTopic.NUMBERS: Numbers(**numbers(record, contract)),
@@ -124,7 +124,7 @@ def step_messages(
     return {topic: message.SerializeToString() for topic, message in messages.items()}
 
 
-def end_messages(end: EpisodeEnd) -> dict[ViewTopic, bytes]:
+def end_messages(end: EpisodeEnd) -> dict[str, bytes]:
     """The end of an episode for viewers, as text."""
     label = end_label(end.reason, end.truth)
     level = Log.INFO if label == "success" else Log.WARNING

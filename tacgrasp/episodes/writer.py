@@ -190,7 +190,8 @@ class EpisodeWriter:
     def _register(self) -> None:
         units = {"units": "m", "frame": "gel: +x right, +y palm, z indentation into the gel"}
         schemas: dict[str, int] = {}
-        for channel, kind in {Topic.CLOUD: PointCloud, **SCHEMAS}.items():
+        kinds: dict[str, Any] = {Topic.CLOUD: PointCloud, **SCHEMAS}
+        for channel, kind in kinds.items():
             name = kind.DESCRIPTOR.full_name
             if name not in schemas:
                 data = build_file_descriptor_set(kind).SerializeToString()

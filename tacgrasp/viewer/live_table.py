@@ -130,7 +130,9 @@ class LiveTable:
 
     def _table(self, rows: list[_Row], width: int) -> Table:
         band = self._contract.terms.force_n
-        table = Table(box=None, width=width, header_style="dim", padding=(0, 2, 0, 0))
+        table = Table(
+            box=None, width=width, header_style="dim", padding=(0, 2, 0, 0), pad_edge=False
+        )
         widths = (4, 6, 12, 17)
         mark = "" if self._is_calibrated else f"\n{UNCALIBRATED_SOURCE}"
         table.add_column("step", justify="right", width=widths[0], no_wrap=True)
@@ -138,7 +140,7 @@ class LiveTable:
         table.add_column(f"felt force\n{band.low:.2f}-{band.high:.2f} N{mark}", width=widths[2])
         table.add_column("depth, area\nplace", width=widths[3])
         table.add_column("said, and done", ratio=1)
-        room = max(12, width - sum(widths) - 2 * (len(widths) + 1))
+        room = max(12, width - sum(widths) - 2 * len(widths))
         for row in rows:
             text = _cut(f"“{last_words(row.text, room - 2)}”" if row.text else "", room)
             last = Text(f"{text}\n" if text else "")

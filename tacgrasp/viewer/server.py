@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import importlib.util
 import os
+import signal
 import socket
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
@@ -93,12 +95,13 @@ class Viewer:
             self.close()
 
     def close(self) -> None:
-        """End the viewer. Idempotent."""
-        self._process.terminate()
+        """End the viewer and the program that it started. Idempotent."""
+        with suppress(ProcessLookupError):
+            os.killpg(self._process.pid, signal.SIGTERM)  # rerun starts its viewer as a child
         try:
             self._process.wait(timeout=5)
         except subprocess.TimeoutExpired:
-            self._process.kill()
+            os.killpg(self._process.pid, signal.SIGKILL)
 
     def _wait_for(self, port: int) -> None:
         deadline_s = time.monotonic() + START_S

@@ -203,7 +203,12 @@ def _stats(table: Any, features: dict[str, dict[str, Any]]) -> dict[str, dict[st
             column = column.flatten()
         width = feature["shape"][-1]
         values = column.to_numpy(zero_copy_only=False).astype(np.float64).reshape(-1, width)
-        parts = {"min": np.nanmin, "max": np.nanmax, "mean": np.nanmean, "std": np.nanstd}
+        parts: dict[str, Any] = {
+            "min": np.nanmin,
+            "max": np.nanmax,
+            "mean": np.nanmean,
+            "std": np.nanstd,
+        }
         known = np.where(np.isfinite(values).any(axis=0), values, 0.0)
         stats[name] = {part: call(known, axis=0).tolist() for part, call in parts.items()}
         stats[name]["count"] = [table.num_rows]
