@@ -70,7 +70,7 @@ def main(argv: Sequence[str]) -> int:
             f"{flags.episode} does not exist; `tacgrasp episodes ls` lists those that do"
         )
     console = make_console()
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the viewer ends too
+    before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the viewer ends too
     with working("starting the viewer"):
         viewer = Viewer(web=flags.web or not has_display())
     try:
@@ -82,6 +82,7 @@ def main(argv: Sequence[str]) -> int:
             viewer.wait()
     finally:
         viewer.close()
+        signal.signal(signal.SIGTERM, before)
     return 0
 
 

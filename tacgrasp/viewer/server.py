@@ -66,6 +66,7 @@ class Viewer:
         """
         require_rerun()
         port = _free_port()
+        self._streams: list[rr.RecordingStream] = []
         self.url, self.page = f"rerun+http://{HOST}:{port}/proxy", ""
         command = [sys.executable, "-m", "rerun", "--bind", HOST, "--port", str(port)]
         command += ["--memory-limit", MEMORY, "--server-memory-limit", "512MB"]
@@ -85,6 +86,7 @@ class Viewer:
 
         stream = rerun.RecordingStream("tacgrasp", recording_id=name)
         stream.connect_grpc(self.url)
+        self._streams.append(stream)
         return stream
 
     def wait(self) -> None:
@@ -96,6 +98,9 @@ class Viewer:
 
     def close(self) -> None:
         """End the viewer and the program that it started. Idempotent."""
+        for stream in self._streams:
+            stream.disconnect()
+        self._streams.clear()
         with suppress(ProcessLookupError):
             os.killpg(self._process.pid, signal.SIGTERM)  # rerun starts its viewer as a child
         try:
