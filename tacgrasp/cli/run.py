@@ -103,6 +103,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
+    from tacgrasp.episodes import make_record_directory
     from tacgrasp.run import run_recorded
     from tacgrasp.viewer.server import require_rerun
 
@@ -115,6 +116,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         raise UsageError(
             f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
         )
+    make_record_directory(config.record)
     console = make_console()
     with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):
@@ -136,8 +138,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
 
 
 def _check(config: RunConfig) -> None:
-    """Check names, files and folders, before anything heavy is loaded or anything moves."""
-    from tacgrasp.episodes import make_record_directory
+    """Check names and files, before anything heavy is loaded or anything moves."""
     from tacgrasp.policy_factory import check_policy
     from tacgrasp.rig.factory import check_names
 
@@ -148,7 +149,6 @@ def _check(config: RunConfig) -> None:
         )
     check_policy(config.policy, config)
     check_names(config)
-    make_record_directory(config.record)
 
 
 def _connect(config: RunConfig, stack: ExitStack) -> tuple[Policy, Rig]:

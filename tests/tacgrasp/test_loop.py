@@ -379,6 +379,6 @@ def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> No
     settings = config().model_copy(update={"dry_run": True})
     outcome, rig, recorder = play(Scripted(text), settings=settings, verify=not_lifted)
     assert set(rig.calls) <= {"sensor.read", "arm.pose", "gripper.state"}
-    assert outcome.reason in (EndReason.MAX_STEPS, EndReason.UNVERIFIED)
+    assert outcome.reason is EndReason.DRY_RUN
     assert outcome.num_actions == 0
     assert len(recorder.steps) == 1
