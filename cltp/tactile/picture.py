@@ -107,6 +107,15 @@ def depth_levels(height_mm: NDArray[np.floating]) -> NDArray[np.uint8]:
     return np.rint(np.interp(height_mm, DEPTH_STOPS_MM, along)).astype(np.uint8)
 
 
+def depth_scale(width_px: int, height_px: int) -> NDArray[np.uint8]:
+    """The colour scale as a picture, shape (height_px, width_px, 3).
+
+    ``DEPTH_STOPS_MM`` lie at equal distances from its left edge to its right.
+    """
+    row = DEPTH_PALETTE[np.linspace(0, _NUM_LEVELS - 1, width_px).round().astype(int)]
+    return np.repeat(row[None], height_px, axis=0)
+
+
 def depth_picture(
     height_mm: NDArray[np.floating], sensor: SensorSpec, width_px: int = WIDTH_PX
 ) -> NDArray[np.uint8]:
