@@ -24,6 +24,9 @@ are at 92; without light a camera is at 0 to 3."""
 JPEG_QUALITY = 92
 """Quality of frames in records, of 100. Our choice: for people; heights are stored as a cloud."""
 
+MAX_RECORDED_PX = 4_000_000
+"""Most pixels of a recorded frame. Our choice: fifty times those of a GelSight Mini."""
+
 Frame = NDArray[np.uint8]
 
 
@@ -66,6 +69,26 @@ def jpeg_of(frame: Frame) -> bytes:
     file = io.BytesIO()
     Image.fromarray(frame).save(file, format="JPEG", quality=JPEG_QUALITY)
     return file.getvalue()
+
+
+def frame_of_jpeg(data: bytes) -> Frame:
+    """The pixels of a recorded frame, shape (H, W, 3).
+
+    Raises:
+        TouchError: Not a whole JPEG file, or of more than ``MAX_RECORDED_PX`` pixels.
+    """
+    from PIL import Image
+
+    try:
+        with Image.open(io.BytesIO(data), formats=("JPEG",)) as image:
+            if image.width * image.height > MAX_RECORDED_PX:  # before anything is decoded
+                raise TouchError(
+                    f"a recorded frame has {image.width} × {image.height} px; expected at most "
+                    f"{MAX_RECORDED_PX} pixels of a tactile sensor's camera"
+                )
+            return np.asarray(image.convert("RGB"))
+    except (OSError, SyntaxError, ValueError) as error:
+        raise TouchError(f"a recorded frame is no whole JPEG file: {error}") from None
 
 
 def check_frame(frame: NDArray[np.generic], sensor: SensorSpec, name: str = "the frame") -> Frame:

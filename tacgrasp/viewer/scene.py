@@ -16,13 +16,12 @@ by itself (``tacgrasp.episodes.view_messages``).
 
 from __future__ import annotations
 
-import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from cltp.sensing.frames import frame_of_jpeg
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
 from cltp.tactile.measure import contact_state, height_cells
 from cltp.tactile.picture import DEPTH_PALETTE, depth_levels, picture
@@ -142,7 +141,7 @@ class RerunScene:
         self._contact(cloud, in_contact)
         self._stream.log("touch/heights", rr.Image(DEPTH_PALETTE[height_image(cloud)]))
         if jpeg is not None:
-            frame = np.asarray(Image.open(io.BytesIO(jpeg)).convert("RGB"))
+            frame = frame_of_jpeg(jpeg)
         else:
             frame = picture(cells_mm, cloud.sensor, CAMERA_PX)  # as a camera would see it
         self._stream.log("touch/camera", rr.Image(frame))
