@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from cltp import TouchError
+from cltp.sensing.frames import jpeg_of
 from cltp.tactile.measure import contact_state
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
@@ -382,3 +383,14 @@ def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> No
     assert outcome.reason is EndReason.DRY_RUN
     assert outcome.num_actions == 0
     assert len(recorder.steps) == 1
+
+
+def test_every_step_records_the_frame_of_a_sensor_with_a_camera() -> None:
+    rig = FakeRig()
+    frame = np.full((240, 320, 3), 100, dtype=np.uint8)
+    rig.sensor.last_frame = lambda: frame  # type: ignore[attr-defined]
+    _, _, recorder = play(Scripted(DOWN, GOOD), rig=rig)
+    assert len(recorder.steps) > 1
+    assert all(record.camera_jpeg == jpeg_of(frame) for record in recorder.steps)
+    _, _, recorder = play(Scripted(DOWN, GOOD))
+    assert all(record.camera_jpeg is None for record in recorder.steps)
