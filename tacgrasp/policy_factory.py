@@ -90,6 +90,23 @@ _OTHER_COMMANDS = {
 }
 
 
+def check_policy(name: str, config: RunConfig) -> None:
+    """Check the name of a policy and the folder of its weights, before anything heavy is loaded.
+
+    Raises:
+        UsageError: It is unknown, or a run can't use it; or it has no weights.
+    """
+    if name not in POLICIES:
+        hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
+        raise UsageError(f"unknown policy {name!r}; known: {', '.join(POLICIES)}{hint}")
+    weights = config.weights or default_weights()
+    if name == "llm" and not weights.is_dir():
+        raise UsageError(
+            f"weights are missing: {weights} is not a folder; train them with `tacgrasp train "
+            "all`, name another folder with --weights, or decide with --policy rules"
+        )
+
+
 def make_policy(name: str, config: RunConfig) -> Policy:
     """Build the policy called ``name``.
 
@@ -97,7 +114,5 @@ def make_policy(name: str, config: RunConfig) -> Policy:
         UsageError: It is unknown, or a run can't use it.
         TouchError: The language model's weights can't be used.
     """
-    if name not in POLICIES:
-        hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
-        raise UsageError(f"unknown policy {name!r}; known: {', '.join(POLICIES)}{hint}")
+    check_policy(name, config)
     return POLICIES[name](config)

@@ -64,6 +64,13 @@ def filled(cells_mm: FloatArray) -> FloatArray:
     return np.asarray(cells_mm[tuple(nearest)])
 
 
+def pictured_heights(cloud: TactileCloud) -> FloatArray:
+    """Heights for pictures [mm], row 0 = top: the pixels of a grid, else cells, none of them empty."""
+    if cloud.grid is not None:
+        return cloud.points_mm[:, 2].astype(np.float64).reshape(cloud.grid)
+    return filled(cell_means(cloud))
+
+
 def smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:
     """Averages of the known cells with a Gaussian of width ``scale_mm``, shape (n, n) [mm]."""
     sigma = (

@@ -6,6 +6,8 @@ it. Shape and texture are not computed here. Loads no torch.
 
 from __future__ import annotations
 
+from collections import deque
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
@@ -54,7 +56,22 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
     from the volume that is displaced locally [nominal N], so that tilt and broad drift are no
     force, times the factor of the unit's force calibration.
+
+    The last results are kept: within one step policy, contract, record and screen measure the
+    same cloud.
     """
+    for known, tested, state in tuple(_measured):
+        if known is cloud and tested is in_contact:
+            return state
+    state = _measure(cloud, in_contact)
+    _measured.append((cloud, in_contact, state))
+    return state
+
+
+_measured: deque[tuple[TactileCloud, bool | None, ContactState]] = deque(maxlen=4)
+
+
+def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
     depths = cell_means(cloud)
     depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
     if in_contact is False or depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):

@@ -45,4 +45,8 @@ def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(getattr(values, "markdown", None))
     writable(getattr(values, "plot", None))
     writable(getattr(values, "sheet", None))
-    return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)
+    from tacgrasp.console import working
+
+    with working("loading the benchmark"):
+        benchmark = importlib.import_module(f"tacgrasp.benchmarks.{module}")
+    return benchmark.run(values)

@@ -1,4 +1,9 @@
-"""Tactile clouds as ``foxglove.PointCloud`` messages, bit for bit in float32 millimetres."""
+"""Tactile clouds as ``foxglove.PointCloud`` messages in metres, restored bit for bit.
+
+Viewers count in metres, a cloud in float32 millimetres. Metres in float64 hold both: a float32
+times 0.001 in float64 and back is off by 2**-52 of its value, and rounds to the same float32.
+Format 1 had float32 millimetres, and is still read.
+"""
 
 from __future__ import annotations
 
@@ -12,8 +17,9 @@ from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 
 FRAME_ID = "gel"
-_LAYOUT = [(name, 4 * i, PackedElementField.FLOAT32) for i, name in enumerate("xyz")]
-_LITTLE = np.dtype("<f4")
+_METRES = [(name, 8 * i, PackedElementField.FLOAT64) for i, name in enumerate("xyz")]
+_MILLIMETRES = [(name, 4 * i, PackedElementField.FLOAT32) for i, name in enumerate("xyz")]
+_MM_PER_M = 1000.0
 
 
 def wall_ns(stamp: Stamp) -> int:
@@ -22,14 +28,14 @@ def wall_ns(stamp: Stamp) -> int:
 
 
 def encode_cloud(cloud: TactileCloud, stamp: Stamp) -> bytes:
-    """Serialise a cloud; ``stamp`` is the time of a cloud without a stamp of its own."""
-    points = cloud.points_mm.astype(_LITTLE, copy=False)
-    message = PointCloud(frame_id=FRAME_ID, point_stride=3 * _LITTLE.itemsize)
+    """Serialise a cloud [m]; ``stamp`` is the time of a cloud without a stamp of its own."""
+    points_m = cloud.points_mm.astype("<f8") / _MM_PER_M
+    message = PointCloud(frame_id=FRAME_ID, point_stride=3 * points_m.itemsize)
     message.timestamp.FromNanoseconds(wall_ns(cloud.stamp or stamp))
     message.pose.orientation.w = 1.0  # identity: the points are in the gel frame already
-    for name, offset, kind in _LAYOUT:
+    for name, offset, kind in _METRES:
         message.fields.add(name=name, offset=offset, type=kind)
-    message.data = points.tobytes()
+    message.data = points_m.tobytes()
     return message.SerializeToString()
 
 
@@ -39,7 +45,7 @@ def decode_cloud(
     stamp: Stamp | None,
     force_scale: ForceScale = UNCALIBRATED,
 ) -> TactileCloud:
-    """Restore a cloud from ``encode_cloud``.
+    """Restore a cloud from ``encode_cloud``, of this format or of format 1.
 
     Raises:
         ValueError: Not a point cloud of ours.
@@ -51,12 +57,12 @@ def decode_cloud(
     except DecodeError as error:
         raise ValueError(f"not a foxglove.PointCloud: {error}") from None
     layout = [(f.name, f.offset, f.type) for f in message.fields]
-    if layout != _LAYOUT or message.point_stride != 12 or len(message.data) % 12:
-        raise ValueError(f"the cloud's fields are {layout}; expected x, y, z as float32 [mm]")
-    points = np.frombuffer(message.data, dtype=_LITTLE).reshape(-1, 3)
-    return TactileCloud(
-        points_mm=points.astype(np.float32, copy=False),
-        sensor=sensor,
-        stamp=stamp,
-        force_scale=force_scale,
-    )
+    in_metres = layout == _METRES
+    stride = 24 if in_metres else 12
+    known = layout in (_METRES, _MILLIMETRES) and message.point_stride == stride
+    if not known or len(message.data) % stride:
+        raise ValueError(f"the cloud's fields are {layout}; expected x, y, z as float64 [m]")
+    stored = np.frombuffer(message.data, dtype="<f8" if in_metres else "<f4").reshape(-1, 3)
+    with np.errstate(over="ignore"):  # infinite points are refused by the cloud
+        points_mm = (stored * _MM_PER_M if in_metres else stored).astype(np.float32)
+    return TactileCloud(points_mm=points_mm, sensor=sensor, stamp=stamp, force_scale=force_scale)

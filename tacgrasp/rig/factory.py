@@ -58,6 +58,26 @@ def make_centred_rig(config: RunConfig) -> Rig:
     return emulated_rig.start(config, config.hardware, centred=True)
 
 
+def check_names(config: RunConfig) -> None:
+    """Check object, mesh, sensor and the rig's calibrations, before anything heavy is loaded.
+
+    Raises:
+        UsageError: The simulator knows no such object, or the mesh doesn't exist.
+        TouchError: There is no such sensor.
+        RobotError: A calibration of a real rig is missing, damaged or too old.
+    """
+    from cltp.tactile.sensors import sensor_named
+
+    if config.hardware is None:  # a driver names its own sensor
+        sensor_named(config.sensor)
+    if config.devices != "hardware":
+        _check_object(config)
+    elif config.hardware is not None:
+        from tacgrasp.rig.hardware import check_files
+
+        check_files(config.hardware)
+
+
 def _check_object(config: RunConfig) -> None:
     from sim.grasp.bodies import OBJECTS
 

@@ -5,6 +5,7 @@ The same drivers run on emulators (``tacgrasp.rig.emulated``). Not here: the dri
 
 from __future__ import annotations
 
+import datetime
 import logging
 import time
 from collections.abc import Callable, Sequence
@@ -154,6 +155,27 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         ),
         guard=guarded,
     )
+
+
+def check_files(hardware: HardwareConfig) -> None:
+    """Read every file that the rig's file names, before anything heavy is loaded.
+
+    Raises:
+        RobotError: One is missing, damaged, of another unit or too old; the message names the
+            command that makes it anew.
+    """
+    from tacgrasp.drivers.dynamixel.calibration import load_calibration
+    from tacgrasp.drivers.force_scale import load_unit_force
+
+    load_calibration(hardware.gripper.calibration)
+    try:
+        if isinstance(hardware.sensor, GelSightSettings):
+            from tacgrasp.drivers.gelsight.connect import load_unit_files
+
+            load_unit_files(hardware.sensor, datetime.datetime.now(datetime.UTC))
+        load_unit_force(hardware.sensor)
+    except TouchError as error:
+        raise RobotError(str(error)) from None
 
 
 def connect_sensor(settings: SensorSettings) -> WatchedSensor:

@@ -79,7 +79,7 @@ def load_unit_files(
             raise TouchError(
                 f"calibration {settings.calibration} is {age_days} days old, expected 0 to "
                 f"{settings.max_calibration_age_days:g} (max_calibration_age_days): calibrate this "
-                "unit anew; if it is new, set the clock"
+                "unit anew: tacgrasp calibrate gelsight-mini; if it is new, set the clock"
             )
     background = load_background(
         settings.background,

@@ -59,6 +59,7 @@ class GelSightMini:
         self._stored_photometer = self._photometer = photometer
         self._force_scale = force_scale
         self._disconnected = False
+        self._last_frame: Frame | None = None
         self._source: FrameSource | None = None
         self._thread: CaptureThread | None = None
         if settings.is_camera or settings.play_hz is not None:
@@ -98,6 +99,7 @@ class GelSightMini:
     def read(self, frames: int = 1) -> TactileCloud:
         """See the contract; heights are relative to the last reference, else to the background."""
         captured = self._fresh_frame()
+        self._last_frame = captured.frame
         try:
             heights = self._photometer.heights(captured.frame)
             num_frames = frames if self._settings.is_camera else 1
@@ -112,6 +114,10 @@ class GelSightMini:
             )
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None
+
+    def last_frame(self) -> Frame | None:
+        """The frame that the last cloud was computed from; None before the first read."""
+        return self._last_frame
 
     def take_reference(self) -> None:
         """Compute heights against the mean of ``REFERENCE_FRAMES`` fresh frames from now on.

@@ -196,8 +196,8 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
             assert schema is not None and schema.name == "foxglove.PointCloud"
             assert cloud.frame_id == "gel" and [f.name for f in cloud.fields] == ["x", "y", "z"]
             assert cloud.timestamp.ToNanoseconds() == pytest.approx(message.log_time, abs=1e9)
-            points = np.frombuffer(cloud.data, "<f4").reshape(-1, 3)
-            assert points.tobytes() == step_record(clouds).cloud.points_mm.tobytes()
+            points_mm = (1000 * np.frombuffer(cloud.data, "<f8")).astype("<f4").reshape(-1, 3)
+            assert points_mm.tobytes() == step_record(clouds).cloud.points_mm.tobytes()
             clouds += 1
     assert (clouds, checked) == (2, 1 + 2 * 3 + 1)  # header, two of decision, action, state; end
 

@@ -21,6 +21,7 @@ from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.rig.protocols import CameraSensor
 from tests.contracts.sensor_contract import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
@@ -378,6 +379,19 @@ def test_no_image_of_a_recording_is_used_up_to_look_at_the_untouched_gel(files, 
         gelsight.read()
     with pytest.raises(TouchError):
         gelsight.read()
+
+
+def test_the_frame_behind_the_last_cloud_is_kept_for_records_and_viewers(files, folder):
+    gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
+    assert isinstance(gelsight, CameraSensor)
+    assert gelsight.last_frame() is None
+    frames = []
+    for _ in range(2):
+        gelsight.read()
+        frames.append(gelsight.last_frame())
+    gelsight.disconnect()
+    assert frames[0].shape == (240, 320, 3)
+    assert not np.array_equal(*frames)
 
 
 def test_no_image_of_a_recording_is_used_up_for_a_reference(files, folder):
