@@ -21,7 +21,7 @@ from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.testing import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
