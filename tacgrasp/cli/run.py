@@ -56,13 +56,14 @@ def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
     config, sources, flags = configure(argv)
     from tacgrasp.config.terms import contract_of
+    from tacgrasp.rig.factory import check_devices
     from tacgrasp.runtime.events import EventFile
 
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
         return 0
-    _check_force_calibration(config, allowed=flags.allow_uncalibrated_force)
+    check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
     writable(flags.events)
     with EventFile(flags.events) as events:
         outcome = _run(config, contract, events)
@@ -99,11 +100,6 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     from tacgrasp.rig.factory import make_rig
     from tacgrasp.run import run_recorded
 
-    if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
-        raise UsageError(
-            f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
-            "nothing may be grasped; give --dry-run to see what would be decided"
-        )
     events.contract(contract)
     if contract.refused:
         events.refused(contract)
@@ -126,18 +122,6 @@ def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
     for text in end_lines(outcome, config):
         console.print(text)
     return outcome
-
-
-def _check_force_calibration(config: RunConfig, *, allowed: bool) -> None:
-    """Refuse to move real devices by forces that are off by an unknown factor."""
-    from tacgrasp.drivers.force_scale import uncalibrated_refusal
-
-    if config.devices != "hardware" or config.hardware is None or config.dry_run or allowed:
-        return
-    sensor = config.hardware.sensor
-    reason = uncalibrated_refusal(sensor) if sensor.is_live else ""
-    if reason:
-        raise UsageError(f"{reason}; nothing moved")
 
 
 def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:

@@ -18,8 +18,8 @@ from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
-from tacgrasp.config.hardware import HardwareConfig, with_workspace
-from tacgrasp.drivers.ur.settings import UrSettings, check_box
+from tacgrasp.config.hardware import ArmSettings, HardwareConfig, with_workspace
+from tacgrasp.drivers.ur.settings import check_box
 
 GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
 
@@ -299,7 +299,7 @@ class RunConfig(SettingsBase):
                 raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 
-    def _check_driver(self, arm: UrSettings) -> None:
+    def _check_driver(self, arm: ArmSettings) -> None:
         """Refuse a task whose lift needs more than the arm's driver allows."""
         lift, shake = self.verify.acceleration_m_s2, self.verify.shake_acceleration_m_s2
         for name, value, bound in (
