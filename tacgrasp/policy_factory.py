@@ -79,11 +79,26 @@ def _random(config: RunConfig) -> Policy:
     return RandomPolicy(config.seed)
 
 
+def _remote(config: RunConfig) -> Policy:
+    from tacgrasp.serving.keys import read_key
+    from tacgrasp.serving.remote import RemotePolicy
+
+    if config.policy_url is None:
+        raise UsageError("--policy remote needs --policy-url, such as ws://127.0.0.1:8000")
+    path, key = config.policy_key_file, None
+    if path is not None:
+        key = read_key(path, flag="--policy-key-file")
+    policy = RemotePolicy(config.policy_url, timeout_s=config.policy_timeout_s, key=key)
+    policy.connect()  # a server that is not there is named before anything moves
+    return policy
+
+
 POLICIES: dict[str, Callable[[RunConfig], Policy]] = {
     "rules": _rules,
     "llm": _llm,
     "fixed_force": _fixed_force,
     "random": _random,
+    "remote": _remote,
 }
 
 _OTHER_COMMANDS = {

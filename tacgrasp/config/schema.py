@@ -217,7 +217,10 @@ class RunConfig(SettingsBase):
         devices: Kind of devices, set by the rig's file: sim (simulated), emulated (real drivers on
             emulators that the run starts) or hardware.
         hardware: Drivers of emulated and real devices; in the rig's file only.
-        policy: Policy that decides: rules, llm, fixed_force or random.
+        policy: Policy that decides: rules, llm, fixed_force, random, remote, or a plugin's.
+        policy_url: Address of the server that a remote policy asks (ws://host:port).
+        policy_timeout_s: Longest wait for an answer of that server [s].
+        policy_key_file: File with the key that the server asks for.
         weights: Folder of the language model's weights; none: the shipped weights.
         instruction: Instruction to the policy in plain English; by default the task's.
         object: Object between the fingers (simulated and emulated rigs only).
@@ -238,6 +241,9 @@ class RunConfig(SettingsBase):
     devices: Literal["sim", "emulated", "hardware"]
     hardware: HardwareConfig | None = None
     policy: str = "llm"
+    policy_url: str | None = None
+    policy_timeout_s: Number = Field(default=2.0, ge=0.05, le=60)
+    policy_key_file: Path | None = None
     weights: Path | None = None
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
