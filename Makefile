@@ -1,6 +1,7 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
 # make test-all  the same with the slow tests
+# make test-openpi  openpi's own client against our policy server
 # make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
 # make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
@@ -10,7 +11,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test test-all fuzz weights setup clean
+.PHONY: run test test-all test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -24,6 +25,12 @@ test: setup
 
 test-all: test
 	$(BIN)/python -m pytest -m "slow and not hardware and not gpu"
+
+# openpi's own client against our server, in an environment of its own: it needs numpy below 2
+test-openpi: setup
+	test -x .venv-openpi/bin/python || $(PYTHON) -m venv .venv-openpi
+	.venv-openpi/bin/python -m pip install --quiet openpi-client==0.1.2 typing_extensions "numpy<2"
+	$(BIN)/python -m pytest -s tests/tacgrasp/serving/test_openpi_client.py
 
 CASES ?= 1000
 PARSER ?= all
