@@ -19,6 +19,9 @@ MAX_CELLS = 32
 """Most cells along either side. Constants of the measurement are fitted with so many: more would
 resolve finer contacts and average less noise."""
 
+PICTURE_CELLS = 64
+"""Cells along either side of a picture of a grid of pixels."""
+
 
 def cells_of(cloud: TactileCloud) -> int:
     """Cells along either side of the sensing area, of which each holds at least about one point."""
@@ -65,10 +68,9 @@ def filled(cells_mm: FloatArray) -> FloatArray:
 
 
 def pictured_heights(cloud: TactileCloud) -> FloatArray:
-    """Heights for pictures [mm], row 0 = top: the pixels of a grid, else cells, none of them empty."""
-    if cloud.grid is not None:
-        return cloud.points_mm[:, 2].astype(np.float64).reshape(cloud.grid)
-    return filled(cell_means(cloud))
+    """Heights for pictures [mm], row 0 = top, none of them empty: finer where pixels allow it."""
+    n = cells_of(cloud) if cloud.grid is None else PICTURE_CELLS
+    return filled(cell_means(cloud, n))
 
 
 def smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:

@@ -163,7 +163,7 @@ def _loaded(
             return
         from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 
-        gripper = connect_gripper(config.hardware.gripper)
+        gripper = connect_gripper(config.hardware.dynamixel_gripper)
         try:
             yield sensor, GripperLoads(gripper, RealClock()), "the calibrated gripper"
         finally:

@@ -91,9 +91,9 @@ def _connect(config: RunConfig, stack: ExitStack) -> _Devices:
     settings = settings_for(config, config.hardware, emulators, Path(folder))
     sensor = connect_sensor(settings.sensor)
     stack.callback(sensor.disconnect)
-    gripper = connect_gripper(settings.gripper)
+    gripper = connect_gripper(settings.dynamixel_gripper)
     stack.callback(gripper.disconnect)
-    arm = connect_arm(settings.arm)
+    arm = connect_arm(settings.ur_arm)
     stack.callback(arm.disconnect)
     return _Devices(arm=arm, gripper=gripper, sensor=sensor)
 

@@ -22,7 +22,7 @@ from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.rig.protocols import CameraSensor
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.testing import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
