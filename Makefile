@@ -29,7 +29,7 @@ test-all: test $(STAMPS)/view
 	.venv/view/bin/python -m pytest -m "not hardware and not gpu" tests/tacgrasp/viewer
 
 test-lerobot: setup $(STAMPS)/lerobot
-	.venv/lerobot/bin/python -m tests.lerobot.check $(BIN)/python
+	.venv/lerobot/bin/python tests/lerobot/check.py $(BIN)/python
 
 # openpi's own client against our server, in an environment of its own: it needs numpy below 2
 test-openpi: setup

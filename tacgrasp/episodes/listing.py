@@ -45,10 +45,10 @@ def table(paths: Sequence[Path]) -> Table:
     The name of a file holds task, start and seed.
     """
     grid = Table(header_style="bold", box=None, padding=(0, 2, 0, 0))
-    grid.add_column("episode", overflow="fold", min_width=38, ratio=3)
+    grid.add_column("episode", no_wrap=True)  # whole, to be copied
     grid.add_column("policy", overflow="fold")
     grid.add_column("steps", justify="right", no_wrap=True)
-    grid.add_column("end", overflow="fold", min_width=12, ratio=2)
+    grid.add_column("end", overflow="fold")
     grid.add_column("time", justify="right", no_wrap=True)
     for path in paths:
         grid.add_row(*_row(path))

@@ -8,7 +8,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from tacgrasp.episodes.command_log import Command, pose_text
-from tacgrasp.episodes.record import Episode, StepPhase, StepRecord, end_label
+from tacgrasp.episodes.record import (
+    PHASE_LABELS,
+    Episode,
+    StepPhase,
+    StepRecord,
+    end_label,
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,6 +44,9 @@ def first_trouble(episode: Episode) -> Trouble | None:
     label = end_label(end.reason, end.truth)
     if label in ("success", "dry_run"):
         return None
+    if end.reason == "unverified":  # the state before the lift that showed it
+        before = [step for step in episode.steps if step.phase is StepPhase.VERIFY_BEFORE]
+        last = before[-1] if before else last
     kinds = {"unverified": "failed verification", "limit": "refusal", "fault": "fault"}
     message = end.message if end.reason != "success" else label
     return Trouble(kind=kinds.get(end.reason, label), message=message, step=last)
@@ -87,7 +96,8 @@ def explain(episode: Episode, path: str) -> list[tuple[str, str]]:
 def _state_rows(episode: Episode, step: StepRecord) -> list[tuple[str, str]]:
     """State before the trouble, what was said, and what was sent."""
     elapsed_s = step.stamp.monotonic_s - episode.header.stamp.monotonic_s
-    phase = "" if step.phase is StepPhase.LOOP else f", {step.phase.value.replace('_', ' ')}"
+    label = PHASE_LABELS.get(step.phase, "")
+    phase = f", {label}" if label else ""
     gripper, felt = step.gripper, step.felt_force_n
     fingers = "closed" if gripper.closed else "open"
     rows = [

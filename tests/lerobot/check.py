@@ -1,6 +1,6 @@
 """Load an exported data set with the real ``lerobot`` and compare it with the episode, to the bit.
 
-Runs in an environment with lerobot alone: ``python -m tests.lerobot.check PYTHON_OF_TACGRASP``.
+Runs in an environment with lerobot alone: ``python tests/lerobot/check.py PYTHON_OF_TACGRASP``.
 """
 
 from __future__ import annotations

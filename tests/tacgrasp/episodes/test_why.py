@@ -76,13 +76,17 @@ def test_a_command_that_was_not_sent_and_a_text_beyond_the_contract_are_refusals
     assert trouble.kind == "refusal"
 
 
-def test_a_failed_verification_is_found_after_the_lift() -> None:
-    lifted = step_record(1, phase=StepPhase.VERIFY_AFTER)
+def test_a_failed_verification_shows_the_state_before_the_lift() -> None:
+    before = step_record(1, phase=StepPhase.VERIFY_BEFORE)
+    lifted = step_record(2, phase=StepPhase.VERIFY_AFTER)
     message = "the contact moved 3.0 mm (at most 1)"
-    bad = episode([free(0), lifted], reason="unverified", verified_success=False, message=message)
+    bad = episode(
+        [free(0), before, lifted], reason="unverified", verified_success=False, message=message
+    )
     trouble = first_trouble(bad)
     assert trouble is not None
-    assert (trouble.kind, trouble.message, trouble.step) == ("failed verification", message, lifted)
+    assert (trouble.kind, trouble.message, trouble.step) == ("failed verification", message, before)
+    assert ("step", "1 of 3, 0.5 s after the start, before the lift") in explain(bad, "e.mcap")
 
 
 def test_a_bruise_that_touch_called_a_success_is_trouble() -> None:
