@@ -9,7 +9,7 @@ tacgrasp's own can't be taken. Not here: what an addition of each group is (docs
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from importlib import metadata
 from typing import TypeVar
@@ -31,12 +31,14 @@ class Plugin:
         name: Name by which a run asks for it.
         package: Package that adds it, with its version.
         place: Module and attribute (``module:attribute``).
+        others: Packages that add the same name and are left out.
     """
 
     group: str
     name: str
     package: str
     place: str
+    others: tuple[str, ...] = ()
 
     @property
     def title(self) -> str:
@@ -48,13 +50,16 @@ class Plugin:
 def plugins(group: str) -> dict[str, Plugin]:
     """Every plugin of a group by its name, sorted; nothing of it is imported.
 
-    Of two packages that add one name, the first by alphabet is taken.
+    Of packages that add one name, the first by alphabet is taken.
     """
     found: dict[str, Plugin] = {}
     points = metadata.entry_points(group=f"tacgrasp.{group}")
     for point in sorted(points, key=lambda each: (each.name, _package(each))):
-        plugin = Plugin(group=group, name=point.name, package=_package(point), place=point.value)
-        found.setdefault(point.name, plugin)
+        name, package = point.name, _package(point)
+        if name in found:
+            found[name] = replace(found[name], others=(*found[name].others, package))
+        else:
+            found[name] = Plugin(group=group, name=name, package=package, place=point.value)
     return found
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from primitives.errors import RobotError
 from primitives.execution import PadAxes
 from tacgrasp.base.errors import UsageError
-from tacgrasp.base.plugins import GROUPS, load_plugin, plugins
+from tacgrasp.base.plugins import GROUPS, Plugin, load_plugin, plugins
 from tacgrasp.bringup.soak import soak_findings
 from tacgrasp.config.hardware import OWN_KINDS, HardwareConfig
 from tacgrasp.config.layers import names, task_refusal
@@ -61,18 +61,25 @@ def plugin_findings() -> list[Finding]:
     }
     findings = []
     for group in GROUPS:
-        for name, plugin in plugins(group).items():
-            detail, is_ok = f"{plugin.name}, of {plugin.package}", True
-            if name in _OWN[group]():
-                detail, is_ok = f"{detail}: {name} is a name of tacgrasp's own", False
-            else:
-                try:
-                    load_plugin(group, name, checks[group])
-                except UsageError as error:
-                    detail, is_ok = str(error), False
+        for plugin in plugins(group).values():
+            problem = _plugin_problem(plugin, checks[group])
+            detail = problem or f"{plugin.name}, of {plugin.package}"
             advice = f"ask the makers of {plugin.package}, or uninstall it; runs go on without it"
-            findings.append(finding("plugin", group, is_ok, detail, advice))
+            findings.append(finding("plugin", group, not problem, detail, advice))
     return findings
+
+
+def _plugin_problem(plugin: Plugin, check: Callable[[object], str]) -> str:
+    """Why a plugin, or another one of its name, is left out; empty for none."""
+    if plugin.name in _OWN[plugin.group]():
+        return f"{plugin.title} is left out: {plugin.name} is a name of tacgrasp's own"
+    if plugin.others:
+        return f"{plugin.title} is taken, and that of {', '.join(plugin.others)} left out"
+    try:
+        load_plugin(plugin.group, plugin.name, check)
+    except UsageError as error:
+        return str(error)
+    return ""
 
 
 _OWN: Mapping[str, Callable[[], Collection[str]]] = {

@@ -36,7 +36,7 @@ CLIENTS = (1, 4, 16)
 WARM_UP = 2
 """Decisions of each robot that don't count."""
 
-TIMEOUT_S = 30.0
+TIMEOUT_S = 60.0
 
 
 def run(settings: ServeSettings) -> None:

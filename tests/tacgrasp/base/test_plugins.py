@@ -172,6 +172,19 @@ def test_a_name_of_our_own_can_not_be_taken(tmp_path, monkeypatch, capsys):
     assert "rules is a name of tacgrasp's own" in capsys.readouterr().out
 
 
+def test_of_two_packages_with_one_name_the_first_is_taken_and_the_other_named(
+    tmp_path, monkeypatch, capsys
+):
+    point = {"tacgrasp.policies": {"theirs": "their_module:thing"}}
+    install(tmp_path / "b", monkeypatch, point, name="b-package")
+    install(tmp_path / "a", monkeypatch, point, name="a-package")
+    assert plugins("policies")["theirs"].package == "a-package 1.2"
+    assert main(["doctor"]) == 1
+    assert "of a-package 1.2 (tacgrasp.policies) is taken, and that of b-package 1.2" in (
+        capsys.readouterr().out
+    )
+
+
 def test_a_policy_that_can_not_be_made_is_named(tmp_path, monkeypatch, capsys):
     broken(tmp_path, monkeypatch, "policies", "def thing(config): return config.no_such")
     assert "made no policy: AttributeError" in complaint(["run", "--policy", "theirs"], capsys)
