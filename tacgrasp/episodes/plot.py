@@ -73,7 +73,7 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     bar = figure.add_axes((0.94, bottom, 0.012, top - bottom))
     stops = list(depth_levels(np.array(DEPTH_STOPS_MM)))
     drawn_bar = figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar)
-    bar.set_title("depth [mm]", fontsize=9.5, pad=6)
+    bar.set_title("mm", fontsize=9.5, pad=6)
     drawn_bar.set_ticks(stops, labels=[f"{stop:g}" for stop in DEPTH_STOPS_MM])
     contacts = np.array([_contact(step.cloud) for step in episode.steps])
     _draw_curves(figure, curves, episode, contacts)

@@ -5,8 +5,8 @@ or absent. Channels, all with log and publish time = wall clock [ns] and sequenc
 record within the episode:
 
     /episode      EpisodeHeader                 first message
-    /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float64 [m],
-                                                frame 'gel', restored as float32 [mm] bit for bit
+    /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float32 [m],
+                                                frame 'gel', and steps to float32 [mm], exactly
     /decision     DecisionMessage               the policy's decision, if it was asked for one
     /action       ActionMessage                 the action as requested, sent and reached, if any
     /state        StepState                     clocks, phase and robot of every record, and each

@@ -13,6 +13,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import time
 from contextlib import suppress
 from typing import TYPE_CHECKING
@@ -75,8 +76,9 @@ class Viewer:
             web_port = _free_port()
             self.page = f"http://{HOST}:{web_port}/?url={self.url.replace('+', '%2B')}"
             command += ["--serve-web", "--web-viewer-port", str(web_port)]
+        self._log = tempfile.TemporaryFile()  # noqa: SIM115 - an unread pipe would fill and stop it
         self._process = subprocess.Popen(
-            command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True
+            command, stdout=subprocess.DEVNULL, stderr=self._log, start_new_session=True
         )
         self._wait_for(port)
 
@@ -118,8 +120,9 @@ class Viewer:
                     return
             time.sleep(0.05)
         self.close()
-        error = b"" if self._process.stderr is None else self._process.stderr.read()
-        last = error.decode(errors="replace").strip().splitlines()[-1:] or ["no message"]
+        self._log.seek(0)
+        error = self._log.read().decode(errors="replace")
+        last = error.strip().splitlines()[-1:] or ["no message"]
         raise UsageError(
             f"rerun's viewer did not start: {last[0]}; without a display give --web, or write a "
             "file: tacgrasp episodes export EPISODE --to rrd"

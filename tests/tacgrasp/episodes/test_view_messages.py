@@ -71,12 +71,11 @@ def test_an_episode_of_the_format_before_is_read_as_it_was_recorded() -> None:
 
 def test_points_are_in_metres(tmp_path: Path) -> None:
     (cloud,) = written(tmp_path)["/touch/cloud"]
-    assert [(f.name, f.type) for f in cloud.fields] == [(axis, 8) for axis in "xyz"]
-    points_m = np.frombuffer(cloud.data, "<f8").reshape(-1, 3)
-    assert np.abs(points_m[:, 0]).max() < SENSOR.width_mm / 2000
-    assert (1000 * points_m).astype(np.float32).tobytes() == (
-        step_record(0).cloud.points_mm.tobytes()
-    )
+    assert [(f.name, f.type) for f in cloud.fields][:3] == [(axis, 7) for axis in "xyz"]
+    packed = np.frombuffer(cloud.data, "<f4,<f4,<f4,V3")
+    assert np.abs(packed["f0"]).max() < SENSOR.width_mm / 2000
+    deepest = step_record(0).cloud.points_mm[:, 2].max() / 1000
+    assert packed["f2"].max() == pytest.approx(deepest, rel=1e-6)
 
 
 def test_the_transforms_lead_from_the_base_to_the_gel(tmp_path: Path) -> None:

@@ -175,3 +175,13 @@ def test_an_episode_that_does_not_exist_is_refused_before_the_viewer_starts(
     monkeypatch.setattr("tacgrasp.viewer.server.Viewer", None)
     assert main(["view", "no.mcap"]) == 2
     assert "no.mcap does not exist" in capsys.readouterr().err
+
+
+def test_a_viewer_that_does_not_start_is_one_line_with_its_reason(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("tacgrasp.viewer.server.sys.executable", "/bin/false")
+    assert main(["view", str(OLD), "--web"]) == 2
+    error = capsys.readouterr().err
+    assert "rerun's viewer did not start: no message" in error
+    assert "--to rrd" in error
