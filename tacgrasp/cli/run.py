@@ -104,7 +104,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
-    from tacgrasp.episodes import make_record_directory
+    from tacgrasp.episodes.paths import check_record_directory
     from tacgrasp.policy_factory import check_policy
     from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
@@ -120,7 +120,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         raise UsageError(
             f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
         )
-    make_record_directory(config.record)
+    check_record_directory(config.record)
     console = make_console()
     with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):

@@ -147,7 +147,7 @@ def test_an_error_of_the_loop_comes_to_the_agent(env, monkeypatch):
     def break_down():
         raise ZeroDivisionError
 
-    monkeypatch.setattr(type(env.unwrapped._episode.rig.sensor), "read", lambda _: break_down())
+    monkeypatch.setattr(type(env.unwrapped._episode.rig.sensor), "read", lambda *_: break_down())
     with pytest.raises(ZeroDivisionError):
         env.step(ACTIONS.index(Primitive.RESET))
 
