@@ -20,7 +20,7 @@ import math
 import threading
 from dataclasses import asdict
 from queue import SimpleQueue
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
@@ -70,7 +70,7 @@ is bruised or dropped; ``-STEP_COST`` an action. Our choice."""
 TRUNCATIONS = (EndReason.MAX_STEPS, EndReason.TIMEOUT)
 
 
-class StrawberryEnv(gymnasium.Env[dict[str, np.ndarray], int]):
+class StrawberryEnv(gymnasium.Env[Any, Any]):
     """One berry between two fingers; each episode draws another.
 
     Args:
@@ -82,7 +82,7 @@ class StrawberryEnv(gymnasium.Env[dict[str, np.ndarray], int]):
     --seed n``; without it, one below those of the benchmark is drawn.
     """
 
-    metadata: ClassVar[dict[str, Any]] = {"render_modes": []}
+    metadata: dict[str, Any] = {"render_modes": []}  # noqa: RUF012 - as gymnasium declares it
 
     def __init__(self, *, shaped: bool = True, render_mode: str | None = None) -> None:
         if render_mode is not None:

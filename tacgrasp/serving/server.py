@@ -20,7 +20,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import AbstractAsyncContextManager, contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -150,7 +150,7 @@ class PolicyServer:
             on_ready(self._url(server))
             await server.serve_forever()
 
-    def _listening(self) -> serve:
+    def _listening(self) -> AbstractAsyncContextManager[Server]:
         return serve(
             self._serve_client,
             self._settings.host,
