@@ -7,6 +7,9 @@ Format 1 had float32 millimetres alone, and is still read.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
 import numpy as np
 from foxglove_schemas_protobuf.PackedElementField_pb2 import PackedElementField
 from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
@@ -87,7 +90,7 @@ def _packed(points_mm: NDArray[np.float32]) -> NDArray[np.void]:
 
 
 def _layout(kind: np.dtype[np.void]) -> list[tuple[str, int, int]]:
-    fields = kind.fields or {}
+    fields: Mapping[str, Any] = kind.fields or {}
     return [(name, int(fields[name][1]), _KINDS[fields[name][0].kind]) for name in kind.names or ()]
 
 
