@@ -15,6 +15,7 @@ from policies.force_terms import (
     AROUND,
     LEANS,
     MANNERS,
+    MOST_OF_NEEDS,
     MOST_OF_TASK,
     RefusedError,
     named_terms,
@@ -239,11 +240,12 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
             "gripper can keep to for certain (gripper.min_force_n times gripper.max_force_gain)"
         )
     by_words = draft.origins["force_n"] not in (TASK, CONFIGURATION)
-    most_n = MOST_OF_TASK * task.force.limit_n
+    factor = MOST_OF_NEEDS if task.force.needs else MOST_OF_TASK
+    most_n = factor * task.force.limit_n
     # the limit of a named range is bounded too, so that "1 to 50 N" is refused
     is_beyond = band.middle > most_n or (draft.named_most_n or 0.0) > most_n
     if by_words and "limit_n" not in given and is_beyond:
         raise RefusedError(
-            f"{draft.words or f'{band.middle:.3g} N'} is more than {MOST_OF_TASK:g} times the "
+            f"{draft.words or f'{band.middle:.3g} N'} is more than {factor:g} times the "
             f"task's limit ({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
         )

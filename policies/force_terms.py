@@ -41,6 +41,10 @@ ask for a change that they would notice, and a strawberry stands no more than a 
 MOST_OF_TASK = 3.0
 """Largest force that words alone may name, as a factor on the task's limit."""
 
+MOST_OF_NEEDS = 2.25
+"""The same for a task whose band is that of objects of all sizes: three times the limit of one of a
+common size (a berry of 25 g)."""
+
 LEANS: Mapping[tuple[int, bool], float] = {
     (-1, True): 0.1,
     (-1, False): 0.25,
@@ -91,6 +95,8 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
     else:
         low_n = ABOVE_LEAST * least
         high_n = task.force_n.high
+        if task.needs:  # the top of its band is for objects that are larger than most
+            high_n = min(high_n, SPAN * low_n)
         band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
     is_range = least > 0 and most < math.inf
     needs = "" if values or is_range else task.needs  # named newtons are the target themselves

@@ -38,7 +38,12 @@ class Law:
     young: float = 0.0
     force: float = 0.0
 
-    def at(self, size_mm: Numbers, young_mpa: Numbers, force_n: Numbers | float = 1.0) -> Numbers:
+    def at(
+        self,
+        size_mm: Numbers | float,
+        young_mpa: Numbers | float,
+        force_n: Numbers | float = 1.0,
+    ) -> Numbers:
         """Value at sizes [mm], moduli [MPa] and forces [N]; shapes broadcast."""
         value = self.value * (size_mm / SIZE_MM) ** self.size
         return np.asarray(value * (young_mpa / YOUNG_MPA) ** self.young * force_n**self.force)
@@ -63,7 +68,8 @@ class ObjectNeeds:
     young_spread: float
 
 
-# Fitted to 120 drawn berries (seeds from 500,000); ``tacgrasp bench draws`` prints fit and residuals.
+# Fitted to 120 drawn berries (seeds from 500,000); ``tacgrasp bench draws`` fits them anew and
+# prints the residuals.
 NEEDS: Mapping[str, ObjectNeeds] = {
     "strawberry": ObjectNeeds(
         least_n=Law(value=0.372, size=3.025),
@@ -172,7 +178,7 @@ class TouchedObject:
         youngs = spread
         for _ in range(3):
             size = sizes.mean(axis=-1)
-            youngs = needs.young_mpa.at(size, np.float64(YOUNG_MPA)) * spread
+            youngs = needs.young_mpa.at(size, YOUNG_MPA) * spread
             approach = needs.approach_mm.at(size[..., None], youngs[..., None], forces_n)
             sizes = widths_mm + 2 * approach
         return youngs, sizes

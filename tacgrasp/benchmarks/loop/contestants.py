@@ -149,10 +149,10 @@ def _informed_band(contract: Contract, rig: SimRig) -> Band:
     if contract.needs not in NEEDS:
         return contract.terms.force_n
     body, needs = rig.grasp.fingers.body, NEEDS[contract.needs]
-    size, young = np.float64(body.thickness_mm), np.float64(body.young_mpa)
+    size, young = body.thickness_mm, body.young_mpa
     need = FeltNeed(
-        size_mm=body.thickness_mm,
-        young_mpa=body.young_mpa,
+        size_mm=size,
+        young_mpa=young,
         least_n=float(needs.least_n.at(size, young)),
         most_n=float(needs.most_n.at(size, young)),
     )
