@@ -66,9 +66,13 @@ APPROACH_STEP_N = 0.01
 """Least step of the commanded force during the approach [N]."""
 
 READABLE_N = 0.06
-"""Felt force from which a contact can be placed [N]; below it the drift of the gel is as deep as the
-contact. Source: simulated berries were lost where they were felt at 0.02 to 0.03 N, and found on
-the pad from 0.05 N on. The smallest ripe berry bruises at 0.28 N."""
+"""Felt force from which a contact can be placed [N]; below it the drift of the gel is as deep as
+the contact. Source: simulated berries were lost where they were felt at 0.02 to 0.03 N, and found
+on the pad from 0.05 N on. The smallest ripe berry bruises at 0.28 N."""
+
+READABLE_PART = 0.3
+"""The same over the low end of the contract's force band, where that is more. Our choice: the pad's
+edge raises the pressure of a force by less than three times."""
 
 CLOSED_WIDTH_M = 0.001
 """Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin,
@@ -454,10 +458,12 @@ class Executor:
 
     def _is_readable(self, sense: ContactSense) -> bool:
         """Whether what is felt is enough to tell where it is."""
-        if self._contract is None:
+        contract, felt = self._contract, sense.felt_force()
+        if contract is None:
             return True
-        felt = sense.felt_force()
-        return felt is not None and felt.value >= READABLE_N
+        band = (contract.soft or contract.terms).force_n
+        least_n = READABLE_N if contract.needs else max(READABLE_N, READABLE_PART * band.low)
+        return felt is not None and felt.value >= least_n
 
     def _take_reference(self) -> None:
         if self._sense is not None:
