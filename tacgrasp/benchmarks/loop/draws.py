@@ -164,6 +164,9 @@ def histograms(bodies: Mapping[str, Sequence[DrawnBody]]) -> Figure:
             axes.tick_params(labelsize=7)
             if is_log and spread:
                 axes.set_xscale("log")
+                ticks = np.geomspace(values.min(), values.max(), 3)
+                axes.set_xticks(ticks, [f"{tick:.3g}" for tick in ticks])
+                axes.set_xticks([], minor=True)
     return figure
 
 
