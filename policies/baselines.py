@@ -1,15 +1,21 @@
-"""Policies that ignore the sensor: baselines that a policy with touch must beat."""
+"""Policies that ignore the sensor or a part of it: baselines that feeling all must beat."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from cltp.tactile.measure import contact_state
+from cltp.tactile.states import ContactState
+from policies.contract_steps import target_of
 from policies.extraction import extract
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS
+from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS, speak
+from policies.teacher import teacher
 from primitives import Primitive
-from primitives.contract import Contract
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band, Contract
 
 
 def _decision(text: str, confidence: float = 1.0) -> Decision:
@@ -59,3 +65,61 @@ class RandomPolicy:
         index = int(self._rng.integers(len(choices) + 1))
         text = ACTION_WORDINGS[choices[index]][-1] if index < len(choices) else SUCCESS_WORDINGS[0]
         return _decision(text, confidence=1 / (len(choices) + 1))
+
+
+_ANY_FORCE = Band(low=0.0, high=1e3)
+
+
+class CenterOnlyPolicy:
+    """The rules without force: it moves until the contact is centred, and never changes the force.
+
+    Args:
+        move_step_mm: Length of a move that the rig carries out [mm].
+    """
+
+    def __init__(self, *, move_step_mm: float) -> None:
+        self._move_step_mm = move_step_mm
+
+    @property
+    def name(self) -> str:
+        return "center_only"
+
+    def start(self) -> None:
+        pass
+
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
+        goal = replace(
+            target_of(contract),
+            force_n=_ANY_FORCE,
+            depth_mm=DEFAULT_DEPTH_MM,
+            area_fraction=DEFAULT_AREA,
+        )
+        state = _state(observation)
+        return _decision(speak(state, teacher(state, goal, move_step_mm=self._move_step_mm)))
+
+
+class ForceOnlyPolicy:
+    """The rules without place: it changes the force as they do, and never moves.
+
+    Args:
+        move_step_mm: Length of a move that the rig would carry out [mm].
+    """
+
+    def __init__(self, *, move_step_mm: float) -> None:
+        self._move_step_mm = move_step_mm
+
+    @property
+    def name(self) -> str:
+        return "force_only"
+
+    def start(self) -> None:
+        pass
+
+    def decide(self, observation: Observation, contract: Contract) -> Decision:
+        state = replace(_state(observation), x_mm=0.0, y_mm=0.0, cut=frozenset())
+        advice = teacher(state, target_of(contract), move_step_mm=self._move_step_mm)
+        return _decision(speak(state, advice))
+
+
+def _state(observation: Observation) -> ContactState:
+    return contact_state(observation.cloud, in_contact=observation.in_contact)

@@ -8,12 +8,14 @@ contract (``policies.contract_steps``), keeping its limit (``primitives.force_gu
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from policies.force_terms import (
     AROUND,
+    LEANS,
     MANNERS,
+    MOST_OF_NEEDS,
     MOST_OF_TASK,
     RefusedError,
     named_terms,
@@ -26,6 +28,7 @@ from primitives.contract import (
     DEFAULT_AREA,
     DEFAULT_DEPTH_MM,
     LIMIT_OVER_BAND,
+    NEUTRAL_LEAN,
     Band,
     Contract,
     ForceTerms,
@@ -51,6 +54,7 @@ class _Draft:
         assumed: Notes.
         words: The words that name a force; '' where none do.
         named_most_n: Limit that the words name [N]; None where they name none.
+        lean, scale: As in ``Contract``.
     """
 
     force: ForceTerms
@@ -59,6 +63,8 @@ class _Draft:
     assumed: list[str] = field(default_factory=list)
     words: str = ""
     named_most_n: float | None = None
+    lean: float = NEUTRAL_LEAN
+    scale: float = 1.0
 
     def set_force(self, force: ForceTerms, origin: str) -> None:
         """Take band and limit; depth and area of the task no longer fit, they follow from it."""
@@ -110,6 +116,9 @@ def read_contract(text: str, task: TaskTerms, given: Mapping[str, object]) -> Co
         assumed=tuple(draft.assumed),
         insists=insists,
         soft=None if insists else _soft_terms(draft, task),
+        needs=draft.force.needs,
+        lean=draft.lean,
+        scale=draft.scale,
         refused=refused,
         **draft.bands,
     )
@@ -134,6 +143,8 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
     if numbers.unitless:
         raise RefusedError(f"{numbers.unitless} has no unit; say '{numbers.unitless} N'")
     _take_lengths(draft, numbers)
+    if manner.sign and not is_own and not manner.conflict:
+        draft.lean = LEANS[manner.sign, manner.strong]
     if numbers.forces:
         draft.words = words_of(numbers.forces)
         draft.set_force(
@@ -143,13 +154,14 @@ def _take_words(draft: _Draft, request: Request, task: TaskTerms, *, is_own: boo
             draft.named_most_n = draft.force.limit_n
     elif numbers.delta_n is not None:
         draft.words = f"{numbers.delta_n:+.3g} N"
-        factor = 1 + numbers.delta_n / task.force.force_n.middle
-        draft.set_force(scaled_terms(factor, task.force), f"your words: {draft.words}")
+        draft.scale = 1 + numbers.delta_n / task.force.force_n.middle
+        draft.set_force(scaled_terms(draft.scale, task.force), f"your words: {draft.words}")
     elif numbers.factor is not None:
-        draft.words = numbers.factor_words.strip()
+        draft.words, draft.scale = numbers.factor_words.strip(), numbers.factor
         draft.set_force(scaled_terms(numbers.factor, task.force), f"your words: {draft.words}")
     elif not is_own and request.text in task.others:
         draft.set_force(task.others[request.text], "your words: those of another task")
+        draft.lean = NEUTRAL_LEAN  # its manner is that of its own terms
     elif manner.conflict:
         raise RefusedError(f"it asks for both: {manner.conflict}; say which")
     elif manner.sign and is_own:
@@ -205,7 +217,7 @@ def _take_configuration(draft: _Draft, given: Mapping[str, object]) -> None:
             draft.assumed.append(f"the band ends at the configuration's limit_n {limit_n:g} N")
             band = Band(low=band.low, high=float(limit_n))
         if draft.named_most_n is None or limit_n < draft.named_most_n:
-            draft.force = ForceTerms(force_n=band, limit_n=float(limit_n))
+            draft.force = replace(draft.force, force_n=band, limit_n=float(limit_n))
             draft.origins["limit_n"] = CONFIGURATION
         else:
             draft.assumed.append(f"{draft.words!r} is below the configuration's limit_n")
@@ -228,11 +240,12 @@ def _check_reach(draft: _Draft, given: Mapping[str, object], task: TaskTerms) ->
             "gripper can keep to for certain (gripper.min_force_n times gripper.max_force_gain)"
         )
     by_words = draft.origins["force_n"] not in (TASK, CONFIGURATION)
-    most_n = MOST_OF_TASK * task.force.limit_n
+    factor = MOST_OF_NEEDS if task.force.needs else MOST_OF_TASK
+    most_n = factor * task.force.limit_n
     # the limit of a named range is bounded too, so that "1 to 50 N" is refused
     is_beyond = band.middle > most_n or (draft.named_most_n or 0.0) > most_n
     if by_words and "limit_n" not in given and is_beyond:
         raise RefusedError(
-            f"{draft.words or f'{band.middle:.3g} N'} is more than {MOST_OF_TASK:g} times the "
+            f"{draft.words or f'{band.middle:.3g} N'} is more than {factor:g} times the "
             f"task's limit ({task.force.limit_n:.3g} N); if it is meant, set --goal.force-n"
         )

@@ -1,16 +1,23 @@
 """A step under the contract: its target, objections of what is felt, decisions that go beyond.
 
+Where the contract names the kind of object, the target is the part of the force band that this
+object needs, as its size and stiffness are felt (``policies.needs``).
+
 Not here: making a contract (``policies.contract``), keeping its limit (``primitives.force_guard``).
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
+from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from policies.goal import Goal
+from policies.needs import NEEDS, FeltNeed, TouchedObject
+from policies.observation import Observation
 from primitives import Primitive
-from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Contract
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band, Contract
 from primitives.sense import Interval
 
 PLACE_MARGIN_MM, DEPTH_FACTOR, AREA_FACTOR = 1.0, 1.3, 1.5
@@ -20,6 +27,55 @@ contract: the spread of the direct measurement on noisy contacts."""
 CLEARLY = 1.65
 """Factor by which a felt force must lie outside the band before a decision goes against it. Source:
 the largest error of a felt force in 160 simulated contacts on the pad, 1.7."""
+
+
+TARGET_FACTOR = 1.1
+"""Ends of a target over its middle, up and down. Our choice: twice what a felt force varies from
+frame to frame, and a third of the way from the least force to the bruise of the ripest berry."""
+
+
+class Aim:
+    """The target of each step of an episode: the contract, with its force band as it is needed."""
+
+    def __init__(self) -> None:
+        self._needs = ""
+        self._object: TouchedObject | None = None
+
+    def at(self, contract: Contract, observation: Observation) -> tuple[Contract, str]:
+        """The contract of a step, and what was felt of the object in words.
+
+        The words are empty, and the contract as it is, where it names no kind of object, or nothing
+        is felt.
+        """
+        if contract.needs not in NEEDS:
+            return contract, ""
+        if self._object is None or contract.needs != self._needs:
+            self._needs, self._object = contract.needs, TouchedObject(NEEDS[contract.needs])
+        state = contact_state(observation.cloud, in_contact=observation.in_contact)
+        need = self._object.feel(observation, is_whole=not state.cut)
+        if need is None:
+            return contract, ""
+        target = needed(contract, need)
+        return replace(
+            contract, force_n=target
+        ), f"{target.low:.2f}-{target.high:.2f} N ({need.text})"
+
+
+def needed(contract: Contract, need: FeltNeed) -> Band:
+    """The part of the contract's force band that an object needs [N].
+
+    Where all of the band lies below or above what is needed, its nearest end.
+
+    Raises:
+        LimitError: The contract is refused.
+    """
+    band, lean = contract.terms.force_n, contract.lean
+    middle = contract.scale * need.least_n ** (1 - lean) * need.most_n**lean
+    middle = min(
+        max(middle, band.low * math.sqrt(TARGET_FACTOR)), band.high / math.sqrt(TARGET_FACTOR)
+    )
+    low, high = max(band.low, middle / TARGET_FACTOR), min(band.high, middle * TARGET_FACTOR)
+    return Band(low=min(low, high), high=max(low, high))
 
 
 def target_of(contract: Contract) -> Goal:
@@ -47,6 +103,7 @@ def softened(contract: Contract) -> Contract:
         contract,
         force_n=soft.force_n,
         limit_n=soft.limit_n,
+        needs=soft.needs,
         depth_mm=DEFAULT_DEPTH_MM,
         area_fraction=DEFAULT_AREA,
         origins={**contract.origins, "force_n": "what is felt", "limit_n": "what is felt"},

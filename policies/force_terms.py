@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from policies.instructions.manner import Manner
 from policies.instructions.quantities import Force
@@ -39,6 +40,19 @@ ask for a change that they would notice, and a strawberry stands no more than a 
 
 MOST_OF_TASK = 3.0
 """Largest force that words alone may name, as a factor on the task's limit."""
+
+MOST_OF_NEEDS = 2.25
+"""The same for a task whose band is that of objects of all sizes: three times the limit of one of a
+common size (a berry of 25 g)."""
+
+LEANS: Mapping[tuple[int, bool], float] = {
+    (-1, True): 0.1,
+    (-1, False): 0.25,
+    (1, False): 0.65,
+    (1, True): 0.8,
+}
+"""Lean of the target (``primitives.contract.Contract``), by direction and emphasis. Our choice: the
+ends themselves are as uncertain as what is felt."""
 
 LEAST_HALF, MOST_HALF = 0.17, 0.34
 """Half width of a scaled band, as a fraction of its middle; the task's bands have 0.33."""
@@ -76,16 +90,21 @@ def named_terms(forces: Sequence[Force], manner: Manner, task: ForceTerms) -> Fo
     elif most < math.inf and most > MOST_OF_TASK * task.limit_n:
         return task  # a bound so far above says nothing beyond the task's own
     elif most < math.inf:
-        band = _lean(_under(BELOW_MOST * most, task.force_n), manner)
+        band = _under(BELOW_MOST * most, task.force_n)
+        band = band if task.needs else _lean(band, manner)
     else:
         low_n = ABOVE_LEAST * least
         high_n = task.force_n.high
+        if task.needs:  # the top of its band is for objects that are larger than most
+            high_n = min(high_n, SPAN * low_n)
         band = Band(low=low_n, high=high_n if high_n > 1.4 * low_n else low_n * math.sqrt(SPAN))
+    is_range = least > 0 and most < math.inf
+    needs = "" if values or is_range else task.needs  # named newtons are the target themselves
     if most < math.inf:
         limit_n = ROUNDING * most
         band = Band(low=min(band.low, limit_n), high=min(band.high, limit_n))
-        return ForceTerms(force_n=band, limit_n=limit_n)
-    return ForceTerms(force_n=band, limit_n=default_limit_n(band))
+        return ForceTerms(force_n=band, limit_n=limit_n, needs=needs)
+    return ForceTerms(force_n=band, limit_n=default_limit_n(band), needs=needs)
 
 
 def _check(forces: Sequence[Force], values: list[float], most: float, least: float) -> None:
@@ -139,8 +158,15 @@ def scaled_terms(factor: float, task: ForceTerms) -> ForceTerms:
     middle = factor * band.middle
     if not 0 < middle < math.inf:
         raise RefusedError("it leaves no force to hold with")
+    if task.needs:  # the light end stays: it is for other objects, not for another manner
+        low = band.low * min(1.0, factor)
+        scaled = Band(low=low, high=max(2 * middle - low, low))
+        return replace(task, force_n=scaled, limit_n=_scaled_limit_n(factor, scaled))
     inside = min(abs(middle - band.low), abs(band.high - middle))
     half = min(max(LEAST_HALF * middle, inside), MOST_HALF * middle)
     scaled = Band(low=middle - half, high=middle + half)
-    limit_n = default_limit_n(scaled) if factor <= 1 else FIRMER_LIMIT * scaled.high
-    return ForceTerms(force_n=scaled, limit_n=limit_n)
+    return ForceTerms(force_n=scaled, limit_n=_scaled_limit_n(factor, scaled))
+
+
+def _scaled_limit_n(factor: float, scaled: Band) -> float:
+    return default_limit_n(scaled) if factor <= 1 else FIRMER_LIMIT * scaled.high

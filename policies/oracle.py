@@ -30,7 +30,8 @@ class GraspTruth:
 
 
 _HALF_STEP_MM = 1.6
-_SLIP_RESERVE, _BRUISE_RESERVE = 1.15, 0.95
+SLIP_RESERVE, BRUISE_RESERVE = 1.15, 0.95
+"""Force band of the oracle, over the slip minimum and over the bruise force."""
 
 
 class OraclePolicy:
@@ -54,12 +55,12 @@ class OraclePolicy:
         return Decision(text=text, action=action, success=action is None, reason="truth")
 
     def _action(self, truth: GraspTruth) -> Primitive | None:
-        if truth.force_n > _BRUISE_RESERVE * truth.bruise_n:
+        if truth.force_n > BRUISE_RESERVE * truth.bruise_n:
             return Primitive.DECREASE_FORCE
         if abs(truth.x_mm) > _HALF_STEP_MM:
             return Primitive.MOVE_RIGHT if truth.x_mm > 0 else Primitive.MOVE_LEFT
         if abs(truth.y_mm) > _HALF_STEP_MM:
             return Primitive.MOVE_UP if truth.y_mm > 0 else Primitive.MOVE_DOWN
-        if truth.force_n < _SLIP_RESERVE * truth.slip_n:
+        if truth.force_n < SLIP_RESERVE * truth.slip_n:
             return Primitive.INCREASE_FORCE
         return None

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
-from policies.contract_steps import target_of
+from policies.contract_steps import refuted, target_of
 from policies.extraction import extract
 from policies.observation import Observation
 from policies.policy import Decision
 from policies.speech import speak
 from policies.teacher import teacher
-from primitives.contract import Contract
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Contract
 
 
 class RulesPolicy:
@@ -61,7 +62,12 @@ class RulesPolicy:
         else:
             state = contact_state(observation.cloud, in_contact=observation.in_contact)
         times_s.append(self._clock())
-        advice = teacher(state, target_of(contract), move_step_mm=self._move_step_mm)
+        goal = target_of(contract)
+        advice = teacher(state, goal, move_step_mm=self._move_step_mm)
+        if advice.action in refuted(contract, observation.felt_force_n):
+            # depth and area of a broad drift, not of the contact: only force and place are left
+            goal = replace(goal, depth_mm=DEFAULT_DEPTH_MM, area_fraction=DEFAULT_AREA)
+            advice = teacher(state, goal, move_step_mm=self._move_step_mm)
         times_s.append(self._clock())
         text = speak(state, advice)
         times_s.append(self._clock())

@@ -17,6 +17,10 @@ LIMIT_OVER_BAND = 1.25
 """Hard limit over the top of the force band, where nobody named a limit. Our choice: a felt force
 is off by up to a quarter."""
 
+NEUTRAL_LEAN = 0.4
+"""Lean of a target where nobody asks for another. Our choice: a little nearer to the least, since
+most objects have more friction than the least of their kind."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Band:
@@ -58,6 +62,8 @@ class ForceTerms:
     Attributes:
         force_n: Felt normal force of a good grasp [N].
         limit_n: Felt force that is never exceeded [N].
+        needs: Kind of object whose size and stiffness place the target of a step within the band
+            (a name in ``policies.needs``); '' where the whole band is the target.
 
     Raises:
         LimitError: The band is not positive, or reaches above the limit.
@@ -65,6 +71,7 @@ class ForceTerms:
 
     force_n: Band
     limit_n: float
+    needs: str = ""
 
     def __post_init__(self) -> None:
         if not (self.force_n.low > 0 and math.isfinite(self.limit_n)):
@@ -132,6 +139,10 @@ class Contract:
         assumed: What nobody said, and what was said and not used, one note each.
         insists: Whether the configuration names the force: what is felt may then not object.
         soft: Terms that a soft contact is held to; None: what is felt may not object.
+        needs: As in ``ForceTerms``.
+        lean: Where the target of a step stands between the least force that surely holds the
+            object (0) and the most that surely leaves it unbruised (1), where ``needs`` places it.
+        scale: Factor on that target that the words name ('half as hard').
         refused: Reason of a refusal; '' when the contract stands.
 
     Raises:
@@ -151,6 +162,9 @@ class Contract:
     assumed: tuple[str, ...] = ()
     insists: bool = False
     soft: ForceTerms | None = None
+    needs: str = ""
+    lean: float = NEUTRAL_LEAN
+    scale: float = 1.0
     refused: str = ""
 
     def __post_init__(self) -> None:
@@ -169,7 +183,7 @@ class Contract:
         """
         if self.force_n is None or self.limit_n is None:
             raise LimitError(f"refused: {self.refused}; nothing was moved")
-        return ForceTerms(force_n=self.force_n, limit_n=self.limit_n)
+        return ForceTerms(force_n=self.force_n, limit_n=self.limit_n, needs=self.needs)
 
 
 def default_limit_n(force_n: Band) -> float:

@@ -3,7 +3,8 @@
 The paper leaves the execution open; on every rig it is the same (our choice):
 
 * A move opens by ``clear_mm``, goes ``move_step_mm`` along an axis of the pad and closes to the
-  last commanded force. A closed gripper would drag the object along.
+  last commanded force, and where nothing is felt under it further, as in an approach. A closed
+  gripper would drag the object along.
 * ``increase_force`` and ``decrease_force`` multiply the last force by 1.5 and 0.65, or, where the
   force is felt and the goal is known, bring the felt force towards the goal (``force_factor``).
 * ``reset`` opens, returns to the start pose and grasps again. After a closing on nothing it opens
@@ -57,8 +58,21 @@ OVER = 1.1
 """Factor by which a change of force passes the end of the goal that it goes to. Our choice: the
 felt force varies by some percent from frame to frame."""
 
-APPROACH_STEP_N = 0.05
+APPROACH_FACTOR = 1.3
+"""Factor between two commanded forces of an approach. Our choice: no more than what a berry that
+bruises at 1.8 times its slip minimum stands above a force that is just not felt."""
+
+APPROACH_STEP_N = 0.01
 """Least step of the commanded force during the approach [N]."""
+
+READABLE_N = 0.06
+"""Felt force from which a contact can be placed [N]; below it the drift of the gel is as deep as
+the contact. Source: simulated berries were lost where they were felt at 0.02 to 0.03 N, and found
+on the pad from 0.05 N on. The smallest ripe berry bruises at 0.28 N."""
+
+READABLE_PART = 0.3
+"""The same over the low end of the contract's force band, where that is more. Our choice: the pad's
+edge raises the pressure of a force by less than three times."""
 
 CLOSED_WIDTH_M = 0.001
 """Opening below which the fingers have closed on nothing [m]. Our choice: no object is so thin,
@@ -259,6 +273,10 @@ class Executor:
         self._contract = contract
         self._gripper.keep_to(contract.terms.limit_n)
 
+    def aim_at(self, contract: Contract) -> None:
+        """Go towards another force band of the same contract from now on; its limit stays."""
+        self._contract = contract
+
     @property
     def travel_mm(self) -> float:
         """Measured path of the TCP over the episode so far [mm]."""
@@ -325,7 +343,10 @@ class Executor:
             self._open_by(self._clear_m)
             self._go(here, target)
             self._take_reference()
-            note = self._grip(clamp_force(force_n or self._force_n, self._limits).value).clamped
+            state = self._grip(clamp_force(force_n or self._force_n, self._limits).value)
+            note = state.clamped
+            if force_n is None and self._sense is not None:
+                self._feel_for(state.width_m, self._sense)
         x, y, z = direction_base * step.value
         return self._done(
             primitive,
@@ -415,15 +436,34 @@ class Executor:
         if self._dry_run:
             return "nothing", ()
         self._take_reference()
-        top_n = min(force.value, self._gripper.most_n)
-        commanded = min(max(self._approach_step_n, self._limits.min_force_n), top_n)
-        while True:
-            width_m = self._grip(commanded).width_m
-            if self._sense.in_contact():
-                return f"close to {commanded:.3g} N, where something was felt", (force.note,)
-            if commanded >= top_n or width_m < CLOSED_WIDTH_M:
-                return f"close to {commanded:.3g} N; nothing was felt", (force.note,)
-            commanded = min(commanded + self._approach_step_n, top_n)
+        first_n = max(self._approach_step_n, self._limits.min_force_n)
+        state = self._grip(min(first_n, force.value, self._gripper.most_n))
+        if self._feel_for(state.width_m, self._sense):
+            return f"close to {self._force_n:.3g} N, where something was felt", (force.note,)
+        return f"close to {self._force_n:.3g} N; nothing was felt", (force.note,)
+
+    def _feel_for(self, width_m: float, sense: ContactSense) -> bool:
+        """Raise the force of a closed grip, in small steps, until it is felt; whether it is.
+
+        Under a contract it goes on until the contact can be placed. It ends at the limit of an
+        approach, and where the fingers have closed on nothing.
+        """
+        top_n = min(clamp_force(self._first_force_n, self._limits).value, self._gripper.most_n)
+        while not (in_contact := sense.in_contact()) or not self._is_readable(sense):
+            if self._force_n >= top_n or width_m < CLOSED_WIDTH_M:
+                return in_contact
+            step_n = max(self._approach_step_n, (APPROACH_FACTOR - 1) * self._force_n)
+            width_m = self._grip(min(self._force_n + step_n, top_n)).width_m
+        return True
+
+    def _is_readable(self, sense: ContactSense) -> bool:
+        """Whether what is felt is enough to tell where it is."""
+        contract, felt = self._contract, sense.felt_force()
+        if contract is None:
+            return True
+        band = (contract.soft or contract.terms).force_n
+        least_n = READABLE_N if contract.needs else max(READABLE_N, READABLE_PART * band.low)
+        return felt is not None and felt.value >= least_n
 
     def _take_reference(self) -> None:
         if self._sense is not None:

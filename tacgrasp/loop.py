@@ -85,7 +85,8 @@ def run_episode(
                     else:
                         contract = steps.hear_objection(executor, observation, contract)
                         seen = observation.for_policy(steps.elapsed_s)
-                        decision = within(contract, policy.decide(seen, contract), seen)
+                        aimed = steps.aim(executor, seen, contract)
+                        decision = within(aimed, policy.decide(seen, aimed), seen)
                     break
                 except (TouchError, PolicyError) as error:
                     steps.survive(error, attempt)

@@ -12,13 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.ndimage import map_coordinates
 
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
+from sim.grasp.ripeness import BRUISE_OVER_SLIP, PRESSURE_SCATTER, BerrySize
 
 PITCH_MM = 0.15
 HALF_SPAN_MM = 24.0
@@ -97,26 +98,27 @@ class Body:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PropertyRanges:
-    """Ranges of an object's properties. Sources stand above the presets."""
+    """Ranges of an object's properties. Sources stand above the presets.
+
+    Attributes:
+        mass_g, young_mpa, poisson, friction, bruise_n: The properties; of a body that ripens,
+            stiffness and bruise force follow from size and ripeness and stay within these ranges.
+        ripens: Whether they do (``sim.grasp.ripeness``).
+    """
 
     mass_g: Range
     young_mpa: Range
     poisson: float
     friction: Range
     bruise_n: Range
-    first_force_n: Range
+    ripens: bool = False
 
 
 Limits = tuple[float, float]
 
 
 def _ranges(
-    mass_g: Limits,
-    young_mpa: Limits,
-    poisson: float,
-    friction: Limits,
-    bruise_n: Limits,
-    first_force_n: Limits,
+    mass_g: Limits, young_mpa: Limits, poisson: float, friction: Limits, bruise_n: Limits
 ) -> PropertyRanges:
     return PropertyRanges(
         mass_g=Range(*mass_g),
@@ -124,22 +126,26 @@ def _ranges(
         poisson=poisson,
         friction=Range(*friction),
         bruise_n=Range(*bruise_n),
-        first_force_n=Range(*first_force_n, log=True),
     )
 
 
-# Strawberry. Mass 7-40 g (cultivars 11-40 g, classes from 7 g: weak web sources); E 0.20 MPa
-# (GelSight-lab/TactileEstimateModulus, citing a paper) within a factor of 1.5; friction with
-# silicone was found nowhere: an assumption. Bruise force 2.0-3.2 N: an assumption of the order of
-# the 1.1-2.7 N that punctures (by cultivar).
+# Strawberry. Mass 5-60 g, log-uniform: classes from 7 g and cultivars of 11-40 g (weak web
+# sources), with the smallest and the largest fruit of a punnet on either side (assumed). Friction
+# with silicone was found nowhere: an assumption. Stiffness and bruise force: ``ripeness``; they
+# come to the order of the 0.20 MPa of GelSight-lab/TactileEstimateModulus (citing a paper) and of
+# the 1.1-2.7 N that punctures fruit of 10-40 g (by cultivar).
 # Tomato, egg, peg: assumptions of the same kind, chosen to need rising force.
-# Columns: mass [g], Young's modulus [MPa], Poisson's ratio, friction, bruise force [N] and first
-# force of a grasp [N]; moduli and first forces are drawn log-uniformly.
+# Columns: mass [g], Young's modulus [MPa], Poisson's ratio, friction, bruise force [N]; moduli are
+# drawn log-uniformly.
 OBJECTS: dict[str, PropertyRanges] = {
-    "strawberry": _ranges((7, 40), (0.133, 0.30), 0.35, (0.3, 0.8), (2.0, 3.2), (0.3, 3.0)),
-    "cherry_tomato": _ranges((8, 18), (0.25, 0.6), 0.45, (0.4, 0.9), (1.4, 2.4), (0.2, 1.5)),
-    "egg": _ranges((45, 65), (50, 100), 0.3, (0.3, 0.6), (7, 12), (0.8, 5.0)),
-    "peg": _ranges((60, 140), (2e4, 2e5), 0.3, (0.4, 0.8), (200, 400), (1.5, 9.0)),
+    "strawberry": replace(
+        _ranges((5, 60), (0.05, 0.6), 0.35, (0.3, 0.8), (0.2, 4.5)),
+        mass_g=Range(5, 60, log=True),
+        ripens=True,
+    ),
+    "cherry_tomato": _ranges((8, 18), (0.25, 0.6), 0.45, (0.4, 0.9), (1.4, 2.4)),
+    "egg": _ranges((45, 65), (50, 100), 0.3, (0.3, 0.6), (7, 12)),
+    "peg": _ranges((60, 140), (2e4, 2e5), 0.3, (0.4, 0.8), (200, 400)),
 }
 
 GRID_MM = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
@@ -167,6 +173,11 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
     mass_g = draw(ranges.mass_g)
     young, friction, bruise = draw(ranges.young_mpa), draw(ranges.friction), draw(ranges.bruise_n)
     gap, com, gyration, thickness = _SHAPES[name](mass_g, rng)
+    if ranges.ripens:
+        ripeness, scatter = draw(_RIPENESS), draw(_SCATTER)
+        size = BerrySize(mass_g=mass_g, size_mm=thickness, com_mm=com)
+        flesh = size.flesh(ripeness, scatter)
+        young, bruise = flesh.young_mpa, flesh.bruise_n
     return Body(
         name=name,
         gap_mm=gap,
@@ -181,17 +192,23 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
     )
 
 
+_RIPENESS = Range(*BRUISE_OVER_SLIP)
+_SCATTER = Range(-PRESSURE_SCATTER, PRESSURE_SCATTER)
+
 BodyShape = tuple[FloatArray, tuple[float, float], float, float]
 
 
 def _strawberry(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Berry hanging tip down: revolved profile, tilted a little, with achenes.
 
-    Diameter from the mass at constant shape through (7 g, 25 mm), ± 6 %: within 4 % of the four
-    mass classes of the notes.
+    Volume from the mass at a constant density through (7 g, 25 mm) of a berry 1.2 times as long as
+    wide; the diameter is within 4 % of the four mass classes of the notes there. Length 1.05-1.35
+    diameters, and ± 2 % of the diameter for hollow and dense fruit: assumed, since berries of one
+    cultivar differ so by eye.
     """
-    diameter = 25.0 * (mass_g / 7.0) ** (1 / 3) * rng.uniform(0.94, 1.06)
-    length = diameter * rng.uniform(1.05, 1.35)
+    elongation = rng.uniform(1.05, 1.35)
+    diameter = 25.0 * (1.2 * mass_g / 7.0 / elongation) ** (1 / 3) * rng.uniform(0.98, 1.02)
+    length = diameter * elongation
     shoulder = rng.uniform(0.55, 0.65)  # where it is widest, from the tip
 
     def radius(s: FloatArray) -> FloatArray:

@@ -156,7 +156,7 @@ class FlatFingers:
         material: GelMaterial,
         up: tuple[float, float] = (0.0, 1.0),
     ) -> None:
-        self.body, self.up = body, up
+        self.body, self.up, self.material = body, up, material
         self.sensor = sensor
         self._pitch_mm = sensor.width_mm / COLUMNS
         self._x_mm, self._y_mm = grid_axes_mm(sensor, ROWS, COLUMNS)

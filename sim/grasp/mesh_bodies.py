@@ -18,8 +18,9 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
 from sim.grasp.antipodal import GraspPlace, find_grasp
-from sim.grasp.bodies import GRID_MM, Body
+from sim.grasp.bodies import GRID_MM, OBJECTS, Body
 from sim.grasp.pad_casting import CLEAR_MM
+from sim.grasp.ripeness import BerrySize, Flesh
 from sim.objects.meshes import IntArray, checked_mesh, ray_scene, volume_and_centre
 
 DENSITY_G_PER_MM3 = 0.3e-3
@@ -111,18 +112,30 @@ def placed_body(
     mass_g = scanned.mass_g or _mass_g(volume_mm3)
     across, upright, _ = np.ptp(vertices @ turn.T, axis=0)
     com_x, com_y, _ = turn @ (com - np.array(place.centre_mm))
+    com_mm = (float(com_x), float(com_y))
+    size = BerrySize(mass_g=mass_g, size_mm=place.width_mm, com_mm=com_mm)
+    flesh = _flesh(template, size)
     return Body(
         name=scanned.path.stem,
         gap_mm=_gap(vertices, faces, place, pad_mm),
-        com_mm=(float(com_x), float(com_y)),
+        com_mm=com_mm,
         gyration_mm=math.hypot(across, upright) / math.sqrt(12),
         thickness_mm=place.width_mm,
         mass_kg=mass_g / 1000,
-        young_mpa=scanned.young_mpa or template.young_mpa,
+        young_mpa=scanned.young_mpa or flesh.young_mpa,
         poisson=template.poisson,
         friction=template.friction,
-        bruise_n=scanned.bruise_n or template.bruise_n,
+        bruise_n=scanned.bruise_n or flesh.bruise_n,
     )
+
+
+def _flesh(drawn: Body, mesh: BerrySize) -> Flesh:
+    """Stiffness and bruise force of a mesh: those of the drawn body, or of one as ripe as it."""
+    flesh = Flesh(young_mpa=drawn.young_mpa, bruise_n=drawn.bruise_n)
+    if not OBJECTS[drawn.name].ripens:
+        return flesh
+    size = BerrySize(mass_g=1000 * drawn.mass_kg, size_mm=drawn.thickness_mm, com_mm=drawn.com_mm)
+    return mesh.flesh(size.ripeness(flesh))
 
 
 def natural_mass_g(vertices: FloatArray, faces: IntArray) -> float:

@@ -2,5 +2,5 @@
 
 Not here: what has one right answer (``tests``), and the flags (``tacgrasp.cli.bench``).
 
-May import: tacgrasp.base.
+May import: cltp, tacgrasp.base.
 """

@@ -90,13 +90,14 @@ class StrawberrySettings(ModelBenchmarkSettings, SeedSettings):
         task: Task of the grasps.
         object: Object between the fingers; none: the task's.
         instruction: Instruction; none: the task's.
-        policies: Names of the policies, separated by commas.
+        policies: Names of the policies, separated by commas: rules, llm, fixed_force, random,
+            true_force, center_only, force_only, informed, oracle. The last five run here alone.
     """
 
     task: str = "strawberry"
     object: str | None = None
     instruction: str | None = None
-    policies: str = "rules,fixed_force,random,oracle"
+    policies: str = "rules,fixed_force,true_force,center_only,force_only,informed,random,oracle"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -146,6 +147,30 @@ class MeshesSettings(BenchmarkSettings):
             raise UsageError(f"--mass-g must be 0.1 to 5000 g, got {self.mass_g:g}")
         if not self.data.is_dir():
             raise UsageError(f"--data {self.data} is no folder")
+
+
+@dataclass(frozen=True, kw_only=True)
+class DrawsSettings(BenchmarkSettings):
+    """Show what the seeds draw: masses, stiffnesses, forces that hold and that bruise.
+
+    Attributes:
+        episodes: Number of bodies of each kind, one random seed each.
+        first_seed: First seed. Seeds from 1000000 on are kept for benchmarks.
+        plot: PNG file to draw the histograms to.
+    """
+
+    episodes: int = 200
+    first_seed: int = 1_000_000
+    plot: Path | None = None
+
+    def __post_init__(self) -> None:
+        if self.episodes < 1 or self.first_seed < 0:
+            raise UsageError("--episodes must be at least 1 and --first-seed at least 0")
+
+    @property
+    def seeds(self) -> range:
+        """All seeds."""
+        return range(self.first_seed, self.first_seed + self.episodes)
 
 
 @dataclass(frozen=True, kw_only=True)

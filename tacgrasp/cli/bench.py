@@ -15,6 +15,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "missed": (settings.MissedSettings, "loop.missed"),
     "robustness": (settings.RobustnessSettings, "robustness.run"),
     "verifier": (settings.VerifierSettings, "loop.verifier"),
+    "draws": (settings.DrawsSettings, "loop.draws"),
     "meshes": (settings.MeshesSettings, "loop.meshes"),
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),
     "soak": (settings.SoakSettings, "loop.soak"),

@@ -33,7 +33,7 @@ def main(argv: Sequence[str]) -> int:
     console = make_console()
     if not flags.name:
         for name, demo in DEMOS.items():
-            console.print(f"{name:10}{demo.summary}")
+            console.print(f"{name:16}{demo.summary}")
         return 0
     with working(f"playing {flags.name}"):  # steps are printed above the spinner
         result = play(flags.name, flags.record, [StepPrinter(console)])

@@ -35,7 +35,8 @@ class Demo:
         policy: Name of the policy.
         blind_force_n: Close with this force at once, without feeling [N]; None approaches.
         noise_level: Noise of the sensor and its drift; 1 is the measured sensor, 0 a perfect one.
-        seed: Random seed of the berry.
+        seed: Random seed of the object.
+        task: Task whose own goal is kept; '' is a strawberry under ``GOAL``.
     """
 
     summary: str
@@ -45,7 +46,8 @@ class Demo:
     policy: str = "rules"
     blind_force_n: float | None = None
     noise_level: float = 0.0
-    seed: int = 8
+    seed: int = 4
+    task: str = ""
 
 
 GOAL = GoalConfig(
@@ -56,21 +58,22 @@ GOAL = GoalConfig(
     x_mm=(-3.0, 3.0),
     y_mm=(-3.0, 3.0),
 )
-"""Goal of the demos, so that tuning a task does not change them."""
+"""Goal of the demos without a task, so that tuning a task does not change them."""
 
-_FROM_FIRST_TOUCH = (Primitive.INCREASE_FORCE,) * 4
-"""From the first touch at 0.1 N, the gripper's least command, to 0.2, 0.4 and 0.8 N, and on to the
-goal."""
+_RISE = Primitive.INCREASE_FORCE
+
+_FROM_FIRST_TOUCH = (_RISE,) * 2
+"""From the first touch, at a third of the goal, to twice that, and on to the goal."""
 
 DEMOS: dict[str, Demo] = {
     "paper": Demo(
         summary="bottom-center -> move_down; centred but too light -> increase_force; stable",
-        offset_mm=(0.0, -5.2),
+        offset_mm=(0.0, -4.0),
         actions=(Primitive.MOVE_DOWN, *_FROM_FIRST_TOUCH),
         end=EndReason.SUCCESS,
     ),
     "gentle": Demo(
-        summary="closes until something is felt, then increase_force four times; stable",
+        summary="closes until something is felt, then increase_force twice; stable",
         offset_mm=(0.0, 0.0),
         actions=_FROM_FIRST_TOUCH,
         end=EndReason.SUCCESS,
@@ -97,6 +100,43 @@ DEMOS: dict[str, Demo] = {
         end=EndReason.UNVERIFIED,
         policy="fixed_force",
         blind_force_n=0.22,
+    ),
+    "strawberry": Demo(
+        summary="a small, ripe berry: what it needs is felt, and 0.3 N hold it",
+        offset_mm=(0.0, -5.2),
+        actions=(Primitive.MOVE_DOWN, *(_RISE,) * 3),
+        end=EndReason.SUCCESS,
+        seed=3,
+        task="strawberry",
+    ),
+    "firm-strawberry": Demo(
+        summary="a large, firm berry under the same task: 1.8 N",
+        offset_mm=(5.0, 0.0),
+        actions=(Primitive.MOVE_RIGHT, *(_RISE,) * 5),
+        end=EndReason.SUCCESS,
+        seed=4,
+        task="strawberry",
+    ),
+    "cherry_tomato": Demo(
+        summary="a cherry tomato, off centre to the right",
+        offset_mm=(6.0, 0.0),
+        actions=(Primitive.MOVE_RIGHT, *(_RISE,) * 2),
+        end=EndReason.SUCCESS,
+        task="cherry_tomato",
+    ),
+    "egg": Demo(
+        summary="an egg: small steps until it is known to be hard, then more",
+        offset_mm=(0.0, 0.0),
+        actions=(_RISE,) * 7,
+        end=EndReason.SUCCESS,
+        task="egg",
+    ),
+    "peg": Demo(
+        summary="a peg, held firmly enough to carry its moment",
+        offset_mm=(0.0, 0.0),
+        actions=(_RISE,) * 8,
+        end=EndReason.SUCCESS,
+        task="peg",
     ),
 }
 
@@ -130,8 +170,9 @@ def play(name: str, record: Path, observers: Sequence[Observer] = ()) -> DemoRes
     if name not in DEMOS:
         raise UsageError(f"unknown demo {name!r}; known: {', '.join(DEMOS)}")
     demo = DEMOS[name]
-    changes = {"record": record, "seed": demo.seed, "policy": demo.policy, "goal": GOAL}
-    config = load("strawberry")[0].model_copy(update=changes)
+    changes = {"record": record, "seed": demo.seed, "policy": demo.policy}
+    changes |= {} if demo.task else {"goal": GOAL}
+    config = load(demo.task or "strawberry")[0].model_copy(update=changes)
     rig = build(
         config.object,
         demo.seed,

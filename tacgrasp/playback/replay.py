@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from cltp import TouchError
 from policies import Observation, Policy, PolicyError
+from policies.contract_steps import Aim
 from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.execution import Executed
@@ -92,13 +93,15 @@ def differences(episode: Episode, policy: Policy, contract: Contract) -> Iterato
         LimitError: The contract is refused.
     """
     policy.start()
+    aim = Aim()
     for step in episode.steps:
         contract = step.contract or contract
         if step.phase is not StepPhase.LOOP or step.decision in (None, NOTHING_TOUCHES):
             continue  # without contact the runtime decided, not the policy
         try:
             observation = _observation(step)
-            decision = within(contract, policy.decide(observation, contract), observation)
+            aimed, _ = aim.at(contract, observation)
+            decision = within(aimed, policy.decide(observation, aimed), observation)
         except (TouchError, PolicyError) as error:
             yield Difference(index=step.index, text=str(error))
             continue

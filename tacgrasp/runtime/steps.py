@@ -16,7 +16,7 @@ from cltp.sensing.frames import Frame, jpeg_of
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.measure import contact_state
 from policies import Decision, Observation, PolicyError
-from policies.contract_steps import beyond, softened
+from policies.contract_steps import Aim, beyond, softened
 from primitives import Primitive
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
@@ -181,6 +181,7 @@ class Steps:
         self._last: Step | None = None
         self._notes: list[str] = []
         self._new_contract: Contract | None = None
+        self._aim = Aim()
 
     @property
     def elapsed_s(self) -> float:
@@ -211,6 +212,14 @@ class Steps:
         self._notes.append(held.assumed[-1])
         self._new_contract = held
         return held
+
+    def aim(self, executor: Executor, seen: Observation, contract: Contract) -> Contract:
+        """The contract of this step: its force band is the target that this object needs."""
+        aimed, words = self._aim.at(contract, seen)
+        if words:
+            executor.aim_at(aimed)
+            self._notes.append(f"target {words}")
+        return aimed
 
     def survive(self, error: TouchError | PolicyError, attempt: int) -> None:
         """Note a failed attempt to read or decide and wait; the caller then tries again.

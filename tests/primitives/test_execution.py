@@ -320,9 +320,9 @@ def feeling(touched_at_n, first_force_n, *, closed_width_m=0.03, felt=None, **ch
 def test_an_approach_stops_at_the_first_force_that_is_felt():
     executor, log = feeling(0.33, 0.6)
     executed = executor.grasp()
-    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.2, 0.25, 0.3, 0.35])
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.2, 0.26, 0.338])
     assert log[0] == ("reference",)
-    assert executed.force_n == pytest.approx(0.35)
+    assert executed.force_n == pytest.approx(0.338)
     assert "felt" in executed.sent
 
 
@@ -330,7 +330,7 @@ def test_an_approach_never_passes_the_first_force():
     executor, log = feeling(99.0, 0.42)
     executed = executor.grasp()
     forces = [e[1] for e in log if e[0] == "grip"]
-    assert forces == pytest.approx([0.2, 0.25, 0.3, 0.35, 0.4, 0.42])
+    assert forces == pytest.approx([0.2, 0.26, 0.338, 0.42])
     assert executed.force_n == pytest.approx(0.42)
     assert "nothing was felt" in executed.sent
 
@@ -342,7 +342,20 @@ def test_a_move_takes_a_new_reference_and_closes_to_the_last_force():
     executor.execute(Primitive.MOVE_UP)
     names = [e[0] for e in log]
     assert names.index("open_by") < names.index("move_to") < names.index("reference")
-    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.3])
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.338])
+
+
+def test_a_move_after_which_nothing_is_felt_closes_further_in_the_steps_of_an_approach():
+    executor, log = feeling(0.2, 0.5)
+    executor.grasp()
+    del log[:]
+    executor._sense = replace(
+        executor._sense,
+        in_contact=lambda: [e[1] for e in log if e[0] == "grip"][-1] >= 0.3,
+    )
+    executed = executor.execute(Primitive.MOVE_UP)
+    assert [e[1] for e in log if e[0] == "grip"] == pytest.approx([0.2, 0.26, 0.338])
+    assert executed.force_n == pytest.approx(0.338)
 
 
 def test_a_replayed_force_is_commanded_as_recorded():

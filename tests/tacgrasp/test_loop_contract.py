@@ -59,7 +59,7 @@ def test_a_decision_beyond_the_contract_is_no_action_and_is_recorded_as_such(
     outcome, rig, recorder = play(Scripted(text), settings=config(max_asks=2), contract=held)
     assert outcome.reason is EndReason.NO_ACTION
     assert (outcome.num_actions, rig.moves) == (0, 0)
-    assert rig.gripper.forces_n == [0.1]  # the first grasp
+    assert rig.gripper.forces_n == [0.03]  # the first grasp
     decision = recorder.steps[0].decision
     assert decision is not None
     assert decision.text == text
@@ -102,15 +102,15 @@ def test_an_increase_at_the_contracts_limit_ends_the_episode_with_limit() -> Non
     outcome, rig, _ = play(Scripted(LIGHT), contract=held, settings=config(max_steps=50))
     assert outcome.reason is EndReason.LIMIT
     assert "already at its limit" in outcome.message
-    assert rig.gripper.forces_n == [0.1]
+    assert rig.gripper.forces_n == [0.03]
 
 
 @pytest.fixture(scope="module")
 def objected(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Outcome, Episode, Path]]:
     """A soft berry under the contract of a peg, in the simulator."""
     folder = tmp_path_factory.mktemp("objection")
-    settings = config().model_copy(update={"record": folder, "policy": "rules", "seed": 8})
-    rig = build("strawberry", 8, start_offset_mm=(0.0, 0.0), noise_level=0.0)
+    settings = config().model_copy(update={"record": folder, "policy": "rules", "seed": 9})
+    rig = build("strawberry", 9, start_offset_mm=(0.0, 0.0), noise_level=0.0)
     try:
         outcome, path = run_recorded(rig, make_policy("rules", settings), settings, HARD)
     finally:

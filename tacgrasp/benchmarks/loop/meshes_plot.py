@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import math
 import textwrap
 from collections.abc import Sequence
@@ -14,13 +13,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from sim.grasp.antipodal import GraspPlace
 from sim.grasp.mesh_bodies import PAD_MM
 from sim.objects.meshes import checked_mesh, ray_scene
-from tacgrasp.base.errors import UsageError
+from tacgrasp.benchmarks.plot_file import write_png
 
 _COLUMNS = 4  # meshes in a row, two views each
 _RAYS = 160  # across a view
@@ -48,13 +46,7 @@ def write_plot(path: Path, meshes: Sequence[tuple[Path, GraspPlace | None, str]]
         _draw(cells[2 * i], cells[2 * i + 1], mesh, place)
         words = "\n".join(textwrap.wrap(caption, 44)[:6])
         cells[2 * i].set_title(f"{mesh.stem}\n{words}", fontsize=8, loc="left")
-    drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", dpi=80)
-    try:
-        with replacing(path) as part:
-            part.write_bytes(drawn.getvalue())
-    except OSError as error:
-        raise UsageError(f"--plot {path} can't be written: {error.strerror or error}") from None
+    write_png(path, figure)
 
 
 def _draw(side: Axes, top: Axes, path: Path, place: GraspPlace | None) -> None:

@@ -1,7 +1,6 @@
 """``tacgrasp bench strawberry``: each policy in the same simulated episodes, against the truth.
 
-The README has the rules. ``fixed_force`` is the best single force of a sweep: it shows whether
-touch was needed. Rates have Wilson intervals.
+The README has the rules, ``contestants`` the policies. Rates have Wilson intervals.
 """
 
 from __future__ import annotations
@@ -9,22 +8,25 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import lru_cache, partial
-from pathlib import Path
+from dataclasses import asdict, dataclass
+from functools import partial
 from statistics import median
 from typing import Any
 
-import numpy as np
 from rich.console import Console
 
-from policies import Policy, PolicyError
-from policies.oracle import GraspTruth, OraclePolicy
-from primitives.contract import Band
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table
+from tacgrasp.benchmarks.loop.contestants import (
+    FORCES_N,
+    NAMES,
+    SWEPT,
+    PolicyAndForce,
+    enter,
+    language_model,
+)
 from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
 from tacgrasp.benchmarks.settings import StrawberrySettings
 from tacgrasp.config.layers import load
@@ -32,20 +34,9 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.console import make_table_console
 from tacgrasp.episodes.record import StepRecord
-from tacgrasp.policy_factory import POLICIES, default_weights, load_llm, make_policy
-from tacgrasp.rig.gel_sense import GelSense
+from tacgrasp.policy_factory import default_weights
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.verify import accelerations
-
-FIXED_FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 9).round(2))
-"""Commanded forces that ``fixed_force`` is swept over."""
-
-
-ANY_FORCE_N = Band(low=0.01, high=100.0)
-"""Force band of the oracle, whose own goal is the truth's [N]."""
-
-Contestant = tuple[str, float | None]
-"""A policy's name, and the first force [N] where the policy chooses it (``fixed_force`` alone)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,8 +51,6 @@ class EpisodeResult:
         actions: Number of actions after the first grasp.
         truth: The simulator's truth.
         slip_minimum_n: Smallest force that would have held the centred body [N].
-        chose_first_force: Whether the policy chose the force of the first grasp (``fixed_force``);
-            a bruise of that grasp is then the policy's.
         objected: Whether what was felt objected to the contract.
         seconds: Time that the episode took of one core [s].
     """
@@ -73,7 +62,6 @@ class EpisodeResult:
     actions: int
     truth: Truth
     slip_minimum_n: float
-    chose_first_force: bool = False
     objected: bool = False
     seconds: float = 0.0
 
@@ -90,7 +78,7 @@ class EpisodeResult:
 
 def run_seed(
     config: RunConfig,
-    contestants: Sequence[Contestant],
+    contestants: Sequence[PolicyAndForce],
     seed: int,
     make: Callable[..., SimRig] = build,
 ) -> list[EpisodeResult]:
@@ -102,23 +90,27 @@ def run_seed(
 
 
 def _run_one(
-    config: RunConfig, contestant: Contestant, slip_minimum_n: float, make: Callable[..., SimRig]
+    config: RunConfig,
+    policy_and_force: PolicyAndForce,
+    slip_minimum_n: float,
+    make: Callable[..., SimRig],
 ) -> EpisodeResult:
-    began_s, (name, force_n) = time.process_time(), contestant
-    rig = make(config.object, config.seed, sensor_name=config.sensor, first_force_n=force_n)
-    sense = None if force_n is not None else GelSense(rig.sensor)  # a fixed force does not feel
-    contract = contract_of(config)
-    if name == "oracle":  # it follows the truth, not the contract
-        contract = replace(contract, force_n=ANY_FORCE_N, limit_n=ANY_FORCE_N.high, soft=None)
+    began_s = time.process_time()
+    entered = enter(config, policy_and_force, slip_minimum_n, make)
     objections: list[str] = []
 
     def hear(record: StepRecord) -> None:
         if record.contract is not None:
             objections.append(record.contract.assumed[-1])
 
-    policy = _policy(name, config, rig, slip_minimum_n)
     outcome = run_unrecorded(
-        rig, policy, config, contract, [hear], sense=sense, bounded=force_n is None
+        entered.rig,
+        entered.policy,
+        config,
+        entered.contract,
+        [hear],
+        sense=entered.sense,
+        bounded=entered.bounded,
     )
     return EpisodeResult(
         seed=config.seed,
@@ -126,42 +118,11 @@ def _run_one(
         declared=outcome.declared,
         verified_by_touch=outcome.verified,
         actions=outcome.num_actions,
-        truth=rig.truth(),
+        truth=entered.rig.truth(),
         slip_minimum_n=slip_minimum_n,
-        chose_first_force=force_n is not None,
         objected=bool(objections),
         seconds=time.process_time() - began_s,
     )
-
-
-def _policy(name: str, config: RunConfig, rig: SimRig, slip_minimum_n: float) -> Policy:
-    if name == "llm":
-        return _language_model(config.weights, config.primitives.move_step_mm)
-    if name != "oracle":
-        return make_policy(name, config)
-    grasp = rig.grasp
-
-    def truth() -> GraspTruth:
-        return GraspTruth(
-            x_mm=grasp.offset_mm[0],
-            y_mm=grasp.offset_mm[1],
-            force_n=grasp.patch.force_n if grasp.patch else 0.0,
-            slip_n=slip_minimum_n,
-            bruise_n=grasp.fingers.body.bruise_n,
-        )
-
-    return OraclePolicy(truth)
-
-
-@lru_cache(maxsize=1)
-def _language_model(weights: Path | None, move_step_mm: float) -> Policy:
-    """The policy ``llm``, read once a process: it has no memory, so episodes can share it."""
-    policy = load_llm(weights)
-    try:
-        policy.check_move_step(move_step_mm)
-    except PolicyError as error:
-        raise UsageError(str(error)) from None
-    return policy
 
 
 def wilson(successes: int, trials: int, z: float = 1.96) -> tuple[float, float]:
@@ -211,17 +172,15 @@ def run(settings: StrawberrySettings) -> None:
     """
     config = _config(settings)
     policies = [name.strip() for name in settings.policies.split(",")]
-    names = [*POLICIES, "oracle"]
-    unknown = [name for name in policies if name not in names]
-    if unknown:
+    if any(name not in NAMES for name in policies):
         raise UsageError(
-            f"bench needs policies out of {', '.join(names)}; got {', '.join(policies)}"
+            f"bench needs policies out of {', '.join(NAMES)}; got {', '.join(policies)}"
         )
     if "llm" in policies:
-        _language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
-    contestants: list[Contestant] = []
+        language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
+    contestants: list[PolicyAndForce] = []
     for name in policies:
-        forces = FIXED_FORCES_N if name == "fixed_force" else (None,)
+        forces = FORCES_N if name in SWEPT else (None,)
         contestants += [(name, force_n) for force_n in forces]
     console, store = make_table_console(), _store(settings, config, policies)
     function = partial(run_seed, config, contestants)
@@ -231,13 +190,15 @@ def run(settings: StrawberrySettings) -> None:
     }
     figures: dict[str, Any] = {}
     details: dict[str, list[dict[str, Any]]] = {}
-    sweep: dict[str, float] = {}
+    sweeps: dict[str, dict[str, float]] = {}
     for name in policies:
         by_force = {force_n: results[name, force_n] for n, force_n in contestants if n == name}
         best = max(by_force.values(), key=lambda episodes: sum(e.verified for e in episodes))
         figures[name], details[name] = summary(best), [_flat(result) for result in best]
-        if name == "fixed_force":
-            sweep = {f"{f:g}": summary(r)["verified_success_rate"] for f, r in by_force.items()}
+        if name in SWEPT:
+            sweeps[name] = {
+                f"{f:g}": sum(e.verified for e in each) / len(each) for f, each in by_force.items()
+            }
     report = {
         "task": config.task,
         "object": config.object,
@@ -245,10 +206,10 @@ def run(settings: StrawberrySettings) -> None:
         "first_seed": settings.first_seed,
         "episodes": len(by_seed),
         "policies": figures,
-        "fixed_force_sweep_n": sweep,
+        "sweeps_n": sweeps,
         "episodes_by_policy": details,
     }
-    _print(console, figures, sweep, len(by_seed), settings.first_seed)
+    _print(console, figures, sweeps, len(by_seed), settings.first_seed)
     store.write(report)
 
 
@@ -296,7 +257,7 @@ def _flat(result: EpisodeResult) -> dict[str, Any]:
 def _print(
     console: Console,
     figures: dict[str, Any],
-    sweep: dict[str, float],
+    sweeps: dict[str, dict[str, float]],
     episodes: int,
     first_seed: int,
 ) -> None:
@@ -333,6 +294,6 @@ def _print(
             ", ".join(f"{end} {count}" for end, count in row["ends"].items()),
         )
     console.print(table)
-    if sweep:
+    for name, sweep in sweeps.items():
         rates = ", ".join(f"{force} N {100 * rate:.0f} %" for force, rate in sweep.items())
-        console.print(f"fixed_force is the best of a sweep (verified): {rates}")
+        console.print(f"{name} is the best of a sweep (verified): {rates}")

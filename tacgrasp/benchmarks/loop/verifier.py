@@ -40,6 +40,10 @@ PLACE_X_MM, PLACE_Y_MM = Range(low=-4.0, high=4.0), Range(low=-3.0, high=3.0)
 LIFT_S = 4.0
 """Time between both readings: lift, shakes and hold of the tasks."""
 
+FORCE_OVER_BRUISE = Range(low=0.45, high=0.8)
+"""Force of a grasp over the bruise force, of kinds whose needs are felt. Source: the final forces
+of ``rules`` in ``bench strawberry``."""
+
 FORCE_RATIO = Range(low=0.9, high=1.1)
 """Force after the lift over that before. Our choice: soft bodies relax."""
 
@@ -76,15 +80,27 @@ def run(settings: VerifierSettings) -> None:
     figures: dict[str, Any] = {"first_seed": settings.first_seed, "objects": {}}
     for name in OBJECTS:
         config = load(name)[0]
-        sample = partial(verify_seed, name, config.verify, config.goal.goal().force_n)
+        band = None if config.goal.needs else config.goal.goal().force_n
+        sample = partial(verify_seed, name, config.verify, band)
         samples = store.map_seeds(console, name, VerifierSample, sample, seeds)
         figures["objects"][name] = _figures(samples)
     _print(console, figures)
     store.write(figures)
 
 
-def verify_seed(name: str, verify: VerifyConfig, force_n: Band, seed: int) -> VerifierSample:
-    """Verify one body of a kind, unmoved and slid, held with a force of a band [N]."""
+def verify_seed(name: str, verify: VerifyConfig, force_n: Band | None, seed: int) -> VerifierSample:
+    """Verify one body of a kind, unmoved and slid.
+
+    Args:
+        name: Kind of body.
+        verify: Thresholds.
+        force_n: Band that the force of the grasp is drawn from [N]; None draws it below the force
+            that bruises the body.
+        seed: Random seed.
+    """
+    if force_n is None:
+        bruise_n = build(name, seed).grasp.fingers.body.bruise_n
+        force_n = Band(low=FORCE_OVER_BRUISE.low * bruise_n, high=FORCE_OVER_BRUISE.high * bruise_n)
     rng = np.random.default_rng([seed, 12])
     place = (PLACE_X_MM.quantile(rng.random()), PLACE_Y_MM.quantile(rng.random()))
     force, ratio = rng.uniform(force_n.low, force_n.high), FORCE_RATIO.quantile(rng.random())

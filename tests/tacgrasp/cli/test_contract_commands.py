@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tacgrasp.__main__ import main
-from tests.fakes.contracts import STRAWBERRY
+from tests.fakes.contracts import BERRY
 
 Capture = pytest.CaptureFixture[str]
 Patch = pytest.MonkeyPatch
@@ -119,10 +119,10 @@ def test_a_run_writes_contract_steps_and_end_as_they_come(tmp_path: Path, capsys
     path = tmp_path / "events.jsonl"
     argv = ["run", "--policy", "rules", "--seed", "1", "--record", str(tmp_path)]
     assert main([*argv, "--json", str(path)]) == 0
-    assert "understood: pick the strawberry, 0.95-1.90 N" in capsys.readouterr().out
+    assert "understood: pick the strawberry, 0.15-2.50 N" in capsys.readouterr().out
     contract, *steps, end = events(path)
     assert contract["event"] == "contract"
-    assert contract["force_n"] == [STRAWBERRY.force_n.low, STRAWBERRY.force_n.high]
+    assert contract["force_n"] == [BERRY.force_n.low, BERRY.force_n.high]
     assert {step["event"] for step in steps} == {"step"}
     assert [step["index"] for step in steps] == list(range(len(steps)))
     assert end["event"] == "end"

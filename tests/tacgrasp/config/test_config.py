@@ -195,7 +195,7 @@ WIDENED = {
         {},
         "gripper.max_force_n must be at most .* 12, got",
     ),
-    "lower force": (["--gripper.min-force-n", "0.05"], {}, "min_force_n must be at least .* 0.1"),
+    "lower force": (["--gripper.min-force-n", "0.02"], {}, "min_force_n must be at least .* 0.03"),
     "box": (
         ["--arm.workspace-high-m", "0.5", "0.1", "0.3"],
         {},

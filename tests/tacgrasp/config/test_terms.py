@@ -16,7 +16,7 @@ from tacgrasp.config.terms import (
     given,
     task_terms,
 )
-from tests.fakes.contracts import PEG, STRAWBERRY, refused_contract
+from tests.fakes.contracts import BERRY, PEG_TASK, refused_contract
 
 TASKS = ("strawberry", "egg", "peg", "cherry_tomato")
 
@@ -34,9 +34,9 @@ def test_an_unchanged_run_has_nothing_given_and_the_tasks_own_terms(task):
 
 
 def test_the_terms_are_those_of_the_task_files():
-    assert task_terms(load("strawberry")[0]).force == STRAWBERRY
-    assert task_terms(load("peg")[0]).force == PEG
-    assert task_terms(load("peg")[0]).soft == STRAWBERRY
+    assert task_terms(load("strawberry")[0]).force == BERRY
+    assert task_terms(load("peg")[0]).force == PEG_TASK
+    assert task_terms(load("peg")[0]).soft == BERRY
 
 
 def test_the_gripper_of_the_rig_bounds_the_forces():
@@ -53,7 +53,7 @@ def test_what_a_layer_above_the_task_sets_is_given_and_leaves_the_tasks_terms():
     changed = config.model_copy(update={"goal": goal})
     sources = {**sources, "goal.force_n": "flag --goal.force-n"}
     assert given(changed, sources) == {"force_n": Band(low=4.0, high=6.0)}
-    assert task_terms(changed, sources).force == STRAWBERRY
+    assert task_terms(changed, sources).force == BERRY
     assert contract_of(changed, sources).terms.force_n == Band(low=4.0, high=6.0)
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.settings import StrawberrySettings, VerifierSettings
-from tests.fakes.contracts import STRAWBERRY
+from tests.fakes.contracts import BERRY
 
 SEED = 1_000_003
 
@@ -25,7 +25,7 @@ def test_a_strawberry_under_the_pegs_task_is_held_to_its_own_terms(tmp_path):
     (episode,) = report["episodes_by_policy"]["rules"]
     assert episode["objected"]
     assert not episode["bruised"]
-    assert episode["truth"]["peak_force_n"] <= STRAWBERRY.limit_n
+    assert episode["truth"]["peak_force_n"] <= BERRY.limit_n
 
 
 def test_the_figures_of_a_policy_have_their_names_and_agree_with_its_episodes(tmp_path, capsys):
