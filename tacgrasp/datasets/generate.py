@@ -17,14 +17,15 @@ from pathlib import Path
 from rich.console import Console
 
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
+from cltp.data.dataset_writer import DatasetWriter, PackedShard, shard_stem
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.worker_pool import num_cores, worker_pool
 from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
-from tacgrasp.datasets.recipes import DatasetRecipe, recipe
+from tacgrasp.datasets.cluster import shards_from_cluster
+from tacgrasp.datasets.recipes import DatasetRecipe, make_packed, recipe
 from tacgrasp.datasets.requests import GenerateRequest
 
 
@@ -51,12 +52,12 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     jobs = [
         (out, number, sizes[number])
         for number in numbers
-        if not (out / f"shard-{_part(number)}-00000.parquet").exists()
+        if not shard_stem(out, _part(number)).with_suffix(".parquet").exists()
     ]
     with count_progress(console) as progress:
         bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
         progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
-        for number in _make_shards(jobs, plan, min(workers, len(jobs))):
+        for number in _made(jobs, plan, min(workers, len(jobs)), request.on):
             progress.advance(bar, sizes[number])
     command = plan.card_command()
     if command is not None and is_complete(out):
@@ -98,6 +99,17 @@ _Job = tuple[Path, int, int]
 """Folder, number of the shard, and number of its contacts."""
 
 
+def _made(jobs: list[_Job], plan: DatasetRecipe, workers: int, on: str | None) -> Iterator[int]:
+    """Make shards here or on a cluster; yields each one's number once it is on disk."""
+    if on is None:
+        yield from _make_shards(jobs, plan, workers)
+    elif jobs:
+        out = jobs[0][0]
+        for number, shard in shards_from_cluster(on, plan, [(n, size) for _, n, size in jobs]):
+            store_shard(out, number, shard)
+            yield number
+
+
 def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterator[int]:
     """Make shards in this or in worker processes; yields each one's number once it is on disk."""
     if workers <= 1:
@@ -118,18 +130,22 @@ def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterato
 
 def _make_shard(job: _Job, plan: DatasetRecipe) -> int:
     out, number, count = job
-    contacts = plan.make(number)
-    if len(contacts) != count:
-        raise RuntimeError(f"shard {number} has {len(contacts)} contacts instead of {count}")
+    store_shard(out, number, make_packed(plan, number, count))
+    return number
+
+
+def store_shard(out: Path, number: int, shard: PackedShard) -> None:
+    """Write a shard to a data set.
+
+    Raises:
+        TouchError: It can't be written.
+    """
     try:
-        with DatasetWriter(out, part=_part(number), shard_size=count) as writer:
-            for contact in contacts:
-                writer.add(contact)
+        shard.write(shard_stem(out, _part(number)))
     except OSError as error:
         raise TouchError(
             f"can't write contacts to {out}: {error}; the same command goes on from there"
         ) from error
-    return number
 
 
 def _open(out: Path, about: Mapping[str, str]) -> None:
