@@ -237,5 +237,6 @@ def name_skin(skin: DrawnSkin, closed: Mask, pitch_mm: float) -> tuple[Texture, 
     range_mm = float(np.ptp(np.percentile(relief, [3, 97]))) if len(relief) else 0.0
     if range_mm < SMOOTH_RELIEF_MM:
         return Texture.SMOOTH, range_mm < 0.6 * SMOOTH_RELIEF_MM
-    width_mm = float(np.sqrt(np.count_nonzero(closed))) * pitch_mm
+    broad_mm = float(np.sqrt(np.count_nonzero(closed))) * pitch_mm
+    width_mm = min(broad_mm, bounding_rectangle(closed, pitch_mm).width)
     return skin.texture, width_mm > MIN_PERIODS * skin.pitch_mm

@@ -9,7 +9,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from cltp.tactile.states import Texture
+from cltp.tactile.states import Shape, Texture
 from sim.full.drawn.surface import Draws
 from sim.full.labels import name_skin
 from sim.full.requests import FullRequest
@@ -23,7 +23,7 @@ from sim.objects.object import Mount, Part, SolidObject
 from sim.objects.ray_casting import cast_pad_rays
 from sim.objects.skins import SMOOTH, bumpy, fade, ridged, rough, woven
 from sim.objects.solids import Cut, Solid
-from sim.tcl3d.contact_geometry import ContactGeometry, Mask
+from sim.tcl3d.contact_geometry import ContactGeometry, Mask, covered_fraction
 from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
 
@@ -41,6 +41,7 @@ _POSE_SKINS = {  # for a pose it counts only that there is one
     Texture.BUMPY: bumpy(0.1, 2.0),
     Texture.WOVEN: woven(0.1, 1.0),
 }
+_SHARP, _SHARP_AREA = (Shape.EDGE, Shape.CORNER, Shape.PEAK), 0.3  # more touches of a leaning face
 _MAX_ATTEMPTS, _BORDER_MARGIN = 30, 4
 _SOFT_ALIKE_MPA = 0.35  # roughly the stiffness of a gel on its back: such a body flattens as much
 
@@ -152,7 +153,10 @@ def solid_scene(
             pitch_mm=pitch_mm,
         )
         texture, is_sure = _texture(skin, closed & covered, broad, pitch_mm)
-        return Naming(shape=name_shape(geometry), texture=texture, is_texture_sure=is_sure)
+        shape = name_shape(geometry)
+        if shape.shape in _SHARP:
+            shape = shape.sure_if(covered_fraction(closed) < _SHARP_AREA)
+        return Naming(shape=shape, texture=texture, is_texture_sure=is_sure)
 
     return PressScene(
         gap_mm=np.where(covered, gap - gap[covered].min(), NO_BODY_MM),
