@@ -10,6 +10,9 @@ Not here: files and progress (``tacgrasp.datasets.generate``).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import torch
@@ -29,74 +32,79 @@ AHEAD = 4
 memory of this machine."""
 
 
-def shards_from_cluster(
-    address: str, plan: DatasetRecipe, jobs: Sequence[tuple[int, int]]
-) -> Iterator[tuple[int, PackedShard]]:
-    """Make shards on a cluster; yields number and bytes of each as it arrives.
-
-    Args:
-        address: Address of the scheduler.
-        plan: The recipe.
-        jobs: Number of each shard and of its contacts.
+@contextmanager
+def cluster_at(address: str) -> Iterator[Cluster]:
+    """Connect to the scheduler at an address.
 
     Raises:
         UsageError: dask.distributed is not installed, or no scheduler answers.
-        TouchError: The cluster computes with another torch, has an older recipe, or fails to make a
-            shard.
     """
     try:
-        from distributed import Client, as_completed
+        from distributed import Client
     except ImportError:
         raise UsageError(
             "--on needs dask.distributed, which is not installed: pip install 'tacgrasp[scale]'"
         ) from None
     try:
         client = Client(address, timeout=CONNECT_S, set_as_default=False)
-    except (OSError, TimeoutError, ValueError) as error:
+    except (OSError, ValueError) as error:
         raise UsageError(
             f"--on {address}: no scheduler answers within {CONNECT_S} s ({error}); start one with "
             "'dask scheduler' and give the address that it prints"
         ) from None
     with client:
-        left = iter(jobs)
+        yield Cluster(address=address, client=client)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Cluster:
+    """A connection to a scheduler, ``client``, at an address."""
+
+    address: str
+    client: Any
+
+    def make(
+        self, plan: DatasetRecipe, jobs: Sequence[tuple[int, int]]
+    ) -> Iterator[tuple[int, PackedShard]]:
+        """Make shards; yields number and bytes of each as it arrives.
+
+        Args:
+            plan: The recipe.
+            jobs: Number of each shard and of its contacts.
+
+        Raises:
+            TouchError: A worker has other software, or the cluster fails to make a shard.
+        """
+        from distributed import as_completed
+
+        left, numbers = iter(jobs), {}
 
         def submitted(job: tuple[int, int]) -> Any:
-            future = client.submit(
-                make_remotely,
-                plan,
-                plan.about(),
-                torch.__version__,
-                *job,
-                retries=RETRIES,
-                pure=False,
+            facts = plan.about(), torch.__version__
+            future = self.client.submit(
+                make_remotely, plan, *facts, *job, retries=RETRIES, pure=False
             )
-            counts[future.key] = job[0]
+            numbers[future.key] = job[0]
             return future
 
-        counts: dict[str, int] = {}
-        first = [submitted(job) for _, job in zip(range(_at_once(client)), left, strict=False)]
-        waiting = as_completed(first)
+        threads = sum(self.client.nthreads().values())
+        first = [submitted(job) for job in islice(left, AHEAD * max(threads, 1))]
+        waiting = as_completed(first, loop=self.client.loop)
         for future in waiting:
-            number = counts.pop(future.key)
+            number = numbers.pop(future.key)
             try:
                 shard = future.result()
             except TouchError:
                 raise
             except Exception as error:  # whatever a worker raised, or KilledWorker
                 raise TouchError(
-                    f"the cluster at {address} failed to make shard {number}: {error}; the same "
-                    "command goes on from there"
+                    f"the cluster at {self.address} failed to make shard {number}: {error}; the "
+                    "same command goes on from there"
                 ) from error
             future.release()
             yield number, shard
-            for job in left:
+            for job in islice(left, 1):
                 waiting.add(submitted(job))
-                break
-
-
-def _at_once(client: Any) -> int:
-    threads = sum(client.nthreads().values())
-    return AHEAD * max(threads, 1)
 
 
 def make_remotely(

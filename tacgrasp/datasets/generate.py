@@ -12,6 +12,7 @@ import re
 from collections.abc import Iterator, Mapping
 from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
@@ -24,7 +25,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.base.worker_pool import num_cores, worker_pool
 from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
-from tacgrasp.datasets.cluster import shards_from_cluster
+from tacgrasp.datasets.cluster import Cluster, cluster_at
 from tacgrasp.datasets.recipes import DatasetRecipe, make_packed, recipe
 from tacgrasp.datasets.requests import GenerateRequest
 
@@ -44,8 +45,29 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     workers = num_cores() if request.workers is None else request.workers
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
+    if request.on is not None and request.workers is not None:
+        raise UsageError("--workers is for this machine; the cluster of --on has its own workers")
     plan, out = recipe(request), request.out
-    sizes = plan.shard_sizes()
+    with ExitStack() as opened:
+        cluster = None if request.on is None else opened.enter_context(cluster_at(request.on))
+        _make_missing(plan, request, workers, cluster, console)
+    command = plan.card_command()
+    if command is not None and is_complete(out):
+        try:
+            write_card(out, command)
+        except OSError as error:
+            raise TouchError(f"can't write the card of {out}: {error}") from error
+
+
+def _make_missing(
+    plan: DatasetRecipe,
+    request: GenerateRequest,
+    workers: int,
+    cluster: Cluster | None,
+    console: Console | None,
+) -> None:
+    """Make the shards of a request that are not there yet."""
+    out, sizes = request.out, plan.shard_sizes()
     numbers = _part_of(len(sizes), request.shard)
     _open(out, plan.about())
     _clear(out, numbers)
@@ -57,14 +79,8 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     with count_progress(console) as progress:
         bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
         progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
-        for number in _made(jobs, plan, min(workers, len(jobs)), request.on):
+        for number in _made(jobs, plan, min(workers, len(jobs)), cluster):
             progress.advance(bar, sizes[number])
-    command = plan.card_command()
-    if command is not None and is_complete(out):
-        try:
-            write_card(out, command)
-        except OSError as error:
-            raise TouchError(f"can't write the card of {out}: {error}") from error
 
 
 def is_complete(out: Path) -> bool:
@@ -99,13 +115,15 @@ _Job = tuple[Path, int, int]
 """Folder, number of the shard, and number of its contacts."""
 
 
-def _made(jobs: list[_Job], plan: DatasetRecipe, workers: int, on: str | None) -> Iterator[int]:
+def _made(
+    jobs: list[_Job], plan: DatasetRecipe, workers: int, cluster: Cluster | None
+) -> Iterator[int]:
     """Make shards here or on a cluster; yields each one's number once it is on disk."""
-    if on is None:
+    if cluster is None:
         yield from _make_shards(jobs, plan, workers)
     elif jobs:
         out = jobs[0][0]
-        for number, shard in shards_from_cluster(on, plan, [(n, size) for _, n, size in jobs]):
+        for number, shard in cluster.make(plan, [(n, size) for _, n, size in jobs]):
             store_shard(out, number, shard)
             yield number
 

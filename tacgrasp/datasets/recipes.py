@@ -159,6 +159,7 @@ class FullRecipe:
     contacts: int
     seed: int
     device: str = "cpu"
+    shard_series: int = FULL_SHARD_SERIES
 
     def about(self) -> dict[str, str]:
         return {
@@ -177,12 +178,12 @@ class FullRecipe:
         return f"tacgrasp data generate --set full --seed {self.seed}{count}{device}"
 
     def shard_sizes(self) -> list[int]:
-        size = FULL_SHARD_SERIES * LOADS
+        size = self.shard_series * LOADS
         return [min(size, self.contacts - first) for first in range(0, self.contacts, size)]
 
     def make(self, shard: int) -> list[Contact]:
-        first = shard * FULL_SHARD_SERIES
-        last = min(first + FULL_SHARD_SERIES, num_series(self.contacts))
+        first = shard * self.shard_series
+        last = min(first + self.shard_series, num_series(self.contacts))
         series = (make_full_series(self.seed, n, self.device) for n in range(first, last))
         return [contact for each in series for contact in each][: self.shard_sizes()[shard]]
 
@@ -227,7 +228,12 @@ def recipe(request: GenerateRequest) -> DatasetRecipe:
         )
     usable_device(request.device)
     if name == "full":
-        return FullRecipe(contacts=contacts or FULL_CONTACTS, seed=seed, device=request.device)
+        return FullRecipe(
+            contacts=contacts or FULL_CONTACTS,
+            seed=seed,
+            device=request.device,
+            shard_series=FULL_SHARD_SERIES,
+        )
     return _paper_recipe(contacts or ALL_CONTACTS, seed, meshes, request.device)
 
 
