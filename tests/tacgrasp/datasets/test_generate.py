@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 from rich.console import Console
 
+from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from tacgrasp.base.errors import UsageError
@@ -271,10 +272,12 @@ def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):
 
 
 def test_a_full_disk_is_an_error_that_leaves_no_shard(tmp_path, monkeypatch, shards_of_two_series):
-    def full(*_args, **_options):
-        raise OSError(28, "No space left on device")
+    def write_all_but_an_index(path, content):
+        if path.suffix == ".parquet":
+            raise OSError(28, "No space left on device")
+        return write_atomically(path, content)
 
-    monkeypatch.setattr("cltp.data.dataset.pq.write_table", full)
+    monkeypatch.setattr("cltp.data.dataset_writer.write_atomically", write_all_but_an_index)
     with pytest.raises(TouchError, match="No space left on device"):
         tcl3d(tmp_path / "data", contacts=8, workers=1)
     assert not made.is_complete(tmp_path / "data")
