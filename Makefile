@@ -45,7 +45,7 @@ fuzz: setup
 	$(BIN)/python -m tests.fuzz --cases $(CASES) --parser $(PARSER) --seed $(SEED)
 
 weights: setup
-	$(BIN)/tacgrasp data generate --out runs/tcl3d --seed 0
+	$(BIN)/tacgrasp data generate --set paper --out runs/tcl3d --seed 0
 	$(BIN)/tacgrasp data generate --out runs/data --set starter --contacts 24000 --seed 0
 	$(BIN)/tacgrasp train clip --data runs/tcl3d --out runs/pretrained --steps 700
 	$(BIN)/tacgrasp train cltp --data runs/tcl3d --also runs/data --out runs/pretrained \

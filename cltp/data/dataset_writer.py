@@ -7,7 +7,8 @@ import io
 import json
 import re
 import zlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Self
 
@@ -29,6 +30,50 @@ from cltp.data.dataset import (
 )
 from cltp.errors import TouchError
 from cltp.tactile.states import DIMENSIONS
+
+
+@dataclass(frozen=True, slots=True)
+class PackedShard:
+    """The bytes of a shard's two files: packed heights, and the index of labels."""
+
+    heights: bytes
+    index: bytes
+
+    def write(self, stem: Path) -> None:
+        """Write both files beside each other, the index last: the shard exists from then on.
+
+        Raises:
+            OSError: They can't be written.
+        """
+        write_atomically(stem.with_suffix(".heights"), self.heights)
+        write_atomically(stem.with_suffix(".parquet"), self.index)
+
+
+def shard_stem(folder: Path, part: str, number: int = 0) -> Path:
+    """Path of a shard's files without their suffix."""
+    return folder / f"shard-{part}-{number:05d}"
+
+
+def packed_shard(contacts: Sequence[Contact]) -> PackedShard:
+    """Pack contacts, at least one, into the files of a shard; they depend on the contacts alone."""
+    packed = [pack_heights(contact.height_mm) for contact in contacts]
+    offsets = np.cumsum([0, *(len(p) for p in packed)])
+    rows = [
+        _row(contact, int(offset), data)
+        for contact, offset, data in zip(contacts, offsets[:-1], packed, strict=True)
+    ]
+    blob = b"".join(packed)
+    digest = hashlib.sha256(blob).hexdigest()
+    parts = [SCHEMA]
+    if any(contact.unsure is not None for contact in contacts):
+        parts.append(SIMULATED)
+    if any(contact.measured for contact in contacts):
+        parts.append(IMPORTED)
+    schema = pa.unify_schemas(parts).with_metadata({"heights_sha256": digest})
+    table = pa.Table.from_pylist(rows, schema=schema)
+    index = io.BytesIO()
+    pq.write_table(table, index, compression="zstd")
+    return PackedShard(heights=blob, index=index.getvalue())
 
 
 class DatasetWriter:
@@ -83,27 +128,9 @@ class DatasetWriter:
         if not self._contacts:
             return
         number = len(list(self._folder.glob(f"shard-{self._part}-*.parquet")))
-        stem = self._folder / f"shard-{self._part}-{number:05d}"
-        packed = [pack_heights(contact.height_mm) for contact in self._contacts]
-        offsets = np.cumsum([0, *(len(p) for p in packed)])
-        rows = [
-            _row(contact, int(offset), data)
-            for contact, offset, data in zip(self._contacts, offsets[:-1], packed, strict=True)
-        ]
-        blob = b"".join(packed)
-        write_atomically(stem.with_suffix(".heights"), blob)
-        digest = hashlib.sha256(blob).hexdigest()
-        parts = [SCHEMA]
-        if any(contact.unsure is not None for contact in self._contacts):
-            parts.append(SIMULATED)
-        if any(contact.measured for contact in self._contacts):
-            parts.append(IMPORTED)
-        schema = pa.unify_schemas(parts).with_metadata({"heights_sha256": digest})
-        table = pa.Table.from_pylist(rows, schema=schema)
-        index = io.BytesIO()
-        pq.write_table(table, index, compression="zstd")
-        write_atomically(stem.with_suffix(".parquet"), index.getvalue())
-        self.num_written += len(rows)
+        stem = shard_stem(self._folder, self._part, number)
+        packed_shard(self._contacts).write(stem)
+        self.num_written += len(self._contacts)
         self._contacts.clear()
 
     def __enter__(self) -> Self:

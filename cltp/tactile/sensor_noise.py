@@ -71,6 +71,8 @@ MINI_SPREAD = NoiseSpread(
 )
 SPREADS: dict[str, NoiseSpread] = {
     "gelsight_mini": MINI_SPREAD,
+    # Not measured; the same maker and the same reconstruction.
+    "gelsight_r15": MINI_SPREAD,
     # Not measured. Our assumption: like the GelSight Mini, which is photometric too, but less well
     # calibrated, and its curved gel is out of sight within up to 1 mm of the border.
     "digit": dataclasses.replace(

@@ -75,9 +75,12 @@ class SensorSpec:
 # thickness not published, assumed like the Mini's. GelStereo 2.0: about 530 tracked points, a
 # square area of 595 px at f = 651 px and 28.7 mm, so 26.2 mm (TacFlex by its makers,
 # github.com/Zhang-Chaofan); that the points are 23 × 23 in equal cells, and the gel's thickness,
-# are assumed. Rows, columns and mm_per_px are those of the grid that we simulate it on.
+# are assumed. Rows, columns and mm_per_px are those of the grid that we simulate it on. GelSight
+# R1.5: 320×240 px and 0.081 mm/px (gsrobotics, its 3D view); gel thickness not published, assumed
+# like the Mini's.
 _TABLE: tuple[tuple[Any, ...], ...] = (
     ("gelsight_mini", 320, 240, 0.0634, 3.4, 1.5, None),
+    ("gelsight_r15", 320, 240, 0.081, 3.4, 1.5, None),
     ("digit", 320, 240, 0.0405, 3.4, 1.5, None),
     ("gelstereo", 240, 240, 0.1092, 4.0, 1.5, (23, 23)),
 )

@@ -1,10 +1,11 @@
-"""Objects from meshes (millimetres), in addition to those of the catalogue; rays are open3d's.
+"""Objects from meshes (millimetres), in addition to those of the catalogue.
 
 A mesh is cut into regions along its creases; a region is flat, curved, or around a tip. The regions
 that touch then label a contact as for any object (``sim.tcl3d.shape_labels``): a scanned box gives
 planes, edges and corners like one of solids.
 
-Not here: reading and checking mesh files (``sim.objects.meshes``).
+Not here: reading and checking mesh files (``sim.objects.meshes``), rays
+(``sim.objects.mesh_rays``).
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.states import Shape
 from sim.objects.faces import Cell, Form
-from sim.objects.meshes import SUFFIXES, IntArray, checked_mesh, connected_parts, ray_scene
+from sim.objects.mesh_rays import mesh_rays
+from sim.objects.meshes import SUFFIXES, IntArray, checked_mesh, connected_parts
 from sim.objects.object import Family, Part, SolidObject
 
 CREASE_DEG = 25.0
@@ -75,36 +77,32 @@ class _MeshSolid:
     """A closed mesh as a ``sim.objects.solids.Solid``."""
 
     def __init__(self, vertices: FloatArray, faces: IntArray) -> None:
-        self._scene, self._tensor = ray_scene(vertices, faces)
+        self._rays = mesh_rays(vertices, faces)
         self._region, self.cells = _regions(vertices, faces)
         self.reach_mm = float(np.linalg.norm(vertices, axis=1).max())
         self.max_slope = 1.0
 
     def distance(self, points: Tensor) -> Tensor:
-        distances = self._scene.compute_signed_distance(self._points(points)).numpy()
+        distances = self._rays.distances(_flat(points))
         return torch.from_numpy(distances.reshape(points.shape[:-1])).to(points)
 
     def cell(self, points: Tensor) -> Tensor:
-        closest = self._scene.compute_closest_points(self._points(points))
-        face = closest["primitive_ids"].numpy().astype(np.int64)
+        face = self._rays.nearest_faces(_flat(points))
         return torch.from_numpy(self._region[face].reshape(points.shape[:-1])).to(points.device)
 
     def rays(self, origins: Tensor, along: Tensor, far_mm: float) -> Tensor:
-        starts = origins.detach().cpu().numpy().astype(np.float32)
-        directions = np.broadcast_to(along.detach().cpu().numpy().astype(np.float32), starts.shape)
-        rays = self._tensor(np.concatenate([starts, directions], axis=1))
-        distances = self._scene.cast_rays(rays)["t_hit"].numpy().copy()
+        starts = _flat(origins)
+        distances = self._rays.hits(starts, along.detach().cpu().numpy())
         distances[distances > far_mm] = np.inf
         # A part that is in the way is no needle.
-        samples = np.ascontiguousarray(starts[::_INSIDE_CHECK_STRIDE])
-        inside = self._scene.compute_signed_distance(self._tensor(samples)).numpy() < 0
-        if inside.any():
+        if (self._rays.distances(starts[::_INSIDE_CHECK_STRIDE]) < 0).any():
             distances[:] = np.nan
         return torch.from_numpy(distances).to(origins)
 
-    def _points(self, points: Tensor) -> Any:
-        flat = points.detach().cpu().numpy().astype(np.float32).reshape(-1, 3)
-        return self._tensor(np.ascontiguousarray(flat))
+
+def _flat(points: Tensor) -> FloatArray:
+    """Points (..., 3) as an array (N, 3)."""
+    return np.asarray(points.detach().cpu().numpy().reshape(-1, 3))
 
 
 @dataclass(frozen=True)

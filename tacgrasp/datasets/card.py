@@ -47,8 +47,9 @@ def write_card(folder: Path, command: str) -> None:
 def card(data: ContactDataset, command: str) -> str:
     """The text of the card, Markdown."""
     objects, series = data.column("object"), data.column("series")
+    title = "Full set" if data.about.get("set") == "full" else "TCL3D"
     lines = [
-        "# TCL3D: contact states of a simulated gel",
+        f"# {title}: contact states of a simulated gel",
         "",
         f"{len(data):,} contacts in {len(np.unique(series)):,} series of rising force, "
         f"{len(np.unique(objects))} objects. Heights are clean, in steps of 1 µm; clouds, noise, "

@@ -12,19 +12,21 @@ import re
 from collections.abc import Iterator, Mapping
 from concurrent.futures import as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import ExitStack
 from pathlib import Path
 
 from rich.console import Console
 
 from cltp.data.dataset import ContactDataset
-from cltp.data.dataset_writer import DatasetWriter
+from cltp.data.dataset_writer import DatasetWriter, PackedShard, shard_stem
 from cltp.errors import TouchError
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.worker_pool import num_cores, worker_pool
 from tacgrasp.console import count_progress
 from tacgrasp.datasets.card import write_card
-from tacgrasp.datasets.recipes import DatasetRecipe, recipe
+from tacgrasp.datasets.cluster import Cluster, cluster_at
+from tacgrasp.datasets.recipes import DatasetRecipe, make_packed, recipe
 from tacgrasp.datasets.requests import GenerateRequest
 
 
@@ -43,27 +45,42 @@ def generate(request: GenerateRequest, console: Console | None = None) -> None:
     workers = num_cores() if request.workers is None else request.workers
     if workers < 1:
         raise UsageError(f"expected at least 1 worker, got {workers}")
+    if request.on is not None and request.workers is not None:
+        raise UsageError("--workers is for this machine; the cluster of --on has its own workers")
     plan, out = recipe(request), request.out
-    sizes = plan.shard_sizes()
-    numbers = _part_of(len(sizes), request.shard)
-    _open(out, plan.about())
-    _clear(out, numbers)
-    jobs = [
-        (out, number, sizes[number])
-        for number in numbers
-        if not (out / f"shard-{_part(number)}-00000.parquet").exists()
-    ]
-    with count_progress(console) as progress:
-        bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
-        progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
-        for number in _make_shards(jobs, plan, min(workers, len(jobs))):
-            progress.advance(bar, sizes[number])
+    with ExitStack() as opened:
+        cluster = None if request.on is None else opened.enter_context(cluster_at(request.on))
+        _make_missing(plan, request, workers, cluster, console)
     command = plan.card_command()
     if command is not None and is_complete(out):
         try:
             write_card(out, command)
         except OSError as error:
             raise TouchError(f"can't write the card of {out}: {error}") from error
+
+
+def _make_missing(
+    plan: DatasetRecipe,
+    request: GenerateRequest,
+    workers: int,
+    cluster: Cluster | None,
+    console: Console | None,
+) -> None:
+    """Make the shards of a request that are not there yet."""
+    out, sizes = request.out, plan.shard_sizes()
+    numbers = _part_of(len(sizes), request.shard)
+    _open(out, plan.about())
+    _clear(out, numbers)
+    jobs = [
+        (out, number, sizes[number])
+        for number in numbers
+        if not shard_stem(out, _part(number)).with_suffix(".parquet").exists()
+    ]
+    with count_progress(console) as progress:
+        bar = progress.add_task("contacts", total=sum(sizes[number] for number in numbers))
+        progress.advance(bar, sum(sizes[n] for n in numbers) - sum(job[2] for job in jobs))
+        for number in _made(jobs, plan, min(workers, len(jobs)), cluster):
+            progress.advance(bar, sizes[number])
 
 
 def is_complete(out: Path) -> bool:
@@ -98,6 +115,19 @@ _Job = tuple[Path, int, int]
 """Folder, number of the shard, and number of its contacts."""
 
 
+def _made(
+    jobs: list[_Job], plan: DatasetRecipe, workers: int, cluster: Cluster | None
+) -> Iterator[int]:
+    """Make shards here or on a cluster; yields each one's number once it is on disk."""
+    if cluster is None:
+        yield from _make_shards(jobs, plan, workers)
+    elif jobs:
+        out = jobs[0][0]
+        for number, shard in cluster.make(plan, [(n, size) for _, n, size in jobs]):
+            store_shard(out, number, shard)
+            yield number
+
+
 def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterator[int]:
     """Make shards in this or in worker processes; yields each one's number once it is on disk."""
     if workers <= 1:
@@ -118,18 +148,22 @@ def _make_shards(jobs: list[_Job], plan: DatasetRecipe, workers: int) -> Iterato
 
 def _make_shard(job: _Job, plan: DatasetRecipe) -> int:
     out, number, count = job
-    contacts = plan.make(number)
-    if len(contacts) != count:
-        raise RuntimeError(f"shard {number} has {len(contacts)} contacts instead of {count}")
+    store_shard(out, number, make_packed(plan, number, count))
+    return number
+
+
+def store_shard(out: Path, number: int, shard: PackedShard) -> None:
+    """Write a shard to a data set.
+
+    Raises:
+        TouchError: It can't be written.
+    """
     try:
-        with DatasetWriter(out, part=_part(number), shard_size=count) as writer:
-            for contact in contacts:
-                writer.add(contact)
+        shard.write(shard_stem(out, _part(number)))
     except OSError as error:
         raise TouchError(
             f"can't write contacts to {out}: {error}; the same command goes on from there"
         ) from error
-    return number
 
 
 def _open(out: Path, about: Mapping[str, str]) -> None:

@@ -1,6 +1,8 @@
 """The data sets that can be generated, each cut into shards that can be made in any order.
 
-- ``tcl3d``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``);
+- ``full``: 259 objects drawn anew for every series, 120,000 contacts, four sensors
+  (``sim.full.series``);
+- ``paper``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``);
 - ``starter``: 19 indenters and four bodies at a gripper's forces, 24,000 contacts
   (``sim.starter.contacts``).
 
@@ -19,7 +21,12 @@ from typing import Protocol
 import torch
 
 from cltp.data.contact import Contact
+from cltp.data.dataset_writer import PackedShard, packed_shard
 from cltp.tactile.sensors import sensor_named
+from sim.full.requests import LOADS
+from sim.full.series import CONTACTS as FULL_CONTACTS
+from sim.full.series import make_series as make_full_series
+from sim.full.series import num_series
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.objects.catalogue import CATALOGUE
 from sim.objects.mesh_objects import meshes_in, object_from_mesh
@@ -29,14 +36,18 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
 from tacgrasp.datasets.requests import GenerateRequest
 
-SETS = ("tcl3d", "starter")
+SETS = ("full", "paper", "starter")
+FORMER_NAMES = {"tcl3d": "paper"}
+"""Sets by the names that they had before."""
+
 STARTER_CONTACTS = 24_000
 
-STARTER_MAKER, TCL3D_MAKER = "2", "tcl3d 1"
+STARTER_MAKER, TCL3D_MAKER, FULL_MAKER = "2", "tcl3d 1", "full 1"
 """Versions of the recipes; raised when the same seed gives other contacts."""
 
 SHARD_GROUPS = 5
 SHARD_SERIES = 50
+FULL_SHARD_SERIES = 100
 
 
 class DatasetRecipe(Protocol):
@@ -93,7 +104,7 @@ class StarterRecipe:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tcl3dRecipe:
-    """The set ``tcl3d``."""
+    """The set ``paper``. Its files say ``tcl3d``, as it was called: they stay the same."""
 
     contacts: int
     seed: int
@@ -116,7 +127,7 @@ class Tcl3dRecipe:
         count = "" if self.contacts == ALL_CONTACTS else f" --contacts {self.contacts}"
         device = "" if self.device == "cpu" else f" --device {self.device}"
         meshes = f" --meshes {self.meshes[0].parent}" if self.meshes else ""
-        return f"tacgrasp data generate --set tcl3d --seed {self.seed}{count}{meshes}{device}"
+        return f"tacgrasp data generate --set paper --seed {self.seed}{count}{meshes}{device}"
 
     def shard_sizes(self) -> list[int]:
         sizes = [sum(map(num_loads, shard)) for shard in self._shards()]
@@ -141,6 +152,50 @@ class Tcl3dRecipe:
         return _parts(series_numbers(self.contacts))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FullRecipe:
+    """The set ``full``."""
+
+    contacts: int
+    seed: int
+    device: str = "cpu"
+    shard_series: int = FULL_SHARD_SERIES
+
+    def about(self) -> dict[str, str]:
+        return {
+            "made_by": "tacgrasp data generate",
+            "set": "full",
+            "maker": FULL_MAKER,
+            "seed": str(self.seed),
+            "contacts": str(self.contacts),
+            "torch": torch.__version__.split("+")[0],
+            "device": self.device.split(":")[0],
+        }
+
+    def card_command(self) -> str:
+        count = "" if self.contacts == FULL_CONTACTS else f" --contacts {self.contacts}"
+        device = "" if self.device == "cpu" else f" --device {self.device}"
+        return f"tacgrasp data generate --set full --seed {self.seed}{count}{device}"
+
+    def shard_sizes(self) -> list[int]:
+        size = self.shard_series * LOADS
+        return [min(size, self.contacts - first) for first in range(0, self.contacts, size)]
+
+    def make(self, shard: int) -> list[Contact]:
+        first = shard * self.shard_series
+        last = min(first + self.shard_series, num_series(self.contacts))
+        series = (make_full_series(self.seed, n, self.device) for n in range(first, last))
+        return [contact for each in series for contact in each][: self.shard_sizes()[shard]]
+
+
+def make_packed(plan: DatasetRecipe, shard: int, count: int) -> PackedShard:
+    """Make the bytes of one shard, which has ``count`` contacts."""
+    contacts = plan.make(shard)
+    if len(contacts) != count:
+        raise RuntimeError(f"shard {shard} has {len(contacts)} contacts instead of {count}")
+    return packed_shard(contacts)
+
+
 def recipe(request: GenerateRequest) -> DatasetRecipe:
     """Make the recipe that a request names.
 
@@ -150,35 +205,48 @@ def recipe(request: GenerateRequest) -> DatasetRecipe:
         TouchError: An unknown sensor, or a mesh that can't be used.
     """
     contacts, seed, meshes = request.contacts, request.seed, request.meshes
-    if request.set not in SETS:
-        raise UsageError(f"unknown set {request.set!r}; known: {', '.join(SETS)}")
+    name = FORMER_NAMES.get(request.set, request.set)
+    if name not in SETS:
+        raise UsageError(f"--set expects {', '.join(SETS)}, got {request.set!r}; full teaches most")
     if (contacts is not None and contacts < 1) or not 0 <= seed < BENCHMARK_SEED:
         raise UsageError(
             f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
             f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
         )
     sensor_named(request.sensor)
-    if request.set == "starter":
-        if meshes is not None or request.device != "cpu":
-            raise UsageError("--meshes and --device belong to --set tcl3d")
+    if name != "paper" and meshes is not None:
+        raise UsageError("--meshes belongs to --set paper")
+    if name == "starter":
+        if request.device != "cpu":
+            raise UsageError("--device belongs to --set full and paper")
         return StarterRecipe(
             contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=request.sensor
         )
     if request.sensor != "gelsight_mini":
         raise UsageError(
-            f"--sensor {request.sensor} belongs to --set starter: tcl3d has its own sensors"
+            f"--sensor {request.sensor} belongs to --set starter: {name} has its own sensors"
         )
     usable_device(request.device)
+    if name == "full":
+        return FullRecipe(
+            contacts=contacts or FULL_CONTACTS,
+            seed=seed,
+            device=request.device,
+            shard_series=FULL_SHARD_SERIES,
+        )
+    return _paper_recipe(contacts or ALL_CONTACTS, seed, meshes, request.device)
+
+
+def _paper_recipe(contacts: int, seed: int, meshes: Path | None, device: str) -> Tcl3dRecipe:
     paths = () if meshes is None else tuple(meshes_in(meshes))
     for path in paths:  # every fault shows before the first contact is made
         object_from_mesh(path)
     names = [path.stem for path in paths] + [obj.name for obj in CATALOGUE]
     if len(set(names)) < len(names):
         raise UsageError(
-            f"{meshes} has two meshes of one name, or one named like an object of tcl3d; rename it"
+            f"{meshes} has two meshes of one name, or one named like an object of paper; rename it"
         )
-    contacts = contacts or ALL_CONTACTS
-    return Tcl3dRecipe(contacts=contacts, seed=seed, meshes=paths, device=request.device)
+    return Tcl3dRecipe(contacts=contacts, seed=seed, meshes=paths, device=device)
 
 
 def _parts(numbers: Sequence[int]) -> list[Sequence[int]]:

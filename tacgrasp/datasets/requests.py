@@ -20,24 +20,29 @@ class GenerateRequest:
 
     Attributes:
         out: Folder of the data set; created when missing.
-        set: tcl3d: 117 objects with splits and further domains. starter: part of what the shipped
-            weights were trained on.
-        contacts: Number of contacts. Default: all, which is 52425 for tcl3d and 24000 for starter.
+        set: full: the most varied contacts, on four sensors, to train on. paper: the paper's 117
+            objects, for its tables. starter: part of what the shipped weights were trained on; it
+            goes when they are trained anew.
+        contacts: Number of contacts. Default: all, which is 120000 for full, 52425 for paper and
+            24000 for starter.
         seed: Random seed of the whole set, below 1000000. Larger seeds belong to the benchmarks.
         shard: Part i of n as i/n, to share the work among machines. Afterwards copy the files of
             all parts into one folder and run the command once more without --shard.
         workers: Number of processes, one per core by default. It does not change the result.
-        meshes: Folder of meshes (PLY, OBJ, STL; mm) to press as well (tcl3d only).
-        device: Device for the computation: cpu or cuda (tcl3d only).
+        on: Address of the scheduler of a dask.distributed cluster, such as tcp://10.0.0.1:8786,
+            whose workers make the shards instead; this process writes them (extra: scale).
+        meshes: Folder of meshes (PLY, OBJ, STL; mm) to press as well (paper only).
+        device: Device for the computation: cpu or cuda (full and paper only).
         sensor: Sensor whose gel is pressed (starter only).
     """
 
     out: Path
-    set: str = "tcl3d"
+    set: str = "paper"
     contacts: int | None = None
     seed: int = 0
     shard: str | None = None
     workers: int | None = None
+    on: str | None = None
     meshes: Path | None = None
     device: str = "cpu"
     sensor: str = "gelsight_mini"
@@ -89,7 +94,7 @@ class PressRequest:
         object: ball:DIAMETER, cylinder:DIAMETER (lying along x) or flat:EDGE (square), in mm; or
             the name of an object of the catalogue, in a random pose.
         depth_mm: Depth of the object's tip below the undeformed surface [mm].
-        sensor: Sensor: gelsight_mini, digit or gelstereo.
+        sensor: Sensor: gelsight_mini, gelsight_r15, digit or gelstereo.
         x_mm: Position of the tip, positive to the right of the pad's centre [mm].
         y_mm: Position of the tip, positive towards the top of the pad [mm].
         turn_deg: Rotation of the object in the plane of the pad [deg].

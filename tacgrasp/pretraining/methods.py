@@ -31,6 +31,7 @@ from cltp.train.methods import ALIGNED_METHODS, METHODS
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
 from cltp.train.stage import ProgressReport, TrainingRun
 from tacgrasp.base.errors import UsageError
+from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.lessons.exchanges import TouchLessons
 
 ABOUT = "about.json"
@@ -98,6 +99,8 @@ def pretrain(
     preset, recipe = preset or METHODS[method].preset, recipe or CltpRecipe()
     if preset not in PRESETS:
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
+    if also is not None:
+        check_trainable(ContactDataset(also))
     folder = run.out / method
     run.announce(method, folder / "encoder")
     config, clip = PRESETS[preset], run.out / "clip"

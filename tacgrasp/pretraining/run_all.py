@@ -21,6 +21,7 @@ from cltp.train.progress import Bar
 from cltp.train.recipes import ClipRecipe, CltpRecipe, Schedule
 from cltp.train.stage import ProgressReport
 from cltp.train.tensorboard import TensorBoardReport
+from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.pretraining.evaluate import probe, retrieval, zero_shot
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.methods import PretrainingRun, pretrain, pretrain_clip
@@ -50,10 +51,11 @@ def pretraining_run(
         tensorboard: Whether curves are also written into ``out / "tensorboard"``.
 
     Raises:
-        TouchError: There is no data set, or tensorboard is not installed.
+        TouchError: There is no data set, one that is not to be learned from, or tensorboard is
+            not installed.
     """
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
-    ContactDataset(data)  # refuses a folder without contacts before anything else is done
+    check_trainable(ContactDataset(data))  # before anything else is done
     torch.set_num_threads(threads or os.cpu_count() or 1)
     with ExitStack() as opened:
         reports: list[ProgressReport] = [opened.enter_context(Bar())]

@@ -37,6 +37,7 @@ from cltp.train.stage import TrainingRun
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.datasets.requests import GenerateRequest
+from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.lessons.exchanges import TouchLessons
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
@@ -95,6 +96,7 @@ def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp trai
     _require_mark(out, blind=blind_of is not None)
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
     generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
+    check_trainable(ContactDataset(data))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
     if request.start is None:
         words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same

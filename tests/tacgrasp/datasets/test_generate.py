@@ -13,12 +13,14 @@ import pyarrow.parquet as pq
 import pytest
 from rich.console import Console
 
+from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets import generate as made
 from tacgrasp.datasets import recipes
 from tacgrasp.datasets.requests import GenerateRequest
+from tacgrasp.datasets.verify import problems
 from tests.paths import ROOT
 
 
@@ -155,7 +157,7 @@ def test_a_folder_that_can_t_be_written_is_an_error(tmp_path):
 
 
 def tcl3d(out, contacts=24, seed=5, **options):
-    generate(out, contacts, seed, set="tcl3d", **options)
+    generate(out, contacts, seed, set="paper", **options)
 
 
 @pytest.fixture(scope="module")
@@ -186,11 +188,50 @@ def test_parts_from_several_machines_give_the_same_bytes(
     assert files(joined) == files(whole_tcl3d)
 
 
+def full(out, contacts=10, seed=5, **options):
+    generate(out, contacts, seed, set="full", **options)
+
+
+@pytest.fixture(scope="module")
+def whole_full(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("full") / "data"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(recipes, "FULL_SHARD_SERIES", 2)
+        full(folder, workers=1)
+    return folder
+
+
+def test_the_full_set_in_parts_has_the_same_bytes(whole_full, tmp_path, monkeypatch):
+    monkeypatch.setattr(recipes, "FULL_SHARD_SERIES", 2)
+    joined = tmp_path / "joined"
+    for part in ("2/2", "1/2"):
+        full(joined, shard=part, workers=1)
+    assert files(joined) == files(whole_full)
+    assert len(ContactDataset(joined)) == 10
+
+
+def test_the_full_set_is_whole_and_says_what_it_is(whole_full):
+    about = ContactDataset(whole_full).about
+    assert (about["set"], about["maker"]) == ("full", recipes.FULL_MAKER)
+    assert [problem for _, problem in problems(whole_full) if problem is not None] == []
+    assert (
+        "`tacgrasp data generate --set full --seed 5 --contacts 10`"
+        in (whole_full / "README.md").read_text()
+    )
+
+
+def test_the_paper_s_set_is_still_found_by_its_former_name(whole_tcl3d):
+    assert recipes.recipe(GenerateRequest(out=whole_tcl3d, set="tcl3d")) == recipes.recipe(
+        GenerateRequest(out=whole_tcl3d, set="paper")
+    )
+    assert sum(recipes.recipe(GenerateRequest(out=whole_tcl3d, set="paper")).shard_sizes()) == 52425
+
+
 def test_a_card_says_what_is_in_the_folder(whole_tcl3d):
     data = ContactDataset(whole_tcl3d)
     card = (whole_tcl3d / "README.md").read_text()
     assert data.checksum() in card
-    assert "`tacgrasp data generate --set tcl3d --seed 5 --contacts 24`" in card
+    assert "`tacgrasp data generate --set paper --seed 5 --contacts 24`" in card
     assert len(data) == 24
     assert data.contact(0).unsure is not None
     assert data.contact(0).approach_mm > 0
@@ -213,9 +254,13 @@ def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"set": "tcl4d"}, "unknown set 'tcl4d'; known: tcl3d, starter"),
-        ({"set": "tcl3d", "sensor": "digit"}, "belongs to --set starter"),
-        ({"set": "starter", "meshes": Path("x")}, "belong to --set tcl3d"),
+        ({"set": "tcl4d"}, "--set expects full, paper, starter, got 'tcl4d'"),
+        ({"set": "paper", "sensor": "digit"}, "belongs to --set starter"),
+        ({"set": "full", "sensor": "digit"}, "full has its own sensors"),
+        ({"set": "starter", "meshes": Path("x")}, "belongs to --set paper"),
+        ({"set": "full", "meshes": Path("x")}, "belongs to --set paper"),
+        ({"set": "starter", "device": "cuda"}, "belongs to --set full and paper"),
+        ({"set": "full", "on": "nowhere:1"}, "no scheduler answers|not installed"),
         ({"set": "tcl3d", "device": "abacus"}, "abacus can't be used: .*; cpu always can"),
         ({"set": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),
     ],
@@ -227,10 +272,12 @@ def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):
 
 
 def test_a_full_disk_is_an_error_that_leaves_no_shard(tmp_path, monkeypatch, shards_of_two_series):
-    def full(*_args, **_options):
-        raise OSError(28, "No space left on device")
+    def write_all_but_an_index(path, content):
+        if path.suffix == ".parquet":
+            raise OSError(28, "No space left on device")
+        return write_atomically(path, content)
 
-    monkeypatch.setattr("cltp.data.dataset.pq.write_table", full)
+    monkeypatch.setattr("cltp.data.dataset_writer.write_atomically", write_all_but_an_index)
     with pytest.raises(TouchError, match="No space left on device"):
         tcl3d(tmp_path / "data", contacts=8, workers=1)
     assert not made.is_complete(tmp_path / "data")

@@ -1,0 +1,145 @@
+"""The series of the set ``full``: two labelled contacts of one object in one pose.
+
+Every draw follows from the seed and the number of the series, which is drawn, solved and labelled
+alone: its contacts depend neither on other series, nor on the number of workers or machines.
+
+Not here: files and worker processes (``tacgrasp.datasets``), noise (``cltp.tactile.sensor_noise``).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import asdict
+
+import numpy as np
+import torch
+
+from cltp.data.contact import Contact, Gel
+from cltp.tactile.states import NO_CONTACT_STATE
+from sim.full.drawn_scene import drawn_scene
+from sim.full.held_scene import held_scene
+from sim.full.objects import Origin
+from sim.full.requests import LOADS, FullRequest, full_request
+from sim.full.scene import PressScene
+from sim.full.solid_scene import solid_scene
+from sim.gel.contact_solver import chosen
+from sim.gel.force_factor import force_factor
+from sim.gel.layer import ElasticLayer, Press
+from sim.starter.contacts import DEEPEST_MM
+from sim.tcl3d.labels import TEXTURE, in_contact, label, uncertain_labels
+from sim.tcl3d.series import grid_over
+
+CONTACTS = 120_000
+"""Contacts of the set. Source: issue 19; FG-CLTP has 100,000."""
+
+_TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
+_LIGHTER_TRIES = 4
+
+
+def num_series(contacts: int) -> int:
+    """Series of a set with so many contacts; the last one may have to be cut short."""
+    return math.ceil(contacts / LOADS)
+
+
+def make_series(seed: int, number: int, device: torch.device | str = "cpu") -> list[Contact]:
+    """Make the ``LOADS`` contacts of series ``number`` of the data set of ``seed``, lightest first.
+
+    Args:
+        seed: Random seed of the data set.
+        number: Number of the series, from 0.
+        device: Torch device on which rays are cast and contacts are solved.
+    """
+    request = full_request(seed, number)
+    rng = np.random.default_rng([seed, number, 1])
+    origin = request.choice.origin
+    if origin is Origin.NOTHING:
+        return [_untouched(request) for _ in range(LOADS)]
+    if origin is Origin.HELD:
+        scene = held_scene(request, rng)
+    elif origin is Origin.ASSEMBLED:
+        scene = solid_scene(request, rng, device)
+    else:
+        scene = drawn_scene(request, rng)
+    return _labelled(request, scene, _pressed(request, scene, device))
+
+
+@torch.inference_mode()
+def _pressed(request: FullRequest, scene: PressScene, device: torch.device | str) -> Press:
+    rows, columns = grid_over(request.sensor)
+    layer = ElasticLayer(
+        request.gel,
+        rows=rows,
+        columns=columns,
+        pitch_mm=request.sensor.width_mm / columns,
+        body_modulus_mpa=scene.modulus_mpa,
+        device=device,
+    )
+    gaps = torch.from_numpy(scene.gap_mm.astype(np.float32)).expand(len(scene.loads), -1, -1)
+    gaps, loads = gaps.to(device), torch.tensor(scene.loads, device=device)
+    if not scene.by_force:
+        return layer.press_to_depth(gaps, loads, tol=_TOLERANCE)
+    press = layer.press_to_force(gaps, loads, tol=_TOLERANCE)
+    for _ in range(_LIGHTER_TRIES):
+        excess = press.height_mm.amax((1, 2)) / DEEPEST_MM
+        if not bool((excess > 1).any()):
+            break
+        # A narrow end that bears all of the force would sink deeper than linear elasticity holds.
+        loads = torch.where(excess > 1, loads * excess**-1.5, loads)  # Hertz
+        lighter = layer.press_to_force(gaps, loads, start=press, tol=_TOLERANCE)
+        press = chosen(excess > 1, lighter, press)
+    return press
+
+
+def _labelled(request: FullRequest, scene: PressScene, press: Press) -> list[Contact]:
+    pitch_mm = request.sensor.width_mm / scene.gap_mm.shape[1]
+    pressure = press.pressure_kpa.cpu()
+    closed = in_contact(pressure, pitch_mm)
+    contacts = []
+    for i in range(len(scene.loads)):
+        height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
+        naming = scene.name(load > 0, closed[i], float(height_mm.max()))
+        state = label(
+            height_mm=height_mm,
+            pressure_kpa=load,
+            touching=closed[i],
+            force_n=float(press.force_n[i]),
+            sensor=request.sensor,
+            shape=naming.shape.shape,
+            texture=naming.texture,
+        )
+        unsure = uncertain_labels(state, request.sensor)
+        unsure |= set() if naming.shape.sure else {"shape"}
+        unsure |= set() if naming.is_texture_sure else {TEXTURE}
+        contacts.append(
+            Contact(
+                height_mm=height_mm,
+                sensor=request.sensor,
+                state=state,
+                object=request.choice.name,
+                series=request.number,
+                split=request.split,
+                gel=Gel(**asdict(request.gel)),
+                seed=request.seed,
+                unsure=frozenset(unsure),
+                approach_mm=float(press.depth_mm[i]),
+                peak_kpa=float(load.max()),
+                force_factor=force_factor(request.gel, request.sensor.name),
+            )
+        )
+    return contacts
+
+
+def _untouched(request: FullRequest) -> Contact:
+    """A frame of the untouched gel."""
+    return Contact(
+        height_mm=np.zeros(grid_over(request.sensor), dtype=np.float32),
+        sensor=request.sensor,
+        state=NO_CONTACT_STATE,
+        object=request.choice.name,
+        series=request.number,
+        split=request.split,
+        gel=Gel(**asdict(request.gel)),
+        seed=request.seed,
+        unsure=frozenset(),
+        force_factor=force_factor(request.gel, request.sensor.name),
+    )
