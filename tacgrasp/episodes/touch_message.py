@@ -88,8 +88,12 @@ def _packed(points_mm: NDArray[np.float32]) -> NDArray[np.void]:
 
 
 def _layout(kind: np.dtype[np.void]) -> list[tuple[str, int, int]]:
-    fields = kind.fields or {}
-    return [(name, int(fields[name][1]), _KINDS[fields[name][0].kind]) for name in kind.names or ()]
+    names = kind.names or ()
+    offsets = np.cumsum([0, *(kind[name].itemsize for name in names)])
+    return [
+        (name, int(offset), _KINDS[kind[name].kind])
+        for name, offset in zip(names, offsets, strict=False)
+    ]
 
 
 def _millimetres(metres: NDArray[np.float32]) -> NDArray[np.float32]:
