@@ -2,6 +2,7 @@
 # make test  set up what is missing, then ruff, mypy and the tests
 # make test-all  the same with the slow tests, and those of the viewer (rerun, 500 MB)
 # make test-lerobot  loads an exported data set with the real lerobot (gigabytes)
+# make test-openpi  openpi's own client against our policy server
 # make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
 # make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
@@ -11,7 +12,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test test-all test-lerobot fuzz weights setup clean
+.PHONY: run test test-all test-lerobot test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -29,6 +30,12 @@ test-all: test $(STAMPS)/view
 
 test-lerobot: setup $(STAMPS)/lerobot
 	.venv/lerobot/bin/python tests/lerobot/check.py $(BIN)/python
+
+# openpi's own client against our server, in an environment of its own: it needs numpy below 2
+test-openpi: setup
+	test -x .venv-openpi/bin/python || $(PYTHON) -m venv .venv-openpi
+	.venv-openpi/bin/python -m pip install --quiet openpi-client==0.1.2 typing_extensions "numpy<2"
+	$(BIN)/python -m pytest -s tests/tacgrasp/serving/test_openpi_client.py
 
 CASES ?= 1000
 PARSER ?= all

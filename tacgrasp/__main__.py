@@ -11,6 +11,7 @@ from collections.abc import Sequence
 COMMANDS = {
     "run": "run the closed loop on a task: read the contact, decide, act, until the grasp is good",
     "understand": "show what an instruction becomes: force band, limit, or why it is refused",
+    "serve": "let robots and programs ask a policy over the network (openpi's protocol)",
     "demo": "play a scripted demo with a known course; without a name list them",
     "replay": "show an episode step by step; --decide asks a policy again, --execute moves again",
     "episodes": "list, inspect, recover, plot and export recorded episodes",

@@ -19,6 +19,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
+    "serve": (settings.ServeSettings, "loop.serving"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
     "drivers": (settings.DriversSettings, "loop.drivers"),
     "faults": (settings.FaultsSettings, "faults.run"),

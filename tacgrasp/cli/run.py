@@ -66,13 +66,14 @@ def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
     config, sources, flags = configure(argv)
     from tacgrasp.config.terms import contract_of
+    from tacgrasp.rig.factory import check_devices
     from tacgrasp.runtime.events import EventFile
 
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
         return 0
-    _check_force_calibration(config, allowed=flags.allow_uncalibrated_force)
+    check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
     writable(flags.events)
     with EventFile(flags.events) as events:
         outcome = _run(config, contract, events, flags)
@@ -103,11 +104,14 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
 def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
     from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
-    from tacgrasp.episodes import make_record_directory
+    from tacgrasp.episodes.paths import check_record_directory
+    from tacgrasp.policy_factory import check_policy
+    from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
     from tacgrasp.viewer.server import require_rerun
 
-    _check(config)
+    check_policy(config.policy, config)
+    check_names(config)
     if flags.view:
         require_rerun()
     events.contract(contract)
@@ -116,7 +120,7 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
         raise UsageError(
             f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
         )
-    make_record_directory(config.record)
+    check_record_directory(config.record)
     console = make_console()
     with ExitStack() as stack:
         with working("loading the policy and connecting the rig"):
@@ -135,20 +139,6 @@ def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFla
     for end_line in end_lines(outcome, config, width_of(console)):
         console.print(end_line)
     return outcome
-
-
-def _check(config: RunConfig) -> None:
-    """Check names and files, before anything heavy is loaded or anything moves."""
-    from tacgrasp.policy_factory import check_policy
-    from tacgrasp.rig.factory import check_names
-
-    if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
-        raise UsageError(
-            f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
-            "nothing may be grasped; give --dry-run to see what would be decided"
-        )
-    check_policy(config.policy, config)
-    check_names(config)
 
 
 def _connect(config: RunConfig, stack: ExitStack) -> tuple[Policy, Rig]:
@@ -187,18 +177,6 @@ def _printer(contract: Contract, console: Console, stack: ExitStack, *, verbose:
     if console.is_terminal and not verbose:
         return stack.enter_context(LiveTable(contract))
     return StepPrinter(console, verbose=verbose)
-
-
-def _check_force_calibration(config: RunConfig, *, allowed: bool) -> None:
-    """Refuse to move real devices by forces that are off by an unknown factor."""
-    from tacgrasp.drivers.force_scale import uncalibrated_refusal
-
-    if config.devices != "hardware" or config.hardware is None or config.dry_run or allowed:
-        return
-    sensor = config.hardware.sensor
-    reason = uncalibrated_refusal(sensor) if sensor.is_live else ""
-    if reason:
-        raise UsageError(f"{reason}; nothing moved")
 
 
 def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:

@@ -111,7 +111,7 @@ def _show_live(config: RunConfig, stream: rr.RecordingStream, flags: ViewFlags) 
 
     with ExitStack() as stack:
         if flags.sensor is not None and config.devices == "hardware" and config.hardware:
-            sensor = connect_sensor(config.hardware.sensor, config)
+            sensor = connect_sensor(config.hardware.sensor)
             stack.callback(sensor.disconnect)
             return show_sensor(sensor, stream, flags.seconds)
         with working("connecting the rig"):

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
+from cltp.tactile.cells import pictured_heights
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.measure import height_cells
 from cltp.tactile.picture import DEPTH_PALETTE, DEPTH_STOPS_MM, depth_levels
 
 WIDTH_PX = 200
@@ -31,7 +31,7 @@ def height_image(cloud: TactileCloud) -> NDArray[np.uint8]:
     """Levels of ``DEPTH_PALETTE``, shape (H, W): the gel, row 0 = top, and the scale in mm."""
     sensor = cloud.sensor
     rows = round(WIDTH_PX * sensor.height_mm / sensor.width_mm)
-    cells = Image.fromarray(depth_levels(height_cells(cloud)))
+    cells = Image.fromarray(depth_levels(pictured_heights(cloud)))
     gel = np.asarray(cells.resize((WIDTH_PX, rows), Image.Resampling.BILINEAR))
     return np.hstack([gel, _scale(rows)])
 

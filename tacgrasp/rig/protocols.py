@@ -24,10 +24,15 @@ class TactileSensor(Protocol):
     def spec(self) -> SensorSpec:
         """Type and constants of the sensor."""
 
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         """Capture the gel now.
 
-        The cloud is newer than the call, has 1024 stratified points and carries both clocks.
+        The cloud is newer than the call, keeps every point that the sensor gives, and carries both
+        clocks.
+
+        Args:
+            frames: Frames that the cloud is the mean of, the first one newer than the call; a
+                recording gives its next cloud, whatever their number.
 
         Raises:
             TouchError: No fresh frame could be captured; an old one is never returned.

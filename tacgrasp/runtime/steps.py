@@ -118,7 +118,7 @@ def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
         RobotError: Pose or gripper can't be read.
     """
     stamp, started_s = rig.clock.stamp(), time.perf_counter()
-    cloud = rig.sensor.read()
+    cloud = rig.sensor.read() if sense is None else sense.read()
     return Readings(
         cloud=cloud,
         tcp_pose=rig.arm.pose(),

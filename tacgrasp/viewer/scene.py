@@ -22,8 +22,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from cltp.sensing.frames import frame_of_jpeg
+from cltp.tactile.cells import pictured_heights
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
-from cltp.tactile.measure import contact_state, height_cells
+from cltp.tactile.measure import contact_state
 from cltp.tactile.picture import DEPTH_PALETTE, depth_levels, picture
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
@@ -131,7 +132,7 @@ class RerunScene:
         self._stream.log(entity, rr.Transform3D(translation=position_m, quaternion=rotation))
 
     def _touch(self, cloud: TactileCloud, in_contact: bool | None, jpeg: bytes | None) -> None:
-        rr, cells_mm = self._rr, height_cells(cloud)
+        rr, cells_mm = self._rr, pictured_heights(cloud)
         vertices_m, triangles = surface(cells_mm, cloud)
         colours = DEPTH_PALETTE[depth_levels(cells_mm.ravel())]
         mesh = rr.Mesh3D(

@@ -111,11 +111,11 @@ def test_an_export_has_the_gel_on_the_arm_the_forces_and_the_text(
 
 
 def test_the_surface_lies_in_metres_with_its_top_row_at_plus_y() -> None:
-    from cltp.tactile.measure import height_cells
+    from cltp.tactile.cells import pictured_heights
     from tacgrasp.viewer.scene import surface
 
     cloud = press(5.0, 4.0, 0.8)
-    cells_mm = height_cells(cloud)
+    cells_mm = pictured_heights(cloud)
     vertices_m, triangles = surface(cells_mm, cloud)
     deepest = vertices_m[vertices_m[:, 2].argmax()]
     assert deepest[0] == pytest.approx(0.005, abs=0.001)

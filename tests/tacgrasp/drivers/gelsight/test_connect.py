@@ -22,7 +22,7 @@ from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
 from tacgrasp.rig.protocols import CameraSensor
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.testing import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
@@ -447,7 +447,7 @@ def test_a_video_is_played_and_ends(files):
         gelsight.read()
     gelsight.disconnect()
     again = connect_gelsight(video.model_copy(update={"repeat": True}))
-    assert [again.read().points_mm.shape for _ in range(5)] == [(1024, 3)] * 5
+    assert [again.read().grid for _ in range(5)] == [(240, 320)] * 5
     path.write_bytes(b"no video")
     with pytest.raises(TouchError, match="not a video"):
         connect_gelsight(settings_of(files, device=None, video=path))
