@@ -7,9 +7,6 @@ Format 1 had float32 millimetres alone, and is still read.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 import numpy as np
 from foxglove_schemas_protobuf.PackedElementField_pb2 import PackedElementField
 from foxglove_schemas_protobuf.PointCloud_pb2 import PointCloud
@@ -24,7 +21,6 @@ FRAME_ID = "gel"
 _METRES = np.dtype([(name, "<f4") for name in "xyz"] + [(f"r{name}", "i1") for name in "xyz"])
 _MILLIMETRES = np.dtype([(name, "<f4") for name in "xyz"])
 _KINDS = {"f": PackedElementField.FLOAT32, "i": PackedElementField.INT8}
-_SIGN = -(1 << 31)
 
 
 def wall_ns(stamp: Stamp) -> int:
@@ -68,9 +64,10 @@ def decode_cloud(
     packed = np.frombuffer(message.data, dtype=kind)
     columns = [packed[name] for name in "xyz"]
     if kind is _METRES:
+        bits = [_millimetres(metres).view(np.int32) for metres in columns]
         columns = [
-            _stepped(_millimetres(metres), packed[f"r{name}"])
-            for name, metres in zip("xyz", columns, strict=True)
+            (each + packed[f"r{name}"]).view(np.float32)
+            for name, each in zip("xyz", bits, strict=True)
         ]
     return TactileCloud(
         points_mm=np.stack(columns, axis=1), sensor=sensor, stamp=stamp, force_scale=force_scale
@@ -80,7 +77,8 @@ def decode_cloud(
 def _packed(points_mm: NDArray[np.float32]) -> NDArray[np.void]:
     """Points in metres with their steps; in millimetres where float32 has no such metres."""
     points_m = (points_mm.astype(np.float64) / 1000).astype(np.float32)
-    steps = _steps(points_mm) - _steps(_millimetres(points_m))
+    # two numbers of one sign: neighbours in float32 differ by 1 in their bits
+    steps = points_mm.view(np.int32) - _millimetres(points_m).view(np.int32)
     if np.abs(steps).max() > np.iinfo(np.int8).max:  # below 1e-35 mm: never of a gel
         return np.ascontiguousarray(points_mm).view(_MILLIMETRES).ravel()
     packed = np.empty(len(points_mm), _METRES)
@@ -90,23 +88,14 @@ def _packed(points_mm: NDArray[np.float32]) -> NDArray[np.void]:
 
 
 def _layout(kind: np.dtype[np.void]) -> list[tuple[str, int, int]]:
-    fields: Mapping[str, Any] = kind.fields or {}
-    return [(name, int(fields[name][1]), _KINDS[fields[name][0].kind]) for name in kind.names or ()]
+    names = kind.names or ()
+    offsets = np.cumsum([0, *(kind[name].itemsize for name in names)])
+    return [
+        (name, int(offset), _KINDS[kind[name].kind])
+        for name, offset in zip(names, offsets, strict=False)
+    ]
 
 
 def _millimetres(metres: NDArray[np.float32]) -> NDArray[np.float32]:
     with np.errstate(over="ignore", invalid="ignore"):  # such points are refused by the cloud
         return (metres.astype(np.float64) * 1000).astype(np.float32)
-
-
-def _steps(values: NDArray[np.float32]) -> NDArray[np.int64]:
-    """Numbers of float32 in their order: neighbours differ by 1."""
-    bits = np.ascontiguousarray(values, dtype=np.float32).view(np.int32).astype(np.int64)
-    return np.where(bits < 0, _SIGN - bits, bits)
-
-
-def _stepped(values: NDArray[np.float32], steps: NDArray[np.int8]) -> NDArray[np.float32]:
-    """The numbers of float32 that lie so many steps from ``values``."""
-    ordered = _steps(values) + steps
-    bits = np.where(ordered < 0, _SIGN - ordered, ordered)
-    return np.where(steps == 0, values, bits.astype(np.int32).view(np.float32))  # keeps -0.0
