@@ -67,5 +67,5 @@ for press_mm in (0.0, 0.05, 0.2, 0.4):
         continue
     print(
         f"pressed {press_mm:.2f} mm: at ({state.x_mm:+.1f}, {state.y_mm:+.1f}) mm, "
-        f"{state.depth_mm:.2f} mm deep, {felt.low:.1f} to {felt.high:.1f} N ({state.position})"
+        f"{state.depth_mm:.2f} mm deep, {felt.low:.2f} to {felt.high:.2f} N ({state.position})"
     )

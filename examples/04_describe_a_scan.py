@@ -32,5 +32,5 @@ cloud = read_cloud(path, SENSOR)
 for line in describe(cloud):
     print(line)
 if is_touched(cloud):
-    for line in describe_by_model(cloud, load_llm(), "Hold it with 1 to 2 N."):
+    for line in describe_by_model(cloud, load_llm(), "Pick the strawberry gently."):
         print(line)

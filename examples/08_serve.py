@@ -37,6 +37,7 @@ with server.background() as url:
         metadata = unpack(connection.recv())
         print(f"it serves {metadata['policy']} for {metadata['task']}")
         question = {"observation/tactile_points": cloud.points_mm, "prompt": "Hold it at 2 N."}
+        question["observation/in_contact"] = True  # a single light frame alone can't tell
         connection.send(pack(question))
         answer = unpack(connection.recv())
         print(f"asked for 2 N it says: {answer['text']}")

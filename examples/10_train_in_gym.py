@@ -1,7 +1,7 @@
 """Train a small policy in tacgrasp/Strawberry-v0 with stable-baselines3, and measure it.
 
     pip install 'tacgrasp[gym]' stable-baselines3
-    python examples/10_train_in_gym.py --steps 20000 --episodes 200 --json gym.json
+    python examples/10_train_in_gym.py --steps 6000 --episodes 200 --json gym.json
 
 The agent sees the 13 numbers of ``tacgrasp.gym.TOUCH``. It is measured on the benchmark's seeds,
 which it never trained on: compare with `tacgrasp bench strawberry --policies fixed_force`.
@@ -59,7 +59,7 @@ def measure(model, episodes):
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser()
-    parser.add_argument("--steps", type=int, default=20000)
+    parser.add_argument("--steps", type=int, default=6000)
     parser.add_argument("--episodes", type=int, default=200)
     parser.add_argument("--json", type=Path)
     flags = parser.parse_args()
