@@ -1,6 +1,8 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
-# make test-all  the same with the slow tests
+# make test-all  the same with the slow tests, and those of the viewer (rerun, 500 MB)
+# make test-lerobot  loads an exported data set with the real lerobot (gigabytes)
+# make test-openpi  openpi's own client against our policy server
 # make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
 # make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
@@ -10,7 +12,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test test-all fuzz weights setup clean
+.PHONY: run test test-all test-lerobot test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -22,8 +24,18 @@ test: setup
 	$(BIN)/mypy
 	$(BIN)/python -m pytest
 
-test-all: test
+test-all: test $(STAMPS)/view
 	$(BIN)/python -m pytest -m "slow and not hardware and not gpu"
+	.venv/view/bin/python -m pytest -m "not hardware and not gpu" tests/tacgrasp/viewer
+
+test-lerobot: setup $(STAMPS)/lerobot
+	.venv/lerobot/bin/python tests/lerobot/check.py $(BIN)/python
+
+# openpi's own client against our server, in an environment of its own: it needs numpy below 2
+test-openpi: setup
+	test -x .venv-openpi/bin/python || $(PYTHON) -m venv .venv-openpi
+	.venv-openpi/bin/python -m pip install --quiet openpi-client==0.1.2 typing_extensions "numpy<2"
+	$(BIN)/python -m pytest -s tests/tacgrasp/serving/test_openpi_client.py
 
 CASES ?= 1000
 PARSER ?= all
@@ -42,6 +54,19 @@ weights: setup
 	$(BIN)/tacgrasp eval --weights weights --data runs/data --card
 
 setup: $(STAMPS)/app
+
+# environments of their own, inside .venv: rerun sees the packages beside it, lerobot has its own torch
+$(STAMPS)/view: $(STAMPS)/app requirements-view.lock
+	scripts/make-venv $(PYTHON) .venv/view
+	$(BIN)/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])' \
+	    > "$$(.venv/view/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')/core.pth"
+	.venv/view/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-view.lock
+	@touch $@
+
+$(STAMPS)/lerobot: $(STAMPS)/venv
+	scripts/make-venv $(PYTHON) .venv/lerobot
+	.venv/lerobot/bin/python -m pip install --quiet --disable-pip-version-check lerobot==0.4.4
+	@touch $@
 
 $(STAMPS)/app: $(STAMPS)/packages pyproject.toml
 	$(PIP) --quiet --no-deps --no-build-isolation --editable .

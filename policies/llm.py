@@ -7,6 +7,7 @@ or two, has too low a confidence, or names a goal outside the contract.
 
 from __future__ import annotations
 
+import copy
 import math
 import re
 import time
@@ -93,6 +94,12 @@ class LlmPolicy:
 
     def start(self) -> None:
         self._moves = []
+
+    def twin(self) -> LlmPolicy:
+        """A policy for another robot: the same model, and a memory of its own."""
+        other = copy.copy(self)
+        other.start()
+        return other
 
     def check_move_step(self, move_step_mm: float) -> None:
         """Refuse moves of a length that the weights were not trained with.

@@ -1,7 +1,7 @@
 """Contracts of the two devices that carry out primitives: an arm and a gripper.
 
 Implementations are in ``sim.grasp`` (simulated) and in the drivers. One suite of contract tests,
-``tests/contracts``, runs on all of them. Devices know neither primitives nor sensors.
+``tacgrasp.testing``, runs on all of them. Devices know neither primitives nor sensors.
 """
 
 from __future__ import annotations

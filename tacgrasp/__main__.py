@@ -11,9 +11,12 @@ from collections.abc import Sequence
 COMMANDS = {
     "run": "run the closed loop on a task: read the contact, decide, act, until the grasp is good",
     "understand": "show what an instruction becomes: force band, limit, or why it is refused",
+    "serve": "let robots and programs ask a policy over the network (openpi's protocol)",
     "demo": "play a scripted demo with a known course; without a name list them",
     "replay": "show an episode step by step; --decide asks a policy again, --execute moves again",
-    "episodes": "list, inspect, recover and plot recorded episodes",
+    "episodes": "list, inspect, recover, plot and export recorded episodes",
+    "why": "what went wrong first in an episode: the state before it, what was sent, how to replay",
+    "view": "see an episode, a rig or a sensor in rerun's viewer (extra 'view')",
     "describe": "describe the contact in a cloud, height map or camera frame",
     "ask": 'answer a question about the contact in a file: ask FILE "How deep is it pressed?"',
     "train": "train clip, cltp, llm, all or a compared method; an interrupted training resumes",

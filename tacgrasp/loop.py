@@ -139,7 +139,7 @@ def _check_bounds(step: Step, action: Primitive, steps: Steps, config: RunConfig
 def _check_sent(executed: Executed, decision: Decision, steps: Steps) -> None:
     """Bound what sends nothing: the next observation would be the same, for ever."""
     if executed.dry_run:
-        raise EndOfEpisode(EndReason.MAX_STEPS, "dry run: one decision, nothing was sent")
+        raise EndOfEpisode(EndReason.DRY_RUN, "one decision was made, nothing was sent")
     if executed.sent == "nothing" and AT_LIMIT in executed.clamped:
         raise EndOfEpisode(EndReason.LIMIT, "; ".join(executed.clamped))
     if executed.sent == "nothing":  # the goal leaves no room for the change

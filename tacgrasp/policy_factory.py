@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import policies
+from cltp import TouchError
 from policies import Policy, PolicyError
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.config.schema import RunConfig
 
 if TYPE_CHECKING:
@@ -77,11 +79,26 @@ def _random(config: RunConfig) -> Policy:
     return RandomPolicy(config.seed)
 
 
+def _remote(config: RunConfig) -> Policy:
+    from tacgrasp.serving.keys import read_key
+    from tacgrasp.serving.remote import RemotePolicy
+
+    if config.policy_url is None:
+        raise UsageError("--policy remote needs --policy-url, such as ws://127.0.0.1:8000")
+    path, key = config.policy_key_file, None
+    if path is not None:
+        key = read_key(path, flag="--policy-key-file")
+    policy = RemotePolicy(config.policy_url, timeout_s=config.policy_timeout_s, key=key)
+    policy.connect()  # a server that is not there is named before anything moves
+    return policy
+
+
 POLICIES: dict[str, Callable[[RunConfig], Policy]] = {
     "rules": _rules,
     "llm": _llm,
     "fixed_force": _fixed_force,
     "random": _random,
+    "remote": _remote,
 }
 
 _OTHER_COMMANDS = {
@@ -90,14 +107,64 @@ _OTHER_COMMANDS = {
 }
 
 
+def check_policy(name: str, config: RunConfig) -> None:
+    """Check the name of a policy and the folder of its weights, before anything heavy is loaded.
+
+    Raises:
+        UsageError: It is unknown, or a run can't use it; or it has no weights.
+    """
+    if name not in POLICIES and name not in plugins("policies"):
+        hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
+        known = ", ".join(names_with("policies", POLICIES))
+        raise UsageError(f"unknown policy {name!r}; known: {known}{hint}")
+    weights = config.weights or default_weights()
+    if name == "llm" and not weights.is_dir():
+        raise UsageError(
+            f"weights are missing: {weights} is not a folder; train them with `tacgrasp train "
+            "all`, name another folder with --weights, or decide with --policy rules"
+        )
+
+
 def make_policy(name: str, config: RunConfig) -> Policy:
     """Build the policy called ``name``.
 
     Raises:
-        UsageError: It is unknown, or a run can't use it.
+        UsageError: It is unknown, a run can't use it, or its plugin is broken.
         TouchError: The language model's weights can't be used.
+        PolicyError: A remote policy's server does not answer.
     """
-    if name not in POLICIES:
-        hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
-        raise UsageError(f"unknown policy {name!r}; known: {', '.join(POLICIES)}{hint}")
-    return POLICIES[name](config)
+    check_policy(name, config)
+    return POLICIES[name](config) if name in POLICIES else _of_plugin(name, config)
+
+
+def policy_refusal(added: object) -> str:
+    """Why a plugin's object makes no policy; empty for a function."""
+    return "" if callable(added) else f"expected a function of a RunConfig, got {added!r:.80}"
+
+
+def _of_plugin(name: str, config: RunConfig) -> Policy:
+    make: Any = load_plugin("policies", name, policy_refusal)
+    title = plugins("policies")[name].title
+    try:
+        policy: Policy = make(config)
+    except (UsageError, TouchError, PolicyError):
+        raise
+    except Exception as error:  # of foreign code: nothing has moved yet
+        raise UsageError(
+            f"the plugin {title} made no policy: {type(error).__name__}: {error}"
+        ) from error
+    missing = [part for part in ("name", "decide", "start") if not hasattr(policy, part)]
+    if missing:
+        raise UsageError(f"the plugin {title} made a policy without {', '.join(missing)}")
+    return policy
+
+
+def policy_maker(config: RunConfig) -> Callable[[], Policy]:
+    """Make the run's policy once, and return what makes more of it, each for a robot of its own.
+
+    Raises:
+        UsageError, TouchError, PolicyError: As for ``make_policy``.
+    """
+    first = make_policy(config.policy, config)
+    twin: Callable[[], Policy] | None = getattr(first, "twin", None)  # large models are shared
+    return twin or (lambda: make_policy(config.policy, config))

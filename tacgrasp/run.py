@@ -15,6 +15,7 @@ import yaml
 
 from policies import Policy
 from primitives.contract import Contract
+from primitives.execution import PadAxes
 from tacgrasp import __version__
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes import (
@@ -146,6 +147,7 @@ def _header(rig: Rig, policy: Policy, config: RunConfig, contract: Contract) -> 
         dry_run=config.dry_run,
         contract=contract,
         stamp=rig.clock.stamp(),
+        pad=PadAxes(x_tcp=config.pad.x_axis, y_tcp=config.pad.y_axis),
     )
 
 

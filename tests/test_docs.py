@@ -2,7 +2,9 @@
 
 import re
 
-from tacgrasp.__main__ import COMMANDS
+import pytest
+
+from tacgrasp.__main__ import COMMANDS, main
 from tacgrasp.config.layers import load
 from tests.paths import ROOT
 
@@ -28,3 +30,19 @@ def test_links_between_the_pages_lead_somewhere():
     for page in DOCS.glob("*.md"):
         for target in re.findall(r"\]\(([\w./-]+)\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.name}: {target}"
+
+
+def masked(lines):
+    """Lines of the steps of a run without their numbers."""
+    steps = [line for line in lines if " felt " in line or "→ " in line]
+    return [" ".join(re.sub(r"[+-]?\d+(\.\d+)?", "#", line).split()) for line in steps]
+
+
+@pytest.mark.slow
+def test_the_readme_shows_a_run_as_it_prints_now(tmp_path, capsys):
+    text = (ROOT / "README.md").read_text()
+    command = re.search(r"^\$ tacgrasp (run .*--seed \d+)$", text, re.M)[1]
+    shown = text[text.index(command) :].split("```")[0].splitlines()
+    assert main([*command.split(), "--record", str(tmp_path)]) == 0
+    printed = capsys.readouterr().out.splitlines()
+    assert masked(printed) == masked(shown), "run the command and copy what it prints"

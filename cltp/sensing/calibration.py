@@ -114,7 +114,9 @@ def load_calibration(path: Path, sensor: SensorSpec, unit: str | None = None) ->
         TouchError: Missing, damaged, not a calibration, of another version, sensor or unit.
     """
     if not path.is_file():
-        raise TouchError(f"calibration {path} does not exist; make it: tacgrasp calibrate")
+        raise TouchError(
+            f"calibration {path} does not exist; make it: tacgrasp calibrate gelsight-mini"
+        )
     if path.stat().st_size > _MAX_BYTES:
         raise TouchError(f"calibration {path} is too large to be one: {path.stat().st_size} bytes")
     try:

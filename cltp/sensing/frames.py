@@ -5,6 +5,7 @@ Not here: heights from frames (``cltp.sensing.photometric``), live capture (``ta
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -19,6 +20,12 @@ FRAME_SUFFIXES = (".png", ".jpg", ".jpeg", ".bmp")
 DARK_LEVEL = 10.0
 """Mean (of 255) below which a frame was taken without light. Our choice: the frames that we have
 are at 92; without light a camera is at 0 to 3."""
+
+JPEG_QUALITY = 92
+"""Quality of frames in records, of 100. Our choice: for people; heights are stored as a cloud."""
+
+MAX_RECORDED_PX = 4_000_000
+"""Most pixels of a recorded frame. Our choice: fifty times those of a GelSight Mini."""
 
 Frame = NDArray[np.uint8]
 
@@ -53,6 +60,35 @@ def read_frame(path: Path, sensor: SensorSpec) -> Frame:
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise TouchError(f"{path} can't be read whole: {error}") from None
     return check_frame(frame, sensor, str(path))
+
+
+def jpeg_of(frame: Frame) -> bytes:
+    """A frame as a JPEG file of quality ``JPEG_QUALITY``."""
+    from PIL import Image
+
+    file = io.BytesIO()
+    Image.fromarray(frame).save(file, format="JPEG", quality=JPEG_QUALITY)
+    return file.getvalue()
+
+
+def frame_of_jpeg(data: bytes) -> Frame:
+    """The pixels of a recorded frame, shape (H, W, 3).
+
+    Raises:
+        TouchError: Not a whole JPEG file, or of more than ``MAX_RECORDED_PX`` pixels.
+    """
+    from PIL import Image
+
+    try:
+        with Image.open(io.BytesIO(data), formats=("JPEG",)) as image:
+            if image.width * image.height > MAX_RECORDED_PX:  # before anything is decoded
+                raise TouchError(
+                    f"a recorded frame has {image.width} × {image.height} px; expected at most "
+                    f"{MAX_RECORDED_PX} pixels of a tactile sensor's camera"
+                )
+            return np.asarray(image.convert("RGB"))
+    except (OSError, SyntaxError, ValueError) as error:
+        raise TouchError(f"a recorded frame is no whole JPEG file: {error}") from None
 
 
 def check_frame(frame: NDArray[np.generic], sensor: SensorSpec, name: str = "the frame") -> Frame:

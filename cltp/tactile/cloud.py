@@ -7,7 +7,7 @@ Not here: reading clouds from files (``cltp.sensing.touch_files``), what a cloud
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -49,6 +49,8 @@ class TactileCloud:
         sensor: The sensor that measured it.
         stamp: Time of capture; None for a cloud without a clock (a file).
         force_scale: How forces read from it become newtons; that of the unit that measured it.
+        grid: (rows, columns) where the points are those of a regular grid over the whole sensing
+            area, row by row from the top left; None for any other points.
 
     Raises:
         TouchError: Empty, wrong shape, not finite, fewer than ``MIN_POINTS`` points, outside the
@@ -59,12 +61,29 @@ class TactileCloud:
     sensor: SensorSpec
     stamp: Stamp | None = None
     force_scale: ForceScale = UNCALIBRATED
+    grid: tuple[int, int] | None = field(init=False)
 
     def __post_init__(self) -> None:
         points = np.array(self.points_mm, dtype=np.float32)  # a copy: nobody else can change it
         _check(points, self.sensor)
         points.setflags(write=False)
         object.__setattr__(self, "points_mm", points)
+        object.__setattr__(self, "grid", _grid(points, self.sensor))
+
+
+def _grid(points: NDArray[np.float32], sensor: SensorSpec) -> tuple[int, int] | None:
+    """Rows and columns of points (N, 3) that are a regular grid; see ``TactileCloud.grid``."""
+    columns = int((points[:, 1] != points[0, 1]).argmax())  # 0 where all are alike
+    if columns < 2 or len(points) % columns:
+        return None
+    x, y = points[:, 0].reshape(-1, columns), points[:, 1].reshape(-1, columns)
+    expected_x, expected_y = grid_axes_mm(sensor, *x.shape)
+    nearness_mm = 1e-3
+    if np.abs(x[0] - expected_x).max() > nearness_mm or np.abs(y[:, 0] - expected_y).max() > (
+        nearness_mm
+    ):
+        return None
+    return x.shape if (x == x[0]).all() and (y == y[:, :1]).all() else None
 
 
 def _check(points: NDArray[np.float32], sensor: SensorSpec) -> None:
@@ -149,6 +168,8 @@ def cloud_from_heights(
 ) -> TactileCloud:
     """Sample a height map at one point in each cell of a regular grid (stratified, uniform).
 
+    What a sensor measures is not sampled: see ``cloud_of_pixels``.
+
     Args:
         height_mm: Shape (H, W), indentation [mm], row 0 = top, over the whole sensing area.
         sensor: The sensor that measured it.
@@ -168,6 +189,33 @@ def cloud_from_heights(
     points = np.stack([(u - 0.5) * sensor.width_mm, (0.5 - v) * sensor.height_mm, z], axis=1)
     return TactileCloud(
         points_mm=points.astype(np.float32), sensor=sensor, stamp=stamp, force_scale=force_scale
+    )
+
+
+def cloud_of_pixels(
+    height_mm: NDArray[np.floating],
+    sensor: SensorSpec,
+    *,
+    stamp: Stamp | None = None,
+    force_scale: ForceScale = UNCALIBRATED,
+) -> TactileCloud:
+    """Every pixel of a height map as a point.
+
+    Args:
+        height_mm: Shape (H, W), indentation [mm], row 0 = top, over the whole sensing area.
+        sensor: The sensor that measured it.
+        stamp: Time of capture.
+        force_scale: Force scale of the unit.
+
+    Raises:
+        TouchError: The map is not 2-D, too small, or not finite.
+    """
+    heights = checked_heights(height_mm)
+    x, y = grid_axes_mm(sensor, *heights.shape)
+    points = np.empty((*heights.shape, 3), np.float32)
+    points[..., 0], points[..., 1], points[..., 2] = x[None, :], y[:, None], heights
+    return TactileCloud(
+        points_mm=points.reshape(-1, 3), sensor=sensor, stamp=stamp, force_scale=force_scale
     )
 
 

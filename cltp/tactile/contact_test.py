@@ -20,11 +20,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
 
 from cltp.errors import TouchError
+from cltp.tactile.cells import cell_means, cells_of, smoothed
 from cltp.tactile.cloud import FloatArray, TactileCloud, heights_at
-from cltp.tactile.measure import cell_means, cells_of
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -43,7 +42,7 @@ air at 25 Hz). ``tacgrasp bench contact``: with ``CREEP_MM``, 1 of 1200 closings
 the largest response is 0.53 of the least of a contact in the median, and 1.14 at most.
 """
 
-CREEP_MM = (0.0005, 0.0035, 0.0105)
+CREEP_MM = (0.005, 0.007, 0.0125)
 """Drift's part of the least response of a contact, by scale [mm]: what the gel creeps during a
 closing. Source: without it the slow drift of the simulated sensor is a contact in 12 % of 1200
 closings at nine standard deviations; responses of these closings reach 0.011, 0.012 and 0.020 mm,
@@ -146,7 +145,7 @@ class UntouchedGel:
         change = cell_means(cloud, self._cells) - self._mean - self._drift_mm
         most_mm = FOLLOWED_MM_S * self._seconds_to(cloud)
         for scale_mm in FOLLOWED_SCALES_MM:
-            smooth = FOLLOWED_PART * _smoothed(change, self._sensor, scale_mm)
+            smooth = FOLLOWED_PART * smoothed(change, self._sensor, scale_mm)
             drift_mm = self._drift_mm + np.clip(smooth, -most_mm, most_mm)
             responses = np.abs(_responses(drift_mm, self._sensor)).max(axis=(1, 2))
             if (responses <= FOLLOWED_TOTAL * self._least_mm).all():
@@ -198,12 +197,12 @@ def touches_alone(cloud: TactileCloud) -> ContactEvidence:
     """
     spread, sensor = spread_of(cloud.sensor), cloud.sensor
     cells = cell_means(cloud)
-    cell_mm = math.sqrt(sensor.area_mm2 / cells.size)
+    pitch_mm = math.sqrt(sensor.area_mm2 / len(cloud.points_mm))
     least_mm = []
     for scale_mm in SCALES_MM:
         drift = spread.drift_mm * _drift_gain(scale_mm, spread.drift_length_mm[0])
-        # White noise of one point a cell, through the difference of Gaussians.
-        fine = spread.fine_mm * cell_mm / (2 * math.sqrt(math.pi) * scale_mm) * math.sqrt(0.45)
+        # White noise of each point, through the difference of Gaussians.
+        fine = spread.fine_mm * pitch_mm / (2 * math.sqrt(math.pi) * scale_mm) * math.sqrt(0.45)
         least_mm.append(SINGLE_THRESHOLD * math.hypot(drift, fine))
     return _evidence(_responses(cells, sensor), np.array(least_mm))
 
@@ -249,17 +248,7 @@ def _responses(cells_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
     """Responses of the filters, shape (scales, n, n) [mm]; cells without points count nothing."""
     return np.stack(
         [
-            _smoothed(cells_mm, sensor, scale) - _smoothed(cells_mm, sensor, 2 * scale)
+            smoothed(cells_mm, sensor, scale) - smoothed(cells_mm, sensor, 2 * scale)
             for scale in SCALES_MM
         ]
     )
-
-
-def _smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:
-    """Averages with a Gaussian of width ``scale_mm``, shape (n, n) [mm], of the known cells."""
-    known = np.isfinite(cells_mm).astype(np.float64)
-    pitch = sensor.height_mm / cells_mm.shape[0], sensor.width_mm / cells_mm.shape[1]
-    sigma = [scale_mm / each for each in pitch]
-    weight = gaussian_filter(known, sigma, mode="nearest")
-    filled = np.nan_to_num(cells_mm, nan=0.0)
-    return np.asarray(gaussian_filter(filled, sigma, mode="nearest") / np.maximum(weight, 1e-6))

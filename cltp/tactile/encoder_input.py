@@ -7,12 +7,13 @@ destroy position, depth and area. Loads no torch.
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from cltp.tactile.cloud import NUM_POINTS, TactileCloud
+from cltp.tactile.cloud import NUM_POINTS, TactileCloud, cloud_of_pixels, heights_at
 from cltp.tactile.sensors import SensorSpec
 
 LATTICE = math.isqrt(NUM_POINTS)
@@ -36,8 +37,23 @@ def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.fl
 
 
 def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:
-    """The points of a cloud as ``in_lattice`` orders them."""
-    return in_lattice(cloud.points_mm, cloud.sensor)
+    """The points of a cloud as ``in_lattice`` orders them; a coarser grid is interpolated."""
+    if cloud.grid is None:
+        return in_lattice(cloud.points_mm, cloud.sensor)
+    if min(cloud.grid) >= LATTICE:
+        return cloud.points_mm[_pixels(cloud.grid, cloud.sensor)]
+    x, y = cell_centres(cloud.sensor).T.astype(np.float64)
+    heights = cloud.points_mm[:, 2].astype(np.float64).reshape(cloud.grid)
+    z = heights_at(heights, x, y, cloud.sensor)
+    return np.stack([x, y, z], axis=1).astype(np.float32)
+
+
+@lru_cache(maxsize=8)
+def _pixels(grid: tuple[int, int], sensor: SensorSpec) -> NDArray[np.intp]:
+    """Index (1024,) of the pixel that ``in_lattice`` takes for each cell, of a grid of pixels."""
+    points = cloud_of_pixels(np.zeros(grid), sensor).points_mm.copy()
+    points[:, 2] = np.arange(len(points))  # exact in float32 up to 16 million
+    return in_lattice(points, sensor)[:, 2].astype(np.intp)
 
 
 def in_lattice(points: NDArray[np.float32], sensor: SensorSpec) -> NDArray[np.float32]:

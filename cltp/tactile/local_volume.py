@@ -10,12 +10,12 @@ contact at all (``cltp.tactile.contact_test``). Loads no torch.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from cltp.tactile.cells import quadratic_basis, smoothed
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 
@@ -54,27 +54,24 @@ def local_volume_mm3(cells_mm: FloatArray, sensor: SensorSpec) -> float:
     """Volume between a contact's gel and the surface that surrounds it [mm³]; 0 for none.
 
     Args:
-        cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm], NaN where
-            nothing is known.
+        cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm].
         sensor: The sensor.
     """
-    known = np.isfinite(cells_mm)
-    heights = np.where(known, cells_mm, 0.0)
-    near = _near_strongest(heights, known, sensor)
-    noise_mm = NOISE_FACTOR * white_noise_mm(heights)
-    background: FloatArray | float = float(np.median(heights[known]))
+    near = _near_strongest(cells_mm, sensor)
+    noise_mm = NOISE_FACTOR * white_noise_mm(cells_mm)
+    background: FloatArray | float = float(np.median(cells_mm))
     for is_last in (False, True):
-        local = heights - background
-        depth = float(np.sort(local[near & known])[-_DEEPEST_CELLS:].mean())
+        local = cells_mm - background
+        depth = float(np.sort(local[near])[-_DEEPEST_CELLS:].mean())
         level = max(FRACTION * depth, LEAST_MM, noise_mm)
-        regions, _ = ndimage.label((local > level) & known)
-        region = regions.flat[int(np.where(near & known, local, -np.inf).argmax())]
+        regions, _ = ndimage.label(local > level)
+        region = regions.flat[int(np.where(near, local, -np.inf).argmax())]
         if region == 0:
             return 0.0
         contact = regions == region
         if not is_last:
-            background = _background(heights, known, contact, sensor)
-    cell_mm2 = sensor.area_mm2 / known.sum()
+            background = _background(cells_mm, contact, sensor)
+    cell_mm2 = sensor.area_mm2 / cells_mm.size
     return float((local[contact] - level).sum() * cell_mm2)
 
 
@@ -89,32 +86,28 @@ def white_noise_mm(heights_mm: FloatArray) -> float:
     return 1.4826 * float(np.median(np.abs(inner - around / 4))) / math.sqrt(1.25)
 
 
-def _near_strongest(heights_mm: FloatArray, known: BoolArray, sensor: SensorSpec) -> BoolArray:
+def _near_strongest(heights_mm: FloatArray, sensor: SensorSpec) -> BoolArray:
     """Cells near the strongest response of a band filter; a plane is taken away before."""
-    basis = _basis(heights_mm.shape[0], sensor)[:, :3]
-    flat = heights_mm - _fitted(basis, heights_mm, known)
-    rows, columns = heights_mm.shape
-    pitch = sensor.height_mm / rows, sensor.width_mm / columns
+    everywhere = np.ones_like(heights_mm, dtype=bool)
+    plane = _fitted(quadratic_basis(len(heights_mm), sensor)[:, :3], heights_mm, everywhere)
     inner, outer = (
-        ndimage.gaussian_filter(np.where(known, flat, 0.0), [s / p for p in pitch], mode="nearest")
-        for s in (SCALE_MM, 2 * SCALE_MM)
+        smoothed(heights_mm - plane, sensor, scale) for scale in (SCALE_MM, 2 * SCALE_MM)
     )
     row, column = np.unravel_index(int((inner - outer).argmax()), heights_mm.shape)
-    x, y = grid_axes_mm(sensor, rows, columns)
-    near = np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM
-    return near if (near & known).any() else known
+    x, y = grid_axes_mm(sensor, *heights_mm.shape)
+    return np.asarray(np.hypot(x[None, :] - x[column], y[:, None] - y[row]) < REACH_MM)
 
 
 def _background(
-    heights_mm: FloatArray, known: BoolArray, contact: BoolArray, sensor: SensorSpec
+    heights_mm: FloatArray, contact: BoolArray, sensor: SensorSpec
 ) -> FloatArray | float:
     """The quadratic surface that fits the cells around a contact best, shape (n, n) [mm]."""
     pitch = math.sqrt(sensor.area_mm2 / heights_mm.size)
     rim = max(1, round(RIM_MM / pitch))
-    outside = known & ~ndimage.binary_dilation(contact, iterations=rim)
-    if outside.sum() < max(LEAST_OUTSIDE * known.sum(), 12):
+    outside = ~ndimage.binary_dilation(contact, iterations=rim)
+    if outside.sum() < max(LEAST_OUTSIDE * heights_mm.size, 12):
         return 0.0
-    return _fitted(_basis(heights_mm.shape[0], sensor), heights_mm, outside)
+    return _fitted(quadratic_basis(len(heights_mm), sensor), heights_mm, outside)
 
 
 def _fitted(basis: FloatArray, heights_mm: FloatArray, chosen: BoolArray) -> FloatArray:
@@ -123,12 +116,3 @@ def _fitted(basis: FloatArray, heights_mm: FloatArray, chosen: BoolArray) -> Flo
     normal = rows.T @ rows + 1e-9 * np.eye(basis.shape[1])
     weights = np.linalg.solve(normal, rows.T @ heights_mm[chosen])
     return np.asarray((basis @ weights).reshape(heights_mm.shape))
-
-
-@lru_cache(maxsize=8)
-def _basis(n: int, sensor: SensorSpec) -> FloatArray:
-    """1, x, y, x², xy, y² in the cells, (n², 6), of positions from -1 to 1 along the width."""
-    x, y = (axis / (sensor.width_mm / 2) for axis in grid_axes_mm(sensor, n, n))
-    x, y = np.meshgrid(x, y)
-    functions = (np.ones_like(x), x, y, x * x, x * y, y * y)
-    return np.stack([each.ravel() for each in functions], axis=1)

@@ -66,19 +66,54 @@ def picture(
     return np.asarray(np.rint(255 * shaded.clip(0, 1) ** (1 / 1.3)), dtype=np.uint8)
 
 
-_DEPTH_COLOURS = np.array(
+DEPTH_STOPS_MM = (-0.1, 0.0, 0.05, 0.1, 0.3, 0.6, 0.9, 1.3)
+"""Heights at equal distances along the colour scale [mm]: finer where a berry presses, and with the
+limits of the depth classes among them."""
+
+_STOP_COLOURS = np.array(
     [  # below the untouched surface, at it, then with growing depth
         (38, 70, 122),
         (24, 28, 38),
-        (92, 38, 96),
-        (178, 54, 84),
+        (108, 42, 116),
+        (164, 52, 110),
+        (206, 66, 78),
         (236, 108, 50),
         (250, 186, 66),
         (255, 248, 200),
     ],
     dtype=np.float64,
 )
-_DEPTH_STOPS_MM = (-0.1, 0.0, 0.15, 0.3, 0.6, 0.9, 1.3)
+_NUM_LEVELS = 256
+
+
+def _palette() -> NDArray[np.uint8]:
+    along = np.linspace(0, len(_STOP_COLOURS) - 1, _NUM_LEVELS)
+    stops = np.arange(len(_STOP_COLOURS))
+    channels = [np.interp(along, stops, _STOP_COLOURS[:, i]) for i in range(3)]
+    return np.rint(np.stack(channels, axis=-1)).astype(np.uint8)
+
+
+DEPTH_PALETTE = _palette()
+"""Shape (256, 3), sRGB: the colours of ``depth_levels``, the same in every picture of heights."""
+
+
+def depth_levels(height_mm: NDArray[np.floating]) -> NDArray[np.uint8]:
+    """Position of heights [mm] along the colour scale, 0 to 255; beyond its ends they stay there.
+
+    Every height map is drawn in these colours: a colour means the same depth everywhere.
+    """
+    top = _NUM_LEVELS - 1
+    along = np.linspace(0, top, len(DEPTH_STOPS_MM))
+    return np.rint(np.interp(height_mm, DEPTH_STOPS_MM, along)).astype(np.uint8)
+
+
+def depth_scale(width_px: int, height_px: int) -> NDArray[np.uint8]:
+    """The colour scale as a picture, shape (height_px, width_px, 3).
+
+    ``DEPTH_STOPS_MM`` lie at equal distances from its left edge to its right.
+    """
+    row = DEPTH_PALETTE[np.linspace(0, _NUM_LEVELS - 1, width_px).round().astype(int)]
+    return np.repeat(row[None], height_px, axis=0)
 
 
 def depth_picture(
@@ -92,8 +127,7 @@ def depth_picture(
         TouchError: Not a height map.
     """
     heights, _ = _resampled(height_mm, sensor, width_px)
-    channels = [np.interp(heights, _DEPTH_STOPS_MM, _DEPTH_COLOURS[:, i]) for i in range(3)]
-    return np.rint(np.stack(channels, axis=-1)).astype(np.uint8)
+    return np.asarray(DEPTH_PALETTE[depth_levels(heights)])
 
 
 def _resampled(

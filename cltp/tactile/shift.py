@@ -18,11 +18,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import gaussian_filter, map_coordinates
+from scipy.ndimage import map_coordinates
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
-from cltp.tactile.measure import cell_means, cells_of
+from cltp.tactile.cells import cell_means, cells_of, quadratic_basis, smoothed
+from cltp.tactile.cloud import FloatArray, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 
 PRIOR_MM = 4.0
@@ -69,7 +69,7 @@ def contact_shift(before: TactileCloud, after: TactileCloud) -> ContactShift:
         )
     count = min(cells_of(before), cells_of(after))
     cells = [cell_means(cloud, count) for cloud in (before, after)]
-    smooth_before, smooth_after = (_smooth(each, before.sensor) for each in cells)
+    smooth_before, smooth_after = (smoothed(each, before.sensor, SMOOTHING_MM) for each in cells)
     fit = _Fit(smooth_before, smooth_after, before.sensor)
     return fit.refined(fit.coarse())
 
@@ -79,10 +79,7 @@ class _Fit:
 
     def __init__(self, before: FloatArray, after: FloatArray, sensor: SensorSpec) -> None:
         rows, columns = before.shape
-        x, y = grid_axes_mm(sensor, rows, columns)
-        u, v = np.meshgrid(2 * x / sensor.width_mm, 2 * y / sensor.height_mm)
-        terms = [np.ones_like(u), u, v, u * u, u * v, v * v]
-        self._background, _ = np.linalg.qr(np.stack([term.ravel() for term in terms], axis=1))
+        self._background, _ = np.linalg.qr(quadratic_basis(rows, sensor))
         self._pitch_mm = sensor.width_mm / columns, sensor.height_mm / rows
         self._grid = np.mgrid[0:rows, 0:columns].astype(float)
         down, right = np.gradient(before, *self._pitch_mm[::-1])
@@ -104,16 +101,16 @@ class _Fit:
         """The most probable shift of a grid, (2,) [mm]."""
         steps = np.arange(-_REACH_MM, _REACH_MM + _STEP_MM / 2, _STEP_MM)
         shifts = np.stack([each.ravel() for each in np.meshgrid(steps, steps)], axis=1)
-        errors = np.array([float((self._rest(shift)[1] ** 2).sum()) for shift in shifts])
+        errors = np.array([float((self._rest(shift)[2] ** 2).sum()) for shift in shifts])
         variance = _CORRELATED * max(float(errors.min()) / len(self._after), 1e-12)
         improbable = errors / variance + (shifts**2).sum(axis=1) / PRIOR_MM**2
         return np.asarray(shifts[int(np.argmin(improbable))])
 
-    def _rest(self, shift_mm: FloatArray) -> tuple[float, FloatArray]:
-        """Scale that fits best under a shift, and what is then left over, (N,) [mm]."""
+    def _rest(self, shift_mm: FloatArray) -> tuple[float, FloatArray, FloatArray]:
+        """Under a shift: best scale, the contact moved, and what is left over, both (N,) [mm]."""
         moved = self._shifted(self._before, *shift_mm)
         scale = max(float(moved @ self._after) / max(float(moved @ moved), 1e-12), 0.0)
-        return scale, self._after - scale * moved
+        return scale, moved, self._after - scale * moved
 
     def _seen(self, shift_mm: FloatArray) -> FloatArray:
         """Directions along which the contact has slopes of its own and not those of noise, (K, 2).
@@ -121,7 +118,7 @@ class _Fit:
         Noise has slopes too. Half of those of what is left over are the noise of the heights
         before.
         """
-        scale, rest = self._rest(shift_mm)
+        scale, _, rest = self._rest(shift_mm)
         slopes = scale * np.stack([self._slope_x.ravel(), self._slope_y.ravel()], axis=1)
         down, right = np.gradient(rest.reshape(self._before.shape), *self._pitch_mm[::-1])
         noise = np.stack([right.ravel(), -down.ravel()], axis=1)
@@ -135,9 +132,8 @@ class _Fit:
         shift = seen.T @ (seen @ shift_mm) if len(seen) else np.zeros(2)
         covariance = np.eye(1) * PRIOR_MM**2
         for _ in range(_ROUNDS if len(seen) else 0):
-            scale, rest = self._rest(shift)
+            scale, moved, rest = self._rest(shift)
             slopes = [self._shifted(slope, *shift) for slope in (self._slope_x, self._slope_y)]
-            moved = self._shifted(self._before, *shift)
             along = -scale * np.stack(slopes, axis=1) @ seen.T
             design = np.concatenate([along, moved[:, None]], axis=1)
             variance = _CORRELATED * max(float(rest.var()), 1e-12)
@@ -163,15 +159,3 @@ _MOST_NOISE = 0.5
 _CORRELATED = 12.0
 """Cells over which what is left over is one error: smoothing and reconstruction errors are
 correlated over one to two millimetres."""
-
-
-def _smooth(cells_mm: FloatArray, sensor: SensorSpec) -> FloatArray:
-    """Cells smoothed by ``SMOOTHING_MM``; those without points count nothing."""
-    known = np.isfinite(cells_mm).astype(float)
-    sigma = [
-        SMOOTHING_MM / (sensor.height_mm / cells_mm.shape[0]),
-        SMOOTHING_MM / (sensor.width_mm / cells_mm.shape[1]),
-    ]
-    weight = gaussian_filter(known, sigma, mode="nearest")
-    heights = gaussian_filter(np.nan_to_num(cells_mm, nan=0.0), sigma, mode="nearest")
-    return np.asarray(heights / np.maximum(weight, 1e-6))

@@ -251,6 +251,25 @@ _SHAPES: dict[str, Callable[[float, np.random.Generator], BodyShape]] = {
 }
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ObjectKind:
+    """A kind of object from outside of this package.
+
+    Attributes:
+        ranges: Ranges that its properties are drawn from.
+        shape: Height field on ``GRID_MM`` (as ``Body.gap_mm``), centre of mass, radius of gyration
+            and thickness [mm], of a mass [g] and a random generator.
+    """
+
+    ranges: PropertyRanges
+    shape: Callable[[float, np.random.Generator], BodyShape]
+
+
+def add_object(name: str, kind: ObjectKind) -> None:
+    """Let the simulator draw bodies of another kind, in this process."""
+    OBJECTS[name], _SHAPES[name] = kind.ranges, kind.shape
+
+
 def _revolved(
     radius: Callable[[FloatArray], FloatArray],
     length: float,

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import Stamp, TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensor_noise import NoiseUnit, SlowDrift, smooth_field
 from cltp.tactile.sensors import SensorSpec
@@ -233,7 +233,7 @@ class SimSensor(_Device):
         self._force_scale = force_scale
         self._grasp, self._clock, self._spec, self._seed = grasp, clock, spec, seed
         self._noise = replace(noise, drift_mm=0.0)
-        self._rng, self._frame_rng = (np.random.default_rng([seed, part]) for part in (2, 4))
+        self._frame_rng = np.random.default_rng([seed, 4])
         rng = np.random.default_rng([seed, 5])
         shape = (ROWS, COLUMNS)
         self._drift = SlowDrift.draw(rng, shape, spec, noise, drift_level)
@@ -243,10 +243,6 @@ class SimSensor(_Device):
     @property
     def spec(self) -> SensorSpec:
         return self._spec
-
-    def height_mm(self) -> NDArray[np.float32]:
-        """Current surface of the gel relative to the reference, shape (ROWS, COLUMNS) [mm]."""
-        return self._absolute_mm() - self._reference
 
     def surface_mm(self) -> NDArray[np.float32]:
         """Surface with the reconstruction error of its contact alone, shape (ROWS, COLUMNS) [mm].
@@ -274,20 +270,21 @@ class SimSensor(_Device):
     def take_reference(self) -> None:
         """Take the mean of some frames of the present gel as untouched."""
         self._check_connected()
-        frames = []
-        for _ in range(REFERENCE_FRAMES):
+        self._reference = self._mean_of(REFERENCE_FRAMES)
+
+    def _mean_of(self, count: int) -> NDArray[np.float32]:
+        """Mean of the next frames of the present gel, shape (ROWS, COLUMNS) [mm]."""
+        surface_mm, total = self.surface_mm(), np.zeros((ROWS, COLUMNS), np.float32)
+        for _ in range(count):
             self._clock.advance(FRAME_S)
-            frames.append(self._absolute_mm())
-        self._reference = np.mean(frames, axis=0)
+            total += self.frame_mm(surface_mm, self._clock.simulated_s)
+        return total / np.float32(count)
 
-    def _absolute_mm(self) -> NDArray[np.float32]:
-        return self.frame_mm(self.surface_mm(), self._clock.simulated_s)
-
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         self._check_connected()
-        self._clock.advance(FRAME_S)
-        heights, stamp = self.height_mm(), self._clock.stamp()
-        cloud = cloud_from_heights(
-            heights, self._spec, rng=self._rng, stamp=stamp, force_scale=self._force_scale
+        heights_mm = self._mean_of(frames) - self._reference
+        cloud = cloud_of_pixels(
+            heights_mm, self._spec, stamp=self._clock.stamp(), force_scale=self._force_scale
         )
-        return replace(cloud, points_mm=self._noise.received(cloud.points_mm, self._frame_rng))
+        points = self._noise.received(cloud.points_mm, self._frame_rng)
+        return cloud if points is cloud.points_mm else replace(cloud, points_mm=points)

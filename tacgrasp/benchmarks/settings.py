@@ -304,6 +304,23 @@ class LatencySettings(ModelBenchmarkSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ServeSettings(BenchmarkSettings):
+    """Measure one policy server that 1, 4 and 16 robots ask at once.
+
+    Attributes:
+        policy: Policy that is served.
+        seconds: Time for each number of robots [s].
+    """
+
+    policy: str = "llm"
+    seconds: float = 20.0
+
+    def __post_init__(self) -> None:
+        if not 0.5 <= self.seconds <= 3600:
+            raise UsageError(f"--seconds must be 0.5 to 3600, got {self.seconds}")
+
+
+@dataclass(frozen=True, kw_only=True)
 class RigsSettings(ModelBenchmarkSettings):
     """Run the same seeds on the simulated and the emulated rig; exit code 1 if too few agree.
 

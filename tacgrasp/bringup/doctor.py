@@ -4,17 +4,23 @@ from __future__ import annotations
 
 import datetime
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
 
 from primitives.errors import RobotError
 from primitives.execution import PadAxes
+from tacgrasp.base.errors import UsageError
+from tacgrasp.base.plugins import GROUPS, Plugin, load_plugin, plugins
 from tacgrasp.bringup.soak import soak_findings
-from tacgrasp.config.hardware import HardwareConfig
+from tacgrasp.config.hardware import OWN_KINDS, HardwareConfig
+from tacgrasp.config.layers import names, task_refusal
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
 from tacgrasp.drivers.force_scale import good_finding
+from tacgrasp.drivers.plugin import BASES, driver_refusal
+from tacgrasp.policy_factory import POLICIES, policy_refusal
+from tacgrasp.rig.factory import object_names, object_refusal
 from tacgrasp.rig.hardware import device_findings
 
 LIBRARIES = {
@@ -35,7 +41,7 @@ def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]
     Raises:
         RobotError: The emulators of an emulated rig did not start.
     """
-    findings = _file_findings(config)
+    findings = [*plugin_findings(), *_file_findings(config)]
     if config.hardware is None:
         detail = "simulated: there is nothing to connect"
         return [*findings, finding("rig", "devices", True, detail), _drawn_force(config)]
@@ -44,6 +50,47 @@ def rig_findings(config: RunConfig, *, soak_s: float = 0.0) -> Sequence[Finding]
         devices = device_findings(config.hardware, config.gripper.first_force_n)
         return [*findings, *devices, *_soak(config, config.hardware, soak_s)]
     return [*findings, *_emulated_findings(config, config.hardware, soak_s)]
+
+
+def plugin_findings() -> list[Finding]:
+    """Every installed plugin; one that is broken is named."""
+    checks = {group: driver_refusal(group) for group in BASES} | {
+        "policies": policy_refusal,
+        "tasks": task_refusal,
+        "objects": object_refusal,
+    }
+    findings = []
+    for group in GROUPS:
+        for plugin in plugins(group).values():
+            problem = _plugin_problem(plugin, checks[group])
+            detail = problem or f"{plugin.name}, of {plugin.package}"
+            advice = f"ask the makers of {plugin.package}, or uninstall it; runs go on without it"
+            findings.append(finding("plugin", group, not problem, detail, advice))
+    return findings
+
+
+def _plugin_problem(plugin: Plugin, check: Callable[[object], str]) -> str:
+    """Why a plugin, or another one of its name, is left out; empty for none."""
+    if plugin.name in _OWN[plugin.group]():
+        return f"{plugin.title} is left out: {plugin.name} is a name of tacgrasp's own"
+    if plugin.others:
+        return f"{plugin.title} is taken, and that of {', '.join(plugin.others)} left out"
+    try:
+        load_plugin(plugin.group, plugin.name, check)
+    except UsageError as error:
+        return str(error)
+    return ""
+
+
+_OWN: Mapping[str, Callable[[], Collection[str]]] = {
+    "arms": lambda: OWN_KINDS["arm"],
+    "grippers": lambda: OWN_KINDS["gripper"],
+    "sensors": lambda: OWN_KINDS["sensor"],
+    "policies": lambda: POLICIES,
+    "tasks": lambda: names("task"),
+    "objects": lambda: object_names(),
+}
+"""Names of tacgrasp's own in each group of plugins."""
 
 
 def _drawn_force(config: RunConfig) -> Finding:

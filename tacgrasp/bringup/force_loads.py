@@ -133,18 +133,18 @@ def measure_loads(
         source.release()
         sense.take_reference()
         true_n = source.press(load_n)
-        readings.append(ForceLoad(load_n=true_n, read_n=_read_n(sensor, sense, true_n)))
+        readings.append(ForceLoad(load_n=true_n, read_n=_read_n(sense, true_n)))
         keep(readings)
         report(f"load      {true_n:.3f} N, read {readings[-1].read_n:.3f} nominal N")
     source.release()
     return readings
 
 
-def _read_n(sensor: TactileSensor, sense: GelSense, load_n: float) -> float:
-    """Mean of the force in some frames [nominal N]."""
+def _read_n(sense: GelSense, load_n: float) -> float:
+    """Mean of the force in some readings [nominal N]."""
     values = []
     for _ in range(NUM_FRAMES):
-        cloud = sensor.read()
+        cloud = sense.read()
         state = contact_state(cloud, in_contact=sense.in_contact(cloud))
         if not state.in_contact:
             raise TouchError(

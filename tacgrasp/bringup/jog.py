@@ -190,7 +190,7 @@ class Jogger:
         Raises:
             TouchError: The sensor failed.
         """
-        cloud = self._rig.sensor.read()
+        cloud = self._sense.read()
         if self._sense.in_contact(cloud):
             self._gripper.feel(self._sense.felt_force(cloud))
         state = contact_state(cloud, in_contact=self._sense.in_contact(cloud))

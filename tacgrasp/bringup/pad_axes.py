@@ -92,7 +92,7 @@ def _contact_position(rig: Rig, force_n: float, clear_mm: float) -> NDArray[np.f
     sense.take_reference()
     rig.gripper.grip(force_n)
     try:
-        cloud = rig.sensor.read()
+        cloud = sense.read()
         state = contact_state(cloud, in_contact=sense.in_contact(cloud))
     finally:
         rig.gripper.open_by(clear_mm / 1000)

@@ -17,6 +17,7 @@ import numpy as np
 
 from cltp.errors import TouchError
 from primitives.errors import RobotError
+from tacgrasp.base.errors import UsageError
 from tacgrasp.config.hardware import HardwareConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
@@ -85,6 +86,8 @@ def soak_findings(hardware: HardwareConfig, config: RunConfig, seconds: float) -
 def _result(device: str, soak: Soak) -> Finding:
     try:
         return soak()
+    except UsageError as error:  # a plugin's device has a line of its own
+        return finding(device, "soak", True, f"not tested: {error}")
     except (RobotError, TouchError) as error:
         advice = "see the device's other findings; then let it soak again"
         return finding(device, "soak", False, f"it ended early: {error}", advice)
@@ -94,8 +97,8 @@ def _arm(hardware: HardwareConfig, seconds: float) -> Finding:
     """Packets of the controller's stream; their number and own gaps by the controller's clock."""
     from tacgrasp.drivers.ur.dashboard import Rtde
 
-    rate_hz = hardware.arm.supervision_hz
-    with closing(Rtde(hardware.arm.host)) as rtde:
+    rate_hz = hardware.ur_arm.supervision_hz
+    with closing(Rtde(hardware.ur_arm.host)) as rtde:
         rtde.subscribe(["timestamp"], rate_hz)
         rtde.start()
         stamps_s, arrivals_s = [rtde.sample()["timestamp"][0]], [time.monotonic()]
@@ -108,7 +111,7 @@ def _arm(hardware: HardwareConfig, seconds: float) -> Finding:
         expected=expected, received=len(stamps_s), gaps_ms=(1e3 * np.diff(arrivals_s)).tolist()
     )
     note = f"; by the controller's own clock {own_ms:.1f} ms (max)"
-    return count.finding("arm", "a packet every", hardware.arm.stale_ms, note)
+    return count.finding("arm", "a packet every", hardware.ur_arm.stale_ms, note)
 
 
 def _gripper(hardware: HardwareConfig, seconds: float) -> Finding:
@@ -118,7 +121,8 @@ def _gripper(hardware: HardwareConfig, seconds: float) -> Finding:
     from tacgrasp.drivers.dynamixel.errors import BusError
     from tacgrasp.drivers.dynamixel.servo_state import STATE_LENGTH
 
-    settings, bus = hardware.gripper, Bus(hardware.gripper)
+    settings = hardware.dynamixel_gripper
+    bus = Bus(settings)
     durations_ms: list[float] = []
     bus.patience_s, num_reads = 0.0, 0
     try:
@@ -150,7 +154,7 @@ def _sensor(hardware: HardwareConfig, config: RunConfig, seconds: float) -> Find
     settings = hardware.sensor
     if isinstance(settings, RecordedSettings) or not settings.is_live:
         return finding("sensor", "soak", True, "a recording: it has no line to test")
-    sensor, durations_ms, num_reads = connect_sensor(settings, config), [], 0
+    sensor, durations_ms, num_reads = connect_sensor(settings), [], 0
     try:
         began_s = time.monotonic()
         while time.monotonic() - began_s < seconds:

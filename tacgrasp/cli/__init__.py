@@ -5,6 +5,7 @@ codes of errors (``tacgrasp.__main__``).
 
 May import: cltp, policies, primitives, sim.emulators, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
 tacgrasp.bringup, tacgrasp.config, tacgrasp.datasets, tacgrasp.drivers, tacgrasp.episodes,
-tacgrasp.lessons, tacgrasp.playback, tacgrasp.pretraining, tacgrasp.pretraining.report,
-tacgrasp.rig, tacgrasp.runtime, tacgrasp.training.
+tacgrasp.episodes.export, tacgrasp.lessons, tacgrasp.playback, tacgrasp.pretraining,
+tacgrasp.pretraining.report, tacgrasp.rig, tacgrasp.runtime, tacgrasp.serving, tacgrasp.training,
+tacgrasp.viewer.
 """

@@ -37,12 +37,13 @@ def main(argv: Sequence[str]) -> int:
     from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
-    from tacgrasp.console import make_console
+    from tacgrasp.console import make_console, working
     from tacgrasp.playback.describe import is_touched
     from tacgrasp.policy_factory import load_llm
 
     cloud = read_cloud(flags.file, sensor_named(flags.sensor))
-    policy = load_llm(flags.weights)
+    with working("loading the language model"):
+        policy = load_llm(flags.weights)
     try:
         policy.check(flags.question)
     except PolicyError as error:

@@ -19,6 +19,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),
     "soak": (settings.SoakSettings, "loop.soak"),
     "latency": (settings.LatencySettings, "learning.latency"),
+    "serve": (settings.ServeSettings, "loop.serving"),
     "rigs": (settings.RigsSettings, "loop.rigs"),
     "drivers": (settings.DriversSettings, "loop.drivers"),
     "faults": (settings.FaultsSettings, "faults.run"),
@@ -45,4 +46,8 @@ def _run(module: str, values: settings.BenchmarkSettings) -> Any:
     writable(getattr(values, "markdown", None))
     writable(getattr(values, "plot", None))
     writable(getattr(values, "sheet", None))
-    return importlib.import_module(f"tacgrasp.benchmarks.{module}").run(values)
+    from tacgrasp.console import working
+
+    with working("loading the benchmark"):
+        benchmark = importlib.import_module(f"tacgrasp.benchmarks.{module}")
+    return benchmark.run(values)

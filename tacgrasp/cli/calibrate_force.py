@@ -156,14 +156,14 @@ def _loaded(
         )
     # a new unit has no calibration yet, and an old one must not be needed to replace it
     settings = config.hardware.sensor.model_copy(update={"force_calibration": None})
-    sensor = connect_sensor(settings, config)
+    sensor = connect_sensor(settings)
     try:
         if flags.by == "weights":
             yield sensor, PersonLoads(_ask), "weights on the pad"
             return
         from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 
-        gripper = connect_gripper(config.hardware.gripper)
+        gripper = connect_gripper(config.hardware.dynamixel_gripper)
         try:
             yield sensor, GripperLoads(gripper, RealClock()), "the calibrated gripper"
         finally:

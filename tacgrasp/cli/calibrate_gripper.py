@@ -64,7 +64,7 @@ def run(flags: CalibrateGripperFlags) -> None:
         raise UsageError(
             f"--rig {flags.rig} has no section hardware, hence no gripper to calibrate"
         )
-    settings, console = config.hardware.gripper, make_console()
+    settings, console = config.hardware.dynamixel_gripper, make_console()
     out = flags.out or settings.calibration
     if not out.parent.is_dir():
         raise UsageError(f"the calibration can't be written to {out}: {out.parent} is no folder")

@@ -27,7 +27,7 @@ class DemoFlags:
 def main(argv: Sequence[str]) -> int:
     """Play one demo; 1 when actions or end differ from its script."""
     flags = parse(DemoFlags, argv, prog="tacgrasp demo")
-    from tacgrasp.console import StepPrinter, end_lines, make_console
+    from tacgrasp.console import StepPrinter, end_lines, make_console, width_of, working
     from tacgrasp.playback.demo import DEMOS, play
 
     console = make_console()
@@ -35,10 +35,11 @@ def main(argv: Sequence[str]) -> int:
         for name, demo in DEMOS.items():
             console.print(f"{name:10}{demo.summary}")
         return 0
-    result = play(flags.name, flags.record, [StepPrinter(console)])
+    with working(f"playing {flags.name}"):  # steps are printed above the spinner
+        result = play(flags.name, flags.record, [StepPrinter(console)])
     demo = DEMOS[flags.name]
     console.print(f"episode: {result.path}")
-    for line in end_lines(result.outcome, result.config):
+    for line in end_lines(result.outcome, result.config, width_of(console)):
         console.print(line)
     script = ", ".join([*demo.actions, demo.end])
     if result.as_scripted:

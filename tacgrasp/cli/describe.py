@@ -44,7 +44,7 @@ def main(argv: Sequence[str]) -> int:
     from cltp.tactile.sensors import sensor_named
     from policies import PolicyError
     from tacgrasp.config.layers import load
-    from tacgrasp.console import make_console
+    from tacgrasp.console import make_console, working
     from tacgrasp.playback.describe import describe, describe_by_model, is_touched
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
@@ -69,7 +69,8 @@ def main(argv: Sequence[str]) -> int:
     instruction = flags.instruction
     if instruction is None:
         instruction = load("strawberry")[0].instruction
-    model = load_llm(weights)
+    with working("loading the language model"):
+        model = load_llm(weights)
     try:
         model.check(instruction)
     except PolicyError as error:

@@ -1,15 +1,19 @@
-"""``tacgrasp episodes ls | info | recover | plot``: list and inspect recorded episodes."""
+"""``tacgrasp episodes ls | info | recover | plot | export``: recorded episodes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import tyro
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import run_subcommand
+
+if TYPE_CHECKING:
+    from tacgrasp.episodes import Episode
 
 
 @dataclass(frozen=True)
@@ -60,13 +64,39 @@ class PlotFlags:
     out: Path | None = None
 
 
+@dataclass(frozen=True)
+class ExportFlags:
+    """Write episodes in a format of other programs; the episodes stay as they are.
+
+    Attributes:
+        episodes: The .mcap files; several for lerobot alone.
+        to: lerobot (a data set of LeRobot v3.0), parquet (one table), rrd (rerun; extra 'view').
+        out: File to write, for lerobot a folder; by default the first episode's name with .parquet,
+            .rrd or -lerobot.
+        language: Whether lerobot's column language_events is written, which LeRobot knows from 0.6
+            on; D_t also stands in observation.text.
+    """
+
+    episodes: tyro.conf.Positional[tuple[Path, ...]]
+    to: Literal["lerobot", "parquet", "rrd"]
+    out: Path | None = None
+    language: bool = True
+
+    def __post_init__(self) -> None:
+        if not self.episodes:
+            raise UsageError("name an episode; `tacgrasp episodes ls` lists them")
+        if len(self.episodes) > 1 and self.to != "lerobot":
+            raise UsageError(f"--to {self.to} takes one episode, got {len(self.episodes)}")
+
+
 def main(argv: Sequence[str]) -> int:
-    """Run one of the four subcommands."""
+    """Run one of the subcommands."""
     commands: dict[str, tuple[type[Any], Callable[[Any], int | None]]] = {
         "ls": (ListFlags, _list),
         "info": (InfoFlags, _info),
         "recover": (RecoverFlags, _recover),
         "plot": (PlotFlags, _plot),
+        "export": (ExportFlags, _export),
     }
     return run_subcommand("episodes", argv, commands) or 0
 
@@ -99,3 +129,41 @@ def _plot(flags: PlotFlags) -> None:
     png = flags.out or flags.episode.with_suffix(".png")
     plot_episode(flags.episode, png)
     make_console().print(f"drawn: {png}")
+
+
+def _export(flags: ExportFlags) -> None:
+    from cltp.atomic_write import replacing
+    from tacgrasp.console import make_console, working
+    from tacgrasp.episodes import EpisodeError, read_episode
+    from tacgrasp.episodes.paths import refusal
+
+    first = flags.episodes[0]
+    name = f"{first.stem}-lerobot" if flags.to == "lerobot" else f"{first.stem}.{flags.to}"
+    out = flags.out or first.with_name(name)
+    with working(f"writing {out.name}"):
+        if flags.to == "lerobot":
+            from tacgrasp.episodes.export.lerobot import write_lerobot
+
+            episodes = [read_episode(path) for path in flags.episodes]
+            write_lerobot(episodes, out, language=flags.language)
+        else:
+            episode = read_episode(first)
+            write = _writer(flags.to)
+            try:
+                with replacing(out) as part:
+                    write(episode, part)
+            except OSError as error:
+                raise EpisodeError(refusal(out, "write", error)) from None
+    make_console().print(f"written: {out}")
+
+
+def _writer(kind: str) -> Callable[[Episode, Path], None]:
+    if kind == "parquet":
+        from tacgrasp.episodes.export.parquet import write_parquet
+
+        return write_parquet
+    from tacgrasp.viewer.server import require_rerun
+    from tacgrasp.viewer.show import write_rrd
+
+    require_rerun()
+    return write_rrd

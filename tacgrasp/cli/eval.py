@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from tacgrasp.base.result_file import write_result
-from tacgrasp.cli.flags import parse, subcommand, writable
+from tacgrasp.cli.flags import contacts_in, parse, subcommand, writable
 from tacgrasp.training.requests import EvaluationRequest
 
 
@@ -24,6 +24,7 @@ def main(argv: Sequence[str]) -> int:
         return 0
     request = parse(EvaluationRequest, argv, prog="tacgrasp eval")
     json_path = writable(request.json)
+    contacts_in(request.data, command="tacgrasp data generate --set starter --contacts 24000")
     import json
 
     from cltp.train.progress import Bar

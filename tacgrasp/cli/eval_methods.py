@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.eval_instructions import main as instructions
-from tacgrasp.cli.flags import parse, writable
+from tacgrasp.cli.flags import contacts_in, parse, writable
 
 if TYPE_CHECKING:
     from tacgrasp.pretraining.evaluation_run import EvaluationRun
@@ -220,6 +220,8 @@ def _checked(flags: EvaluationFlags) -> Path | None:
         raise UsageError("--limit must be at least 1, --seed at least 0")
     if flags.threads is not None and flags.threads < 1:
         raise UsageError(f"--threads must be at least 1, got {flags.threads}")
+    if not isinstance(flags, RealTouchFlags) or flags.real is None:
+        contacts_in(flags.data, command="tacgrasp data generate")
     return writable(flags.json)
 
 

@@ -130,6 +130,24 @@ def run_subcommand(
     return run(parse(flags, rest, prog=f"tacgrasp {command} {name}"))
 
 
+def contacts_in(folder: Path, *, command: str) -> Path:
+    """Check that a folder holds contacts, before anything heavy is loaded.
+
+    Args:
+        folder: The folder of ``--data``.
+        command: The command that makes such a folder, without its ``--out``.
+
+    Raises:
+        UsageError: It holds none; the message names the command that makes them.
+    """
+    if not (folder / "dataset.json").is_file():
+        raise UsageError(
+            f"--data {folder} holds no contacts (dataset.json is missing); make them: {command} "
+            f"--out {folder}, or name another folder"
+        )
+    return folder
+
+
 def writable(json_path: Path | None) -> Path | None:
     """Check that a result file can be written, before minutes are spent on measuring.
 

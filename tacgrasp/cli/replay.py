@@ -28,6 +28,7 @@ class ReplayFlags:
         policy: Policy that decides; by default the recorded one.
         weights: Folder of the language model's weights; by default the recorded one.
         execute: Repeat the motion on the simulated arm, with a soft start and the same limits.
+        verbose: Print each step whole: all of D_t, the commands as sent, the durations.
     """
 
     episode: tyro.conf.Positional[Path]
@@ -35,6 +36,7 @@ class ReplayFlags:
     policy: str | None = None
     weights: Path | None = None
     execute: bool = False
+    verbose: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -59,7 +61,7 @@ def main(argv: Sequence[str]) -> int:
         return _execute(episode, flags.episode, console)
     header, end = episode.header, episode.end
     console.print(f"{header.task} with {header.policy}, seed {header.seed}: {header.instruction}")
-    print_step = StepPrinter(console)
+    print_step = StepPrinter(console, verbose=flags.verbose)
     for step in episode.steps:
         print_step(step)
     if end is None:
@@ -72,6 +74,7 @@ def main(argv: Sequence[str]) -> int:
 
 
 def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
+    from tacgrasp.console import working
     from tacgrasp.playback.replay import config_of, contract_in, differences
     from tacgrasp.policy_factory import make_policy
 
@@ -79,7 +82,8 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
     config = config_of(episode, flags.episode)
     if flags.weights is not None:
         config = config.model_copy(update={"weights": flags.weights})
-    policy = make_policy(name, config)
+    with working(f"loading the policy {name}"):
+        policy = make_policy(name, config)
     num_decisions = sum(step.decision is not None for step in episode.steps)
     num_different = 0
     for difference in differences(episode, policy, contract_in(episode, config)):
@@ -91,6 +95,7 @@ def _decide(episode: Episode, flags: ReplayFlags, console: Console) -> int:
 
 
 def _execute(episode: Episode, path: Path, console: Console) -> int:
+    from tacgrasp.console import working
     from tacgrasp.playback.replay import config_of, repeat
     from tacgrasp.rig.factory import make_rig
 
@@ -100,7 +105,8 @@ def _execute(episode: Episode, path: Path, console: Console) -> int:
             f"{path} was recorded on real devices (rig {episode.header.rig}), which --execute does "
             "not move; replay it without, or with --decide"
         )
-    rig = make_rig(config)
+    with working("connecting the rig"):
+        rig = make_rig(config)
     largest_mm, num_actions = 0.0, 0
     try:
         with closing(repeat(episode, rig, config)) as actions:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -20,11 +21,16 @@ from tacgrasp.config.schema import RunConfig
 from tacgrasp.runtime.outcome import EndReason, Observer, Outcome
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
+    from policies import Policy
+    from tacgrasp.rig.protocols import Rig
     from tacgrasp.runtime.events import EventFile
 
 EXIT_CODES = {
     EndReason.FAULT: 3,
     EndReason.OPERATOR: 130,
+    EndReason.DRY_RUN: 0,
 }
 """Exit codes of some ends; a completed grasp is 0, any other end 1: a sound run, no good grasp."""
 
@@ -44,30 +50,33 @@ class RunFlags(RunConfig):
         print_config: Print every value and its source, then the contract, and do nothing else.
         allow_uncalibrated_force: Grasp on real devices without a force calibration of the sensor.
         events: File for the contract, every step and the end, one JSON object a line.
+        verbose: Print each step whole: all of D_t, the commands as sent, the durations.
+        view: Show the run live in rerun's viewer: gel, forces, arm (needs the extra 'view').
     """
 
     hardware: Annotated[HardwareConfig | None, tyro.conf.Suppress] = None
     print_config: bool = False
     allow_uncalibrated_force: bool = False
     events: Annotated[Path | None, tyro.conf.arg(name="json")] = None
+    verbose: bool = False
+    view: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
     """Run one episode and return its exit code."""
     config, sources, flags = configure(argv)
     from tacgrasp.config.terms import contract_of
+    from tacgrasp.rig.factory import check_devices
     from tacgrasp.runtime.events import EventFile
 
     contract = contract_of(config, sources)
     if flags.print_config:
         _print_config(config, sources, contract)
         return 0
-    _check_force_calibration(config, allowed=flags.allow_uncalibrated_force)
+    check_devices(config, allow_uncalibrated_force=flags.allow_uncalibrated_force)
     writable(flags.events)
     with EventFile(flags.events) as events:
-        outcome = _run(config, contract, events)
-    if config.dry_run and outcome.reason in (EndReason.UNVERIFIED, EndReason.MAX_STEPS):
-        return 0  # the one decision of a dry run was made
+        outcome = _run(config, contract, events, flags)
     return 0 if outcome.completed else EXIT_CODES.get(outcome.reason, 1)
 
 
@@ -80,7 +89,7 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
     layers = parse_some(LayerFlags, argv)
     below, sources, hard = load_with_limits(layers.task, layers.rig, os.environ)
     values = {name: getattr(below, name) for name in type(below).model_fields}
-    default = RunFlags.model_construct(**values, print_config=False, allow_uncalibrated_force=False)
+    default = RunFlags.model_construct(**values)
     flags = parse(RunFlags, argv, prog="tacgrasp run", default=default)
     tokens = {token.split("=")[0] for token in argv if token.startswith("--")}
     config = RunConfig(**{name: getattr(flags, name) for name in RunConfig.model_fields})
@@ -92,52 +101,82 @@ def configure(argv: Sequence[str]) -> tuple[RunConfig, Sources, RunFlags]:
     return config, sources, flags
 
 
-def _run(config: RunConfig, contract: Contract, events: EventFile) -> Outcome:
+def _run(config: RunConfig, contract: Contract, events: EventFile, flags: RunFlags) -> Outcome:
     from tacgrasp.config.terms import contract_lines
-    from tacgrasp.console import StepPrinter, end_lines, make_console
-    from tacgrasp.policy_factory import make_policy
-    from tacgrasp.rig.factory import make_rig
+    from tacgrasp.console import end_lines, make_console, width_of, working, wrapped
+    from tacgrasp.episodes.paths import check_record_directory
+    from tacgrasp.policy_factory import check_policy
+    from tacgrasp.rig.factory import check_names
     from tacgrasp.run import run_recorded
+    from tacgrasp.viewer.server import require_rerun
 
-    if config.hardware is not None and not config.hardware.sensor.is_live and not config.dry_run:
-        raise UsageError(
-            f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
-            "nothing may be grasped; give --dry-run to see what would be decided"
-        )
+    check_policy(config.policy, config)
+    check_names(config)
+    if flags.view:
+        require_rerun()
     events.contract(contract)
     if contract.refused:
         events.refused(contract)
         raise UsageError(
             f"refused: {contract.refused}. Understood: {contract.summary}; nothing moved"
         )
-    policy = make_policy(config.policy, config)
-    rig = make_rig(config)
+    check_record_directory(config.record)
     console = make_console()
-    try:
-        console.print(f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}")
-        for line in contract_lines(contract):
-            console.print(line)
-        watch: list[Observer] = [StepPrinter(console), events.step]
+    with ExitStack() as stack:
+        with working("loading the policy and connecting the rig"):
+            policy, rig = _connect(config, stack)
+        start = f"{config.task} with {policy.name}, seed {config.seed}: {config.instruction}"
+        for text in (start, *contract_lines(contract)):
+            indent = 2 if text.startswith("  ") else 0
+            for line in wrapped(text.strip(), indent, indent + 2, width_of(console)):
+                console.print(line)
+        watch = [_printer(contract, console, stack, verbose=flags.verbose), events.step]
+        if flags.view:
+            watch.append(_viewer(config, contract, console, stack))
         outcome, path = run_recorded(rig, policy, config, contract, observers=watch)
         events.end(outcome)
-    finally:
-        rig.disconnect()
     console.print(f"episode: {path}")
-    for text in end_lines(outcome, config):
-        console.print(text)
+    for end_line in end_lines(outcome, config, width_of(console)):
+        console.print(end_line)
     return outcome
 
 
-def _check_force_calibration(config: RunConfig, *, allowed: bool) -> None:
-    """Refuse to move real devices by forces that are off by an unknown factor."""
-    from tacgrasp.drivers.force_scale import uncalibrated_refusal
+def _connect(config: RunConfig, stack: ExitStack) -> tuple[Policy, Rig]:
+    """Policy and rig; ``stack`` disconnects the rig."""
+    from tacgrasp.policy_factory import make_policy
+    from tacgrasp.rig.factory import make_rig
 
-    if config.devices != "hardware" or config.hardware is None or config.dry_run or allowed:
-        return
-    sensor = config.hardware.sensor
-    reason = uncalibrated_refusal(sensor) if sensor.is_live else ""
-    if reason:
-        raise UsageError(f"{reason}; nothing moved")
+    policy = make_policy(config.policy, config)
+    rig = make_rig(config)
+    stack.callback(rig.disconnect)
+    return policy, rig
+
+
+def _viewer(config: RunConfig, contract: Contract, console: Console, stack: ExitStack) -> Observer:
+    """A viewer that shows every step; a window stays open, a page ends with the run."""
+    from tacgrasp.viewer.feed import Feed
+    from tacgrasp.viewer.scene import RerunScene
+    from tacgrasp.viewer.server import Viewer, has_display
+    from tacgrasp.viewer.show import pad_of
+
+    viewer = Viewer(web=not has_display())
+    if viewer.page:
+        console.print(f"open {viewer.page} in a browser on this computer")
+        stack.callback(viewer.close)
+    scene = RerunScene(viewer.stream("run"), contract, pad_of(config))
+    feed = Feed(scene.step)
+    stack.callback(feed.close)
+    return feed
+
+
+def _printer(contract: Contract, console: Console, stack: ExitStack, *, verbose: bool) -> Observer:
+    """What shows the steps: a live table on a terminal, plain lines elsewhere."""
+    from tacgrasp.console import StepPrinter
+    from tacgrasp.viewer.live_table import LiveTable
+
+    if console.is_terminal and not verbose:
+        return stack.enter_context(LiveTable(contract))
+    return StepPrinter(console, verbose=verbose)
 
 
 def _print_config(config: RunConfig, sources: Sources, contract: Contract) -> None:

@@ -13,6 +13,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from tacgrasp.base.plugins import names_with
 from tacgrasp.config.schema import RunConfig
 
 UNITS = {
@@ -63,7 +64,8 @@ def _explain(details: ErrorDetails, name: str) -> str:
     if kind == "missing":
         return f"{name} is missing"
     if kind in ("union_tag_invalid", "union_tag_not_found"):
-        kinds = ", ".join(str(_kind_of(model)) for model in _located(loc)[1])
+        own = [k for model in _located(loc)[1] if isinstance(k := _kind_of(model), str)]
+        kinds = ", ".join(names_with(f"{loc[-1]}s", own))
         actual = got.get("kind") if isinstance(got, dict) else got
         return f"{name}.kind must be one of {kinds}, got {actual!r}"
     if kind == "model_type":

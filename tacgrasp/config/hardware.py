@@ -7,22 +7,73 @@ Not here: the settings of a driver (``tacgrasp.drivers``), the limits of a run
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Discriminator, Field, SerializeAsAny, Tag, model_validator
 
+from tacgrasp.base.errors import UsageError
 from tacgrasp.base.settings import Number, SettingsBase, Vector
 from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.plugin import (
+    PluginArmSettings,
+    PluginGripperSettings,
+    PluginSensorSettings,
+    plugin_settings,
+)
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 from tacgrasp.drivers.ur.settings import UrSettings
 
-SensorSettings = Annotated[
-    GelSightSettings | TaxelSettings | RecordedSettings, Field(discriminator="kind")
+OWN_KINDS = {
+    "arm": ("ur",),
+    "gripper": ("dynamixel",),
+    "sensor": ("gelsight_mini", "taxels", "recorded"),
+}
+"""Kinds of our own drivers, which no plugin can take."""
+
+PLUGIN = "plugin"
+"""Tag of the settings of every plugin's device."""
+
+
+def _kind_or(default: str | None, base: type[SettingsBase]) -> Callable[[Any], str | None]:
+    """Function from a section to its driver: its ``kind``, ``default`` without one, or a plugin."""
+
+    def kind(section: Any) -> str | None:
+        if isinstance(section, base):
+            return PLUGIN
+        is_mapping = isinstance(section, dict)
+        name = section.get("kind", default) if is_mapping else getattr(section, "kind", None)
+        return name if isinstance(name, str) and name != PLUGIN else None
+
+    return kind
+
+
+ArmSettings = SerializeAsAny[
+    Annotated[
+        Annotated[UrSettings, Tag("ur")] | Annotated[PluginArmSettings, Tag(PLUGIN)],
+        Discriminator(_kind_or("ur", PluginArmSettings)),
+    ]
 ]
-"""One type for every sensor with a driver."""
+GripperSettings = SerializeAsAny[
+    Annotated[
+        Annotated[DynamixelSettings, Tag("dynamixel")]
+        | Annotated[PluginGripperSettings, Tag(PLUGIN)],
+        Discriminator(_kind_or("dynamixel", PluginGripperSettings)),
+    ]
+]
+SensorSettings = SerializeAsAny[
+    Annotated[
+        Annotated[GelSightSettings, Tag("gelsight_mini")]
+        | Annotated[TaxelSettings, Tag("taxels")]
+        | Annotated[RecordedSettings, Tag("recorded")]
+        | Annotated[PluginSensorSettings, Tag(PLUGIN)],
+        Discriminator(_kind_or(None, PluginSensorSettings)),
+    ]
+]
+"""One type for every arm, gripper and sensor with a driver, and for those of plugins."""
 
 
 class StartConfig(SettingsBase):
@@ -56,16 +107,52 @@ class HardwareConfig(SettingsBase):
     """The devices of a rig.
 
     Attributes:
-        arm: Arm of kind ur.
-        gripper: Gripper of Dynamixel servos.
-        sensor: Sensor of kind gelsight_mini, taxels or recorded.
+        arm: Arm of kind ur, or of a plugin's.
+        gripper: Gripper of kind dynamixel, or of a plugin's.
+        sensor: Sensor of kind gelsight_mini, taxels or recorded, or of a plugin's.
         start: Start pose of an episode.
     """
 
-    arm: UrSettings
-    gripper: DynamixelSettings
+    arm: ArmSettings
+    gripper: GripperSettings
     sensor: SensorSettings
     start: StartConfig = StartConfig()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_plugins(cls, data: Any) -> Any:
+        """A section whose kind is a plugin's is checked by the plugin's own settings."""
+        if not isinstance(data, dict):
+            return data
+        return data | {
+            name: plugin_settings(f"{name}s", data[name], own)
+            for name, own in OWN_KINDS.items()
+            if name in data
+        }
+
+    @property
+    def ur_arm(self) -> UrSettings:
+        """The arm, for what works with a UR alone.
+
+        Raises:
+            UsageError: It is a plugin's.
+        """
+        if isinstance(self.arm, UrSettings):
+            return self.arm
+        raise UsageError(f"this works with an arm of kind ur alone, the rig's is {self.arm.kind}")
+
+    @property
+    def dynamixel_gripper(self) -> DynamixelSettings:
+        """The gripper, for what works with Dynamixel servos alone.
+
+        Raises:
+            UsageError: It is a plugin's.
+        """
+        if isinstance(self.gripper, DynamixelSettings):
+            return self.gripper
+        raise UsageError(
+            f"this works with a gripper of kind dynamixel alone, the rig's is {self.gripper.kind}"
+        )
 
     def without_start_pose(self) -> HardwareConfig:
         """The same devices, but the arm does not move when it is connected.

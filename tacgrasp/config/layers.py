@@ -14,6 +14,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.base.settings import SettingsBase
 from tacgrasp.base.strict_yaml import YamlError, YamlSyntaxError, read_yaml, read_yaml_file
 from tacgrasp.config.errors import explain, path_of
@@ -93,6 +94,31 @@ def load_with_limits(
     return config, {path: sources.get(path, "default") for path in leaves(config)}, hard
 
 
+def with_values(
+    config: RunConfig, sources: Sources, hard: HardLimits, values: Mapping[str, Any], source: str
+) -> RunConfig:
+    """The configuration with values of a caller laid over it, as flags would be.
+
+    Args:
+        config: Configuration from ``load_with_limits``.
+        sources: Its sources; those of the values are noted in it.
+        hard: Limits that the values may not widen.
+        values: Fields by name; those of a section as a mapping of their own.
+        source: Name of the caller, for sources and messages.
+
+    Raises:
+        UsageError: An unknown field, a value that doesn't fit, or a wider limit.
+    """
+    fixed = next((name for name in ("task", "rig", "devices", "hardware") if name in values), None)
+    if fixed is not None:
+        raise UsageError(f"{source}: {fixed} is chosen by the names of task and rig alone")
+    merged = config.model_dump()
+    _merge(merged, dict(values), source, sources)
+    changed = _complete(merged)
+    hard.check(changed, lambda path: sources.get(path, "the default"))
+    return changed
+
+
 def leaves(config: SettingsBase, prefix: str = "") -> dict[str, Any]:
     """Values of a configuration by dotted path, in the order of the models."""
     flat: dict[str, Any] = {}
@@ -121,20 +147,39 @@ def names(kind: str) -> list[str]:
     return sorted(name.removesuffix(".yaml") for name in files)
 
 
+def layer_source(kind: str, name: str) -> str:
+    """Name of a layer's file in messages and sources."""
+    if name.endswith((".yaml", ".yml")):
+        return name
+    if name not in names(kind) and kind == "task" and name in plugins("tasks"):
+        return f"task {name} of {plugins('tasks')[name].package}"
+    return f"{kind}s/{name}.yaml"
+
+
+def task_refusal(added: object) -> str:
+    """Why a plugin's object is no task; empty for the path of a file."""
+    if isinstance(added, (str, Path)) and Path(added).is_file():
+        return ""
+    return f"expected the path of a task's YAML file, got {added!r:.200}"
+
+
 def _read_layer(kind: str, name: str) -> tuple[str, dict[str, Any], Path]:
     """Name of a layer's file for messages, its fields, and the folder of its relative paths."""
     folder = Path(str(resources.files("tacgrasp"))) / f"{kind}s"
+    source = layer_source(kind, name)
     if name.endswith((".yaml", ".yml")):
-        source, path = name, Path(name)
+        path = Path(name)
         folder = path.resolve().parent
         if not path.is_file():
             raise UsageError(f"{kind} file {name} does not exist")
     elif name in names(kind):
-        source = f"{kind}s/{name}.yaml"
         path = folder / f"{name}.yaml"
+    elif kind == "task" and name in plugins("tasks"):
+        path = Path(str(load_plugin("tasks", name, task_refusal)))
     else:
+        known = names_with("tasks", names(kind)) if kind == "task" else names(kind)
         raise UsageError(
-            f"unknown {kind} {name!r}; known: {', '.join(names(kind))}, or the path of a .yaml file"
+            f"unknown {kind} {name!r}; known: {', '.join(known)}, or the path of a .yaml file"
         )
     try:
         fields = read_yaml_file(path)

@@ -18,8 +18,8 @@ from policies.teacher import LESSON_MOVE_STEP_MM
 from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
 from primitives.limits import Limits
 from tacgrasp.base.settings import Interval, Number, SettingsBase, Vector
-from tacgrasp.config.hardware import HardwareConfig, with_workspace
-from tacgrasp.drivers.ur.settings import UrSettings, check_box
+from tacgrasp.config.hardware import ArmSettings, HardwareConfig, with_workspace
+from tacgrasp.drivers.ur.settings import check_box
 
 GOAL_BANDS = ("force_n", "depth_mm", "area_share", "x_mm", "y_mm")
 
@@ -217,7 +217,10 @@ class RunConfig(SettingsBase):
         devices: Kind of devices, set by the rig's file: sim (simulated), emulated (real drivers on
             emulators that the run starts) or hardware.
         hardware: Drivers of emulated and real devices; in the rig's file only.
-        policy: Policy that decides: rules, llm, fixed_force or random.
+        policy: Policy that decides: rules, llm, fixed_force, random, remote, or a plugin's.
+        policy_url: Address of the server that a remote policy asks (ws://host:port).
+        policy_timeout_s: Longest wait for an answer of that server [s].
+        policy_key_file: File with the key that the server asks for.
         weights: Folder of the language model's weights; none: the shipped weights.
         instruction: Instruction to the policy in plain English; by default the task's.
         object: Object between the fingers (simulated and emulated rigs only).
@@ -238,6 +241,9 @@ class RunConfig(SettingsBase):
     devices: Literal["sim", "emulated", "hardware"]
     hardware: HardwareConfig | None = None
     policy: str = "llm"
+    policy_url: str | None = None
+    policy_timeout_s: Number = Field(default=2.0, ge=0.05, le=60)
+    policy_key_file: Path | None = None
     weights: Path | None = None
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
@@ -299,7 +305,7 @@ class RunConfig(SettingsBase):
                 raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 
-    def _check_driver(self, arm: UrSettings) -> None:
+    def _check_driver(self, arm: ArmSettings) -> None:
         """Refuse a task whose lift needs more than the arm's driver allows."""
         lift, shake = self.verify.acceleration_m_s2, self.verify.shake_acceleration_m_s2
         for name, value, bound in (

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from policies.contract import BANDS, read_contract
 from primitives.contract import Band, Contract, ForceTerms, TaskTerms, default_limit_n
 from tacgrasp.base.errors import UsageError
-from tacgrasp.config.layers import names, task_fields
+from tacgrasp.config.layers import layer_source, names, task_fields
 from tacgrasp.config.schema import GoalConfig, RunConfig
 
 SOFT_TASK = "strawberry"
@@ -81,7 +81,7 @@ def given(config: RunConfig, sources: Mapping[str, str] | None) -> dict[str, obj
     values: dict[str, object] = {}
     for path, name in FIELDS.items():
         source = (sources or {}).get(path, "default")
-        if source == "default" or source in _task_sources(config.task):
+        if source in ("default", layer_source("task", config.task)):
             continue
         section, field = path.split(".")
         value = getattr(getattr(config, section), field)
@@ -150,10 +150,6 @@ def _shipped_terms() -> dict[str, tuple[str, ForceTerms]]:
         name: (each["instruction"], _force_terms(GoalConfig.model_validate(each["goal"])))
         for name, each in fields.items()
     }
-
-
-def _task_sources(task: str) -> tuple[str, str]:
-    return task, f"tasks/{task}.yaml"
 
 
 def _own_instruction(config: RunConfig) -> str:

@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from cltp.atomic_write import replacing
 from cltp.data.dataset import ContactDataset
-from cltp.tactile.picture import depth_picture, picture
+from cltp.tactile.picture import DEPTH_STOPS_MM, depth_picture, depth_scale, picture
 from cltp.tactile.sensors import sensor_named
 from cltp.texts.contact_texts import texts_of
 
@@ -67,11 +67,25 @@ def pages(
         rows = -(-len(cards) // columns)
         width = max(card.width for card in cards) + _GAP
         height = max(card.height for card in cards) + _GAP
-        page = Image.new("RGB", (columns * width + _GAP, rows * height + _GAP), _PAPER)
+        size = (columns * width + _GAP, rows * height + _GAP + 2 * _LINE_PX)
+        page = Image.new("RGB", size, _PAPER)
+        _draw_scale(page)
         for number, card in enumerate(cards):
             row, column = divmod(number, columns)
             page.paste(card, (_GAP + column * width, _GAP + row * height))
         yield page
+
+
+def _draw_scale(page: Image.Image) -> None:
+    """The colour scale of the depth maps, at the bottom of a page."""
+    top, left, step = page.height - _LINE_PX - 4, 90, 44
+    width = step * (len(DEPTH_STOPS_MM) - 1)
+    page.paste(Image.fromarray(depth_scale(width, 8)), (left, top - 8))
+    draw = ImageDraw.Draw(page)
+    draw.text((_GAP, top - 10), "depth [mm]", font=_font(12), fill=_DIM)
+    for number, stop_mm in enumerate(DEPTH_STOPS_MM):
+        place = (left + number * step, top + 2)
+        draw.text(place, f"{stop_mm:g}", font=_font(11), fill=_DIM, anchor="mt")
 
 
 def write_pages(data: ContactDataset, indices: Sequence[int], folder: Path) -> list[Path]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from cltp.data.dataset import ContactDataset
-from cltp.tactile.picture import depth_picture, picture
+from cltp.tactile.picture import DEPTH_STOPS_MM, depth_picture, depth_scale, picture
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import DIMENSIONS, ContactState
 from cltp.texts.contact_texts import texts_of
@@ -51,6 +51,8 @@ def write_gallery(folder: Path, indices: Sequence[int] | NDArray, path: Path, *,
         stats=counts,
         panels=[_panel(dimension, counts, states) for dimension in DIMENSIONS],
         cards=cards,
+        depth_scale=_image(depth_scale(160, 8)),
+        depth_stops=DEPTH_STOPS_MM,
         num_ambiguous=sum(bool(card["ambiguous"]) for card in cards),
     )
     path.write_text(page, encoding="utf-8")

@@ -40,13 +40,16 @@ def duration_s(episode: Episode) -> float:
 
 
 def table(paths: Sequence[Path]) -> Table:
-    """One row per episode, also for a file that can't be read."""
-    grid = Table(header_style="bold", expand=False)
-    grid.add_column("episode", no_wrap=True)
-    for column in ("task", "policy", "steps", "end", "declared", "verified", "truth"):
-        grid.add_column(column, overflow="fold", justify="right" if column == "steps" else "left")
-    for column in ("time", "size"):
-        grid.add_column(column, justify="right")
+    """One row per episode, also for a file that can't be read; it fits a terminal of 80 columns.
+
+    The name of a file holds task, start and seed.
+    """
+    grid = Table(header_style="bold", box=None, padding=(0, 2, 0, 0))
+    grid.add_column("episode", no_wrap=True)  # whole, to be copied
+    grid.add_column("policy", overflow="fold")
+    grid.add_column("steps", justify="right", no_wrap=True)
+    grid.add_column("end", overflow="fold")
+    grid.add_column("time", justify="right", no_wrap=True)
     for path in paths:
         grid.add_row(*_row(path))
     return grid
@@ -97,29 +100,35 @@ def info(path: Path) -> Table:
 
 
 def _row(path: Path) -> list[str]:
-    name, size = escape(path.name), _size(path.stat().st_size if path.is_file() else 0)
+    name = escape(path.name)
     try:
         episode = read_episode(path)
     except EpisodeError as error:
         reason = escape(str(error).removeprefix(f"{path} "))
-        return [name, "", "", "", f"[red]{reason}[/red]", "", "", "", "", size]
+        return [name, "", "", f"[red]{reason}[/red]", ""]
     end = episode.end
-    outcome = end_label(end.reason, end.truth) if end else "no end recorded"
+    outcome = _end_text(end) if end else "no end recorded"
     colour = "green" if outcome == "success" else "yellow"
     if not episode.complete:
         outcome += ", unfinished: recover it"
     return [
         name,
-        escape(episode.header.task),
         escape(episode.header.policy),
         str(_num_loop_steps(episode)),
         f"[{colour}]{escape(outcome)}[/{colour}]",
-        _YES_NO[end.declared_success] if end else "",
-        _YES_NO[end.verified_success] if end else "",
-        escape(_short_truth_text(end)),
         f"{duration_s(episode):.1f} s",
-        size,
     ]
+
+
+def _end_text(end: EpisodeEnd) -> str:
+    """The end held against the truth; what became of the body where it was no success."""
+    label = end_label(end.reason, end.truth)
+    truth = end.truth or {}
+    harms = [name for name in ("dropped", "slipped") if truth.get(name)]
+    if truth.get("bruised") or truth.get("bruised_at_start"):
+        harms.append("bruised")
+    new = [harm for harm in harms if harm not in label]
+    return ", ".join([label, *new])
 
 
 def _num_loop_steps(episode: Episode) -> int:
@@ -141,13 +150,6 @@ def _truth_text(end: EpisodeEnd | None) -> str:
         elif value is not None:
             words.append(f"{name} {value:.3g}" if isinstance(value, float) else f"{name} {value}")
     return ", ".join(words)
-
-
-def _short_truth_text(end: EpisodeEnd | None) -> str:
-    """The facts that hold; when none does, that the first does not."""
-    facts = {k: v for k, v in (end.truth or {}).items() if isinstance(v, bool)} if end else {}
-    positive = [name for name, value in facts.items() if value]
-    return ", ".join(positive or [f"not {name}" for name in list(facts)[:1]])
 
 
 def _size(size_bytes: int) -> str:

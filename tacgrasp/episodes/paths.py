@@ -19,19 +19,27 @@ def make_record_directory(path: Path) -> Path:
     Raises:
         EpisodeError: It can't be created, is not a directory, or is read-only.
     """
+    check_record_directory(path)
     try:
         path.mkdir(parents=True, exist_ok=True)
-    except (FileExistsError, NotADirectoryError):
-        raise EpisodeError(
-            f"{path} is not a directory; give --record a directory for episodes"
-        ) from None
     except OSError as error:
         raise EpisodeError(refusal(path, "create", error)) from None
-    if not os.access(path, os.W_OK | os.X_OK):
-        raise EpisodeError(
-            f"{path} is read-only; make it writable or give another directory with --record"
-        )
     return path
+
+
+def check_record_directory(path: Path) -> None:
+    """Check that episodes can be written into the directory ``path``; nothing is created.
+
+    Raises:
+        EpisodeError: It, or the directory that it would be made in, is none or is read-only.
+    """
+    nearest = next(each for each in (path, *path.absolute().parents) if each.exists())
+    if not nearest.is_dir():
+        raise EpisodeError(f"{nearest} is not a directory; give --record a directory for episodes")
+    if not os.access(nearest, os.W_OK | os.X_OK):
+        raise EpisodeError(
+            f"{nearest} is read-only; make it writable or give another directory with --record"
+        )
 
 
 def episode_path(directory: Path, task: str, stamp: Stamp, seed: int | None) -> Path:

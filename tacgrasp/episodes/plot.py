@@ -1,4 +1,4 @@
-"""Draw an episode as one picture: every cloud, and force, depth and position over time."""
+"""Draw an episode as one picture: every cloud, force against its contract, depth and position."""
 
 from __future__ import annotations
 
@@ -6,33 +6,32 @@ import math
 import textwrap
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
-from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
-from matplotlib.colors import Normalize
+from matplotlib.colors import ListedColormap, Normalize
 from matplotlib.figure import Figure
 from matplotlib.gridspec import GridSpec
 from matplotlib.patches import Rectangle
 
 from cltp.atomic_write import replacing
 from cltp.tactile.cloud import FloatArray, TactileCloud
+from cltp.tactile.picture import DEPTH_PALETTE, DEPTH_STOPS_MM, depth_levels
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import refusal
 from tacgrasp.episodes.reader import read_episode
-from tacgrasp.episodes.record import PHASE_LABELS, Episode, StepPhase, StepRecord
+from tacgrasp.episodes.record import PHASE_LABELS, Episode, StepPhase, StepRecord, end_label
 
 MAX_PICTURES = 24
 """Largest number of drawn clouds; more are thinned out evenly, first and last stay. Our choice."""
 
-SCALE_TOP_MM = 0.9
-"""Top of the colour scale [mm], the start of 'very deep' (``cltp.tactile.states``)."""
-
 _COLUMNS = 6
-_HEAT = "magma_r"  # the untouched gel is light
+_HEAT = ListedColormap(DEPTH_PALETTE / 255)
 _FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
+_GOOD, _BAD = "#2f7d4f", "#b3261e"
 
 
 def plot_episode(path: Path, png_path: Path) -> None:
@@ -68,11 +67,14 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     pictures = GridSpec(rows, _COLUMNS, figure, 0.04, bottom, 0.93, top, wspace=0.08, hspace=0.32)
     curves = GridSpec(2, 2, figure, *curves_box, width_ratios=(1.7, 1), hspace=0.16, wspace=0.12)
     _title(figure, episode, name, height_in)
-    scale = Normalize(0.0, SCALE_TOP_MM)
+    scale = Normalize(0, len(DEPTH_PALETTE) - 1)
     for index, step in enumerate(drawn):
         _draw_cloud(figure.add_subplot(pictures[divmod(index, _COLUMNS)]), step, scale)
-    bar = figure.add_axes((0.945, bottom, 0.012, top - bottom))
-    figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar, extend="max", label="indentation [mm]")
+    bar = figure.add_axes((0.94, bottom, 0.012, top - bottom))
+    stops = list(depth_levels(np.array(DEPTH_STOPS_MM)))
+    drawn_bar = figure.colorbar(ScalarMappable(scale, _HEAT), cax=bar)
+    bar.set_title("mm", fontsize=9.5, pad=6)
+    drawn_bar.set_ticks(stops, labels=[f"{stop:g}" for stop in DEPTH_STOPS_MM])
     contacts = np.array([_contact(step.cloud) for step in episode.steps])
     _draw_curves(figure, curves, episode, contacts)
     _draw_path(figure.add_subplot(curves[:, 1]), episode, contacts)
@@ -89,7 +91,7 @@ def _contact(cloud: TactileCloud) -> FloatArray:
 
 def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> None:
     header, end = episode.header, episode.end
-    outcome = f"{end.reason}: {end.message}" if end else "no end recorded"
+    outcome = f"{end_label(end.reason, end.truth)}: {end.message}" if end else "no end recorded"
     if not episode.complete:
         outcome += " (unfinished file)"
     outcome = textwrap.shorten(outcome, 85, placeholder=" …")
@@ -104,8 +106,9 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
 
 def _draw_cloud(axes: Axes, step: StepRecord, scale: Normalize) -> None:
     x, y, z = step.cloud.points_mm.astype(np.float64).T
-    axes.tripcolor(x, y, z, cmap=_HEAT, norm=scale, shading="gouraud")
-    axes.set_facecolor(colormaps[_HEAT](0.0))  # between the outermost points and the pad's edge
+    axes.tripcolor(x, y, depth_levels(z).astype(float), cmap=_HEAT, norm=scale, shading="gouraud")
+    untouched = DEPTH_PALETTE[depth_levels(np.zeros(1))[0]] / 255
+    axes.set_facecolor(tuple(untouched))  # between the outermost points and the pad's edge
     _outline_pad(axes, step.cloud.sensor)
     axes.set_xticks([])
     axes.set_yticks([])
@@ -136,22 +139,25 @@ def _outline_pad(axes: Axes, sensor: SensorSpec) -> None:
 
 
 def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: FloatArray) -> None:
-    """Commanded and felt force, and felt depth, over time, with the actions between them."""
+    """Felt force against its contract, commanded force and depth, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
     time_s = [step.stamp.monotonic_s - start_s for step in episode.steps]
     force = figure.add_subplot(grid[0, 0])
     depth = figure.add_subplot(grid[1, 0], sharex=force)
     commanded = [step.gripper.force_n for step in episode.steps]
-    force.step(time_s, commanded, where="post", color=_FORCE, lw=2)
-    force.plot(time_s, commanded, "o", color=_FORCE, ms=5)
+    force.step(time_s, commanded, where="post", color=_FORCE, lw=1.4, label="commanded")
+    limits_n = _draw_contract(force, episode, time_s)
     felt = [(at_s, s.felt_force_n) for at_s, s in zip(time_s, episode.steps, strict=True)]
     readings = [(at_s, reading) for at_s, reading in felt if reading is not None]
     if readings:
         values = np.array([[at_s, r.value, r.low, r.high] for at_s, r in readings]).T
         spans = [values[1] - values[2], values[3] - values[1]]
-        force.errorbar(values[0], values[1], spans, fmt="s", color=_DEPTH, ms=5, capsize=3)
+        style: dict[str, Any] = {"fmt": "s-", "color": _DEPTH, "ms": 5, "lw": 1, "capsize": 3}
+        force.errorbar(values[0], values[1], spans, label="felt", **style)
     force.set_ylabel(force_label(episode))
-    force.set_ylim(0, 1.35 * max(*commanded, *(r.high for _, r in readings), 0.1))
+    force.set_ylim(0, 1.2 * max(*commanded, *(r.high for _, r in readings), *limits_n, 0.1))
+    force.legend(loc="upper left", fontsize=8, ncols=4, frameon=False)
+    _draw_end(force, episode)
     depth.plot(time_s, contacts[:, 2], "o-", color=_DEPTH, lw=2, ms=5)
     depth.set_ylabel("largest\nindentation [mm]")
     depth.set_ylim(0, 1.3 * max(contacts[:, 2].max(), 0.1))
@@ -169,7 +175,47 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
 def force_label(episode: Episode) -> str:
     """Label of the axis of forces: without a force calibration it says so."""
     marks = {step.cloud.force_scale.mark for step in episode.steps} - {""}
-    return "\n".join(["force [N]: line commanded,", "squares felt", *sorted(marks)])
+    return "\n".join(["force [N]", *sorted(marks)])
+
+
+def _draw_contract(axes: Axes, episode: Episode, time_s: Sequence[float]) -> list[float]:
+    """The goal band and the limit, as they were at each step; returns the limits [N]."""
+    contract, spans = episode.header.contract, []
+    for step, at_s in zip(episode.steps, time_s, strict=True):
+        contract = step.contract or contract
+        if contract is not None and not contract.refused:
+            band = contract.terms.force_n
+            spans.append((at_s, band.low, band.high, contract.terms.limit_n))
+    if not spans:
+        return []
+    last_s = max(time_s[-1], _end_s(episode))
+    at, low, high, limit = np.array([*spans, (last_s, *spans[-1][1:])]).T
+    axes.fill_between(at, low, high, step="post", color=_GOOD, alpha=0.18, lw=0, label="goal")
+    axes.step(at, limit, where="post", color=_BAD, lw=1.2, ls="--", label="never above")
+    return [float(value) for value in limit]
+
+
+def _draw_end(axes: Axes, episode: Episode) -> None:
+    """The moment of the end, with its name."""
+    if episode.end is None:
+        return
+    label, at_s = end_label(episode.end.reason, episode.end.truth), _end_s(episode)
+    color = _GOOD if label == "success" else _BAD
+    axes.axvline(at_s, color=color, lw=1.5)
+    text: dict[str, Any] = {
+        "rotation": 90,
+        "va": "top",
+        "ha": "right",
+        "fontsize": 8,
+        "color": color,
+    }
+    axes.annotate(label, (at_s, 0.97), xycoords=("data", "axes fraction"), **text)
+
+
+def _end_s(episode: Episode) -> float:
+    """Time of the end, or of the last step without one, since the start [s]."""
+    last = episode.end or episode.steps[-1]
+    return last.stamp.monotonic_s - episode.header.stamp.monotonic_s
 
 
 def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord]) -> None:
@@ -178,7 +224,7 @@ def _label_times(axes: Axes, time_s: Sequence[float], steps: Sequence[StepRecord
     for at_s, step in zip(time_s, steps, strict=True):
         if at_s < free_s:
             continue
-        free_s = at_s + 0.025 * (time_s[-1] - time_s[0])
+        free_s = at_s + 0.04 * (time_s[-1] - time_s[0])
         axes.annotate(
             _caption(step).removeprefix("→ ").replace("_", " "),
             (at_s, 0.99),
@@ -199,7 +245,12 @@ def _draw_path(axes: Axes, episode: Episode, contacts: FloatArray) -> None:
     for third in (-1, 1):  # the nine cells of the position words
         axes.axvline(third * sensor.width_mm / 6, color=_MUTED, lw=0.6, ls=":")
         axes.axhline(third * sensor.height_mm / 6, color=_MUTED, lw=0.6, ls=":")
-    felt = contacts[:, 2] > 0.05
+    felt = np.array(
+        [
+            depth_mm > 0.05 if step.in_contact is None else step.in_contact
+            for step, depth_mm in zip(episode.steps, contacts[:, 2], strict=True)
+        ]
+    )
     x, y = contacts[felt, :2].T
     axes.plot(x, y, "-", color=_PATH, lw=1.2, alpha=0.6)
     axes.scatter(x, y, c=range(len(x)), cmap="viridis", s=60, zorder=3, ec="white")

@@ -18,7 +18,7 @@ from primitives.errors import RobotError
 from tacgrasp.episodes.codec import from_json
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.record import (
-    FORMAT,
+    FORMATS,
     JSON_MESSAGES,
     METADATA_NAME,
     Episode,
@@ -29,6 +29,7 @@ from tacgrasp.episodes.record import (
 )
 from tacgrasp.episodes.scan import Scan, scan_file
 from tacgrasp.episodes.touch_message import decode_cloud
+from tacgrasp.episodes.view_messages import ViewTopic, decode_image
 
 MAX_JSON_BYTES = 2_000_000
 """Longest message in JSON; those of a step with a thousand commands have 300 kB. Our choice."""
@@ -60,7 +61,7 @@ def read_episode(path: Path) -> Episode:
         return _episode(messages, scan)
     except (ValueError, TouchError, RobotError) as error:
         raise EpisodeError(
-            f"{path}: a record can't be understood: {error}. It is of format {FORMAT}, but perhaps "
+            f"{path}: a record can't be understood: {error}. It is of a known format, but perhaps "
             "written by another version of tacgrasp; read it with that one"
         ) from error
 
@@ -79,11 +80,11 @@ def check_format(path: Path, scan: Scan) -> None:
             f"{path} is an MCAP file but no episode of tacgrasp (it has no metadata record "
             f"{METADATA_NAME!r}); open it with the program that wrote it"
         )
-    if metadata and metadata[0].get("format") != FORMAT:
+    if metadata and metadata[0].get("format") not in FORMATS:
         stated = " ".join(metadata[0].get("format", "nothing").split())
         raise EpisodeError(
             f"{path} is of format {stated:.60}, this tacgrasp reads "
-            f"{FORMAT}; use the version that wrote it"
+            f"{' and '.join(FORMATS)}; use the version that wrote it"
         )
     if not any(isinstance(record, Message) for record in scan.records):
         raise EpisodeError(
@@ -120,6 +121,7 @@ def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
         decision=None if decision is None else decision.decision,
         executed=None if action is None else action.executed,
         step_ms=state.tick_ms,
+        camera_jpeg=decode_image(group[ViewTopic.CAMERA]) if ViewTopic.CAMERA in group else None,
     )
 
 

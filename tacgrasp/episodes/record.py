@@ -5,15 +5,16 @@ or absent. Channels, all with log and publish time = wall clock [ns] and sequenc
 record within the episode:
 
     /episode      EpisodeHeader                 first message
-    /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float32 [mm],
-                                                frame 'gel'
+    /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float32 [m],
+                                                frame 'gel', and steps to float32 [mm], exactly
     /decision     DecisionMessage               the policy's decision, if it was asked for one
     /action       ActionMessage                 the action as requested, sent and reached, if any
     /state        StepState                     clocks, phase and robot of every record, and each
                                                 command to a device since the record before
     /end          EpisodeEnd                    reason, declared and verified success, truth
 
-All but the clouds are JSON with a JSON Schema made from the dataclasses below. A metadata record
+All but the clouds are JSON with a JSON Schema made from the dataclasses below. Channels for viewers
+stand beside them (``tacgrasp.episodes.view_messages``). A metadata record
 ``tacgrasp_episode`` names format, task, policy and sensor for tools that list files.
 
 Not here: reading and writing (``tacgrasp.episodes.reader``, ``.writer``).
@@ -32,11 +33,14 @@ from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
-from primitives.execution import Executed
+from primitives.execution import Executed, PadAxes
 from primitives.sense import Interval
 from tacgrasp.episodes.command_log import Command
 
-FORMAT = "tacgrasp-episode/1"
+FORMAT = "tacgrasp-episode/2"
+FORMATS = ("tacgrasp-episode/1", FORMAT)
+"""Formats that are read; format 1 has float32 millimetres and no channels for viewers."""
+
 METADATA_NAME = "tacgrasp_episode"
 
 TruthFacts = Mapping[str, bool | int | float | str | None]
@@ -99,6 +103,7 @@ class EpisodeHeader:
         dry_run: True when nothing was sent to the devices.
         contract: Contract of the episode; None in episodes of older versions.
         stamp: Start of the episode.
+        pad: The pad's axes in the TCP frame; None in episodes of older versions.
     """
 
     task: str
@@ -112,6 +117,7 @@ class EpisodeHeader:
     rig: str = "sim"
     dry_run: bool = False
     contract: Contract | None = None
+    pad: PadAxes | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,12 +163,14 @@ class StepRecord(StepFields):
         decision: The policy's decision; None when it was not asked (verification).
         executed: The executed action; None when nothing was executed.
         step_ms: Duration of the step up to the writing of this record [ms].
+        camera_jpeg: The camera's frame behind the cloud, as a JPEG file; None without a camera.
     """
 
     cloud: TactileCloud
     decision: Decision | None
     executed: Executed | None
     step_ms: float
+    camera_jpeg: bytes | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -222,7 +230,7 @@ class EpisodeEnd:
 
     Attributes:
         reason: Named end: success, unverified, max_steps, timeout, no_action, limit, contact_lost,
-            fault or operator.
+            dry_run, fault or operator.
         declared_success: The policy declared success.
         verified_success: The lift confirmed it; None when no lift was tried.
         message: Explanation for people.

@@ -30,11 +30,11 @@ from mcap.writer import MCAP0_MAGIC
 from tacgrasp.episodes.errors import EpisodeError
 
 MAX_BYTES = 128_000_000
-"""Most bytes of a file, and of what its chunks hold: 6,000 steps. Our choice; a task has at most
-1,000 actions."""
+"""Most bytes of a file, and of what its chunks hold: 3,000 steps of 1024 points. Our choice; a task
+has at most 1,000 actions."""
 
 MAX_RECORDS = 100_000
-"""Most records of a file: 15,000 steps. Our choice."""
+"""Most records of a file: 10,000 steps. Our choice."""
 
 SHOWN_PROBLEMS = 5
 

@@ -42,11 +42,12 @@ from tacgrasp.episodes.record import (
     Topic,
 )
 from tacgrasp.episodes.touch_message import encode_cloud, wall_ns
+from tacgrasp.episodes.view_messages import SCHEMAS, end_messages, step_messages
 
 log = logging.getLogger(__name__)
 
 CHUNK_BYTES = 1 << 30
-"""Larger than any step (about 20 kB): a chunk ends only where the MCAP writer is flushed."""
+"""Larger than any step (40 kB with 1024 points): a chunk ends only where the writer is flushed."""
 
 
 class EpisodeWriter:
@@ -68,6 +69,7 @@ class EpisodeWriter:
         self._file: BufferedWriter | None = None
         self._finished = False
         self._has_content = False
+        self._contract = header.contract
 
     def __enter__(self) -> Self:
         """Create the file and write the header durably.
@@ -112,7 +114,7 @@ class EpisodeWriter:
                 written, and the next step can be.
         """
         common: dict[str, Any] = {"index": record.index, "stamp": record.stamp}
-        messages = {Topic.CLOUD: encode_cloud(record.cloud, record.stamp)}
+        messages: dict[str, bytes] = {Topic.CLOUD: encode_cloud(record.cloud, record.stamp)}
         if record.decision is not None:
             decision = DecisionMessage(**common, decision=record.decision)
             messages[Topic.DECISION] = self._json(decision)
@@ -126,6 +128,8 @@ class EpisodeWriter:
                 force_scale=record.cloud.force_scale,
             )
         )
+        self._contract = record.contract or self._contract
+        messages |= step_messages(record, self._contract, self._header.pad)
         with self._durably(f"step {record.index}"):
             self._add(record.stamp, messages)
 
@@ -139,7 +143,7 @@ class EpisodeWriter:
             raise EpisodeError(f"{self.path} has been finished already; an episode ends once")
         message = self._json(end)
         with self._durably("its end"):
-            self._add(end.stamp, {Topic.END: message})
+            self._add(end.stamp, {Topic.END: message, **end_messages(end)})
             self._finished = True
 
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
@@ -184,13 +188,18 @@ class EpisodeWriter:
                 raise
 
     def _register(self) -> None:
-        data = build_file_descriptor_set(PointCloud).SerializeToString()
-        name = PointCloud.DESCRIPTOR.full_name
-        cloud_schema = self._mcap.register_schema(name, "protobuf", data)
-        units = {"units": "mm", "frame": "gel: +x right, +y palm, z indentation into the gel"}
-        self._channels[Topic.CLOUD] = self._mcap.register_channel(
-            Topic.CLOUD, "protobuf", cloud_schema, units
-        )
+        units = {"units": "m", "frame": "gel: +x right, +y palm, z indentation into the gel"}
+        schemas: dict[str, int] = {}
+        kinds: dict[str, Any] = {Topic.CLOUD: PointCloud, **SCHEMAS}
+        for channel, kind in kinds.items():
+            name = kind.DESCRIPTOR.full_name
+            if name not in schemas:
+                data = build_file_descriptor_set(kind).SerializeToString()
+                schemas[name] = self._mcap.register_schema(name, "protobuf", data)
+            metadata = units if channel == Topic.CLOUD else {}
+            self._channels[channel] = self._mcap.register_channel(
+                channel, "protobuf", schemas[name], metadata
+            )
         for topic, (name, kind) in JSON_MESSAGES.items():
             text = json.dumps(json_schema(kind)).encode()
             schema = self._mcap.register_schema(f"tacgrasp.{name}", "jsonschema", text)
@@ -206,7 +215,7 @@ class EpisodeWriter:
         except ValueError as error:
             raise EpisodeError(f"{self.path}: {error}") from None
 
-    def _add(self, stamp: Stamp, messages: Mapping[Topic, bytes]) -> None:
+    def _add(self, stamp: Stamp, messages: Mapping[str, bytes]) -> None:
         """Add the messages of one record, which share its sequence number."""
         time_ns = wall_ns(stamp)
         for topic, data in messages.items():

@@ -98,15 +98,15 @@ def settings_for(
         )
     ready = emulators.ready
     calibration = folder / "gripper_calibration.yaml"
-    save_calibration(calibration, emulated_calibration(hardware.gripper))
+    save_calibration(calibration, emulated_calibration(hardware.dynamixel_gripper))
     force = folder / "force_calibration.json"
     drawn = drawn_force_calibration(config.sensor, config.seed, unit=hardware.sensor.unit)
     save_force_calibration(force, drawn)
     gripper = {"port": str(ready["gripper_port"]), "calibration": calibration}
     return hardware.model_copy(
         update={
-            "arm": hardware.arm.for_emulator(host=str(ready["host"])),
-            "gripper": hardware.gripper.for_emulator(**gripper),
+            "arm": hardware.ur_arm.for_emulator(host=str(ready["host"])),
+            "gripper": hardware.dynamixel_gripper.for_emulator(**gripper),
             "sensor": hardware.sensor.for_emulator(
                 port=str(ready["sensor_port"]), force_calibration=force
             ),

@@ -11,12 +11,42 @@ from typing import TYPE_CHECKING
 from primitives.contract import Contract
 from primitives.execution import Executor, PadAxes
 from tacgrasp.base.errors import UsageError
+from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 
 if TYPE_CHECKING:
     from sim.grasp.rig import SimRig
+
+
+_ADDED: set[str] = set()  # objects of plugins that the simulator was given
+
+
+def check_devices(config: RunConfig, *, allow_uncalibrated_force: bool = False) -> None:
+    """Refuse to grasp with a sensor that feels nothing, or whose forces are off by any factor.
+
+    Args:
+        config: The run; a dry run, which moves nothing, is always allowed.
+        allow_uncalibrated_force: Grasp on real devices without a force calibration.
+
+    Raises:
+        UsageError: The sensor plays a recording, or has no force calibration.
+    """
+    from tacgrasp.drivers.force_scale import uncalibrated_refusal
+
+    if config.hardware is None or config.dry_run:
+        return
+    sensor = config.hardware.sensor
+    if not sensor.is_live:
+        raise UsageError(
+            f"the sensor of the rig's file ({config.rig}) plays a recording: nothing is felt, so "
+            "nothing may be grasped; give --dry-run to see what would be decided"
+        )
+    if config.devices != "hardware" or allow_uncalibrated_force:
+        return
+    if reason := uncalibrated_refusal(sensor):
+        raise UsageError(f"{reason}; nothing moved")
 
 
 def make_rig(config: RunConfig) -> Rig:
@@ -58,15 +88,59 @@ def make_centred_rig(config: RunConfig) -> Rig:
     return emulated_rig.start(config, config.hardware, centred=True)
 
 
-def _check_object(config: RunConfig) -> None:
-    from sim.grasp.bodies import OBJECTS
+def check_names(config: RunConfig) -> None:
+    """Check object, mesh, sensor and the rig's calibrations, before anything heavy is loaded.
 
+    Raises:
+        UsageError: The simulator knows no such object, or the mesh doesn't exist.
+        TouchError: There is no such sensor.
+        RobotError: A calibration of a real rig is missing, damaged or too old.
+    """
+    from cltp.tactile.sensors import sensor_named
+
+    if config.hardware is None:  # a driver names its own sensor
+        sensor_named(config.sensor)
+    if config.devices != "hardware":
+        _check_object(config)
+    elif config.hardware is not None:
+        from tacgrasp.rig.hardware import check_files
+
+        check_files(config.hardware)
+
+
+def _check_object(config: RunConfig) -> None:
+    from sim.grasp.bodies import OBJECTS, ObjectKind, add_object
+
+    if config.object not in object_names() and config.object in plugins("objects"):
+        if config.devices == "emulated":
+            raise UsageError(
+                f"the emulators know no object of a plugin ({config.object}); use the simulated rig"
+            )
+        kind = load_plugin("objects", config.object, object_refusal)
+        assert isinstance(kind, ObjectKind)  # the check has refused everything else
+        add_object(config.object, kind)
+        _ADDED.add(config.object)
     if config.object not in OBJECTS:
-        raise UsageError(
-            f"the simulator has no object {config.object!r}; known: {', '.join(OBJECTS)}"
-        )
+        known = ", ".join(names_with("objects", OBJECTS))
+        raise UsageError(f"the simulator has no object {config.object!r}; known: {known}")
     if config.object_mesh is not None and not config.object_mesh.is_file():
         raise UsageError(f"--object-mesh {config.object_mesh} does not exist")
+
+
+def object_names() -> list[str]:
+    """Names of the simulator's own objects."""
+    from sim.grasp.bodies import OBJECTS
+
+    return [name for name in OBJECTS if name not in _ADDED]
+
+
+def object_refusal(added: object) -> str:
+    """Why a plugin's object is no kind of object for the simulator; empty for one that is."""
+    from sim.grasp.bodies import ObjectKind
+
+    if isinstance(added, ObjectKind):
+        return ""
+    return f"expected a sim.grasp.bodies.ObjectKind, got {added!r:.80}"
 
 
 def _simulated(config: RunConfig, *, centred: bool = False) -> SimRig:

@@ -5,6 +5,7 @@ The same drivers run on emulators (``tacgrasp.rig.emulated``). Not here: the dri
 
 from __future__ import annotations
 
+import datetime
 import logging
 import time
 from collections.abc import Callable, Sequence
@@ -23,12 +24,22 @@ from primitives.limits import check_workspace, distance_mm
 from tacgrasp.config.hardware import HardwareConfig, SensorSettings, StartConfig
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.drivers.check import Finding, finding
+from tacgrasp.drivers.dynamixel.settings import DynamixelSettings
 from tacgrasp.drivers.force_scale import force_finding
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
+from tacgrasp.drivers.plugin import PluginSensorSettings
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.scheduling import ADVICE, granted, lateness_s, request_nice
 from tacgrasp.drivers.stamps import real_stamp
 from tacgrasp.episodes.command_log import Command, CommandLog, LoggedArm, LoggedGripper
+from tacgrasp.rig.driver_choice import (
+    arm_findings,
+    check_plugin,
+    connect_arm_of,
+    connect_gripper_of,
+    connect_plugin,
+    gripper_findings,
+)
 from tacgrasp.rig.guard import GuardedArm
 from tacgrasp.rig.protocols import WatchedSensor
 
@@ -113,9 +124,6 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         RobotError: A device can't be reached or is in a wrong state, and nothing has moved; or the
             move to the start pose failed.
     """
-    from tacgrasp.drivers.dynamixel.gripper import connect_gripper
-    from tacgrasp.drivers.ur.arm import connect_arm
-
     rights = granted()
     if rights.problem:
         log.warning("this computer may be late: %s (%s)", rights.problem, rights)
@@ -123,25 +131,25 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
     commands = CommandLog(time.monotonic)
     with ExitStack() as stack:
         try:
-            sensor = connect_sensor(hardware.sensor, config)
+            sensor = connect_sensor(hardware.sensor)
         except (
             TouchError
         ) as error:  # before an episode begins, a rig without its sensor is unusable
             raise RobotError(str(error)) from None
         stack.callback(sensor.disconnect)
-        gripper = connect_gripper(hardware.gripper)
-        stack.callback(gripper.disconnect)
+        gripper = connect_gripper_of(hardware.gripper)
+        stack.callback(gripper.gripper.disconnect)
         _check_forces(config, gripper.max_force_n)
-        arm = connect_arm(hardware.arm)
-        stack.callback(arm.disconnect)
-        guarded = GuardedArm(arm, [gripper.check_alive, sensor.check_alive])
+        arm = connect_arm_of(hardware.arm)
+        stack.callback(arm.arm.disconnect)
+        guarded = GuardedArm(arm.arm, [gripper.check_alive, sensor.check_alive])
         stack.callback(guarded.disconnect)
-        logged = LoggedArm(guarded, commands, lambda: arm.sent)
+        logged = LoggedArm(guarded, commands, arm.sent)
         start = _go_to_start(logged, hardware.start, config)
         stack.pop_all()
     return HardwareRig(
         arm=logged,
-        gripper=LoggedGripper(gripper, commands, lambda: gripper.sent),
+        gripper=LoggedGripper(gripper.gripper, commands, gripper.sent),
         sensor=sensor,
         clock=RealClock(),
         command_log=commands,
@@ -149,22 +157,43 @@ def connect(config: RunConfig, hardware: HardwareConfig, first_force_n: float) -
         first_force_n=first_force_n,
         force_step_n=gripper.force_step_n,
         fault_counts=lambda: (
-            f"gripper: {gripper.transients}; sensor: {sensor.counts()}; arm: held "
+            f"gripper: {gripper.transients()}; sensor: {sensor.counts()}; arm: held "
             f"{guarded.num_holds} times"
         ),
         guard=guarded,
     )
 
 
-def connect_sensor(settings: SensorSettings, config: RunConfig) -> WatchedSensor:
-    """Connect a sensor; its points are drawn as on the simulated sensor of the same seed.
+def check_files(hardware: HardwareConfig) -> None:
+    """Read every file that the rig's file names, before anything heavy is loaded.
+
+    Raises:
+        RobotError: One is missing, damaged, of another unit or too old; the message names the
+            command that makes it anew.
+    """
+    from tacgrasp.drivers.dynamixel.calibration import load_calibration
+    from tacgrasp.drivers.force_scale import load_unit_force
+
+    if isinstance(hardware.gripper, DynamixelSettings):
+        load_calibration(hardware.gripper.calibration)
+    try:
+        if isinstance(hardware.sensor, GelSightSettings):
+            from tacgrasp.drivers.gelsight.connect import load_unit_files
+
+            load_unit_files(hardware.sensor, datetime.datetime.now(datetime.UTC))
+        load_unit_force(hardware.sensor)
+    except TouchError as error:
+        raise RobotError(str(error)) from None
+
+
+def connect_sensor(settings: SensorSettings) -> WatchedSensor:
+    """Connect a sensor.
 
     Raises:
         TouchError: The sensor can't be reached or used.
     """
-    rng = np.random.default_rng([config.seed, 2])
     connect_driver, _ = _sensor_driver(settings)
-    return connect_driver(rng=rng)
+    return connect_driver()
 
 
 def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> list[Finding]:
@@ -174,14 +203,10 @@ def device_findings(hardware: HardwareConfig, first_force_n: float | None) -> li
         hardware: The devices.
         first_force_n: The rig's ``gripper.first_force_n`` [N]; None is not checked.
     """
-    from tacgrasp.drivers.dynamixel import gripper
-    from tacgrasp.drivers.ur import preflight
-
     _, check_sensor = _sensor_driver(hardware.sensor)
-    arm_findings = preflight.check(hardware.arm)
-    gripper_findings = gripper.check(hardware.gripper, first_force_n=first_force_n)
+    arm, gripper = arm_findings(hardware.arm), gripper_findings(hardware.gripper, first_force_n)
     force = [force_finding(hardware.sensor)] if hardware.sensor.is_live else []
-    return [_computer(), *arm_findings, *gripper_findings, *check_sensor(), *force]
+    return [_computer(), *arm, *gripper, *check_sensor(), *force]
 
 
 def _computer() -> Finding:
@@ -201,7 +226,10 @@ def _sensor_driver(settings: SensorSettings) -> _SensorDriver:
     if isinstance(settings, RecordedSettings):
         from tacgrasp.drivers.recorded import sensor as recorded
 
-        return lambda rng: recorded.connect_recorded(settings), partial(recorded.check, settings)
+        return partial(recorded.connect_recorded, settings), partial(recorded.check, settings)
+    if isinstance(settings, PluginSensorSettings):
+        connect, check = partial(connect_plugin, "sensors"), partial(check_plugin, "sensors")
+        return partial(connect, settings), partial(check, settings)
     from tacgrasp.drivers.taxels import connect as taxels
 
     return partial(taxels.connect_taxels, settings), partial(taxels.check, settings)

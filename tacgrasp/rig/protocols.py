@@ -5,8 +5,9 @@ Not here: the contracts of arm and gripper (``primitives.devices``).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
+from cltp.sensing.frames import Frame
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
 from primitives.devices import Arm, Gripper, Pose
@@ -23,10 +24,15 @@ class TactileSensor(Protocol):
     def spec(self) -> SensorSpec:
         """Type and constants of the sensor."""
 
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         """Capture the gel now.
 
-        The cloud is newer than the call, has 1024 stratified points and carries both clocks.
+        The cloud is newer than the call, keeps every point that the sensor gives, and carries both
+        clocks.
+
+        Args:
+            frames: Frames that the cloud is the mean of, the first one newer than the call; a
+                recording gives its next cloud, whatever their number.
 
         Raises:
             TouchError: No fresh frame could be captured; an old one is never returned.
@@ -65,6 +71,14 @@ class WatchedSensor(TactileSensor, Protocol):
 
     def counts(self) -> object | None:
         """Counts of frames and of the faults among them, for people; None without any."""
+
+
+@runtime_checkable
+class CameraSensor(Protocol):
+    """A tactile sensor with a camera behind its gel, for records and viewers."""
+
+    def last_frame(self) -> Frame | None:
+        """The frame that the last cloud came from, shape (H, W, 3), RGB; None before the first."""
 
 
 class Clock(Protocol):

@@ -20,6 +20,7 @@ class EndReason(StrEnum):
     NO_ACTION = "no_action"  # the policy kept naming no action, or two
     LIMIT = "limit"  # travel, workspace or force: a command was refused
     CONTACT_LOST = "contact_lost"  # the second reset
+    DRY_RUN = "dry_run"  # one decision was made, nothing was sent
     FAULT = "fault"  # robot, sensor, policy or recorder failed
     OPERATOR = "operator"  # a person stopped it
 

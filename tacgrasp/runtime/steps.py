@@ -12,6 +12,7 @@ from itertools import count
 from typing import Protocol
 
 from cltp import TouchError
+from cltp.sensing.frames import Frame, jpeg_of
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.measure import contact_state
 from policies import Decision, Observation, PolicyError
@@ -24,7 +25,7 @@ from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, StepPhase, StepRecord
 from tacgrasp.rig.gel_sense import GelSense
-from tacgrasp.rig.protocols import Rig
+from tacgrasp.rig.protocols import CameraSensor, Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
 
 
@@ -58,6 +59,7 @@ class Readings:
         started_s: Start of the reading, on this computer's performance counter [s].
         in_contact: Whether something touches the gel, by test; None where none was possible.
         felt_force_n: Force that the contact suggests [N]; None without contact or test.
+        frame: The camera's frame behind the cloud; None without a camera.
     """
 
     cloud: TactileCloud
@@ -67,6 +69,7 @@ class Readings:
     started_s: float
     in_contact: bool | None = None
     felt_force_n: Interval | None = None
+    frame: Frame | None = None
 
     def for_policy(self, t_s: float) -> Observation:
         """What a policy is given of it, ``t_s`` seconds after the start of the episode."""
@@ -115,7 +118,7 @@ def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
         RobotError: Pose or gripper can't be read.
     """
     stamp, started_s = rig.clock.stamp(), time.perf_counter()
-    cloud = rig.sensor.read()
+    cloud = rig.sensor.read() if sense is None else sense.read()
     return Readings(
         cloud=cloud,
         tcp_pose=rig.arm.pose(),
@@ -124,6 +127,7 @@ def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
         started_s=started_s,
         in_contact=None if sense is None else sense.in_contact(cloud),
         felt_force_n=None if sense is None else sense.felt_force(cloud),
+        frame=rig.sensor.last_frame() if isinstance(rig.sensor, CameraSensor) else None,
     )
 
 
@@ -269,6 +273,7 @@ class Steps:
             in_contact=step.observation.in_contact,
             felt_force_n=step.observation.felt_force_n,
             contract=self._new_contract,
+            camera_jpeg=None if step.observation.frame is None else jpeg_of(step.observation.frame),
         )
         self._notes, self._new_contract = [], None
         self._recorder.write_step(record)

@@ -18,7 +18,7 @@ from primitives.limits import check_workspace
 from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
-from tacgrasp.runtime.outcome import Verification
+from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Verification
 from tacgrasp.runtime.steps import Readings, Steps
 
 SURELY = 2.0
@@ -107,8 +107,12 @@ def compare(
 
 
 def not_lifted(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) -> Verification:
-    """Verification of a dry run: nothing may move, so nothing is verified."""
-    return Verification(passed=False, message="dry run: nothing was lifted")
+    """Verification of a dry run: nothing may move, so the episode ends.
+
+    Raises:
+        EndOfEpisode: ``dry_run``, always.
+    """
+    raise EndOfEpisode(EndReason.DRY_RUN, "success was declared, nothing was lifted")
 
 
 def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float) -> None:

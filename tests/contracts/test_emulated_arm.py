@@ -6,7 +6,7 @@ import pytest
 
 from sim.emulators.process.spawn import EmulatorProcess
 from tacgrasp.drivers.ur.arm import connect_arm
-from tests.contracts.arm_contract import ArmContract
+from tacgrasp.testing import ArmContract
 from tests.fakes.emulated_arm import emulated_arm
 
 pytest.importorskip("rtde_control")

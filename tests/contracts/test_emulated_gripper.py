@@ -6,7 +6,7 @@ from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import SpringLoad
 from sim.emulators.dynamixel.options import ServoOptions
 from tacgrasp.drivers.dynamixel.gripper import connect_gripper
-from tests.contracts.gripper_contract import GripperContract
+from tacgrasp.testing import GripperContract
 from tests.fakes.emulated_servos import emulated_gripper
 
 pytest.importorskip("dynamixel_sdk")

@@ -12,7 +12,7 @@ from tacgrasp.drivers.recorded.sensor import connect_recorded
 from tacgrasp.drivers.recorded.settings import RecordedSettings
 from tacgrasp.drivers.taxels.connect import connect_taxels
 from tacgrasp.drivers.taxels.settings import TaxelSettings
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.testing import SensorContract
 
 
 class TiltedGel:

@@ -10,7 +10,7 @@ from policies import Observation
 from policies.baselines import FixedForcePolicy, RandomPolicy
 from policies.rules import RulesPolicy
 from primitives import LimitError, Primitive
-from tests.contracts.policy_contract import CLOUDS, CONTRACT, PolicyContract
+from tacgrasp.testing import CLOUDS, CONTRACT, PolicyContract
 from tests.fakes.contracts import refused_contract
 
 

@@ -3,9 +3,7 @@
 import pytest
 
 from sim.grasp.rig import build
-from tests.contracts.arm_contract import ArmContract
-from tests.contracts.gripper_contract import GripperContract
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.testing import ArmContract, GripperContract, SensorContract
 
 
 class TestSimulatedArm(ArmContract):

@@ -159,7 +159,7 @@ class FakeSensor:
     def spec(self) -> SensorSpec:
         return SENSOR
 
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         self._log_call("sensor.read")
         if not self._gripper.current.closed or self.is_missed():
             heights = self._rng.normal(0, 0.01, (60, 80))

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 from tests.fuzz.target import FuzzTarget
 
-MODULES = ("tests.fuzz.files", "tests.fuzz.wire")
+MODULES = ("tests.fuzz.files", "tests.fuzz.wire", "tests.fuzz.policy_messages")
 
 
 def all_targets() -> tuple[FuzzTarget, ...]:

@@ -152,6 +152,15 @@ def test_known_words_are_let_through(words: Words) -> None:
     check_instruction("Hebe die Erdbeere vorsichtig.", None)  # a stock model may know it
 
 
+def test_a_twin_shares_the_model_and_has_a_memory_of_its_own(untrained: Path) -> None:
+    first = LlmPolicy(untrained)
+    first._moves.append(Primitive.MOVE_UP)
+    twin = first.twin()
+    twin._moves.append(Primitive.MOVE_DOWN)
+    assert twin.talker is first.talker
+    assert (first._moves, twin._moves) == ([Primitive.MOVE_UP], [Primitive.MOVE_DOWN])
+
+
 def test_moves_of_another_length_than_in_training_are_refused_by_name_and_value(
     untrained: Path,
 ) -> None:

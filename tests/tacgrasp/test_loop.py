@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from cltp import TouchError
+from cltp.sensing.frames import jpeg_of
 from cltp.tactile.measure import contact_state
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
@@ -379,6 +380,17 @@ def test_a_dry_run_decides_once_sends_nothing_and_is_no_success(text: str) -> No
     settings = config().model_copy(update={"dry_run": True})
     outcome, rig, recorder = play(Scripted(text), settings=settings, verify=not_lifted)
     assert set(rig.calls) <= {"sensor.read", "arm.pose", "gripper.state"}
-    assert outcome.reason in (EndReason.MAX_STEPS, EndReason.UNVERIFIED)
+    assert outcome.reason is EndReason.DRY_RUN
     assert outcome.num_actions == 0
     assert len(recorder.steps) == 1
+
+
+def test_every_step_records_the_frame_of_a_sensor_with_a_camera() -> None:
+    rig = FakeRig()
+    frame = np.full((240, 320, 3), 100, dtype=np.uint8)
+    rig.sensor.last_frame = lambda: frame  # type: ignore[attr-defined]
+    _, _, recorder = play(Scripted(DOWN, GOOD), rig=rig)
+    assert len(recorder.steps) > 1
+    assert all(record.camera_jpeg == jpeg_of(frame) for record in recorder.steps)
+    _, _, recorder = play(Scripted(DOWN, GOOD))
+    assert all(record.camera_jpeg is None for record in recorder.steps)

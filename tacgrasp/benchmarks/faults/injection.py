@@ -127,13 +127,13 @@ class FaultBench:
         if device == "ur":
             from tacgrasp.drivers.ur.arm import connect_arm
 
-            connect_arm(self._hardware.arm).disconnect()
+            connect_arm(self._hardware.ur_arm).disconnect()
         elif device == "dynamixel":
             from tacgrasp.drivers.dynamixel.gripper import connect_gripper
 
-            connect_gripper(self._hardware.gripper).disconnect()
+            connect_gripper(self._hardware.dynamixel_gripper).disconnect()
         elif device == "taxels":
-            connect_sensor(self._hardware.sensor, self._config).disconnect()
+            connect_sensor(self._hardware.sensor).disconnect()
         else:
             from tacgrasp.drivers.gelsight.connect import connect_gelsight
             from tacgrasp.drivers.gelsight.settings import GelSightSettings

@@ -20,9 +20,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
-from cltp.tactile.measure import cell_means
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.devices import SimClock, SimSensor
@@ -36,7 +34,7 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.terms import contract_of
 from tacgrasp.console import make_table_console
 from tacgrasp.rig.factory import make_executor
-from tacgrasp.rig.gel_sense import GelSense
+from tacgrasp.rig.gel_sense import FRAMES_PER_READING, GelSense
 
 NOISE_LEVELS = (1.0, 2.0, 3.0)
 """Levels of the fine noise that closings in air take in turn; 1 is the measured sensor."""
@@ -126,7 +124,7 @@ def largest_ratio(seed: int) -> float:
     unit = replace(unit, fine_mm=level * unit.fine_mm)
     sensor = SimSensor(rig.grasp, SimClock(), rig.sensor.spec, unit, seed)
     gel = _untouched(sensor)
-    return max(gel.test(sensor.read()).ratio for _ in range(FRAMES_PER_CLOSING))
+    return max(gel.test(sensor.read(FRAMES_PER_READING)).ratio for _ in range(FRAMES_PER_CLOSING))
 
 
 @lru_cache
@@ -136,7 +134,7 @@ def _open_rig() -> SimRig:
 
 def _untouched(sensor: SimSensor) -> UntouchedGel:
     sensor.take_reference()
-    return UntouchedGel([sensor.read() for _ in range(NUM_FRAMES)])
+    return UntouchedGel([sensor.read(FRAMES_PER_READING) for _ in range(NUM_FRAMES)])
 
 
 def false_alarms(ratios: Sequence[float], first_seed: int) -> dict[str, Any]:
@@ -196,22 +194,21 @@ def approach_peak_n(name: str, seed: int) -> float | None:
 def _is_felt(rig: SimRig, gel: UntouchedGel, patch: Patch) -> bool:
     rig.grasp.contacts += 1  # a reconstruction error of its own
     rig.grasp.patch = patch
-    return gel.test(rig.sensor.read()).in_contact
+    return gel.test(rig.sensor.read(FRAMES_PER_READING)).in_contact
 
 
 def ideal_missed(rig: SimRig, patch: Patch) -> float:
-    """Probability that a matched filter misses a contact in one frame.
+    """Probability that a matched filter misses a contact in one reading.
 
     It knows the heights of the contact and the fine noise, and meets no drift. Its response to
-    noise is normal; with the heights h of the cells the mean is z = ||h|| / sigma. ``sigma`` is the
-    noise of one point a cell less the mean of ``NUM_FRAMES`` frames. A point is interpolated
-    between four pixels, which leaves 2/3 of a pixel's standard deviation on average. The false
-    alarms of a closing are ``MAX_FALSE_PER_CLOSING``, divided among its frames (Bonferroni).
+    noise is normal; with the heights h of the pixels the mean is z = ||h|| / sigma. ``sigma`` is
+    the noise of a pixel in a reading of ``FRAMES_PER_READING`` frames less the mean of
+    ``NUM_FRAMES`` readings. The false alarms of a closing are ``MAX_FALSE_PER_CLOSING``, divided
+    among its readings (Bonferroni).
     """
-    spec = rig.sensor.spec
-    heights = cell_means(cloud_from_heights(patch.height_mm, spec))
-    sigma_mm = 2 / 3 * spread_of(spec).fine_mm * math.sqrt(1 + 1 / NUM_FRAMES)
-    z = float(np.linalg.norm(heights)) / sigma_mm
+    fine_mm = spread_of(rig.sensor.spec).fine_mm
+    sigma_mm = fine_mm * math.sqrt((1 + 1 / NUM_FRAMES) / FRAMES_PER_READING)
+    z = float(np.linalg.norm(patch.height_mm)) / sigma_mm
     limit = NormalDist().inv_cdf(1 - MAX_FALSE_PER_CLOSING / FRAMES_PER_CLOSING)
     return NormalDist().cdf(limit - z)
 

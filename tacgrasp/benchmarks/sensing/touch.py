@@ -131,7 +131,7 @@ def _sample(rig: SimRig, twin: SimRig, number: int, patch: Patch) -> GraspSample
     sense = GelSense(rig.sensor)
     sense.take_reference()
     rig.grasp.patch = patch
-    cloud = rig.sensor.read()
+    cloud = sense.read()
     return GraspSample(
         force_n=patch.force_n,
         depth_mm=float(patch.height_mm.max()),
@@ -169,9 +169,9 @@ def felt_untouched(num: int) -> dict[str, Any]:
         sense.take_reference()
         for _ in range(round(SINCE_REFERENCE_S.quantile(rng.random()) / OPEN_FRAME_S)):
             clock.advance(OPEN_FRAME_S)
-            sense.in_contact(sensor.read())
+            sense.in_contact(sense.read())
         rig.grasp.patch = patch
-        cloud = sensor.read()
+        cloud = sense.read()
         felt = sense.felt_force(cloud)
         felt_n.append(0.0 if felt is None else felt.value)
         untested_n.append(contact_state(cloud, in_contact=True).force_n)

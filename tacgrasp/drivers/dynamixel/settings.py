@@ -7,6 +7,7 @@ Not here: force over current, which is measured (``calibration``), and the limit
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Literal
 
 from pydantic import Field, model_validator
 
@@ -50,6 +51,7 @@ class DynamixelSettings(SettingsBase):
     of the opening, and both get the same current.
 
     Attributes:
+        kind: Name of the driver.
         port: Serial port: a path, a name under /dev/serial/by-id, or the adapter's serial number.
         baud: Baud rate [bit/s].
         unit: Name of this gripper; a calibration of another unit is refused.
@@ -74,6 +76,7 @@ class DynamixelSettings(SettingsBase):
         max_skew_mm: Largest difference between two fingers at rest [mm].
     """
 
+    kind: Literal["dynamixel"] = "dynamixel"
     port: str = Field(min_length=1)
     baud: int = Field(default=1_000_000, strict=True)
     unit: str = Field(min_length=1)

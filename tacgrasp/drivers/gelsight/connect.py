@@ -36,7 +36,6 @@ def local_now() -> datetime.datetime:
 def connect_gelsight(
     settings: GelSightSettings,
     *,
-    rng: np.random.Generator | None = None,
     now: Now = local_now,
     opener: Opener = make_source,
 ) -> GelSightMini:
@@ -53,9 +52,7 @@ def connect_gelsight(
     scale = force_scale_of(settings, lambda: now().date())
     photometer = Photometer(calibration.net, background.frame, sensor)
     open_source = partial(opener, settings, sensor)
-    gelsight = GelSightMini(
-        settings, open_source, photometer, background.frame, rng=rng, force_scale=scale
-    )
+    gelsight = GelSightMini(settings, open_source, photometer, background.frame, force_scale=scale)
     try:
         gelsight.wait_until_alive()
     except BaseException:
@@ -82,7 +79,7 @@ def load_unit_files(
             raise TouchError(
                 f"calibration {settings.calibration} is {age_days} days old, expected 0 to "
                 f"{settings.max_calibration_age_days:g} (max_calibration_age_days): calibrate this "
-                "unit anew; if it is new, set the clock"
+                "unit anew: tacgrasp calibrate gelsight-mini; if it is new, set the clock"
             )
     background = load_background(
         settings.background,

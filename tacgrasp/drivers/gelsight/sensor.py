@@ -13,7 +13,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.sensing.frames import Frame
 from cltp.sensing.photometric import Photometer
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 from tacgrasp.drivers.gelsight.background import check_still, mismatch
@@ -39,7 +39,6 @@ class GelSightMini:
         opener: Opens the source of frames.
         photometer: Photometer of the unit's calibration and stored background.
         background: The same background.
-        rng: Jitters the points in their cells; None puts them at the cells' centres.
         force_scale: Force scale of the unit.
 
     Raises:
@@ -54,13 +53,13 @@ class GelSightMini:
         photometer: Photometer,
         background: Frame,
         *,
-        rng: np.random.Generator | None = None,
         force_scale: ForceScale = UNCALIBRATED,
     ) -> None:
         self._settings, self._background = settings, background
         self._stored_photometer = self._photometer = photometer
-        self._rng, self._force_scale = rng, force_scale
+        self._force_scale = force_scale
         self._disconnected = False
+        self._last_frame: Frame | None = None
         self._source: FrameSource | None = None
         self._thread: CaptureThread | None = None
         if settings.is_camera or settings.play_hz is not None:
@@ -97,20 +96,28 @@ class GelSightMini:
                 raise TouchError(self._no_frame_message(timeout_s))
             self._check(newest)
 
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         """See the contract; heights are relative to the last reference, else to the background."""
         captured = self._fresh_frame()
+        self._last_frame = captured.frame
         try:
             heights = self._photometer.heights(captured.frame)
-            return cloud_from_heights(
-                heights,
+            num_frames = frames if self._settings.is_camera else 1
+            for _ in range(num_frames - 1):
+                captured = self._frame_after(captured)
+                heights = heights + self._photometer.heights(captured.frame)
+            return cloud_of_pixels(
+                heights / num_frames,
                 self.spec,
-                rng=self._rng,
                 stamp=captured.stamp,
                 force_scale=self._force_scale,
             )
         except TouchError as error:
             raise TouchError(f"{self._settings.source}: {error}") from None
+
+    def last_frame(self) -> Frame | None:
+        """The frame that the last cloud was computed from; None before the first read."""
+        return self._last_frame
 
     def take_reference(self) -> None:
         """Compute heights against the mean of ``REFERENCE_FRAMES`` fresh frames from now on.

@@ -15,8 +15,7 @@ from pathlib import Path
 from cltp.errors import TouchError
 from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_cloud
-from cltp.tactile.cloud import NUM_POINTS, TactileCloud
-from cltp.tactile.encoder_input import lattice_points
+from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import Finding, finding
@@ -65,7 +64,7 @@ class RecordedSensor:
     def length(self) -> int:
         return len(self._loaders)
 
-    def read(self) -> TactileCloud:
+    def read(self, frames: int = 1) -> TactileCloud:
         """Return the next recorded cloud with a stamp of now.
 
         Raises:
@@ -76,10 +75,9 @@ class RecordedSensor:
             raise TouchError(ended_message(self._name, self._num_played))
         cloud = self._loaders[self._num_played % len(self._loaders)]()
         self._num_played += 1
-        points = cloud.points_mm if len(cloud.points_mm) == NUM_POINTS else lattice_points(cloud)
         scale = self._force_scale or cloud.force_scale
         return TactileCloud(
-            points_mm=points, sensor=self._spec, stamp=real_stamp(), force_scale=scale
+            points_mm=cloud.points_mm, sensor=self._spec, stamp=real_stamp(), force_scale=scale
         )
 
     def take_reference(self) -> None:

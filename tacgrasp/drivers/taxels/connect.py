@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
@@ -26,9 +24,7 @@ _WRITE_S = 0.2
 _CHECKS = 20
 
 
-def connect_taxels(
-    settings: TaxelSettings, *, rng: np.random.Generator | None = None
-) -> TaxelArray:
+def connect_taxels(settings: TaxelSettings) -> TaxelArray:
     """Open the array of a rig's file and wait for its first frame.
 
     Raises:
@@ -37,7 +33,7 @@ def connect_taxels(
     """
     sensor_named(settings.sensor)
     scale = force_scale_of(settings)
-    array = TaxelArray(_open(settings), settings, rng=rng, force_scale=scale)
+    array = TaxelArray(_open(settings), settings, force_scale=scale)
     try:
         array.wait_until_alive()
     except BaseException:

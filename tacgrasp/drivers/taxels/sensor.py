@@ -27,7 +27,7 @@ from cltp.sensing.taxel_packets import (
     encode_mark,
 )
 from cltp.sensing.touch_files import ASPECT_TOLERANCE
-from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_from_heights
+from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.drivers.check import EMULATOR_ADVICE
@@ -93,7 +93,6 @@ class TaxelArray:
     Args:
         port: Open and claimed port; closed by the array.
         settings: The sensor's section of the rig's file.
-        rng: Jitters the points in their cells; None puts them at the cells' centres.
         force_scale: Force scale of the unit.
     """
 
@@ -102,10 +101,9 @@ class TaxelArray:
         port: Serial,
         settings: TaxelSettings,
         *,
-        rng: np.random.Generator | None = None,
         force_scale: ForceScale = UNCALIBRATED,
     ) -> None:
-        self._port, self._settings, self._rng = port, settings, rng
+        self._port, self._settings = port, settings
         self._force_scale = force_scale
         self._spec = sensor_named(settings.sensor)
         self._latest: Latest[_StampedFrame] = Latest()
@@ -156,9 +154,9 @@ class TaxelArray:
         with self._sending:  # far from any mark of another program that is still on the line
             self._mark = (first.frame.mark + _MARK_GAP) % 2**32
 
-    def read(self) -> TactileCloud:
-        fresh = self._fresh_frame()
-        heights_mm, reference_mm = fresh.frame.height_mm, self._reference_mm
+    def read(self, frames: int = 1) -> TactileCloud:
+        fresh, mean_mm = self._mean_of(frames)
+        heights_mm, reference_mm = mean_mm, self._reference_mm
         if reference_mm is not None:
             if heights_mm.shape != reference_mm.shape:
                 raise TouchError(
@@ -166,12 +164,8 @@ class TaxelArray:
                     f"{reference_mm.shape}: was it exchanged? Connect it again"
                 )
             heights_mm = (heights_mm - reference_mm).astype(np.float32)
-        return cloud_from_heights(
-            heights_mm,
-            self._spec,
-            rng=self._rng,
-            stamp=fresh.stamp,
-            force_scale=self._force_scale,
+        return cloud_of_pixels(
+            heights_mm, self._spec, stamp=fresh.stamp, force_scale=self._force_scale
         )
 
     def take_reference(self) -> None:
@@ -180,10 +174,19 @@ class TaxelArray:
         Raises:
             TouchError: As ``read``; the old reference stays.
         """
-        frames_mm = [self._fresh_frame().frame.height_mm for _ in range(REFERENCE_FRAMES)]
-        if len({frame.shape for frame in frames_mm}) > 1:
+        _, self._reference_mm = self._mean_of(REFERENCE_FRAMES)
+
+    def _mean_of(self, count: int) -> tuple[_StampedFrame, FloatArray]:
+        """The last of some fresh frames, and the mean of their heights [mm].
+
+        Raises:
+            TouchError: As ``read``.
+        """
+        frames = [self._fresh_frame() for _ in range(count)]
+        heights_mm = [frame.frame.height_mm for frame in frames]
+        if len({each.shape for each in heights_mm}) > 1:
             raise TouchError(f"{self._name} sends grids of different sizes: connect it again")
-        self._reference_mm = np.mean(frames_mm, axis=0, dtype=np.float32)
+        return frames[-1], np.mean(heights_mm, axis=0, dtype=np.float64)
 
     def check_alive(self) -> str:
         newest, stale_s = self._latest.newest(), self._intervals.stale_s

@@ -15,8 +15,8 @@ import socket
 import termios
 import time
 from array import array
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -31,6 +31,8 @@ PLAYING = 2
 RUNNING = 7
 ZEROED_N = 5.0
 """Largest force of a sensor just zeroed at rest [N]."""
+
+DROPPED = "the link to the controller dropped"
 
 VARIABLES = [
     "timestamp", "actual_TCP_pose", "actual_TCP_speed", "actual_TCP_force", "robot_mode",
@@ -208,7 +210,8 @@ class UrLink:
 
     def operation(self) -> tuple[int, bool]:
         """Number of the last asynchronous operation, and whether it is running."""
-        status = self._control.getAsyncOperationProgressEx()
+        with _told_of_a_drop():
+            status = self._control.getAsyncOperationProgressEx()
         return status.operationId(), status.isAsyncOperationRunning()
 
     def move(self, pose: tuple[float, ...], speed_m_s: float, acceleration_m_s2: float) -> None:
@@ -217,12 +220,14 @@ class UrLink:
         Raises:
             RobotError: The library refused it.
         """
-        accepted = self._control.moveL(list(pose), speed_m_s, acceleration_m_s2, True)
+        with _told_of_a_drop():
+            accepted = self._control.moveL(list(pose), speed_m_s, acceleration_m_s2, True)
         _check_accepted(accepted, "move")
 
     def stop(self) -> None:
         """Begin to brake on the present course; the library returns no result to check."""
-        self._control.stopL(self._settings.stop_deceleration_m_s2, True)
+        with _told_of_a_drop():
+            self._control.stopL(self._settings.stop_deceleration_m_s2, True)
 
     def kick(self) -> None:
         """Send the signal that the controller's watchdog expects.
@@ -230,7 +235,8 @@ class UrLink:
         Raises:
             RobotError: The library could not send it, or would hang, waiting for an ended program.
         """
-        alive = self._control.isProgramRunning() and self._control.kickWatchdog()
+        with _told_of_a_drop():
+            alive = self._control.isProgramRunning() and self._control.kickWatchdog()
         _check_accepted(alive, "sign of life")
 
     def end(self) -> None:
@@ -271,6 +277,15 @@ def _sockets_to(port: int) -> list[socket.socket]:
         else:
             found.close()
     return sockets
+
+
+@contextmanager
+def _told_of_a_drop() -> Iterator[None]:
+    """Name what the library raises as it tries to connect anew: the link dropped under a call."""
+    try:
+        yield
+    except RuntimeError as error:
+        raise RobotError(f"{DROPPED}; ur_rtde said: {error}") from None
 
 
 def _check_accepted(result: object, name: str) -> None:

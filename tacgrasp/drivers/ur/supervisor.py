@@ -16,7 +16,7 @@ from typing import NoReturn
 
 from primitives.errors import RobotError
 from tacgrasp.drivers.ur.motion_limits import distance_m, expected_duration_s, refusal
-from tacgrasp.drivers.ur.rtde_link import REST_M_S, UrLink
+from tacgrasp.drivers.ur.rtde_link import DROPPED, REST_M_S, UrLink
 from tacgrasp.drivers.ur.settings import UrSettings
 from tacgrasp.drivers.ur.shared_state import (
     COMMAND_BYTES,
@@ -113,7 +113,7 @@ class Supervisor:
 
     def _round(self, now_s: float) -> None:
         if not self._link.connected:
-            raise RobotError("the link to the controller dropped")
+            raise RobotError(DROPPED)
         self._read_sample(now_s)
         stale_s, limit_s = now_s - self._data_s, self._settings.stale_ms / 1e3
         if stale_s > UNREAD_S or (stale_s > limit_s and not self._link.has_unread()):
@@ -152,6 +152,8 @@ class Supervisor:
                 if problem := self._link.sample().problem():
                     raise RobotError(problem) from None
                 time.sleep(0.002)
+            if not self._link.connected:
+                raise RobotError(DROPPED) from None
             raise
 
     def publish(self, now_s: float) -> None:

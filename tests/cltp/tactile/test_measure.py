@@ -78,3 +78,18 @@ def test_a_cloud_without_points_in_some_positions_is_measured_all_the_same():
     kept = points[np.random.default_rng(0).random(len(points)) < 0.5]
     state = contact_state(TactileCloud(points_mm=kept, sensor=SENSOR))
     assert (state.x_mm, state.y_mm) == pytest.approx((2.0, 1.0), abs=0.4)
+
+
+def test_the_same_cloud_is_measured_once_and_another_one_anew(monkeypatch):
+    from cltp.tactile import measure
+
+    calls = []
+    wrapped = measure._measure
+    monkeypatch.setattr(measure, "_measure", lambda *given: calls.append(given) or wrapped(*given))
+    one, equal = (cloud_from_heights(bump(0, 0, 0.5), SENSOR) for _ in range(2))
+    states = [measure.contact_state(one) for _ in range(3)]
+    assert len(calls) == 1
+    assert states[0] == states[2] == measure.contact_state(equal)
+    assert len(calls) == 2  # equal points, but another cloud
+    assert not measure.contact_state(one, in_contact=False).in_contact
+    assert measure.contact_state(one).in_contact

@@ -5,7 +5,7 @@ import pytest
 
 from cltp import TouchError
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.picture import depth_picture, picture
+from cltp.tactile.picture import DEPTH_STOPS_MM, depth_picture, depth_scale, picture
 from cltp.tactile.sensors import SENSORS
 
 MINI = SENSORS["gelsight_mini"]
@@ -56,3 +56,11 @@ def test_what_is_no_height_map_is_refused(heights):
     for draw in (picture, depth_picture):
         with pytest.raises(TouchError, match="height map"):
             draw(heights, MINI)
+
+
+def test_the_scale_has_the_colours_of_the_depths_at_its_marks():
+    scale = depth_scale(701, 3)
+    assert scale.shape == (3, 701, 3)
+    for number, stop_mm in enumerate(DEPTH_STOPS_MM):
+        flat = depth_picture(np.full((60, 80), stop_mm), MINI)[30, 40].astype(int)
+        assert np.abs(scale[1, 100 * number].astype(int) - flat).max() <= 1

@@ -68,9 +68,15 @@ def test_a_perfect_sensor_feels_where_how_deep_and_how_firm():
     assert state.force_n == pytest.approx(1.0, rel=0.25)
 
 
+def heights_mm(rig):
+    """The gel in one frame, shape (rows, columns) [mm]."""
+    cloud = rig.sensor.read()
+    return cloud.points_mm[:, 2].reshape(cloud.grid)
+
+
 def broad_mm(rig):
     """What is left of the gel after fine noise is averaged away [mm]."""
-    return gaussian_filter(rig.sensor.height_mm(), 4)
+    return gaussian_filter(heights_mm(rig), 4)
 
 
 def test_closing_on_nothing_does_not_draw_the_drift_anew():
@@ -98,7 +104,7 @@ def test_the_reconstruction_error_of_a_contact_grows_with_its_depth():
         rig.gripper.grip(force_n)
         true_mm = rig.grasp.patch.height_mm
         scaled = true_mm * rig.sensor._noise.depth_scale
-        return gaussian_filter(rig.sensor.height_mm() - (scaled - np.median(scaled)), 4).std()
+        return gaussian_filter(heights_mm(rig) - (scaled - np.median(scaled)), 4).std()
 
     assert error_mm(4.0) > 1.5 * error_mm(0.3)
 

@@ -88,7 +88,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["replay", "no.mcap"], "no.mcap does not exist"),
         (["replay", "no.mcap", "--policy", "rules"], "--policy needs --decide"),
         (["replay", "no.mcap", "--decide", "--execute"], "one after the other"),
-        (["episodes"], "expects one of ls, info, recover, plot, got nothing"),
+        (["episodes"], "expects one of ls, info, recover, plot, export, got nothing"),
         (["episodes", "rm"], "got 'rm'"),
         (["episodes", "ls", "nowhere"], "nowhere is not a directory"),
         (["episodes", "info", "no.mcap"], "no.mcap does not exist"),
@@ -104,6 +104,10 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
         (["bench", "gel", "--jsn", "x"], "did you mean --json"),
+        (["eval", "--data", "nowhere"], "make them: tacgrasp data generate --set starter"),
+        (["eval", "zero-shot", "--data", "nowhere"], "make them: tacgrasp data generate --out"),
+        (["run", "--weights", "nowhere"], "train them with `tacgrasp train all`"),
+        (["why", "no.mcap"], "no.mcap does not exist"),
     ],
 )
 def test_wrong_use_gets_one_line_and_exit_code_2(
@@ -126,6 +130,20 @@ def test_a_read_only_record_folder_is_refused(
 ) -> None:
     monkeypatch.setattr(os, "access", lambda *_: False)  # root may write anywhere
     assert "read-only" in complaint(["run", "--record", str(tmp_path)], capsys)
+
+
+@pytest.mark.parametrize(
+    "argv", [["--object", "banana"], ["--policy", "gut"], ["--sensor", "finger"]]
+)
+def test_a_wrong_name_is_refused_before_anything_heavy_is_loaded(argv: list[str]) -> None:
+    code = (
+        "import sys; from tacgrasp.__main__ import main\n"
+        f"code = main(['run', *{argv!r}])\n"
+        "print(code, [m for m in ('torch', 'transformers', 'open3d') if m in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True)
+    assert done.stdout.splitlines()[-1] == "2 []", done.stderr
+    assert "known: " in done.stderr
 
 
 def test_a_full_disk_in_mid_episode_is_a_fault_in_one_line_and_nothing_is_called_successful(
@@ -159,15 +177,16 @@ def test_a_truncated_episode_is_shown_as_incomplete(
     assert "incomplete: " in capsys.readouterr().out
 
 
-def test_the_paper_demo_prints_a_line_a_step_the_end_and_the_truth(
+def test_the_paper_demo_prints_two_lines_a_step_the_end_and_the_truth(
     tmp_path: Path, capsys: Capture
 ) -> None:
     assert main(["demo", "paper", "--record", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
-    assert "bottom-center" in lines[0]
-    assert "move_down" in lines[0]
-    assert all("increase_force" in line for line in lines[1:5])
-    assert "stable" in lines[5]
+    assert all(" s  felt " in line for line in lines[:12:2])
+    assert lines[1].endswith("→ move_down: 3 mm")
+    assert all("→ increase_force: commanded " in line for line in lines[3:11:2])
+    assert "stable" in lines[11]
+    assert max(len(line) for line in lines if str(tmp_path) not in line) <= 100
     assert any(line.startswith("end: success") for line in lines)
     assert any(line.startswith("truth: ") for line in lines)
     assert COMPLETED in lines
@@ -241,6 +260,7 @@ def test_a_dry_run_decides_and_does_not_call_anything_successful(
 ) -> None:
     assert main(["run", "--dry-run", "--record", str(tmp_path)]) == 0
     printed = capsys.readouterr().out
+    assert "end: dry_run - " in printed
     assert "nothing was sent" in printed
     assert COMPLETED not in printed
 
@@ -250,7 +270,7 @@ def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
 ) -> None:
     from sim.grasp.rig import SimSensor
 
-    def interrupt(_: SimSensor) -> None:
+    def interrupt(_: SimSensor, _frames: int) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(SimSensor, "read", interrupt)

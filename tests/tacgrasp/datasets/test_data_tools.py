@@ -175,7 +175,7 @@ def test_the_gallery_is_one_page_that_loads_nothing(untouched, tmp_path, capsys)
     data = ContactDataset(untouched)
     chosen = draw_contacts(NUM, 6, 5)
     assert re.findall(r"<h3>#(\d+) ", text) == [str(index) for index in chosen]
-    assert text.count("data:image/webp;base64,") == 12
+    assert text.count("data:image/webp;base64,") == 12 + 1  # and the colour scale
     outside = re.findall(r"""(?:src|href|url\()\s*=?\s*["']?(?!data:)(\w+:|//|\.|/)""", text)
     assert outside == []
     assert "default-src 'none'" in text

@@ -112,6 +112,20 @@ def test_any_cloud_survives_its_message(seed: int, count: int) -> None:
     assert read.points_mm.tobytes() == cloud.points_mm.tobytes()
 
 
+def test_every_size_of_number_survives_the_metres_of_a_message() -> None:
+    rng = np.random.default_rng(0)
+    z = np.concatenate(
+        [rng.uniform(0.5, 1, 4000) * 2.0 ** rng.integers(-100, 1, 4000), [0.0, -0.0, 1e-40, -1e-44]]
+    )
+    for part in (z[:4002], z):  # the last two have no metres in float32
+        signs = rng.choice([-1, 1], len(part))
+        x, y = (half * rng.uniform(-1, 1, len(part)) for half in (SENSOR.width_mm / 2, 7.0))
+        points = np.stack([x, y, part * signs], axis=1).astype(np.float32)
+        cloud = type(press(0, 0, 0))(points_mm=points, sensor=SENSOR)
+        read = decode_cloud(encode_cloud(cloud, stamp(0)), SENSOR, None)
+        assert read.points_mm.tobytes() == cloud.points_mm.tobytes()
+
+
 @pytest.mark.parametrize("primitive", [None, *Primitive])
 def test_any_executed_action_survives_json(primitive: Primitive | None) -> None:
     read = from_json(Executed, json.loads(json.dumps(to_json(executed(primitive)))))
@@ -194,10 +208,13 @@ def test_the_stock_reader_sees_clouds_and_json_that_fits_its_schema(tmp_path: Pa
                 checked += 1
         for schema, _, message, cloud in reader.iter_decoded_messages(topics=["/touch/cloud"]):
             assert schema is not None and schema.name == "foxglove.PointCloud"
-            assert cloud.frame_id == "gel" and [f.name for f in cloud.fields] == ["x", "y", "z"]
+            assert cloud.frame_id == "gel" and cloud.point_stride == 15
+            assert [f.name for f in cloud.fields] == ["x", "y", "z", "rx", "ry", "rz"]
             assert cloud.timestamp.ToNanoseconds() == pytest.approx(message.log_time, abs=1e9)
-            points = np.frombuffer(cloud.data, "<f4").reshape(-1, 3)
-            assert points.tobytes() == step_record(clouds).cloud.points_mm.tobytes()
+            packed = np.frombuffer(cloud.data, "<f4,<f4,<f4,V3")
+            expected_m = step_record(clouds).cloud.points_mm.astype(float) / 1000
+            for axis in range(3):
+                np.testing.assert_allclose(packed[f"f{axis}"], expected_m[:, axis], rtol=1e-7)
             clouds += 1
     assert (clouds, checked) == (2, 1 + 2 * 3 + 1)  # header, two of decision, action, state; end
 

@@ -66,10 +66,8 @@ def printed(step):
     return console.file.getvalue()
 
 
-def test_the_line_of_a_step_marks_an_uncalibrated_force_and_its_text():
-    line = printed(scaled_step(UNCALIBRATED))
-    assert "N (uncalibrated, -26 to +35 %)" in line
-    assert "I will move_down.” (its N uncalibrated)" in line
+def test_the_lines_of_a_step_mark_an_uncalibrated_force():
+    assert "felt 1.00 N (0.70-1.40, uncalibrated)" in printed(scaled_step(UNCALIBRATED))
     assert "uncalibrated" not in printed(scaled_step(SCALE))
 
 

@@ -8,10 +8,10 @@ from rich.console import Console
 from rich.table import Table
 
 from primitives.primitive import Primitive
-from tacgrasp.episodes import EpisodeError, StepPhase, read_episode
+from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepPhase, read_episode
 from tacgrasp.episodes.listing import duration_s, info, list_episodes, table
 from tacgrasp.episodes.plot import MAX_PICTURES, draw_episode, plot_episode
-from tests.fakes.episode_samples import record, step_record
+from tests.fakes.episode_samples import end, header, record, step_record
 
 
 def shown(content: Table) -> str:
@@ -33,11 +33,27 @@ def test_the_list_tells_finished_unfinished_and_unreadable_apart(tmp_path: Path)
     listed = list_episodes(tmp_path)
     assert [path.name for path in listed] == ["done.mcap", "killed.mcap", "text.mcap"]
     text = shown(table(listed))
-    done = [cell.strip() for cell in row_of(text, "done.mcap").split("│")]
-    assert done[2:8] == ["strawberry", "rules", "2", "success", "yes", "yes"]
-    assert done[8] == "held"
+    assert row_of(text, "done.mcap").split() == ["done.mcap", "rules", "2", "success", "6.7", "s"]
     assert "no end recorded, unfinished: recover it" in row_of(text, "killed.mcap")
     assert "is not an MCAP file" in row_of(text, "text.mcap")
+
+
+@pytest.mark.parametrize("width", [80, 120])
+def test_the_list_fits_the_terminal_and_keeps_names_whole(width: int, tmp_path: Path) -> None:
+    name = "strawberry-20261122T091500.037Z-6.mcap"
+    record(tmp_path / name, [step_record(0)])
+    (tmp_path / "text.mcap").write_text("hello")
+    console = Console(file=io.StringIO(), width=width)
+    console.print(table(list_episodes(tmp_path)))
+    lines = console.file.getvalue().splitlines()  # type: ignore[attr-defined]
+    assert max(map(len, lines)) <= width
+    assert any(name in line and line.endswith("6.7 s") for line in map(str.rstrip, lines))
+
+
+def test_a_bruise_stands_beside_an_end_that_is_no_success(tmp_path: Path) -> None:
+    with EpisodeWriter(tmp_path / "e.mcap", header()) as writer:
+        writer.finish(replace(end(), reason="max_steps", truth={"bruised": True, "slipped": True}))
+    assert "max_steps, slipped, bruised" in shown(table([tmp_path / "e.mcap"]))
 
 
 def test_a_directory_that_is_none_can_not_be_listed(tmp_path: Path) -> None:

@@ -17,8 +17,8 @@ class Scaled:
     def __init__(self, sensor, scale):
         self._sensor, self._scale = sensor, scale
 
-    def read(self):
-        return replace(self._sensor.read(), force_scale=self._scale)
+    def read(self, frames=1):
+        return replace(self._sensor.read(frames), force_scale=self._scale)
 
     def take_reference(self):
         self._sensor.take_reference()

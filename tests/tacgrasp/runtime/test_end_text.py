@@ -7,7 +7,7 @@ import pytest
 from tacgrasp.cli.run import EXIT_CODES
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
-from tacgrasp.console import COMPLETED, END_COLUMNS, end_lines
+from tacgrasp.console import COLUMNS, COMPLETED, end_lines
 from tacgrasp.runtime.end_text import end_text
 from tacgrasp.runtime.outcome import EndReason, Outcome
 
@@ -116,5 +116,5 @@ def test_a_dry_run_claims_nothing(config: RunConfig) -> None:
 def test_no_line_of_the_end_is_wider_than_a_hundred_columns(config: RunConfig) -> None:
     long = replace(GOOD, reason=EndReason.FAULT, message="the sensor gave no frame; " * 20)
     lines = printed(long, config)
-    assert max(map(len, lines)) <= END_COLUMNS
+    assert max(map(len, lines)) <= COLUMNS
     assert " ".join(line.strip() for line in lines).count("the sensor gave no frame;") == 20

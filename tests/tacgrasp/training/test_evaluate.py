@@ -189,7 +189,7 @@ def test_eval_prints_every_table_and_writes_json_and_card(
     ("argv", "expected"),
     [
         (["--weights", "nowhere"], "weights are missing: nowhere/encoder/config.json"),
-        (["--data", "nowhere"], "nowhere is no data set of contacts"),
+        (["--data", "nowhere"], "nowhere holds no contacts"),
         (["--pairs", "0"], "must be at least 1"),
         (["--json", "no/where.json"], "can't be written"),
         (["--blind", "nowhere"], "weights are missing: nowhere"),

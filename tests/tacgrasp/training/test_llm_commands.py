@@ -317,7 +317,7 @@ def test_a_clear_reply_acts(
     saying(monkeypatch, "Goal 0.95 - 1.90 N. Action: <increase_force>. It is too light.")
     argv = [*RUN, "--weights", str(weights), "--record", str(tmp_path), "--loop.max-steps", "1"]
     assert main(argv) == 1
-    assert "| increase_force: " in capsys.readouterr().out
+    assert "→ increase_force: commanded" in capsys.readouterr().out
 
 
 def test_a_clear_reply_against_what_is_felt_moves_nothing(

@@ -21,7 +21,8 @@ from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.drivers.gelsight.background import Background, save_background
 from tacgrasp.drivers.gelsight.connect import check, connect_gelsight, take_background
 from tacgrasp.drivers.gelsight.settings import GelSightSettings
-from tests.contracts.sensor_contract import SensorContract
+from tacgrasp.rig.protocols import CameraSensor
+from tacgrasp.testing import SensorContract
 from tests.fakes.waiting import is_alive, poll
 from tests.paths import SHARED_DATA
 
@@ -380,6 +381,19 @@ def test_no_image_of_a_recording_is_used_up_to_look_at_the_untouched_gel(files, 
         gelsight.read()
 
 
+def test_the_frame_behind_the_last_cloud_is_kept_for_records_and_viewers(files, folder):
+    gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
+    assert isinstance(gelsight, CameraSensor)
+    assert gelsight.last_frame() is None
+    frames = []
+    for _ in range(2):
+        gelsight.read()
+        frames.append(gelsight.last_frame())
+    gelsight.disconnect()
+    assert frames[0].shape == (240, 320, 3)
+    assert not np.array_equal(*frames)
+
+
 def test_no_image_of_a_recording_is_used_up_for_a_reference(files, folder):
     gelsight = connect_gelsight(settings_of(files, device=None, images=folder))
     gelsight.take_reference()
@@ -433,7 +447,7 @@ def test_a_video_is_played_and_ends(files):
         gelsight.read()
     gelsight.disconnect()
     again = connect_gelsight(video.model_copy(update={"repeat": True}))
-    assert [again.read().points_mm.shape for _ in range(5)] == [(1024, 3)] * 5
+    assert [again.read().grid for _ in range(5)] == [(240, 320)] * 5
     path.write_bytes(b"no video")
     with pytest.raises(TouchError, match="not a video"):
         connect_gelsight(settings_of(files, device=None, video=path))

@@ -85,11 +85,11 @@ def test_an_episode_is_played_bit_for_bit_with_the_time_of_playing(episode):
         sensor.read()
 
 
-def test_clouds_of_other_sizes_become_1024_points(tmp_path):
+def test_clouds_keep_all_their_points(tmp_path):
     dense = cloud_from_heights(heights(0.5), SENSOR, num_points=4096)
     np.save(tmp_path / "dense.npy", dense.points_mm)
     cloud = connect_recorded(RecordedSettings(path=tmp_path)).read()
-    assert cloud.points_mm.shape == (1024, 3) and depth(cloud) == 0.5
+    assert cloud.points_mm.shape == (4096, 3) and depth(cloud) == 0.5
 
 
 def test_frames_are_read_with_the_background_beside_them(tmp_path):

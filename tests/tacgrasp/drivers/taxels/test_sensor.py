@@ -276,13 +276,6 @@ def test_marks_that_another_program_left_do_not_make_an_old_frame_fresh(settings
     second.disconnect()
 
 
-def test_points_are_jittered_by_the_generator_that_is_given(settings):
-    array = connect_taxels(settings, rng=np.random.default_rng(3))
-    first, second = array.read(), array.read()
-    array.disconnect()
-    assert not np.array_equal(first.points_mm[:, :2], second.points_mm[:, :2])
-
-
 def test_a_check_tells_latency_and_line(emulator, settings):
     findings = check(settings)
     assert [(one.name, one.ok) for one in findings] == [

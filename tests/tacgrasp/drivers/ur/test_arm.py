@@ -578,6 +578,27 @@ def test_a_false_of_the_library_is_an_error():
             call()
 
 
+def test_a_link_that_drops_under_a_call_is_named_so():
+    class Library:
+        """As it is when the link has dropped: each call tries to connect anew, and fails."""
+
+        def __getattr__(self, name):
+            def call(*_):
+                raise RuntimeError("Could not connect to: h at 30004, verify the IP")
+
+            return call
+
+    link = ur_link.UrLink.__new__(ur_link.UrLink)
+    link._control = Library()
+    link._settings = UrSettings(
+        host="h", payload_kg=1.0, workspace_low_m=(0, -1, 0), workspace_high_m=(1, 1, 1)
+    )
+    move = lambda: link.move((*START_M, *DOWN_RAD), 0.1, 1.0)  # noqa: E731
+    for call in (link.kick, link.stop, link.operation, move):
+        with pytest.raises(RobotError, match=r"the link to the controller dropped.*30004"):
+            call()
+
+
 def test_moves_and_stops_are_asynchronous_and_of_the_link_is_connected_alone_is_believed():
     calls = []
 
