@@ -55,10 +55,7 @@ class Aim:
         need = self._object.feel(observation, is_whole=not state.cut)
         if need is None:
             return contract, ""
-        target = needed(contract, need)
-        return replace(
-            contract, force_n=target
-        ), f"{target.low:.2f}-{target.high:.2f} N ({need.text})"
+        return replace(contract, force_n=needed(contract, need)), need.text
 
 
 def needed(contract: Contract, need: FeltNeed) -> Band:

@@ -17,7 +17,7 @@ LIMIT_OVER_BAND = 1.25
 """Hard limit over the top of the force band, where nobody named a limit. Our choice: a felt force
 is off by up to a quarter."""
 
-NEUTRAL_LEAN = 0.4
+NEUTRAL_LEAN = 0.33
 """Lean of a target where nobody asks for another. Our choice: a little nearer to the least, since
 most objects have more friction than the least of their kind."""
 

@@ -153,6 +153,7 @@ def verbose_lines(
     lines = [Text(line, style="cyan") for line in head]
     decision, executed = record.decision, record.executed
     rows = [("phase", PHASE_LABELS.get(record.phase, ""))]
+    rows += [("object", "" if record.need is None else record.need.felt)]
     if decision is not None:
         rows += [("said", f"“{decision.text}”"), ("read", decision.reason)]
         rows += [("confidence", f"{decision.confidence:.2f}")]
@@ -179,6 +180,8 @@ def felt_parts(record: StepRecord, state: ContactState) -> list[str]:
     else:
         interval = ", ".join(filter(None, [f"{felt.low:.2f}-{felt.high:.2f}", mark]))
         force = f"felt {felt.value:.2f} N ({interval})"
+    if record.need is not None:
+        force += f", needs {record.need.force_n.low:.2f}-{record.need.force_n.high:.2f}"
     parts = [force, f"{state.depth_mm:.2f} mm deep", place_text(state)]
     parts.append(f"{state.area_fraction:.0%} of the pad")
     return [*parts, *([cut_text(state)] if state.cut else [])]

@@ -56,9 +56,10 @@ class GoalConfig(SettingsBase):
                 raise ValueError(f"{name} must be [low, high], got [{low}, {high}]")
         if not self.force_n[0] > 0:
             raise ValueError(f"force_n must begin above 0 N, got {list(self.force_n)}")
-        if self.limit_n is not None and self.limit_n < self.force_n[1]:
+        end, least_n = ("foot", self.force_n[0]) if self.needs else ("top", self.force_n[1])
+        if self.limit_n is not None and self.limit_n < least_n:
             raise ValueError(
-                f"limit_n {self.limit_n:g} N is below the top of force_n, {self.force_n[1]:g} N"
+                f"limit_n {self.limit_n:g} N is below the {end} of force_n, {least_n:g} N"
             )
         if not 0 <= self.area_share[0] <= self.area_share[1] <= 1:
             raise ValueError(f"area_share must lie in 0 to 1, got {list(self.area_share)}")

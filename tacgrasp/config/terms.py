@@ -139,6 +139,7 @@ def _pair(band: Band | None) -> list[float] | None:
 def _force_terms(goal: GoalConfig) -> ForceTerms:
     band = Band(low=goal.force_n[0], high=goal.force_n[1])
     limit_n = default_limit_n(band) if goal.limit_n is None else goal.limit_n
+    band = Band(low=band.low, high=min(band.high, limit_n))  # a limit may end a band by touch
     return ForceTerms(force_n=band, limit_n=limit_n, needs=goal.needs or "")
 
 

@@ -179,12 +179,12 @@ def force_label(episode: Episode) -> str:
 
 
 def _draw_contract(axes: Axes, episode: Episode, time_s: Sequence[float]) -> list[float]:
-    """The goal band and the limit, as they were at each step; returns the limits [N]."""
+    """The target band and the limit of each step; returns the limits [N]."""
     contract, spans = episode.header.contract, []
     for step, at_s in zip(episode.steps, time_s, strict=True):
         contract = step.contract or contract
         if contract is not None and not contract.refused:
-            band = contract.terms.force_n
+            band = contract.terms.force_n if step.need is None else step.need.force_n
             spans.append((at_s, band.low, band.high, contract.terms.limit_n))
     if not spans:
         return []

@@ -31,7 +31,7 @@ from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 from policies.policy import Decision
-from primitives.contract import Contract
+from primitives.contract import Band, Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed, PadAxes
 from primitives.sense import Interval
@@ -121,6 +121,19 @@ class EpisodeHeader:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Need:
+    """What an object needs, as it was felt in a step: the target of that step.
+
+    Attributes:
+        force_n: Part of the contract's force band [N].
+        felt: Size and stiffness in words ('34 mm wide, 0.18 MPa').
+    """
+
+    force_n: Band
+    felt: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class StepFields:
     """Fields that a step's record shares with its message on ``/state``.
 
@@ -136,6 +149,7 @@ class StepFields:
         in_contact: Whether something touched the gel, by test; None where none was possible.
         felt_force_n: Force that the contact suggested [N]; None without contact or test.
         contract: Contract from this step on, where what is felt has changed it; None: as before.
+        need: What the object needs, as felt; None where the contract's own band was the target.
     """
 
     index: int
@@ -148,6 +162,7 @@ class StepFields:
     in_contact: bool | None = None
     felt_force_n: Interval | None = None
     contract: Contract | None = None
+    need: Need | None = None
 
     def shared(self) -> dict[str, Any]:
         """The fields above by name, whatever else this dataclass holds."""

@@ -145,7 +145,8 @@ def numbers(record: StepRecord, contract: Contract | None) -> dict[str, float]:
         felt = record.felt_force_n
         known |= {"felt_n": felt.value, "felt_low_n": felt.low, "felt_high_n": felt.high}
     if contract is not None and contract.force_n is not None:
-        known |= {"goal_low_n": contract.force_n.low, "goal_high_n": contract.force_n.high}
+        band = contract.force_n if record.need is None else record.need.force_n
+        known |= {"goal_low_n": band.low, "goal_high_n": band.high}
     if contract is not None and contract.limit_n is not None:
         known["limit_n"] = contract.limit_n
     if state.in_contact:

@@ -70,6 +70,9 @@ class EventFile:
                 "reason": None if decision is None else decision.reason,
                 "in_contact": record.in_contact,
                 "felt_force_n": None if felt is None else [felt.low, felt.value, felt.high],
+                "needed_force_n": None
+                if record.need is None
+                else [record.need.force_n.low, record.need.force_n.high],
                 "force_scale": to_json(record.cloud.force_scale),
                 "commanded_force_n": record.gripper.force_n,
                 "sent": None if executed is None else executed.sent,

@@ -23,7 +23,7 @@ from primitives.devices import GripperState, Pose
 from primitives.execution import Executed, Executor
 from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
-from tacgrasp.episodes.record import EpisodeEnd, StepPhase, StepRecord
+from tacgrasp.episodes.record import EpisodeEnd, Need, StepPhase, StepRecord
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import CameraSensor, Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
@@ -182,6 +182,7 @@ class Steps:
         self._notes: list[str] = []
         self._new_contract: Contract | None = None
         self._aim = Aim()
+        self._need: Need | None = None
 
     @property
     def elapsed_s(self) -> float:
@@ -218,7 +219,7 @@ class Steps:
         aimed, words = self._aim.at(contract, seen)
         if words:
             executor.aim_at(aimed)
-            self._notes.append(f"target {words}")
+            self._need = Need(force_n=aimed.terms.force_n, felt=words)
         return aimed
 
     def survive(self, error: TouchError | PolicyError, attempt: int) -> None:
@@ -282,9 +283,10 @@ class Steps:
             in_contact=step.observation.in_contact,
             felt_force_n=step.observation.felt_force_n,
             contract=self._new_contract,
+            need=self._need,
             camera_jpeg=None if step.observation.frame is None else jpeg_of(step.observation.frame),
         )
-        self._notes, self._new_contract = [], None
+        self._notes, self._new_contract, self._need = [], None, None
         self._recorder.write_step(record)
         self.num_steps += 1
         if step.decision is not None and step.decision.action is not None:

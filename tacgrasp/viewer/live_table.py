@@ -18,7 +18,6 @@ from rich.text import Text
 from cltp.tactile.force_scale import UNCALIBRATED_SOURCE
 from cltp.tactile.measure import contact_state
 from primitives.contract import Contract
-from primitives.sense import Interval
 from tacgrasp.console import COLUMNS, SafeConsole, action_text, last_words, place_text
 from tacgrasp.episodes.record import StepRecord
 
@@ -112,18 +111,19 @@ class LiveTable:
         return _Row(
             index=str(record.index),
             time=f"{elapsed_s:.1f}",
-            felt=self._felt(record.felt_force_n),
+            felt=self._felt(record),
             contact=cells,
             text="" if record.decision is None else record.decision.text,
             action=action,
         )
 
-    def _felt(self, felt: Interval | None) -> Text:
-        """The felt force, coloured by the contract, over its interval."""
+    def _felt(self, record: StepRecord) -> Text:
+        """The felt force, coloured by the step's target, over its interval."""
+        felt, terms = record.felt_force_n, self._contract.terms
         if felt is None:
             return Text("-\n ")
-        terms = self._contract.terms
-        style = "green" if felt.value in terms.force_n else "yellow"
+        target = terms.force_n if record.need is None else record.need.force_n
+        style = "green" if felt.value in target else "yellow"
         style = "red" if felt.value > terms.limit_n else style
         text = Text(f"{felt.value:.2f} N", style=style)
         return text.append(f"\n{felt.low:.2f}-{felt.high:.2f}", style="dim")
