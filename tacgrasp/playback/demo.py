@@ -134,7 +134,7 @@ DEMOS: dict[str, Demo] = {
     "peg": Demo(
         summary="a peg, held firmly enough to carry its moment",
         offset_mm=(0.0, 0.0),
-        actions=(_RISE,) * 8,
+        actions=(_RISE,) * 7,
         end=EndReason.SUCCESS,
         task="peg",
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from cltp.sensing.frames import jpeg_of
 from cltp.tactile.measure import contact_state
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
+from primitives.execution import APPROACH_FACTOR, APPROACH_STEP_N
 from tacgrasp.episodes import StepPhase, StepRecord
 from tacgrasp.runtime.outcome import EndReason
 from tacgrasp.runtime.steps import NOTHING_TOUCHES
@@ -144,10 +146,21 @@ def test_a_policys_own_resets_do_not_count_and_are_bounded_like_all_actions() ->
 
 def test_the_first_grasp_rises_until_something_is_felt() -> None:
     _, rig, _ = play(Scripted(GOOD))
-    assert rig.gripper.forces_n == [0.1]  # felt at the first step
+    least_n = config().gripper.min_force_n
+    assert rig.gripper.forces_n == [least_n]  # felt at the first step
     _, rig, _ = play(Scripted(GOOD), rig=missing(*range(9)))
-    steps_n = [0.1, *np.arange(0.15, 1.0, 0.05), rig.first_force_n]
+    steps_n = approach_n(least_n, rig.first_force_n)
     assert rig.gripper.forces_n == pytest.approx([*steps_n, *steps_n])  # and the runtime's reset
+    assert all(1 < b / a <= 1 + 1 / 3 + 1e-9 for a, b in pairwise(steps_n))
+
+
+def approach_n(least_n: float, top_n: float) -> list[float]:
+    """Forces of an approach in which nothing is felt [N]."""
+    steps_n = [least_n]
+    while steps_n[-1] < top_n:
+        rise_n = max(APPROACH_STEP_N, (APPROACH_FACTOR - 1) * steps_n[-1])
+        steps_n.append(min(steps_n[-1] + rise_n, top_n))
+    return steps_n
 
 
 def test_travel_beyond_the_limit_ends_with_limit_and_nothing_more_is_sent() -> None:
@@ -164,7 +177,8 @@ def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
     settings = settings.model_copy(update={"gripper": gripper})
     outcome, rig, _ = play(Scripted(LIGHT), settings=settings, contract=contract(50.0, 60.0, 100.0))
     assert outcome.reason is EndReason.LIMIT
-    assert rig.gripper.forces_n == pytest.approx([0.1, 0.2, 0.4, 0.8, 1.6, 2.0])
+    approach = approach_n(settings.gripper.min_force_n, rig.first_force_n)
+    assert rig.gripper.forces_n == pytest.approx([*approach, 2.0])
 
 
 def test_a_change_that_the_goal_leaves_no_room_for_is_no_action() -> None:

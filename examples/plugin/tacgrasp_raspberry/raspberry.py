@@ -29,7 +29,6 @@ RASPBERRY = ObjectKind(
         poisson=0.35,
         friction=Range(0.5, 0.9),
         bruise_n=Range(1.2, 1.8),
-        first_force_n=Range(0.2, 1.0, log=True),
     ),
     shape=shape,
 )

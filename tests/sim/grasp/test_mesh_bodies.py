@@ -10,6 +10,7 @@ from cltp import TouchError
 from sim.grasp.bodies import draw_body
 from sim.grasp.mesh_bodies import ScannedObject, body_from_mesh
 from sim.grasp.rig import build
+from sim.grasp.ripeness import BerrySize, Flesh
 from tests.paths import SHARED_DATA
 
 LIKE = draw_body("strawberry", np.random.default_rng(0))
@@ -49,9 +50,23 @@ def test_a_long_box_lies_as_its_file_says_and_keeps_a_given_mass(tmp_path):
 
 def test_a_mesh_is_as_soft_and_bruisable_as_the_object_whose_place_it_takes(tmp_path):
     path = written(trimesh.creation.icosphere(radius=15.0), tmp_path)
+    tomato = draw_body("cherry_tomato", np.random.default_rng(0))
+    body = body_from_mesh(ScannedObject(path=path), tomato)
+    assert (body.young_mpa, body.poisson) == (tomato.young_mpa, tomato.poisson)
+    assert (body.friction, body.bruise_n) == (tomato.friction, tomato.bruise_n)
+
+
+def test_a_mesh_in_the_place_of_a_berry_is_as_ripe_as_it(tmp_path):
+    path = written(trimesh.creation.icosphere(radius=15.0), tmp_path)
     body = body_from_mesh(ScannedObject(path=path), LIKE)
-    assert (body.young_mpa, body.poisson) == (LIKE.young_mpa, LIKE.poisson)
-    assert (body.friction, body.bruise_n) == (LIKE.friction, LIKE.bruise_n)
+    assert (body.poisson, body.friction) == (LIKE.poisson, LIKE.friction)
+    assert ripeness(body) == pytest.approx(ripeness(LIKE), rel=0.01)
+
+
+def ripeness(berry):
+    """Bruise force over slip minimum."""
+    size = BerrySize(mass_g=1000 * berry.mass_kg, size_mm=berry.thickness_mm, com_mm=berry.com_mm)
+    return size.ripeness(Flesh(young_mpa=berry.young_mpa, bruise_n=berry.bruise_n))
 
 
 def test_the_stiffness_and_the_bruise_force_of_a_mesh_can_be_given(tmp_path):
@@ -77,16 +92,17 @@ def test_an_absurd_number_of_a_mesh_is_refused(number, expected):
 def test_a_scanned_berry_bruises_where_one_of_steel_does_not(tmp_path):
     path = written(trimesh.creation.icosphere(subdivisions=4, radius=14.0), tmp_path)
 
-    def bruised(object_name: str, force_n: float) -> bool:
+    def bruised(object_name: str, factor: float) -> bool:
         mesh = ScannedObject(path=path, mass_g=12.0)
         rig = build(object_name, 0, mesh=mesh, start_offset_mm=(0.0, 0.0))
-        rig.grasp.close(0.1)
-        rig.grasp.close(force_n)
+        berry = build("strawberry", 0, mesh=mesh).grasp.fingers.body
+        rig.grasp.close(0.05)
+        rig.grasp.close(factor * berry.bruise_n)
         return rig.grasp.bruised
 
-    assert bruised("strawberry", 6.0)
-    assert not bruised("strawberry", 1.0)
-    assert not bruised("peg", 6.0)
+    assert bruised("strawberry", 2.0)
+    assert not bruised("strawberry", 0.5)
+    assert not bruised("peg", 2.0)
 
 
 def test_where_a_mesh_bulges_beside_the_pad_the_body_is_nearer_to_the_finger(tmp_path):

@@ -97,7 +97,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["describe", "no.ply"], "no.ply does not exist"),
         (["describe", "photo.tiff"], "expected a file ending in"),
         (["describe", "no.ply", "--sensor", "finger"], "unknown sensor 'finger'; known: digit"),
-        (["bench"], "expects one of strawberry, missed, robustness, verifier, meshes"),
+        (["bench"], "expects one of strawberry, missed, robustness, verifier, draws"),
         (["bench", "other-sim", "--data", "nowhere"], "--data nowhere is not a folder"),
         (["bench", "other-sim", "--contacts", "0"], "--contacts must be at least 1"),
         (["bench", "latency", "--ticks", "0"], "--ticks must be at least 1"),
@@ -215,19 +215,19 @@ def test_a_replay_shows_the_same_steps_as_the_run(episode: Path, capsys: Capture
 
 def test_deciding_again_reproduces_the_episode_exactly(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", str(episode)]) == 0
-    assert "6 decisions, 0 differ" in capsys.readouterr().out
+    assert "4 decisions, 0 differ" in capsys.readouterr().out
 
 
 def test_another_policy_differs_and_says_where(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--decide", "--policy", "fixed_force", str(episode)]) == 1
     printed = capsys.readouterr().out
     assert "action: 'move_down' then, None now" in printed
-    assert "6 decisions, 6 differ" in printed
+    assert "4 decisions, 4 differ" in printed
 
 
 def test_executing_again_reaches_the_recorded_poses(episode: Path, capsys: Capture) -> None:
     assert main(["replay", "--execute", str(episode)]) == 0
-    assert "5 actions repeated; at most 0.00 mm" in capsys.readouterr().out
+    assert "3 actions repeated; at most 0.00 mm" in capsys.readouterr().out
 
 
 def test_a_run_records_an_episode_and_its_exit_code_agrees_with_what_it_prints(

@@ -71,7 +71,7 @@ def test_points_and_a_prompt_get_a_decision_with_everything_that_belongs_to_it(u
     assert answer["success"] is False
     assert answer["confidence"] == 1.0
     assert "bottom" in answer["text"]
-    assert answer["contract"]["force_n"] == pytest.approx([0.95, 1.9])
+    assert answer["contract"]["force_n"] == pytest.approx([0.15, 2.5])
     assert answer["server_timing"]["infer_ms"] > 0
 
 

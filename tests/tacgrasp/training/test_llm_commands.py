@@ -23,6 +23,7 @@ from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.learning import llm_latency as bench_language
 from tacgrasp.benchmarks.loop import strawberry as bench_strawberry
+from tacgrasp.benchmarks.loop.contestants import language_model
 from tacgrasp.config.layers import load
 from tacgrasp.console import COMPLETED
 from tacgrasp.pretraining import methods as methods_module
@@ -376,12 +377,12 @@ def test_a_run_that_comes_to_no_turn_is_told_with_what_it_said(tmp_path: Path) -
 
 def test_the_benchmark_takes_the_model_and_reads_it_once(weights: Path) -> None:
     config = load("strawberry")[0].model_copy(update={"weights": weights})
-    before = bench_strawberry._language_model.cache_info().misses
+    before = language_model.cache_info().misses
     for seed in (5, 6):
         (result,) = bench_strawberry.run_seed(config, [("llm", None)], seed)
         assert result.reason == "no_action"
         assert not result.verified
-    assert bench_strawberry._language_model.cache_info().misses == before + 1
+    assert language_model.cache_info().misses == before + 1
 
 
 def test_deciding_does_not_load_transformers(weights: Path) -> None:
