@@ -30,8 +30,9 @@ from mcap.writer import MCAP0_MAGIC
 from tacgrasp.episodes.errors import EpisodeError
 
 MAX_BYTES = 128_000_000
-"""Most bytes of a file, and of what its chunks hold: 3,000 steps of 1024 points. Our choice; a task
-has at most 1,000 actions."""
+"""Most bytes of a file, and of what its chunks hold: 1,700 steps of the simulated sensor's 4,800
+points, 110 of a GelSight Mini's 76,800. Our choice, so that a crafted file can't fill the memory; a
+task has 25 actions unless it asks for more."""
 
 MAX_RECORDS = 100_000
 """Most records of a file: 10,000 steps. Our choice."""
