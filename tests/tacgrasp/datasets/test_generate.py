@@ -265,7 +265,8 @@ def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
         ({"set": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),
     ],
 )
-def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path):
+def test_flags_that_do_not_go_together_are_refused(wrong, message, tmp_path, monkeypatch):
+    monkeypatch.setattr("tacgrasp.datasets.cluster.CONNECT_S", 1)
     with pytest.raises(UsageError, match=message):
         generate(tmp_path / "data", **wrong)
     assert not (tmp_path / "data").exists()
