@@ -99,6 +99,7 @@ def run_unrecorded(
     *,
     sense: GelSense | None,
     bounded: bool = True,
+    feels: bool = True,
 ) -> Outcome:
     """Run an episode without a record, for benchmarks that keep only their figures.
 
@@ -108,12 +109,14 @@ def run_unrecorded(
         config: The run.
         contract: Contract of the episode.
         observers: Called after each step.
-        sense: Touch while the fingers close; None closes with the first force.
+        sense: Touch; None closes with the first force and tests no contact.
         bounded: Whether the contract bounds the commands; not those of a baseline without touch.
+        feels: Whether the fingers feel while they close; without, ``sense`` has taken its reference
+            before.
     """
     return run_episode(
         rig,
-        make_executor(rig, config, contract if bounded else None, sense),
+        make_executor(rig, config, contract if bounded else None, sense if feels else None),
         policy,
         config,
         contract,

@@ -10,6 +10,7 @@ contact at all (``cltp.tactile.contact_test``). Loads no torch.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,7 @@ BoolArray = NDArray[np.bool_]
 
 FRACTION = 0.2
 """Only what is deeper than this fraction of the depth counts. Source: fit, as
-``cltp.tactile.measure.force_from``; 0.15 and 0.3 were no better."""
+``cltp.tactile.measure.STIFFNESS_N_PER_MM3``; 0.15 and 0.3 were no better."""
 
 LEAST_MM = 0.005
 """Least height that counts [mm]. Our choice: without noise the law then holds from 0.1 N on."""
@@ -50,8 +51,21 @@ covers nearly all of it, and this has no volume."""
 _DEEPEST_CELLS = 3
 
 
-def local_volume_mm3(cells_mm: FloatArray, sensor: SensorSpec) -> float:
-    """Volume between a contact's gel and the surface that surrounds it [mm³]; 0 for none.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LocalContact:
+    """A contact without what is tilted, broad or elsewhere.
+
+    Attributes:
+        heights_mm: Shape (n, n), heights over the surface that surrounds the contact [mm].
+        volume_mm3: Volume between the gel and that surface; 0 where nothing stands out.
+    """
+
+    heights_mm: FloatArray
+    volume_mm3: float
+
+
+def local_contact(cells_mm: FloatArray, sensor: SensorSpec) -> LocalContact:
+    """Find the contact and its surroundings.
 
     Args:
         cells_mm: Shape (n, n), mean indentation in equal cells of the sensing area [mm].
@@ -67,12 +81,13 @@ def local_volume_mm3(cells_mm: FloatArray, sensor: SensorSpec) -> float:
         regions, _ = ndimage.label(local > level)
         region = regions.flat[int(np.where(near, local, -np.inf).argmax())]
         if region == 0:
-            return 0.0
+            return LocalContact(heights_mm=local, volume_mm3=0.0)
         contact = regions == region
         if not is_last:
             background = _background(cells_mm, contact, sensor)
     cell_mm2 = sensor.area_mm2 / cells_mm.size
-    return float((local[contact] - level).sum() * cell_mm2)
+    volume_mm3 = float((local[contact] - level).sum() * cell_mm2)
+    return LocalContact(heights_mm=local, volume_mm3=volume_mm3)
 
 
 def white_noise_mm(heights_mm: FloatArray) -> float:

@@ -14,8 +14,7 @@ from scipy import ndimage
 
 from cltp.tactile.cells import cell_means, filled
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
-from cltp.tactile.local_volume import local_volume_mm3
-from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.local_volume import local_contact
 from cltp.tactile.states import (
     NO_CONTACT_STATE,
     ContactState,
@@ -55,7 +54,9 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of
     that, weighted by the excess. Area is the fraction of cells deeper than a quarter. Force follows
     from the volume that is displaced locally [nominal N], so that tilt and broad drift are no
-    force, times the factor of the unit's force calibration.
+    force, times the factor of the unit's force calibration. Where a test has shown a contact, the
+    other numbers are taken over the surface around it too: broad drift may have lowered the whole
+    pad below its reference.
 
     The last results are kept: within one step policy, contract, record and screen measure the
     same cloud.
@@ -72,12 +73,15 @@ _measured: deque[tuple[TactileCloud, bool | None, ContactState]] = deque(maxlen=
 
 
 def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
-    depths = cell_means(cloud)
-    depth = float(np.sort(depths[np.isfinite(depths)])[-_DEEPEST_CELLS:].mean())
-    if in_contact is False or depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):
+    if in_contact is False:
         return NO_CONTACT_STATE
-    x, y = grid_axes_mm(cloud.sensor, *depths.shape)
-    heights = filled(depths)
+    cells = filled(cell_means(cloud))
+    local = local_contact(cells, cloud.sensor)
+    heights = local.heights_mm if in_contact else cells
+    depth = float(np.sort(heights, axis=None)[-_DEEPEST_CELLS:].mean())
+    if depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):
+        return NO_CONTACT_STATE
+    x, y = grid_axes_mm(cloud.sensor, *heights.shape)
     x_mm, y_mm = _centroid_mm(heights, depth, x, y)
     footprint = heights > FOOTPRINT_FRACTION * depth
     fraction = float(footprint.mean())
@@ -86,7 +90,7 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
         x_mm=x_mm,
         y_mm=y_mm,
         area_fraction=fraction,
-        force_n=cloud.force_scale.factor * force_from(heights, cloud.sensor),
+        force_n=cloud.force_scale.factor * STIFFNESS_N_PER_MM3 * local.volume_mm3,
         depth=depth_word(depth),
         position=position_word(x_mm, y_mm, cloud.sensor),
         area=area_word(fraction),
@@ -125,20 +129,7 @@ def cut_sides(footprint: NDArray[np.bool_], *, least: int, width: int = 1) -> fr
 
 
 STIFFNESS_N_PER_MM3 = 0.39
-"""Force over locally displaced volume, for a gel of nominal stiffness. ``tacgrasp bench touch``
-prints it fitted anew: copy it here when the gel's nominal modulus or thickness changes."""
-
-
-def force_from(cells_mm: FloatArray, sensor: SensorSpec) -> float:
-    """Normal force [nominal N] that a displaced volume suggests, for a GelSight Mini's gel.
-
-    F = k V, V [mm³] from ``cltp.tactile.local_volume``.
-
-    Args:
-        cells_mm: Shape (n, n), mean indentation in cells [mm].
-        sensor: The sensor.
-
-    Source: fit to simulated berries, tomatoes, eggs and pegs with noise (seeds below 1000), by the
-    median of F / V above 0.4 N. ``tacgrasp bench touch`` prints fit and residual.
-    """
-    return STIFFNESS_N_PER_MM3 * local_volume_mm3(cells_mm, sensor)
+"""Force over locally displaced volume (``cltp.tactile.local_volume``) of a GelSight Mini's gel of
+nominal stiffness. Source: fit to simulated berries, tomatoes, eggs and pegs with noise (seeds below
+1000), by the median of F / V above 0.4 N. ``tacgrasp bench touch`` prints it fitted anew, and the
+residual: copy it here when the gel's nominal modulus or thickness changes."""

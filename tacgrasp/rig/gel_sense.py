@@ -22,8 +22,9 @@ T = TypeVar("T")
 FELT_SPREAD, CUT_SPREAD = 0.30, 0.5
 """Half width of the interval of a felt force, in ln F: of a contact on the pad, and of one that the
 pad's edge cuts or whose force is below ``CLEAR_N``. Source: 1.6 times the residual of
-``cltp.tactile.measure.force_from`` on simulated strawberries, tomatoes, eggs and pegs (40 of each,
-0.2 to 9 N): bias -0.16 to 0.14, standard deviation 0.11 to 0.16 on the pad; up to 0.32 of all."""
+``cltp.tactile.measure.contact_state`` on simulated strawberries, tomatoes, eggs and pegs (40 of
+each, 0.2 to 9 N): bias -0.16 to 0.14, standard deviation 0.11 to 0.16 on the pad; up to 0.32 of
+all."""
 
 KEPT_RATIO = 0.6
 """Least response of a contact that goes on, over that of one that begins. Our choice: above what is
@@ -80,8 +81,9 @@ class GelSense:
             TouchError: The sensor gives no fresh cloud.
         """
         self._repeated(self._sensor.take_reference)
-        clouds = [self._repeated(self.read) for _ in range(NUM_FRAMES)]
-        self._untouched, self._cloud, self._in_contact = UntouchedGel(clouds), None, False
+        frames = [self._repeated(self._sensor.read) for _ in range(NUM_FRAMES)]
+        self._untouched = UntouchedGel(frames, averaged=FRAMES_PER_READING)
+        self._cloud, self._in_contact = None, False
 
     def read(self) -> TactileCloud:
         """Read the gel now: the mean of ``FRAMES_PER_READING`` new frames.

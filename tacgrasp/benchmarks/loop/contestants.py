@@ -53,15 +53,17 @@ class Contestant:
         rig: The rig.
         policy: Decides.
         contract: Contract of the episode.
-        sense: Touch; None closes without feeling.
+        sense: Touch.
         bounded: Whether the contract bounds the commands.
+        feels: Whether closings feel; else touch only verifies the grasp, as for all others.
     """
 
     rig: SimRig
     policy: Policy
     contract: Contract
-    sense: GelSense | None
+    sense: GelSense
     bounded: bool = True
+    feels: bool = True
 
 
 class TrueForceSense(GelSense):
@@ -132,8 +134,15 @@ def _one_force(
         **(perfect if name == "true_force" else {}),
     )
     if name != "center_only":
+        sense = GelSense(rig.sensor)
+        sense.take_reference()
         return Contestant(
-            rig=rig, policy=FixedForcePolicy(), contract=contract, sense=None, bounded=False
+            rig=rig,
+            policy=FixedForcePolicy(),
+            contract=contract,
+            sense=sense,
+            bounded=False,
+            feels=False,
         )
     return Contestant(
         rig=replace(rig, force_step_n=force_n),  # its approach is one step

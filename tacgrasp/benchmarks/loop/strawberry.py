@@ -111,6 +111,7 @@ def _run_one(
         [hear],
         sense=entered.sense,
         bounded=entered.bounded,
+        feels=entered.feels,
     )
     return EpisodeResult(
         seed=config.seed,

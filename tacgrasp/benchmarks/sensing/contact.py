@@ -134,7 +134,7 @@ def _open_rig() -> SimRig:
 
 def _untouched(sensor: SimSensor) -> UntouchedGel:
     sensor.take_reference()
-    return UntouchedGel([sensor.read(FRAMES_PER_READING) for _ in range(NUM_FRAMES)])
+    return UntouchedGel([sensor.read() for _ in range(NUM_FRAMES)], averaged=FRAMES_PER_READING)
 
 
 def false_alarms(ratios: Sequence[float], first_seed: int) -> dict[str, Any]:
@@ -203,11 +203,11 @@ def ideal_missed(rig: SimRig, patch: Patch) -> float:
     It knows the heights of the contact and the fine noise, and meets no drift. Its response to
     noise is normal; with the heights h of the pixels the mean is z = ||h|| / sigma. ``sigma`` is
     the noise of a pixel in a reading of ``FRAMES_PER_READING`` frames less the mean of
-    ``NUM_FRAMES`` readings. The false alarms of a closing are ``MAX_FALSE_PER_CLOSING``, divided
+    ``NUM_FRAMES`` frames. The false alarms of a closing are ``MAX_FALSE_PER_CLOSING``, divided
     among its readings (Bonferroni).
     """
     fine_mm = spread_of(rig.sensor.spec).fine_mm
-    sigma_mm = fine_mm * math.sqrt((1 + 1 / NUM_FRAMES) / FRAMES_PER_READING)
+    sigma_mm = fine_mm * math.sqrt(1 / FRAMES_PER_READING + 1 / NUM_FRAMES)
     z = float(np.linalg.norm(patch.height_mm)) / sigma_mm
     limit = NormalDist().inv_cdf(1 - MAX_FALSE_PER_CLOSING / FRAMES_PER_CLOSING)
     return NormalDist().cdf(limit - z)

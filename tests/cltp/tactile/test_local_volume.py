@@ -5,12 +5,16 @@ import pytest
 
 from cltp.tactile.cells import filled
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.local_volume import local_volume_mm3, white_noise_mm
+from cltp.tactile.local_volume import local_contact, white_noise_mm
 from cltp.tactile.sensor_noise import smooth_field
 from cltp.tactile.sensors import sensor_named
 
 SENSOR = sensor_named("gelsight_mini")
 X, Y = np.meshgrid(*grid_axes_mm(SENSOR, 32, 32))
+
+
+def volume_mm3(cells, sensor):
+    return local_contact(cells, sensor).volume_mm3
 
 
 def bump(x_mm=0.0, y_mm=0.0, depth_mm=0.3, radius_mm=3.0):
@@ -35,19 +39,19 @@ VOLUME = np.pi * 3.0**2 / 2 * 0.3 * 0.8**2
 )
 @pytest.mark.parametrize("place", [(0, 0), (4, -3)])
 def test_what_is_tilted_or_broad_is_no_volume(background, place):
-    volume = local_volume_mm3(bump(*place) + background, SENSOR)
+    volume = volume_mm3(bump(*place) + background, SENSOR)
     assert volume == pytest.approx(VOLUME, rel=0.06)
 
 
 def test_what_is_elsewhere_is_no_volume():
     both = bump(-4, 0) + bump(6, 5, depth_mm=0.15, radius_mm=1.5)
-    assert local_volume_mm3(both, SENSOR) == pytest.approx(VOLUME, rel=0.06)
+    assert volume_mm3(both, SENSOR) == pytest.approx(VOLUME, rel=0.06)
 
 
 def test_a_tilted_gel_of_a_real_size_displaces_next_to_nothing():
     rng = np.random.default_rng(0)
     volumes = [
-        local_volume_mm3(
+        volume_mm3(
             0.3 * smooth_field((32, 32), SENSOR, 40.0, rng)
             + 0.01 * (rng.normal() * X + rng.normal() * Y)
             + rng.normal(0, 0.005, (32, 32)),
@@ -62,7 +66,7 @@ def test_a_tilted_gel_of_a_real_size_displaces_next_to_nothing():
 def test_cells_without_points_take_the_value_beside_them():
     cells = bump()
     cells[np.random.default_rng(0).random(cells.shape) < 0.1] = np.nan
-    assert local_volume_mm3(filled(cells), SENSOR) == pytest.approx(VOLUME, rel=0.15)
+    assert volume_mm3(filled(cells), SENSOR) == pytest.approx(VOLUME, rel=0.15)
 
 
 def test_noise_is_measured_beside_a_contact():
@@ -71,4 +75,4 @@ def test_noise_is_measured_beside_a_contact():
 
 
 def test_a_flat_gel_displaces_nothing():
-    assert local_volume_mm3(np.zeros((32, 32)), SENSOR) == 0.0
+    assert volume_mm3(np.zeros((32, 32)), SENSOR) == 0.0

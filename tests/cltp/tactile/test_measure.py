@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from cltp.tactile.cloud import TactileCloud, cloud_from_heights, grid_axes_mm
+from cltp.tactile.cloud import TactileCloud, cloud_from_heights, cloud_of_pixels, grid_axes_mm
 from cltp.tactile.measure import STIFFNESS_N_PER_MM3, contact_state
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Area, Depth, Position, Side
@@ -93,3 +93,17 @@ def test_the_same_cloud_is_measured_once_and_another_one_anew(monkeypatch):
     assert len(calls) == 2  # equal points, but another cloud
     assert not measure.contact_state(one, in_contact=False).in_contact
     assert measure.contact_state(one).in_contact
+
+
+def test_a_contact_that_was_tested_is_measured_though_drift_has_lowered_the_pad():
+    y, x = np.mgrid[-1:1:60j, -1:1:80j]
+    bump_mm = 0.05 * np.exp(-((x / 0.2) ** 2 + (y / 0.25) ** 2))
+    drift_mm = -0.08 - 0.02 * x + 0.015 * x * y
+    clean, lowered = (
+        contact_state(cloud_of_pixels(heights, SENSOR), in_contact=True)
+        for heights in (bump_mm, bump_mm + drift_mm)
+    )
+    assert lowered.in_contact
+    assert lowered.depth_mm == pytest.approx(clean.depth_mm, abs=0.004)
+    assert lowered.force_n == pytest.approx(clean.force_n, rel=0.1)
+    assert (lowered.x_mm, lowered.y_mm) == pytest.approx((clean.x_mm, clean.y_mm), abs=0.2)

@@ -100,7 +100,7 @@ def test_no_finger_closes_that_could_not_be_opened_again(clear_mm):
 def test_a_sensor_that_fails_leaves_the_gripper_open(monkeypatch):
     rig = build("cherry_tomato", 3, start_offset_mm=(0, 0))
 
-    def fail(_frames):
+    def fail(*_):
         raise TouchError("unplugged")
 
     monkeypatch.setattr(rig.sensor, "read", fail)

@@ -273,7 +273,7 @@ def test_ctrl_c_ends_a_run_with_130_and_a_closed_episode(
 ) -> None:
     from sim.grasp.rig import SimSensor
 
-    def interrupt(_: SimSensor, _frames: int) -> None:
+    def interrupt(_: SimSensor, frames: int = 1) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(SimSensor, "read", interrupt)
