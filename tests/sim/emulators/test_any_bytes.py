@@ -156,8 +156,11 @@ def drain(descriptor):
         return b""
 
 
-def pings(descriptor, servo_id, seconds=3.0):
-    """Whether a servo answers a ping after the line has been quiet."""
+def pings(descriptor, servo_id, seconds=20.0):
+    """Whether a servo answers a ping after the line has been quiet.
+
+    On a busy computer the emulator may still be working off what was sent before.
+    """
     deadline_s = time.monotonic() + seconds
     while time.monotonic() < deadline_s:
         drain(descriptor)
