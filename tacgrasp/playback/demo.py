@@ -132,9 +132,9 @@ DEMOS: dict[str, Demo] = {
         task="egg",
     ),
     "peg": Demo(
-        summary="a peg, held firmly enough to carry its moment",
+        summary="a peg, held firmly",
         offset_mm=(0.0, 0.0),
-        actions=(_RISE,) * 7,
+        actions=(_RISE,) * 6,
         end=EndReason.SUCCESS,
         task="peg",
     ),

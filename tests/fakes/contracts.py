@@ -13,10 +13,7 @@ BERRY = ForceTerms(force_n=Band(low=0.15, high=2.5), limit_n=3.125, needs="straw
 """Terms of the strawberry task."""
 
 PEG = ForceTerms(force_n=Band(low=3.6, high=7.2), limit_n=9.0)
-"""Force band and limit for hard things."""
-
-PEG_TASK = ForceTerms(force_n=Band(low=5.0, high=10.0), limit_n=12.5)
-"""Terms of the peg task."""
+"""Terms of the peg task, force band and limit for hard things."""
 
 
 def contract(

@@ -16,7 +16,7 @@ from tacgrasp.config.terms import (
     given,
     task_terms,
 )
-from tests.fakes.contracts import BERRY, PEG_TASK, refused_contract
+from tests.fakes.contracts import BERRY, PEG, refused_contract
 
 TASKS = ("strawberry", "egg", "peg", "cherry_tomato")
 
@@ -35,7 +35,7 @@ def test_an_unchanged_run_has_nothing_given_and_the_tasks_own_terms(task):
 
 def test_the_terms_are_those_of_the_task_files():
     assert task_terms(load("strawberry")[0]).force == BERRY
-    assert task_terms(load("peg")[0]).force == PEG_TASK
+    assert task_terms(load("peg")[0]).force == PEG
     assert task_terms(load("peg")[0]).soft == BERRY
 
 
