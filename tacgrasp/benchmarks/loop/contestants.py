@@ -139,7 +139,7 @@ def _one_force(
         return Contestant(
             rig=rig,
             policy=FixedForcePolicy(),
-            contract=contract,
+            contract=replace(contract, x_mm=ANYWHERE, y_mm=ANYWHERE),
             sense=sense,
             bounded=False,
             feels=False,
