@@ -39,8 +39,8 @@ from tacgrasp.rig.gel_sense import FRAMES_PER_READING, GelSense
 NOISE_LEVELS = (1.0, 2.0, 3.0)
 """Levels of the fine noise that closings in air take in turn; 1 is the measured sensor."""
 
-FRAMES_PER_CLOSING = 50
-"""Frames of a closing in air: two seconds at 25 Hz."""
+READINGS_PER_CLOSING = math.ceil(50 / FRAMES_PER_READING)
+"""Readings of a closing in air: two seconds at 25 frames a second."""
 
 MAX_FALSE_PER_CLOSING = 0.005
 MAX_MISSED = 0.01
@@ -124,7 +124,7 @@ def largest_ratio(seed: int) -> float:
     unit = replace(unit, fine_mm=level * unit.fine_mm)
     sensor = SimSensor(rig.grasp, SimClock(), rig.sensor.spec, unit, seed)
     gel = _untouched(sensor)
-    return max(gel.test(sensor.read(FRAMES_PER_READING)).ratio for _ in range(FRAMES_PER_CLOSING))
+    return max(gel.test(sensor.read(FRAMES_PER_READING)).ratio for _ in range(READINGS_PER_CLOSING))
 
 
 @lru_cache
@@ -209,7 +209,7 @@ def ideal_missed(rig: SimRig, patch: Patch) -> float:
     fine_mm = spread_of(rig.sensor.spec).fine_mm
     sigma_mm = fine_mm * math.sqrt(1 / FRAMES_PER_READING + 1 / NUM_FRAMES)
     z = float(np.linalg.norm(patch.height_mm)) / sigma_mm
-    limit = NormalDist().inv_cdf(1 - MAX_FALSE_PER_CLOSING / FRAMES_PER_CLOSING)
+    limit = NormalDist().inv_cdf(1 - MAX_FALSE_PER_CLOSING / READINGS_PER_CLOSING)
     return NormalDist().cdf(limit - z)
 
 

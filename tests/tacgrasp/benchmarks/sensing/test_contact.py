@@ -36,7 +36,7 @@ def test_firm_contacts_are_felt_and_the_lightest_is_missed():
 def test_an_ideal_detector_misses_all_but_its_false_alarms_without_signal():
     rig = build("strawberry", 0)
     patch = rig.grasp.fingers.press((0.0, 0.0), 1e-5)
-    assert contact.ideal_missed(rig, patch) == pytest.approx(1 - 0.005 / 50, abs=2e-4)
+    assert contact.ideal_missed(rig, patch) == pytest.approx(1 - 0.005 / 13, abs=2e-4)
 
 
 def test_a_test_that_always_feels_fails_the_benchmark(monkeypatch):
