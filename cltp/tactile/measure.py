@@ -76,10 +76,12 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
     if in_contact is False:
         return NO_CONTACT_STATE
     cells = filled(cell_means(cloud))
+    if in_contact is None and _deepest_mm(cells) < NO_CONTACT_MM:
+        return NO_CONTACT_STATE
     local = local_contact(cells, cloud.sensor)
     heights = local.heights_mm if in_contact else cells
-    depth = float(np.sort(heights, axis=None)[-_DEEPEST_CELLS:].mean())
-    if depth <= 0 or (in_contact is None and depth < NO_CONTACT_MM):
+    depth = _deepest_mm(heights)
+    if depth <= 0:
         return NO_CONTACT_STATE
     x, y = grid_axes_mm(cloud.sensor, *heights.shape)
     x_mm, y_mm = _centroid_mm(heights, depth, x, y)
@@ -96,6 +98,11 @@ def _measure(cloud: TactileCloud, in_contact: bool | None) -> ContactState:
         area=area_word(fraction),
         cut=cut_sides(heights > _BODY_FRACTION * depth, least=3, width=2),
     )
+
+
+def _deepest_mm(heights_mm: FloatArray) -> float:
+    """Depth of heights: the mean of the deepest cells [mm]."""
+    return float(np.sort(heights_mm, axis=None)[-_DEEPEST_CELLS:].mean())
 
 
 def _centroid_mm(
