@@ -22,7 +22,7 @@ from sim.full.objects import Origin
 from sim.full.requests import LOADS, FullRequest, full_request
 from sim.full.scene import PressScene
 from sim.full.solid_scene import solid_scene
-from sim.gel.contact_solver import chosen
+from sim.gel.bounded_press import press_no_deeper
 from sim.gel.force_factor import force_factor
 from sim.gel.layer import ElasticLayer, Press
 from sim.starter.contacts import DEEPEST_MM
@@ -30,10 +30,9 @@ from sim.tcl3d.labels import TEXTURE, in_contact, label, uncertain_labels
 from sim.tcl3d.series import grid_over
 
 CONTACTS = 120_000
-"""Contacts of the set. Source: issue 19; FG-CLTP has 100,000."""
+"""Contacts of the set. Our choice, because FG-CLTP has 100,000."""
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
-_LIGHTER_TRIES = 4
 
 
 def num_series(contacts: int) -> int:
@@ -78,16 +77,7 @@ def _pressed(request: FullRequest, scene: PressScene, device: torch.device | str
     gaps, loads = gaps.to(device), torch.tensor(scene.loads, device=device)
     if not scene.by_force:
         return layer.press_to_depth(gaps, loads, tol=_TOLERANCE)
-    press = layer.press_to_force(gaps, loads, tol=_TOLERANCE)
-    for _ in range(_LIGHTER_TRIES):
-        excess = press.height_mm.amax((1, 2)) / DEEPEST_MM
-        if not bool((excess > 1).any()):
-            break
-        # A narrow end that bears all of the force would sink deeper than linear elasticity holds.
-        loads = torch.where(excess > 1, loads * excess**-1.5, loads)  # Hertz
-        lighter = layer.press_to_force(gaps, loads, start=press, tol=_TOLERANCE)
-        press = chosen(excess > 1, lighter, press)
-    return press
+    return press_no_deeper(layer, gaps, loads, deepest_mm=DEEPEST_MM, tol=_TOLERANCE)
 
 
 def _labelled(request: FullRequest, scene: PressScene, press: Press) -> list[Contact]:

@@ -18,7 +18,7 @@ from torch import Tensor
 
 from cltp.data.contact import Contact, Gel, Split
 from cltp.tactile.sensors import SensorSpec
-from sim.gel.contact_solver import chosen
+from sim.gel.bounded_press import press_no_deeper
 from sim.gel.force_factor import force_factor
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.grasp.rig import BENCHMARK_SEED
@@ -56,8 +56,6 @@ DEEPEST_MM = 2.4
 """Largest depth of a press by force; deeper ones are repeated with less force. A narrow part of a
 peg at the pad's edge, bearing all of the force, would sink deeper than the gel is thick. Our
 choice: two thirds of the thickness, beyond which linear elasticity does not hold."""
-
-_LIGHTER_TRIES = 4
 
 
 def make_group(
@@ -150,15 +148,7 @@ def _press(
     )
     if not moduli:
         return layer.press_to_depth(gaps, loads, start=start, tol=_TOLERANCE)
-    press = layer.press_to_force(gaps, loads, start=start, tol=_TOLERANCE)
-    for _ in range(_LIGHTER_TRIES):
-        excess = press.height_mm.amax((1, 2)) / DEEPEST_MM
-        if not bool((excess > 1).any()):
-            break
-        loads = torch.where(excess > 1, loads * excess**-1.5, loads)  # Hertz
-        lighter = layer.press_to_force(gaps, loads, start=press, tol=_TOLERANCE)
-        press = chosen(excess > 1, lighter, press)
-    return press
+    return press_no_deeper(layer, gaps, loads, deepest_mm=DEEPEST_MM, start=start, tol=_TOLERANCE)
 
 
 def split_of(seed: int, number: int) -> Split:
