@@ -127,9 +127,7 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
-        self._check_sensor(cloud)
-        change = cell_means(cloud, self._cells) - self._mean - self._drift_mm
-        return _evidence(_responses(change, self._sensor), self._least_mm)
+        return self._evidence(self._change_mm(cloud))
 
     def follow(self, cloud: TactileCloud) -> None:
         """Let the reference follow slow drift towards a frame in which nothing touches.
@@ -142,9 +140,9 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
-        if self.test(cloud).largest >= FOLLOWED_RATIO:
+        change = self._change_mm(cloud)
+        if self._evidence(change).largest >= FOLLOWED_RATIO:
             return
-        change = cell_means(cloud, self._cells) - self._mean - self._drift_mm
         most_mm = FOLLOWED_MM_S * self._seconds_to(cloud)
         for scale_mm in FOLLOWED_SCALES_MM:
             smooth = FOLLOWED_PART * smoothed(change, self._sensor, scale_mm)
@@ -176,6 +174,14 @@ class UntouchedGel:
         drift = heights_at(self._drift_mm, points[:, 0], points[:, 1], self._sensor)
         points[:, 2] -= drift
         return replace(cloud, points_mm=points.astype(np.float32))
+
+    def _change_mm(self, cloud: TactileCloud) -> FloatArray:
+        """Cells of a cloud less the reference and the drift followed since, (n, n) [mm]."""
+        self._check_sensor(cloud)
+        return cell_means(cloud, self._cells) - self._mean - self._drift_mm
+
+    def _evidence(self, change_mm: FloatArray) -> ContactEvidence:
+        return _evidence(_responses(change_mm, self._sensor), self._least_mm)
 
     def _check_sensor(self, cloud: TactileCloud) -> None:
         if cloud.sensor.name != self._sensor.name:
