@@ -29,8 +29,8 @@ from tacgrasp.config.terms import contract_of
 from tacgrasp.policy_factory import POLICIES, load_llm, make_policy
 from tacgrasp.rig.gel_sense import GelSense
 
-FORCES_N = tuple(float(f) for f in np.geomspace(0.2, 3.0, 15).round(3))
-"""Forces of the sweeps [N]: commanded, and for ``true_force`` true ones."""
+SWEEP = 15
+"""Number of forces of a sweep."""
 
 SWEPT = ("fixed_force", "true_force", "center_only")
 """Policies that choose one force for all episodes."""
@@ -80,6 +80,17 @@ class TrueForceSense(GelSense):
         return Interval(value=patch.force_n, low=patch.force_n, high=patch.force_n)
 
 
+def swept_forces_n(config: RunConfig) -> tuple[float, ...]:
+    """Forces of the sweeps, in equal ratios [N]: commanded, and for ``true_force`` true ones.
+
+    A little beyond the band of a task whose bodies need different forces (0.2 to 3 N for the
+    strawberry), from half to twice the band of any other.
+    """
+    low, high = config.goal.force_n
+    ends = (4 / 3 * low, 1.2 * high) if contract_of(config).needs else (low / 2, 2 * high)
+    return tuple(float(force) for force in np.geomspace(*ends, SWEEP).round(3))
+
+
 def enter(
     config: RunConfig,
     contestant: PolicyAndForce,
@@ -104,7 +115,7 @@ def enter(
         policy: Policy = OraclePolicy(_truth(rig, slip_minimum_n, bruise_n))
         contract = replace(contract, force_n=ANY_BAND, limit_n=ANY_BAND.high, soft=None, needs="")
     elif name == "informed":
-        band = _informed_band(contract, rig)
+        band = informed_band(contract, rig)
         sense = TrueForceSense(rig)
         policy = OraclePolicy(_truth(rig, band.low / SLIP_RESERVE, band.high / BRUISE_RESERVE))
         contract = replace(contract, force_n=band, soft=None, needs="")
@@ -153,7 +164,7 @@ def _one_force(
     )
 
 
-def _informed_band(contract: Contract, rig: SimRig) -> Band:
+def informed_band(contract: Contract, rig: SimRig) -> Band:
     """Force band of one who knows size and stiffness, but not mass, friction and bruise force."""
     if contract.needs not in NEEDS:
         return contract.terms.force_n

@@ -26,17 +26,19 @@ from sim.grasp.rig import SimRig, build
 from sim.objects.meshes import SUFFIXES, checked_mesh
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table, write_figures
+from tacgrasp.benchmarks.loop.contestants import informed_band
 from tacgrasp.benchmarks.loop.meshes_plot import write_plot
 from tacgrasp.benchmarks.loop.strawberry import EpisodeResult, run_seed
 from tacgrasp.benchmarks.pool import each_result
 from tacgrasp.benchmarks.settings import MeshesSettings
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
+from tacgrasp.config.terms import contract_of
 from tacgrasp.runtime.verify import accelerations
 
 TASKS = ("strawberry", "egg", "peg")
-"""Tasks by their forces. A mesh gets the first whose objects are as heavy and whose least force
-holds it at the least friction; or else the last."""
+"""Tasks by their forces. A mesh gets the first whose objects are as heavy and whose least force for
+its size and stiffness holds it at the least friction; or else the last."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,9 +157,11 @@ def _suited(make: Callable[..., SimRig], mass_g: float) -> RunConfig:
         config, ranges = load(task)[0], OBJECTS[task]
         if mass_g > ranges.mass_g.high:
             continue
-        fingers = make(config.object, 0, sensor_name=config.sensor).grasp.fingers
+        rig = make(config.object, 0, sensor_name=config.sensor)
+        fingers = rig.grasp.fingers
         needed_n = fingers.slip_minimum_n(accelerations(config.verify))
-        if needed_n * fingers.body.friction / ranges.friction.low <= config.goal.force_n[0]:
+        least_n = informed_band(contract_of(config), rig).low
+        if needed_n * fingers.body.friction / ranges.friction.low <= least_n:
             return config
     return load(TASKS[-1])[0]
 

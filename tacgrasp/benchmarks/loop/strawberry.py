@@ -20,12 +20,12 @@ from sim.grasp.rig import SimRig, Truth, build
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.contestants import (
-    FORCES_N,
     NAMES,
     SWEPT,
     PolicyAndForce,
     enter,
     language_model,
+    swept_forces_n,
 )
 from tacgrasp.benchmarks.results_file import SeedResults, weights_sum
 from tacgrasp.benchmarks.settings import StrawberrySettings
@@ -181,7 +181,7 @@ def run(settings: StrawberrySettings) -> None:
         language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
     contestants: list[PolicyAndForce] = []
     for name in policies:
-        forces = FORCES_N if name in SWEPT else (None,)
+        forces = swept_forces_n(config) if name in SWEPT else (None,)
         contestants += [(name, force_n) for force_n in forces]
     console, store = make_table_console(), _store(settings, config, policies)
     function = partial(run_seed, config, contestants)

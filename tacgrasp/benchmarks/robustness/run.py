@@ -26,7 +26,7 @@ from cltp.errors import TouchError
 from cltp.evaluation.scores import Predictions
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.base.errors import UsageError
-from tacgrasp.benchmarks.loop.contestants import FORCES_N
+from tacgrasp.benchmarks.loop.contestants import SWEEP, swept_forces_n
 from tacgrasp.benchmarks.pool import each_result
 from tacgrasp.benchmarks.results_file import weights_sum
 from tacgrasp.benchmarks.robustness import readers
@@ -217,10 +217,10 @@ def _verified(
 
 
 def _sweep_fixed_force(bench: _Bench, config: RunConfig, seeds: range) -> None:
-    """The best of ``FORCES_N`` under nominal conditions."""
+    """The best of ``swept_forces_n`` under nominal conditions."""
     if not bench.missing(FIXED_FORCE, [("order", NOMINAL)]):
         return
-    began, count = time.monotonic(), len(FORCES_N)
+    began, count = time.monotonic(), SWEEP
     results = bench.each(partial(_verified_by_force, config, seeds), count * len(seeds))
     rates = [list(islice(results, len(seeds))) for _ in range(count)]
     best = max(rates, key=sum)
@@ -234,7 +234,7 @@ def _sweep_fixed_force(bench: _Bench, config: RunConfig, seeds: range) -> None:
 
 
 def _verified_by_force(config: RunConfig, seeds: range, number: int) -> bool:
-    force_n, seed = FORCES_N[number // len(seeds)], seeds[number % len(seeds)]
+    force_n, seed = swept_forces_n(config)[number // len(seeds)], seeds[number % len(seeds)]
     return run_episode_under(config, NOMINAL, FIXED_FORCE, force_n, seed).verified
 
 

@@ -1,11 +1,14 @@
 """The strawberry benchmark with another task, object or instruction than the strawberry's."""
 
 import json
+from itertools import pairwise
 
 import pytest
 
 from tacgrasp.__main__ import main
+from tacgrasp.benchmarks.loop.contestants import SWEEP, swept_forces_n
 from tacgrasp.benchmarks.settings import StrawberrySettings, VerifierSettings
+from tacgrasp.config.layers import load
 from tests.fakes.contracts import BERRY
 
 SEED = 1_000_003
@@ -63,3 +66,14 @@ def test_wrong_use_is_told_in_one_line_before_any_episode(argv, expected, capsys
     printed = capsys.readouterr()
     assert expected in printed.err
     assert printed.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("task", "ends"), [("strawberry", (0.2, 3.0)), ("egg", (0.95, 7.6)), ("peg", (1.8, 14.4))]
+)
+def test_a_sweep_reaches_beyond_the_band_of_its_task(task, ends):
+    forces = swept_forces_n(load(task)[0])
+    assert len(forces) == SWEEP == 15
+    assert (forces[0], forces[-1]) == ends
+    ratios = [after / before for before, after in pairwise(forces)]
+    assert max(ratios) / min(ratios) < 1.01
