@@ -37,8 +37,8 @@ from tacgrasp.config.terms import contract_of
 from tacgrasp.runtime.verify import accelerations
 
 TASKS = ("strawberry", "egg", "peg")
-"""Tasks by their forces. A mesh gets the first whose objects are as heavy and whose least force for
-its size and stiffness holds it at the least friction; or else the last."""
+"""Tasks by their forces. A mesh gets the first whose objects weigh as much and whose least force,
+for its size and stiffness, holds it at the least friction; or else the last."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,7 +155,7 @@ def _suited(make: Callable[..., SimRig], mass_g: float) -> RunConfig:
     """The run under the task that suits a mesh, as ``TASKS`` says."""
     for task in TASKS:
         config, ranges = load(task)[0], OBJECTS[task]
-        if mass_g > ranges.mass_g.high:
+        if not ranges.mass_g.low <= mass_g <= ranges.mass_g.high:
             continue
         rig = make(config.object, 0, sensor_name=config.sensor)
         fingers = rig.grasp.fingers

@@ -16,7 +16,7 @@ from tacgrasp.__main__ import main
 def folder(tmp_path: Path) -> Path:
     meshes = tmp_path / "meshes"
     meshes.mkdir()
-    icosphere(subdivisions=4, radius=15.0).export(meshes / "ball.ply")
+    icosphere(subdivisions=4, radius=18.0).export(meshes / "ball.ply")
     box((150.0, 150.0, 30.0)).export(meshes / "tray.stl")
     sheet: trimesh.Trimesh = box((20.0, 20.0, 20.0))
     sheet.update_faces(np.arange(len(sheet.faces)) > 1)
@@ -30,9 +30,9 @@ def test_each_mesh_is_tried_or_refused_and_pictured(folder, tmp_path):
     files = ["--json", str(figures), "--plot", str(picture)]
     assert main(["bench", "meshes", *argv, *files]) == 0
     ball, sheet, tray = json.loads(figures.read_text())["meshes"]
-    assert ball["task"] == "strawberry"  # 4 g
-    assert ball["grasp"]["width_mm"] == pytest.approx(30.0, abs=0.2)
-    assert ball["mass_g"] == pytest.approx(0.3e-3 * 4 / 3 * np.pi * 15**3, rel=0.02)
+    assert ball["task"] == "strawberry"  # 7 g
+    assert ball["grasp"]["width_mm"] == pytest.approx(36.0, abs=0.2)
+    assert ball["mass_g"] == pytest.approx(0.3e-3 * 4 / 3 * np.pi * 18**3, rel=0.02)
     (episode,) = ball["episodes"]
     assert episode["truth"]["young_mpa"] < 1  # a strawberry's
     assert ball["held"] == int(ball["ends"] == "held 1")
