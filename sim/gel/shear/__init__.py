@@ -1,0 +1,7 @@
+"""Friction between gel and body, with memory: traction, stick and slip.
+
+Not here: the pressure (``sim.gel.layer``), which is solved without friction; how a body moves
+(``sim.grasp``).
+
+May import: sim.gel.
+"""
