@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 from typing import Any
@@ -12,6 +13,25 @@ from typing import Any
 from rich.table import Table
 
 from tacgrasp.base.result_file import write_result
+
+
+@dataclass(frozen=True, slots=True)
+class Figure:
+    """One line of a benchmark's table.
+
+    Attributes:
+        key: Name in the JSON file.
+        what: The measured quantity in words.
+        value: The result; None where it was not measured.
+        unit: Its unit, empty for a ratio.
+        note: Setting, limit, or the reason why there is no value.
+    """
+
+    key: str
+    what: str
+    value: float | None
+    unit: str
+    note: str
 
 
 def times_ms(

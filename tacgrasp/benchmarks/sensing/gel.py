@@ -7,7 +7,7 @@ Each error is measured when the benchmark runs. The tests hold the same figures 
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 import torch
@@ -17,7 +17,7 @@ from torch import Tensor
 
 from cltp.torch_threads import torch_threads
 from sim.gel.layer import ElasticLayer, GelMaterial, gel_of
-from tacgrasp.benchmarks.figures import median_ms, write_figures
+from tacgrasp.benchmarks.figures import Figure, median_ms, write_figures
 from tacgrasp.benchmarks.sensing.gel_fit import (
     LARGEST_FORCE_ERROR,
     LARGEST_RMSE_MM,
@@ -35,28 +35,11 @@ from tacgrasp.benchmarks.sensing.radial_profiles import (
     tacto,
     taxim,
 )
+from tacgrasp.benchmarks.sensing.shear import mechanics
+from tacgrasp.benchmarks.sensing.shear_pace import pace
 from tacgrasp.benchmarks.settings import GelSettings
 
 ROWS, COLUMNS, PITCH_MM = 76, 102, 0.2
-
-
-@dataclass(frozen=True, slots=True)
-class Figure:
-    """One line of the table.
-
-    Attributes:
-        key: Name in the JSON file.
-        what: The measured quantity in words.
-        value: The result; None where it was not measured.
-        unit: Its unit, empty for a ratio.
-        note: Setting, limit, or the reason why there is no value.
-    """
-
-    key: str
-    what: str
-    value: float | None
-    unit: str
-    note: str
 
 
 def _radius_mm(rows: int, columns: int, pitch_mm: float) -> Tensor:
@@ -277,7 +260,7 @@ def cost() -> list[Figure]:
 def measure(data: Path | None) -> list[Figure]:
     """All figures, in the order of the table."""
     before = hertz() + dimitriadis() + volume() + forces()
-    return before + profiles(data) + discretisation() + cost()
+    return before + profiles(data) + discretisation() + cost() + mechanics() + pace()
 
 
 def run(settings: GelSettings) -> None:
