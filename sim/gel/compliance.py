@@ -4,7 +4,8 @@ Every compliance is a real-space kernel, the displacement [mm] at the centre of 
 for 1 MPa on one square element, so that nothing is periodic at the end of the grid. The kernels are
 computed once in float64 and applied by zero-padded FFT.
 
-Not here: the pressure of a contact (``sim.gel.contact_solver``); friction, which is neglected.
+Not here: the pressure of a contact (``sim.gel.contact_solver``); traction along the surface
+(``sim.gel.shear``).
 """
 
 from __future__ import annotations

@@ -6,8 +6,8 @@ half-space. Contact is frictionless and quasi-static.
 Computation is in mm, N and MPa (N/mm²); results give pressure in kPa. Surfaces are in the gel
 frame, positive into the gel; the gel that rises around a contact is negative.
 
-Not here: the pressing bodies (``sim.grasp.bodies``, ``sim.starter.shapes``), sensor noise and point
-clouds (``cltp.tactile``).
+Not here: friction (``sim.gel.shear``), the pressing bodies (``sim.grasp.bodies``,
+``sim.starter.shapes``), sensor noise and point clouds (``cltp.tactile``).
 """
 
 from __future__ import annotations

@@ -39,7 +39,9 @@ class FrictionSolution:
         traction_mpa: (B, 2, H, W) [MPa].
         slip_mm: b - A q where there is pressure, else 0, (B, 2, H, W) [mm]. What is left of it
             where a point sticks is the error of the solution.
-        slipping: (B, H, W) bool; points with pressure that do not slip stick.
+        slipping: (B, H, W) bool; points with friction that do not slip stick.
+        at_limit: (B, H, W) bool: traction is at its limit, whether the point slips in this step or
+            is about to.
         iterations: (B,) int64.
         converged: (B,) bool; False where ``max_iterations`` stopped the contact.
     """
@@ -47,6 +49,7 @@ class FrictionSolution:
     traction_mpa: Tensor
     slip_mm: Tensor
     slipping: Tensor
+    at_limit: Tensor
     iterations: Tensor
     converged: Tensor
 
@@ -79,6 +82,7 @@ def solve_friction(
         traction_mpa=torch.stack([one.traction for one in solved]),
         slip_mm=torch.stack([one.slip for one in solved]),
         slipping=torch.stack([one.slipping for one in solved]),
+        at_limit=torch.stack([one.at_limit for one in solved]),
         iterations=torch.tensor([one.iterations for one in solved], device=device),
         converged=torch.tensor([one.converged for one in solved], device=device),
     )
@@ -91,6 +95,7 @@ class _One:
     traction: Tensor
     slip: Tensor
     slipping: Tensor
+    at_limit: Tensor
     iterations: int
     converged: bool
 
@@ -109,6 +114,10 @@ class _Discs:
         """The nearest traction (2, H, W) within the discs."""
         size = torch.hypot(traction[0], traction[1]).clamp_(min=self._tiny)
         return traction * (self.limit / size).clamp_(max=1.0)
+
+    def on_rim(self, traction: Tensor) -> Tensor:
+        """Which points with friction bear all of it, (H, W)."""
+        return (torch.hypot(traction[0], traction[1]) >= self._rim) & (self.limit > 0)
 
     def split(self, traction: Tensor, slip: Tensor) -> tuple[Tensor, Tensor]:
         """Which points slip (H, W), and the part of ``slip`` that violates friction (2, H, W)."""
@@ -165,5 +174,10 @@ def _solve_one(
         else:
             length = safe_length
     return _One(
-        traction=traction, slip=slip, slipping=slipping, iterations=step, converged=bool(done)
+        traction=traction,
+        slip=slip,
+        slipping=slipping,
+        at_limit=discs.on_rim(traction),
+        iterations=step,
+        converged=bool(done),
     )

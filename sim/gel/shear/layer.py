@@ -45,7 +45,8 @@ class Shear:
         displacement_mm: Displacement of the gel's surface under this traction, (B, 2, H, W) [mm].
         held_mm: Displacement of the surface, relative to the body's, from which each point sticks,
             (B, 2, H, W) [mm]: the memory.
-        sticking: Points in contact that did not slip in this step, (B, H, W) bool.
+        sticking: Points in contact whose traction is below friction's limit, (B, H, W) bool. The
+            others slip, or would under any more load.
         force_n: Force on the gel, (B, 2) [N].
         moment_nmm: Moment on the gel about the grid's centre, counter-clockwise, (B,) [N mm].
         dissipated_mj: Heat of this step, (B,) [mJ].
@@ -86,6 +87,10 @@ class ShearLayer:
 
     Raises:
         ValueError: Friction is negative or not finite, or the body is not a half-space.
+
+    Attributes:
+        displacement_of_turn: Displacement of each element by a turn of the body about the grid's
+            centre, (2, H, W) [mm/rad].
     """
 
     def __init__(
@@ -106,7 +111,7 @@ class ShearLayer:
         self.layer, self.friction, self.body, self.coupled = layer, friction, body, coupled
         y = 0.5 * (layer.rows - 1) - torch.arange(layer.rows, dtype=torch.float64)
         x = torch.arange(layer.columns, dtype=torch.float64) - 0.5 * (layer.columns - 1)
-        self._turn = self._to_layer(
+        self.displacement_of_turn = self._to_layer(
             torch.stack(
                 [
                     -y[:, None].expand(layer.rows, layer.columns),
@@ -169,23 +174,28 @@ class ShearLayer:
                 f"before has shape {tuple(before.pressure_kpa.shape)}, pressure_kpa "
                 f"{tuple(pressure.shape)}; step one batch on one grid"
             )
-        drive = before.held_mm + move[:, :2, None, None] + move[:, 2, None, None, None] * self._turn
+        drive = (
+            before.held_mm
+            + move[:, :2, None, None]
+            + move[:, 2, None, None, None] * self.displacement_of_turn
+        )
         dragged = self._pair.spread(pressure) if self.coupled else torch.zeros_like(drive)
         first = before.traction_kpa if start_kpa is None else start_kpa
         solution = self._solve(pressure, drive - dragged, 1e-3 * first, tol, max_iterations)
+        touched = self.friction * pressure > 0
         moved = self._gel.apply(solution.traction_mpa)
         relative = moved if self.body is None else self._pair.apply(solution.traction_mpa)
-        sticking = (self.friction * pressure > 0) & ~solution.slipping
-        heat = (solution.traction_mpa * solution.slip_mm * solution.slipping[:, None]).flatten(1)
+        slipping = solution.slipping[:, None]
+        heat = (solution.traction_mpa * solution.slip_mm * slipping).flatten(1)
         area = self.layer.pitch_mm**2
         return Shear(
             pressure_kpa=1e3 * pressure,
             traction_kpa=1e3 * solution.traction_mpa,
             displacement_mm=moved,
-            held_mm=torch.where(sticking[:, None], drive, relative + dragged),
-            sticking=sticking,
+            held_mm=torch.where(touched[:, None] & ~slipping, drive, relative + dragged),
+            sticking=touched & ~solution.at_limit,
             force_n=solution.traction_mpa.sum((2, 3)) * area,
-            moment_nmm=(solution.traction_mpa * self._turn).sum((1, 2, 3)) * area,
+            moment_nmm=(solution.traction_mpa * self.displacement_of_turn).sum((1, 2, 3)) * area,
             dissipated_mj=heat.sum(1) * area,
             iterations=solution.iterations,
             converged=solution.converged,
@@ -214,10 +224,14 @@ class ShearLayer:
         )
         traction, slip = torch.zeros_like(drive), torch.zeros_like(drive)
         slipping = torch.zeros_like(pressure, dtype=torch.bool)
+        at_limit = torch.zeros_like(slipping)
         traction[:, :, rows, columns] = solution.traction_mpa
         slip[:, :, rows, columns] = solution.slip_mm
         slipping[:, rows, columns] = solution.slipping
-        return replace(solution, traction_mpa=traction, slip_mm=slip, slipping=slipping)
+        at_limit[:, rows, columns] = solution.at_limit
+        return replace(
+            solution, traction_mpa=traction, slip_mm=slip, slipping=slipping, at_limit=at_limit
+        )
 
     def _spectrum(self, rows: int, columns: int) -> ShearSpectrum:
         """Gel and body together on a grid of some size."""

@@ -49,8 +49,9 @@ def carry(
     """Find the motions under which the contacts carry their loads.
 
     Force and moment are the gradient of a convex energy of the motion, so that there is one
-    motion, up to the friction that holds. Found by Broyden's method in three unknowns, the turn
-    taken at the contact's radius, from the compliance of a wave as wide as the contact.
+    motion, up to the friction that holds. Found by a quasi-Newton method (BFGS) in three unknowns,
+    about the contact's centre and with its radius times the turn, from the compliance of a wave as
+    wide as the contact.
 
     Args:
         layer: Gel and friction.
@@ -63,7 +64,6 @@ def carry(
     Raises:
         ValueError: A shape or value is out of range.
     """
-    pitch = layer.layer.pitch_mm
     load = torch.as_tensor(load, dtype=layer.layer.dtype, device=layer.layer.device)
     if load.ndim != 2 or load.shape[1] != 3 or not bool(torch.isfinite(load).all()):
         raise ValueError(
@@ -71,42 +71,63 @@ def carry(
         )
     motion = torch.zeros_like(load)
     shear = layer.step(before, pressure_kpa, motion, tol=tol)
-    friction_n = layer.friction * 1e-3 * shear.pressure_kpa.sum((1, 2)) * pitch**2
-    area = (shear.pressure_kpa > 0).sum((1, 2)) * pitch**2
-    radius = (area / math.pi).sqrt().clamp(min=pitch)
-    ones = torch.ones_like(radius)
-    scale = torch.stack([ones, ones, radius], 1)
-    wave = longitudinal_compliance(2.0 / radius, layer.layer.material)
-    soft = wave / (math.pi * radius**2)
+    area = layer.layer.pitch_mm**2
+    friction_n = layer.friction * 1e-3 * shear.pressure_kpa.sum((1, 2)) * area
+    pressed = (shear.pressure_kpa > 0).sum((1, 2)).clamp(min=1)
+    radius = (pressed * area / math.pi).sqrt()
+    axes = _axes(layer, shear, radius)
+    soft = longitudinal_compliance(2.0 / radius, layer.layer.material)
+    if layer.body is not None:
+        soft = soft + longitudinal_compliance(2.0 / radius, layer.body)
+    soft = soft / (math.pi * radius**2)
     inverse = soft[:, None, None] * torch.eye(3, dtype=load.dtype, device=load.device)
     reach = (_REACH * soft * friction_n)[:, None]
-    missing = _missing(shear, load, scale)
+    missing = _missing(shear, load, axes)
     holds = missing.norm(dim=1) <= load_tol * friction_n
     evaluations = 1
     while not bool(holds.all()) and evaluations < _EVALUATIONS:
         correction = torch.einsum("bij,bj->bi", inverse, missing)
         size = correction.norm(dim=1, keepdim=True).clamp(min=1e-30)
         correction = torch.where(holds[:, None], 0.0, correction * (reach / size).clamp(max=1.0))
-        motion = motion + correction / scale
+        motion = motion + torch.einsum("bij,bj->bi", axes, correction)
         shear = layer.step(before, pressure_kpa, motion, start_kpa=shear.traction_kpa, tol=tol)
-        left = _missing(shear, load, scale)
+        left = _missing(shear, load, axes)
         inverse = _improved(inverse, correction, missing - left)
         missing, evaluations = left, evaluations + 1
         holds = missing.norm(dim=1) <= load_tol * friction_n
     return Carried(shear=shear, motion=motion, holds=holds, evaluations=evaluations)
 
 
-def _missing(shear: Shear, load: Tensor, scale: Tensor) -> Tensor:
-    """Load that the contacts do not carry yet, the moment as a force at the radius, (B, 3) [N]."""
-    return (load - torch.cat([shear.force_n, shear.moment_nmm[:, None]], 1)) / scale
+def _axes(layer: ShearLayer, shear: Shear, radius: Tensor) -> Tensor:
+    """Motion of the grid per motion of the contact, (B, 3, 3).
+
+    The contact's motion is that of its centre of pressure and the turn about it times the radius,
+    all [mm]; its loads then are forces [N], the transpose of this times those about the grid's
+    centre.
+    """
+    share = shear.pressure_kpa / shear.pressure_kpa.sum((1, 2), keepdim=True).clamp(min=1e-30)
+    turn_x, turn_y = (share[:, None] * layer.displacement_of_turn).sum((2, 3)).unbind(1)
+    axes = torch.eye(3, dtype=share.dtype, device=share.device).repeat(len(share), 1, 1)
+    axes[:, 0, 2], axes[:, 1, 2], axes[:, 2, 2] = -turn_x / radius, -turn_y / radius, 1.0 / radius
+    return axes
+
+
+def _missing(shear: Shear, load: Tensor, axes: Tensor) -> Tensor:
+    """Load that the contacts do not carry yet, about their own axes, (B, 3) [N]."""
+    carried = torch.cat([shear.force_n, shear.moment_nmm[:, None]], 1)
+    return torch.einsum("bij,bi->bj", axes, load - carried)
 
 
 def _improved(inverse: Tensor, correction: Tensor, carried: Tensor) -> Tensor:
-    """Broyden's update of the motion per load (B, 3, 3) by what a correction carried."""
-    expected = torch.einsum("bij,bj->bi", inverse, carried)
-    row = torch.einsum("bi,bij->bj", correction, inverse)
-    along = (row * carried).sum(1)
-    safe = torch.where(
-        along.abs() > 1e-12 * row.norm(dim=1) * carried.norm(dim=1), along, torch.inf
-    )
-    return inverse + (correction - expected)[:, :, None] * (row / safe[:, None])[:, None, :]
+    """BFGS update of the motion per load (B, 3, 3) by what a correction carried.
+
+    It stays symmetric and positive, as the derivative of a convex energy's gradient is; where a
+    correction carried next to nothing along itself, there is nothing to learn.
+    """
+    along = (correction * carried).sum(1)
+    known = along > 1e-3 * correction.norm(dim=1) * carried.norm(dim=1)
+    weight = torch.where(known, 1.0 / torch.where(known, along, 1.0), 0.0)[:, None, None]
+    unit = torch.eye(3, dtype=inverse.dtype, device=inverse.device)
+    left = unit - weight * correction[:, :, None] * carried[:, None, :]
+    square = weight * correction[:, :, None] * correction[:, None, :]
+    return left @ inverse @ left.transpose(1, 2) + square

@@ -48,6 +48,19 @@ def test_a_moment_takes_away_from_the_force_that_is_held():
     assert not loaded([0.42, 0.0, 0.6]).holds.any()
 
 
+def test_a_contact_far_from_the_middle_carries_a_load_about_its_own_centre():
+    middle = (6.0, -4.0)
+    pressure = pressed(mini(), FORCE_N, middle=middle)
+    force = [0.1, -0.3]
+    moment = middle[0] * force[1] - middle[1] * force[0]
+    carried = carry(LAYER, None, pressure, torch.tensor([[*force, moment]]))
+    assert carried.holds.all()
+    assert carried.evaluations < 10
+    # No moment about its own centre, so that it is not turned.
+    assert abs(carried.motion[0, 2].item()) < 1e-3
+    assert carried.motion[0, 1].item() == pytest.approx(-3 * carried.motion[0, 0].item(), rel=0.05)
+
+
 def test_loads_of_a_batch_are_carried_each_for_itself():
     loads = [0.1, 0.0, 0.0], [0.6, 0.0, 0.0], [0.0, 0.3, 0.2]
     carried = loaded(*loads)

@@ -155,6 +155,17 @@ def test_small_steps_end_where_a_large_one_does():
     assert shear.stick_fraction.item() == pytest.approx(once.stick_fraction.item(), abs=0.03)
 
 
+def test_a_body_at_rest_keeps_its_traction_and_its_stick_fraction():
+    layer, pressure = ShearLayer(mini(), friction=MU), pressed(mini(), 1.0)
+    moved = rest = layer.step(None, pressure, by(0.2, 0.05))
+    for _ in range(5):
+        rest = layer.step(rest, pressure, by())
+    assert 0.2 < moved.stick_fraction.item() < 0.8
+    assert rest.stick_fraction.item() == pytest.approx(moved.stick_fraction.item(), abs=1e-9)
+    assert torch.allclose(rest.traction_kpa, moved.traction_kpa, atol=1e-6)
+    assert rest.dissipated_mj.item() < 1e-4 * moved.dissipated_mj.item()
+
+
 def test_a_point_that_is_touched_later_sticks_where_it_is_touched():
     layer = ShearLayer(mini(), friction=50.0)
     light, firm = pressed(mini(), 0.3), pressed(mini(), 3.0)
