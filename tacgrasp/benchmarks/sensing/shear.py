@@ -4,7 +4,7 @@ A ball on a layer many times as thick as the contact is wide is Cattaneo's and M
 Their constant is Johnson's: a shift of 3 mu P S / (16 a) [1 - (1 - Q / mu P)^(2/3)], where S is the
 sum of (2 - nu)/G over both bodies. For small loads that is Mindlin's stiffness 8 a / S.
 
-Source: Johnson, Contact Mechanics, sections 7.2 and 7.4; the loss of a cycle is Mindlin's and
+Source: Johnson, Contact Mechanics, sections 7.2, 7.4 and 7.5; the loss of a cycle is Mindlin's and
 Deresiewicz's. Our own check: each follows from the shift by Masing's rule.
 
 Not here: what the form for the closed loop is worth (``shear_pace``).

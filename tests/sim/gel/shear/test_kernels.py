@@ -21,7 +21,7 @@ CPU = torch.device("cpu")
 
 
 def cerruti(x, y, nu, g):
-    """Displacements (ux, uy, uz) at (x, y) under a unit force along x; Johnson, (3.75)."""
+    """Displacements (ux, uy, uz) at (x, y) under a unit force along x; Johnson, section 3.6."""
     r = np.hypot(x, y)
     scale = 1 / (2 * math.pi * g)
     return (
