@@ -83,7 +83,8 @@ class ShearLayer:
         layer: The gel and its grid; its ``body_modulus_mpa`` is not used here.
         friction: Coefficient of friction, >= 0.
         body: The pressing body as an elastic half-space, infinitely thick; None is rigid.
-        coupled: Whether the displacement along the surface under pressure drags on the body.
+        coupled: Whether the displacement along the surface under pressure drags on the body. It
+            matters where a contact is wider than the gel is thick.
 
     Raises:
         ValueError: Friction is negative or not finite, or the body is not a half-space.

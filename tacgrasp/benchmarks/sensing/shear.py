@@ -175,14 +175,14 @@ def cycle() -> list[Figure]:
         ),
         Figure(
             "mindlin_residue_error_percent",
-            "Shift left without load",
+            "Shear: shift left without load",
             100 * (residue / forms.residue_mm(t) - 1),
             "%",
             f"{note}: {1e3 * residue:.3g} of {1e3 * end:.3g} µm",
         ),
         Figure(
             "mindlin_closing_error_percent",
-            "Force after a cycle, of the limit",
+            "Shear: force after a cycle, of the limit",
             100 * (shear.force_n[0, 0].item() / forms.limit_n - t),
             "%",
             f"{note}; 0 in theory",
@@ -227,40 +227,40 @@ def twist() -> list[Figure]:
     ]
 
 
-def coupling() -> list[Figure]:
+def coupling(ball_mm: float, force_n: float) -> list[Figure]:
     """What the coupling of pressure and traction changes on a GelSight Mini's gel.
 
-    A ball of R 7.5 mm is pressed with 1 N in five steps, then moved sideways. Without coupling,
-    with the drag of the pressure, and with the pressure solved again under the traction.
+    A ball is pressed in five steps, then moved sideways. Without coupling, with the displacement
+    that pressure causes along the surface, and with the pressure solved again under the traction.
     """
     size, pitch = 61, 0.2
     gel = _square(gel_of("gelsight_mini"), size, pitch)
-    gap = (_radius_mm(size, pitch) ** 2 / 15.0)[None]
-    plain = _pressed_and_moved(gel, gap, coupled=False, rounds=1)
-    dragged = _pressed_and_moved(gel, gap, coupled=True, rounds=1)
-    both = _pressed_and_moved(gel, gap, coupled=True, rounds=4)
-    layer = ShearLayer(gel, friction=FRICTION)
-    sunk = layer.sink_mm(plain).abs().max().item()
-    press = gel.press_to_force(gap, 1.0)
+    gap = (_radius_mm(size, pitch) ** 2 / (2 * ball_mm))[None]
+    plain = _pressed_and_moved(gel, gap, force_n, coupled=False, rounds=1)
+    one_way = _pressed_and_moved(gel, gap, force_n, coupled=True, rounds=1)
+    both = _pressed_and_moved(gel, gap, force_n, coupled=True, rounds=3)
+    sideways = plain.force_n[0, 0].item()
+    key = f"coupling_{ball_mm:g}mm"
+    note = f"nu 0.47, ball R {ball_mm:g} mm, {force_n:g} N, at {sideways:.3f} N sideways"
     figures = []
-    for key, name, other in (
-        ("drag", "drag of the pressure", dragged),
-        ("full", "both ways", both),
+    for way, name, other in (
+        ("one_way", "pressure drags", one_way),
+        ("both", "both ways", both),
     ):
-        force = plain.force_n[0, 0].item()
-        change = 100 * (other.force_n[0, 0].item() / force - 1)
+        force = 100 * (other.force_n[0, 0].item() / sideways - 1)
         stick = 100 * (other.stick_fraction - plain.stick_fraction).item()
-        note = f"nu 0.47, ball R 7.5 mm, 1 N, at {force:.3f} N sideways"
+        what = f"Coupling, {name}"
         figures += [
-            Figure(f"coupling_{key}_force_percent", f"Force, {name}", change, "%", note),
-            Figure(f"coupling_{key}_stick_percent", f"Stick fraction, {name}", stick, "%", note),
+            Figure(f"{key}_{way}_force_percent", f"{what}: force", force, "%", note),
+            Figure(f"{key}_{way}_stick_percent", f"{what}: stick fraction", stick, "%", note),
         ]
-    deepest = press.height_mm.max().item()
-    note = f"of {1e3 * deepest:.0f} µm indentation"
-    return [*figures, Figure("coupling_sink_um", "Rise by traction", 1e3 * sunk, "µm", note)]
+    sunk = 1e3 * ShearLayer(gel, friction=FRICTION).sink_mm(plain).abs().max().item()
+    return [*figures, Figure(f"{key}_rise_um", "Coupling: rise by traction", sunk, "µm", note)]
 
 
-def _pressed_and_moved(gel: ElasticLayer, gap: Tensor, *, coupled: bool, rounds: int) -> Shear:
+def _pressed_and_moved(
+    gel: ElasticLayer, gap: Tensor, force_n: float, *, coupled: bool, rounds: int
+) -> Shear:
     """A ball pressed in five steps and moved by 0.15 mm in five; pressure solved in ``rounds``."""
     layer = ShearLayer(gel, friction=FRICTION, coupled=coupled)
     shear = layer.at_rest()
@@ -269,9 +269,8 @@ def _pressed_and_moved(gel: ElasticLayer, gap: Tensor, *, coupled: bool, rounds:
         after = shear
         for _ in range(rounds):
             lifted = gap + layer.sink_mm(after) if rounds > 1 else gap
-            lifted = lifted - lifted.min()
-            press = gel.press_to_force(lifted, min(1.0, 0.2 * k))
-            after = layer.step(shear, press.pressure_kpa, motion, tol=1e-5)
+            press = gel.press_to_force(lifted - lifted.min(), force_n * min(1.0, 0.2 * k))
+            after = layer.step(shear, press.pressure_kpa, motion)
         shear = after
     return shear
 
@@ -280,4 +279,4 @@ def _pressed_and_moved(gel: ElasticLayer, gap: Tensor, *, coupled: bool, rounds:
 def mechanics() -> list[Figure]:
     """All figures of friction but those of the form for the closed loop."""
     thick = cattaneo_mindlin(100) + cattaneo_mindlin(10)
-    return thick + cycle() + stuck_layer() + twist() + coupling()
+    return thick + cycle() + stuck_layer() + twist() + coupling(7.5, 1.0) + coupling(40.0, 3.0)

@@ -148,14 +148,17 @@ def pace() -> list[Figure]:
     worst, rms = np.abs(stick).max(), np.sqrt(np.mean(stick**2))
     core_note = "one core's work, whatever else runs; limit 5 ms"
     rows = [
-        ("shear_pace_force_error_percent", "Force, worst, of the limit", force.max(), "%", note),
-        ("shear_pace_stick_error_percent", "Stick fraction, worst", worst, "%", note),
-        ("shear_pace_stick_rms_percent", "Stick fraction, root mean square", rms, "%", note),
-        ("shear_ms_median", "Coarse step, median", np.median(wall), "ms", "wall clock"),
-        ("shear_ms_p99", "Coarse step, 99th percentile", np.percentile(wall, 99), "ms", ""),
-        ("shear_core_ms_median", "Coarse step, median", np.median(core), "ms", core_note),
-        ("shear_core_ms_p99", "Coarse step, 99th %", np.percentile(core, 99), "ms", core_note),
-        ("shear_field_ms", "What a sensor sees of it", float(np.median(field)), "ms", taxels),
-        ("shear_full_ms", "Full step, mean", full_ms, "ms", "one core's work"),
+        ("pace_force_error_percent", "force, worst, of the limit", force.max(), "%", note),
+        ("pace_stick_error_percent", "stick fraction, worst", worst, "%", note),
+        ("pace_stick_rms_percent", "stick fraction, RMS", rms, "%", note),
+        ("ms_median", "a step, median", np.median(wall), "ms", "wall clock"),
+        ("ms_p99", "a step, p99", np.percentile(wall, 99), "ms", "wall clock"),
+        ("core_ms_median", "a step, median", np.median(core), "ms", core_note),
+        ("core_ms_p99", "a step, p99", np.percentile(core, 99), "ms", core_note),
+        ("field_ms", "what a sensor sees of it", np.median(field), "ms", taxels),
+        ("full_ms", "a step of the full form, mean", full_ms, "ms", "one core's work"),
     ]
-    return [Figure(key, what, float(value), unit, text) for key, what, value, unit, text in rows]
+    return [
+        Figure(f"shear_{key}", f"Coarse shear: {what}", float(value), unit, text)
+        for key, what, value, unit, text in rows
+    ]
