@@ -17,7 +17,7 @@ from torch import Tensor
 from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
 from cltp.texts.exchange_packing import prompt_ids
-from cltp.texts.tokenizer import ACTIONS, Words
+from cltp.texts.tokenizer import ACTIONS, SETTINGS_FILE, Words, names_our_tokens
 
 if TYPE_CHECKING:  # its import takes seconds: only where it is needed
     from transformers import Qwen2ForCausalLM
@@ -113,6 +113,7 @@ def load_language(folder: Path) -> Language:
 
     kinds: dict[str, Any] = {
         "qwen2": transformers.Qwen2ForCausalLM,
+        "seed_oss": transformers.SeedOssForCausalLM,  # how ours is stored (cltp.llm.stored_lm)
         "qwen2_5_vl": transformers.Qwen2_5_VLForConditionalGeneration,
     }
     try:
@@ -125,7 +126,7 @@ def load_language(folder: Path) -> Language:
     try:
         return Language(lm, words=Words.load(folder))
     except TouchError:
-        if not (Path(folder) / "tokenizer_config.json").exists():
+        if not (Path(folder) / SETTINGS_FILE).exists() or names_our_tokens(folder):
             raise
     try:
         stock = transformers.AutoTokenizer.from_pretrained(folder, local_files_only=True)

@@ -3,6 +3,11 @@
 ``cltp.llm.fast_decode`` needs the weights and a few sizes. transformers reads the same numbers
 (tested), but its import alone takes seconds, more than everything else before a robot's first
 action. Any other checkpoint, and training, go through ``cltp.llm.causal_lm``.
+
+``config.json`` calls the model ``seed_oss``, transformers' other name for the same network: with
+its biases on queries, keys and values alone, Seed-OSS is Qwen2, to the bit (tested). Under
+``qwen2``, ``AutoTokenizer`` of transformers 5 puts Qwen2's own splitting of texts in the place of
+ours, whatever tokenizer_config.json says, and every number becomes other tokens.
 """
 
 from __future__ import annotations
@@ -19,15 +24,39 @@ from safetensors import SafetensorError
 from safetensors.torch import load_file
 from torch import Tensor
 
+from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
 
-SMALL_LM_SETTINGS = {
+_SEED_OSS = {
+    "model_type": "seed_oss",
+    "hidden_act": "silu",
+    "tie_word_embeddings": True,
+    "attention_bias": True,
+    "attention_out_bias": False,
+    "mlp_bias": False,
+}
+_QWEN2 = {
     "model_type": "qwen2",
     "hidden_act": "silu",
     "tie_word_embeddings": True,
     "use_sliding_window": False,
 }
-"""Settings of ``cltp.llm.causal_lm.small_lm``; another one is no language model of ours."""
+SMALL_LM_SETTINGS = {"seed_oss": _SEED_OSS, "qwen2": _QWEN2}
+"""Settings of ``cltp.llm.causal_lm.small_lm`` as ``config.json`` has them, and as it had them
+before; another one is no language model of ours."""
+
+_KEPT = (
+    "dtype",
+    "bos_token_id",
+    "eos_token_id",
+    "pad_token_id",
+    "initializer_range",
+    "max_position_embeddings",
+    "rope_parameters",
+    "transformers_version",
+    "use_cache",
+)
+"""What both names of the model have in common beside the sizes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,15 +161,43 @@ def load_stored_lm(folder: Path) -> StoredLm:
     return StoredLm(config, floats)
 
 
+def write_seed_oss_config(folder: Path) -> None:
+    """Give our language model in a folder the name under which its tokenizer is left as it is.
+
+    Raises:
+        TouchError: The folder holds no language model of ours.
+    """
+    path = folder / "config.json"
+    sizes = _config(path)
+    stored = json.loads(path.read_text())
+    named = {part.name: getattr(sizes, part.name) for part in fields(StoredConfig)}
+    del named["rope_theta"]  # in rope_parameters
+    config: dict[str, Any] = {
+        "architectures": ["SeedOssForCausalLM"],
+        **_SEED_OSS,
+        **named,
+        "head_dim": sizes.head_dim,
+        "attention_dropout": 0.0,
+        "residual_dropout": 0.0,
+        **{name: stored[name] for name in _KEPT if name in stored},
+    }
+    write_atomically(path, json.dumps(config, indent=2, sort_keys=True) + "\n")
+
+
 def _config(path: Path) -> StoredConfig:
     try:
         stored = json.loads(path.read_text())
-        other = {k: stored.get(k) for k, v in SMALL_LM_SETTINGS.items() if stored.get(k) != v}
+        expected = SMALL_LM_SETTINGS.get(stored["model_type"], _SEED_OSS)
+        other = {k: stored.get(k) for k, v in expected.items() if stored.get(k) != v}
         rope = stored["rope_parameters"]
         if other or rope["rope_type"] != "default":
             raise TouchError(f"{path} describes no language model of ours: {other or rope!r:.200}")
         sizes = {**stored, "rope_theta": rope["rope_theta"]}
-        return StoredConfig(**{part.name: sizes[part.name] for part in fields(StoredConfig)})
+        config = StoredConfig(**{part.name: sizes[part.name] for part in fields(StoredConfig)})
+        head_dim = stored.get("head_dim", config.head_dim)
+        if head_dim != config.head_dim:
+            raise ValueError(f"head_dim must be {config.head_dim}, got {head_dim!r:.40}")
+        return config
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         raise TouchError(f"{path} describes no language model: {error!r}") from error
 

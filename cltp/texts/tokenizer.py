@@ -1,20 +1,29 @@
 """Text to tokens: a byte-level BPE of our own sentences, with one token for each action.
 
-Numbers are encoded digit by digit: ' -3.42' is ' -3', '.4' and '2'. Any text can be encoded: words
-outside the vocabulary become several tokens, if need be one for each byte.
+Numbers are encoded digit by digit: ' -3.42' is ' -3', '.4' and '2'. Any text can be encoded, and
+decoded again: words outside the vocabulary become several tokens, if need be one for each byte, so
+that no word is unknown. BPE is our choice, since each token of a reply costs time in the loop:
+WordPiece and Unigram of the same size need more tokens for our sentences, and are not faster.
+
+A folder with a tokenizer has the three files that transformers reads, and
+``AutoTokenizer.from_pretrained`` gives the same tokens:
+
+    tokenizer.json             everything: ``Words`` reads this one alone
+    tokenizer_config.json      the class that takes tokenizer.json as it is; names of control tokens
+    special_tokens_map.json    those names once more, for older versions of transformers
 """
 
 from __future__ import annotations
 
 import hashlib
 import json
-import re
 from collections.abc import Iterable, Sequence
 from itertools import chain
 from pathlib import Path
 
 from tokenizers import AddedToken, Regex, Tokenizer, decoders, models, pre_tokenizers, trainers
 
+from cltp.atomic_write import write_atomically
 from cltp.errors import TouchError
 
 PAD, BOS, EOS, USER, REPLY = "<pad>", "<bos>", "<eos>", "<user>", "<reply>"
@@ -33,12 +42,28 @@ ACTIONS = (
 """The eight choices for the action in D_t. To ``cltp`` they are words only."""
 
 FILE = "tokenizer.json"
+SETTINGS_FILE = "tokenizer_config.json"
+NAMES_FILE = "special_tokens_map.json"
+
+_NAMES = {"pad_token": PAD, "bos_token": BOS, "eos_token": EOS}
+_SETTINGS = {
+    **_NAMES,
+    "additional_special_tokens": [USER, REPLY],
+    "clean_up_tokenization_spaces": False,
+    "tokenizer_class": "PreTrainedTokenizerFast",
+}
+"""transformers' settings. Its other classes replace parts of tokenizer.json by their own."""
 
 PIECES = r" ?[+-]?\d|\.\d| ?\p{L}+| ?[^\s\p{L}\p{N}]+|\s+"
 """Units that no token crosses: one digit with its sign and space or with the point before it, a
 word, a run of other signs."""
 
-_ACTION = re.compile(r"(?<=\S)(?=(?:" + "|".join(ACTIONS) + "))")
+_BEFORE_ACTION = r"(?<=\S)(?=(?:" + "|".join(ACTIONS) + "))"
+"""Where the space goes that an action's token has swallowed."""
+
+WHOLE_REPEATS = 50
+"""How often a word that must be one token counts in training. Our choice: above the words that few
+texts have, far below those of every sentence."""
 
 
 class Words:
@@ -62,10 +87,21 @@ class Words:
             )
         self.pad, self.bos, self.eos, self.user, self.reply = (ids[t] for t in CONTROL)
         self.actions = [ids[token] for token in ACTIONS]
+        tokenizer.decoder = _decoder()  # that of earlier layouts forgets the space before an action
 
     @classmethod
-    def train(cls, texts: Iterable[str], size: int = 1024) -> Words:
-        """Learn a vocabulary of at most ``size`` tokens from texts. Deterministic."""
+    def train(cls, texts: Iterable[str], size: int = 1024, whole: Sequence[str] = ()) -> Words:
+        """Learn a vocabulary of at most ``size`` tokens from texts. Deterministic.
+
+        Args:
+            texts: What is read and said.
+            size: Largest number of tokens.
+            whole: Words of letters that become one token each behind a space, however rare they
+                are in the texts.
+
+        Raises:
+            TouchError: ``size`` is too small for the words of ``whole``.
+        """
         tokenizer = Tokenizer(models.BPE())
         tokenizer.pre_tokenizer = pre_tokenizers.Sequence(
             [
@@ -73,7 +109,6 @@ class Words:
                 pre_tokenizers.ByteLevel(add_prefix_space=False, use_regex=False),
             ]
         )
-        tokenizer.decoder = decoders.ByteLevel()
         trainer = trainers.BpeTrainer(
             vocab_size=size,
             min_frequency=2,
@@ -87,8 +122,17 @@ class Words:
         )
         # Pieces of numbers first, so that each becomes a token even if the texts have few.
         pieces = [f" {d} +{d} -{d}.{d}" for d in range(10)] * 1000
-        tokenizer.train_from_iterator(chain(pieces, texts), trainer)
-        return cls(tokenizer)
+        spaced = [f" {word}" for word in whole] * WHOLE_REPEATS
+        tokenizer.train_from_iterator(chain(pieces, spaced, texts), trainer)
+        words = cls(_in_todays_layout(tokenizer))
+        split = [word for word in whole if not words.has_token(word)]
+        if split:
+            raise TouchError(
+                f"{len(split)} of {len(whole)} words that must be one token are several in a "
+                f"vocabulary of {size}, as is {split[0]!r:.40}; give a larger size, or words of "
+                "letters alone"
+            )
+        return words
 
     @classmethod
     def load(cls, folder: Path) -> Words:
@@ -106,9 +150,15 @@ class Words:
             raise TouchError(f"no tokenizer could be read from {path}: {error}") from error
 
     def save(self, folder: Path) -> None:
-        """Write ``tokenizer.json`` into a folder."""
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        self._tokenizer.save(str(Path(folder) / FILE))
+        """Write the three files of a tokenizer into a folder.
+
+        A tokenizer of an earlier layout is written in today's, with the same tokens.
+        """
+        folder = Path(folder)
+        folder.mkdir(parents=True, exist_ok=True)
+        write_atomically(folder / FILE, _in_todays_layout(self._tokenizer).to_str(pretty=True))
+        for name, content in ((SETTINGS_FILE, _SETTINGS), (NAMES_FILE, _NAMES)):
+            write_atomically(folder / name, json.dumps(content, indent=2) + "\n")
 
     def __len__(self) -> int:
         return self._tokenizer.get_vocab_size()
@@ -132,9 +182,37 @@ class Words:
         """Text of tokens: actions are spelled out after a space, control tokens are left out."""
         control = {self.pad, self.bos, self.eos, self.user, self.reply}
         spoken = [i for i in ids if i not in control]
-        return _ACTION.sub(" ", self._tokenizer.decode(spoken, skip_special_tokens=False))
+        return str(self._tokenizer.decode(spoken, skip_special_tokens=False))
 
     def fingerprint(self) -> str:
         """SHA-256 of the vocabulary; weights store that of the tokenizer of their training."""
         vocabulary = sorted(self._tokenizer.get_vocab().items(), key=lambda item: item[1])
         return hashlib.sha256(json.dumps(vocabulary).encode()).hexdigest()
+
+
+def _decoder() -> decoders.Decoder:
+    """Bytes to text, with a space before each action that follows a word."""
+    return decoders.Sequence([decoders.ByteLevel(), decoders.Replace(Regex(_BEFORE_ACTION), " ")])
+
+
+def _in_todays_layout(tokenizer: Tokenizer) -> Tokenizer:
+    """The same tokens with today's decoder, and with actions as content.
+
+    Training makes every token of its own special, and transformers leaves special tokens out of a
+    decoded text.
+    """
+    content = json.loads(tokenizer.to_str())
+    for token in content["added_tokens"]:
+        token["special"] = token["content"] not in ACTIONS
+    tokenizer = Tokenizer.from_str(json.dumps(content))
+    tokenizer.decoder = _decoder()
+    return tokenizer
+
+
+def names_our_tokens(folder: Path) -> bool:
+    """Whether transformers' settings in a folder are those of ``Words``, not of a stock model."""
+    try:
+        settings = json.loads((Path(folder) / SETTINGS_FILE).read_text(encoding="utf-8"))
+        return all(settings.get(name) == value for name, value in _SETTINGS.items())
+    except (OSError, ValueError, AttributeError, RecursionError):
+        return False

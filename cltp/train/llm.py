@@ -83,17 +83,38 @@ class Lessons(Protocol):
 
 
 def train_words(
-    data_dir: Path, lessons: Lessons, *, size: int = 1024, num_contacts: int = 4000, seed: int = 0
+    data_dir: Path,
+    lessons: Lessons,
+    *,
+    size: int = 1024,
+    num_contacts: int = 4000,
+    seed: int = 0,
+    texts: Sequence[str] = (),
+    whole: Sequence[str] = (),
 ) -> Words:
-    """Learn the tokenizer from the exchanges about contacts of a data set."""
+    """Learn the tokenizer from the exchanges about contacts of a data set.
+
+    Args:
+        data_dir: The data set.
+        lessons: The exchanges about its contacts.
+        size: Largest number of tokens. Each costs 2 bytes for each channel of every model that
+            embeds it; the language model's two tables are one.
+        num_contacts: Number of contacts that are talked about.
+        seed: Draws contacts and wordings.
+        texts: Further texts, such as a person may write.
+        whole: Words that become one token each, however rare: such as a person may write alone.
+
+    Raises:
+        TouchError: The data set can't be read, or ``size`` is too small for ``whole``.
+    """
     data = ContactDataset(data_dir, split=Split.TRAIN)
     rng = np.random.default_rng([seed, 77])
-    texts: list[str] = []
+    learned = list(texts)
     for index in rng.integers(len(data), size=num_contacts):
         state = data.state(int(index))
         for exchange in (*lessons.mixed(state, state, rng), *lessons.captions(state, rng)):
-            texts += [exchange.prompt, exchange.reply]
-    return Words.train(texts, size)
+            learned += [exchange.prompt, exchange.reply]
+    return Words.train(learned, size, whole)
 
 
 def train_llm(

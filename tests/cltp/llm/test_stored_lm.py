@@ -8,7 +8,7 @@ from safetensors.torch import load_file, save_file
 from cltp.errors import TouchError
 from cltp.llm.causal_lm import load_language, small_lm
 from cltp.llm.fast_decode import FastDecoder
-from cltp.llm.stored_lm import load_stored_lm
+from cltp.llm.stored_lm import load_stored_lm, write_seed_oss_config
 from cltp.texts.tokenizer import Words
 
 
@@ -65,6 +65,33 @@ def test_another_architecture_is_refused(folder: Path, change: dict[str, object]
     path.write_text(json.dumps({**json.loads(path.read_text()), **change}))
     with pytest.raises(TouchError, match="no language model of ours"):
         load_stored_lm(folder)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"attention_bias": False}, {"attention_out_bias": True}, {"mlp_bias": True}, {"head_dim": 16}],
+)
+def test_another_seed_oss_is_refused(folder: Path, change: dict[str, object]) -> None:
+    write_seed_oss_config(folder)
+    load_stored_lm(folder)
+    path = folder / "config.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), **change}))
+    with pytest.raises(TouchError, match="describes no language model"):
+        load_stored_lm(folder)
+
+
+def test_both_names_of_the_model_decode_the_same(folder: Path) -> None:
+    inputs = torch.randn(30, 48)
+    qwen2, before = load_language(folder).lm, FastDecoder(load_stored_lm(folder)).prefill(inputs)
+    write_seed_oss_config(folder)
+    seed_oss, after = load_language(folder).lm, FastDecoder(load_stored_lm(folder)).prefill(inputs)
+    assert (type(qwen2).__name__, type(seed_oss).__name__) == (
+        "Qwen2ForCausalLM", "SeedOssForCausalLM"
+    )  # fmt: skip
+    torch.testing.assert_close(after, before, atol=0, rtol=0)
+    with torch.no_grad():
+        one, two = (lm(inputs_embeds=inputs[None]).logits for lm in (qwen2, seed_oss))
+    torch.testing.assert_close(two, one, atol=0, rtol=0)
 
 
 @pytest.mark.parametrize("text", ["", "[]", "{}", '{"model_type": "qwen2"}'])
