@@ -19,7 +19,14 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.checkpoints.manifest import WeightsError, check_manifest
-from cltp.checkpoints.tac3d_llm import check_room, load_encoder, random_encoder
+from cltp.checkpoints.parts import (
+    ENCODER,
+    StoredEncoder,
+    check_model_type,
+    check_room,
+    named,
+    random_encoder,
+)
 from cltp.checkpoints.weight_files import (
     CONFIG,
     digest,
@@ -107,7 +114,12 @@ def frozen(encoder: TactileEncoder) -> Frozen:
 
 def save_frozen(folder: Path, encoder: TactileEncoder, method: str) -> None:
     """Write an encoder without heads, in 32 bits."""
-    config = {"format": FORMAT, "method": method, "encoder": dataclasses.asdict(encoder.config)}
+    config = {
+        **named(ENCODER, TactileEncoder),
+        "format": FORMAT,
+        "method": method,
+        "encoder": dataclasses.asdict(encoder.config),
+    }
     save_weights(folder, config, encoder.state_dict())
 
 
@@ -122,7 +134,8 @@ def load_frozen(folder: Path) -> Frozen:
     check_manifest(folder)
     config = read_config(folder / CONFIG)
     if config.get("format") != FORMAT:
-        return frozen(load_encoder(folder)[0])
+        return frozen(StoredEncoder.from_pretrained(folder).encoder)
+    check_model_type(folder, config, ENCODER)
     check_room(folder, config)
     encoder = random_encoder(folder, config)
     load_weights(folder, encoder)

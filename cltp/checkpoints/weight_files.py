@@ -43,6 +43,20 @@ def save_weights(
     write_manifest(folder, trained_with=trained_with)
 
 
+def require_files(folder: Path) -> None:
+    """Refuse a folder without configuration or weights.
+
+    Raises:
+        WeightsError: It names the missing file.
+    """
+    for name in (CONFIG, WEIGHTS):
+        if not (Path(folder) / name).is_file():
+            raise WeightsError(
+                f"weights are missing: {Path(folder) / name} does not exist; "
+                "train them with `tacgrasp train all` or name the right folder"
+            )
+
+
 def read_config(path: Path) -> dict[str, Any]:
     """Read a configuration.
 

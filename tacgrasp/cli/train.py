@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -202,6 +203,19 @@ class ManifestFlags:
     weights: Path
 
 
+@dataclass(frozen=True)
+class LayoutFlags:
+    """Write configuration, tokenizer and model card of a folder of weights in today's layout.
+
+    The weights stay as they are, byte for byte, and the answers too.
+
+    Attributes:
+        weights: Folder of weights, or of one method: its parts are encoder, clip, projector, lm.
+    """
+
+    weights: Path
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
@@ -213,6 +227,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
     "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
+    "layout": (LayoutFlags, "Bring older weights into today's layout, without training."),
     "probe": (TrainProbeFlags, "MLPs on frozen encoders, measured as by tacgrasp eval probe."),
     "all-methods": (TrainAllMethodsFlags, "clip, cltp, all baselines, their tables, the report."),
 }
@@ -229,15 +244,18 @@ def main(argv: Sequence[str]) -> int:
         count = getattr(flags, name, None)
         if count is not None and count < 1:
             raise UsageError(f"--{name} must be at least 1, got {count}")
+    command = shlex.join(["tacgrasp", "train", stage, *rest])
     if isinstance(flags, MethodsFlags):
-        flags.train(stage, " ".join(["tacgrasp train", stage, *rest]))
+        flags.train(stage, command)
         return 0
-    from tacgrasp.training.train import train_all, train_language_model, write_manifests
+    from tacgrasp.training import train
 
     if isinstance(flags, ManifestFlags):
-        write_manifests(flags.weights)
+        train.write_manifests(flags.weights)
+    elif isinstance(flags, LayoutFlags):
+        train.renew_weights(flags.weights)
     elif isinstance(flags, TrainLlmRequest):
-        train_language_model(flags)
+        train.train_language_model(flags, command)
     else:
-        train_all(flags)
+        train.train_all(flags, command)
     return 0

@@ -20,13 +20,14 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.card import PARTS, write_card
+from cltp.checkpoints.layout import renew_layout
 from cltp.checkpoints.manifest import write_manifest
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
     load_encoder,
     load_touching_encoder,
     size_bytes,
-    write_card,
 )
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
@@ -44,7 +45,6 @@ from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
 from tacgrasp.pretraining.run_all import pretraining_run
 from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
 
-PARTS = ("clip", "encoder", "projector", "lm")
 PRETRAINED = "pretraining.json"
 """File beside the encoder: how it was pre-trained."""
 
@@ -52,10 +52,11 @@ BLIND_MARK = Path(".training") / "blind"
 """File in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
 
 
-def train_all(request: TrainAllRequest) -> None:
+def train_all(request: TrainAllRequest, command: str) -> None:
     """Run the stages clip, cltp and llm one after another, as their own commands do.
 
-    CLIP and CLTP are pre-trained in ``request.out / ".training" / "methods"``.
+    CLIP and CLTP are pre-trained in ``request.out / ".training" / "methods"``. ``command`` is the
+    command line, for the model card.
 
     Raises:
         UsageError: ``request.out`` holds other weights.
@@ -65,18 +66,19 @@ def train_all(request: TrainAllRequest) -> None:
     _require_mark(out, blind=False)
     generate(GenerateRequest(out=data, set="starter", contacts=request.contacts, seed=seed))
     methods = out / ".training" / "methods"
-    command = f"tacgrasp train all --contacts {request.contacts} --seed {seed}"
-    with pretraining_run(methods, data, seed=seed, command=command, threads=threads) as run:
+    # Tells encoders apart (``take_pretrained``): folders and threads may change when it goes on.
+    identity = f"tacgrasp train all --contacts {request.contacts} --seed {seed}"
+    with pretraining_run(methods, data, seed=seed, command=identity, threads=threads) as run:
         pretrain_clip(run)
         pretrain("cltp", run)
-    train_language_model(TrainLlmRequest(**vars(request), methods=methods), "tacgrasp train all")
+    train_language_model(TrainLlmRequest(**vars(request), methods=methods), command)
 
 
-def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp train llm") -> None:
+def train_language_model(request: TrainLlmRequest, command: str) -> None:
     """Train the language model behind the encoder and CLIP in a folder, and write its card.
 
     Of an instruction-blind copy (the control of ``tacgrasp eval``), every instruction is hidden
-    from the language model. ``command`` is for the model card.
+    from the language model. ``command`` is the command line, for the model card.
 
     Raises:
         UsageError: ``request.out`` holds other weights, or both folders are given.
@@ -109,8 +111,7 @@ def train_language_model(request: TrainLlmRequest, command: str = "tacgrasp trai
     if _digest(out) == before:
         return  # nothing was left to do: the card with its scores still holds
     facts = {
-        "command": f"`{command} --contacts {contacts} --seed {seed}"
-        + ("`" if request.start is None else f" --start {request.start}`"),
+        "command": f"`{command}`",
         "seed": str(seed),
         "contacts": str(contacts),
         "data checksum": ContactDataset(data).checksum(),
@@ -199,6 +200,22 @@ def write_manifests(weights: Path) -> None:
             write_manifest(part, trained_with=partners)
     except OSError as error:
         raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
+
+
+def renew_weights(weights: Path) -> None:
+    """Bring a folder of weights into today's layout, and print what was written.
+
+    Raises:
+        UsageError: It can't be written.
+        TouchError: As ``cltp.checkpoints.layout.renew_layout``.
+    """
+    try:
+        parts = renew_layout(weights)
+    except OSError as error:
+        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
+    size_mb = sum(size_bytes(weights / name) for name in parts) / 1e6
+    line = f"layout: {weights} with {', '.join(parts)}, {size_mb:.1f} MB"
+    Console(soft_wrap=True).print(line, markup=False, highlight=False)
 
 
 def _digest(out: Path) -> str:

@@ -1,6 +1,7 @@
 """The language model on the command line: what it is asked, and everything that can be wrong."""
 
 import json
+import shlex
 import shutil
 import subprocess
 import sys
@@ -442,8 +443,9 @@ def test_train_all_carries_out_the_stages_in_order_and_writes_a_card(
         assert same == (weights / part / "model.safetensors").read_bytes()
     card = out / "README.md"
     checksum = ContactDataset(data).checksum()
-    command = "tacgrasp train all --contacts 40 --seed 0"
-    for fact in (f"| `{command}` |", f"| `{command}`: small_graded, 5000 steps", checksum, "size"):
+    command = shlex.join(["tacgrasp", *argv, "--threads", "1"])
+    pretraining = "`tacgrasp train all --contacts 40 --seed 0`: small_graded, 5000 steps"
+    for fact in (f"| command | `{command}` |", pretraining, checksum, "| size | "):
         assert fact in card.read_text()
     card.write_text(card.read_text() + "scored")
     assert main([*argv, "--threads", "2"]) == 0  # nothing was left to do: the card keeps its scores
