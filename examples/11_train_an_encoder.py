@@ -9,7 +9,7 @@ The defaults only show the way: 24000 contacts and 2200 steps make weights that 
 import sys
 from pathlib import Path
 
-from cltp.checkpoints.tac3d_llm import load_touching_encoder
+from cltp.checkpoints.tac3d_llm import load_encoder
 from tacgrasp.__main__ import main
 
 
@@ -32,6 +32,6 @@ tacgrasp("data", "stats", data)
 tacgrasp("train", "clip", "--data", data, "--out", out, *few)
 tacgrasp("train", "cltp", "--data", data, "--out", out, *few, "--preset", "tiny")
 
-encoder, heads = load_touching_encoder(out / "cltp" / "encoder")
+encoder, heads = load_encoder(out / "cltp" / "encoder")
 num = sum(parameter.numel() for parameter in [*encoder.parameters(), *heads.parameters()])
 print(f"{out / 'cltp' / 'encoder'}: {num / 1e3:.0f} thousand parameters, {encoder.config}")

@@ -13,7 +13,7 @@ from pathlib import Path
 import torch
 from transformers import PreTrainedTokenizerFast, Qwen2Config, Qwen2ForCausalLM
 
-from cltp.checkpoints.tac3d_llm import load_touching_encoder
+from cltp.checkpoints.tac3d_llm import load_encoder
 from cltp.llm.causal_lm import load_language
 from cltp.llm.generation import Talker
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -47,13 +47,13 @@ torch.manual_seed(0)
 torch.set_num_threads(1)
 folder = Path(sys.argv[1]) if len(sys.argv) > 1 else tiny_qwen(Path("tiny_qwen"))
 language = load_language(folder)  # strict: every weight there, of the right shape, finite
-encoder, heads = load_touching_encoder(default_weights() / "encoder")
+encoder, heads = load_encoder(default_weights() / "encoder")
 model = Tac3dLlm(encoder, heads, Projector(encoder.config.dim, language.dim), language)
 print(f"{type(language.lm).__name__} of width {language.dim} behind {model.num_touch} touch tokens")
 
 rig = build("strawberry", 6, start_offset_mm=(0.0, 0.0))
 rig.gripper.grip(1.0)
-points = encoder_input(rig.sensor.read())
+points = encoder_input(rig.sensor.read(), encoder.config.variant.layout)
 reply = Talker(model).reply(points, "Say what to do.", max_tokens=24)
 print(f"it says: {reply.text!r}")
 print(f"read from it: {extract(reply.text).reason}")

@@ -148,7 +148,7 @@ class LlmPolicy:
             barred: Tokens of actions that what is felt refutes; the most probable other is taken.
         """
         begin = self._clock()
-        points = encoder_input(observation.cloud)
+        points = encoder_input(observation.cloud, self._talker.layout)
         sampled = self._clock()
         excluded = (*repeated_moves(self._moves), *barred)
         penalties = ACTION_PENALTIES | dict.fromkeys(excluded, math.inf)
@@ -183,7 +183,8 @@ class LlmPolicy:
         """
         self.check(question)
         factor = cloud.force_scale.factor
-        reply = self._talker.reply(encoder_input(cloud), question, force_factor=factor)
+        points = encoder_input(cloud, self._talker.layout)
+        reply = self._talker.reply(points, question, force_factor=factor)
         if not reply.ended:
             raise PolicyError(
                 f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "

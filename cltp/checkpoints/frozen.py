@@ -36,7 +36,7 @@ from cltp.checkpoints.weight_files import (
 )
 from cltp.data.sampler import Augmentation, Batch
 from cltp.encoder.encoder import TactileEncoder
-from cltp.tactile.point_layout import Sampling
+from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.render import render
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec
@@ -58,7 +58,7 @@ class FrozenEncoder(Protocol):
         ...
 
     @property
-    def sampling(self) -> Sampling:
+    def layout(self) -> PointLayout:
         """How the points lie that it takes."""
         ...
 
@@ -72,7 +72,7 @@ class FrozenEncoder(Protocol):
         ...
 
     def read(self, inputs: Tensor) -> tuple[Tensor, Tensor]:
-        """The same of scaled points (B, 1024, 3), or of frames (B, 3, 64, 64)."""
+        """The same of scaled points (B, N, 3), or of frames (B, 3, 64, 64)."""
         ...
 
 
@@ -93,8 +93,8 @@ class Frozen:
         return self.encoder.config.variant.takes_images
 
     @property
-    def sampling(self) -> Sampling:
-        return self.encoder.config.variant.sampling
+    def layout(self) -> PointLayout:
+        return self.encoder.config.variant.layout
 
     @torch.inference_mode()
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:

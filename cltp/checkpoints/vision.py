@@ -26,7 +26,7 @@ from cltp.checkpoints.weight_files import (
 from cltp.data.sampler import Batch
 from cltp.encoder.strict_loading import load_strictly
 from cltp.errors import TouchError
-from cltp.tactile.point_layout import EVEN, Sampling
+from cltp.tactile.point_layout import EVEN, PointLayout
 
 _CLIP_MEAN = (0.48145466, 0.4578275, 0.40821073)
 _CLIP_STD = (0.26862954, 0.26130258, 0.27577711)
@@ -51,7 +51,7 @@ class VisionCheckpoint:
     std: Tensor
     sha256: str
     sees_images: ClassVar[bool] = True
-    sampling: ClassVar[Sampling] = EVEN
+    layout: ClassVar[PointLayout] = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
         """As ``cltp.checkpoints.frozen.Frozen.encode``; it can't do without frames.

@@ -6,17 +6,19 @@ Loads no torch.
 from __future__ import annotations
 
 import dataclasses
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.placement import draw_placement, move
-from cltp.tactile.encoder_input import in_lattice, scaled
+from cltp.tactile.cells import height_grid, resampled
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.encoder_input import grid_points, in_lattice, scaled, unscaled
 from cltp.tactile.markers import densified, marker_cloud
 from cltp.tactile.noise_levels import NoiseLevels, NoiseRange
-from cltp.tactile.point_layout import EVEN, Sampling
+from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Side, position_word
@@ -28,13 +30,13 @@ class Batch:
 
     Attributes:
         index: Shape (B,), indices of the contacts in their data set.
-        points: Shape (B, N, 3), float32, scaled, in lattice order; N is 1024 unless the sampler's
-            ``sampling`` has another number of points.
+        points: Shape (B, N, 3), float32, scaled, row by row in the sampler's layout.
         height_mm: Clean heights behind each cloud, mirrored and moved alike; for rendering.
         sensors: Their sensors.
         states: Labels, mirrored and moved alike; forces are those of the sensor's nominal gel.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
         moved: Shape (B,), bool: shifted or turned after that.
+        layout: Layout of the points.
     """
 
     index: NDArray[np.int64]
@@ -44,6 +46,11 @@ class Batch:
     states: list[ContactState]
     mirror: NDArray[np.bool_]
     moved: NDArray[np.bool_]
+    layout: PointLayout = EVEN
+
+    def cloud(self, row: int) -> TactileCloud:
+        """The cloud that one row of the points is of."""
+        return unscaled(self.points[row], self.sensors[row], self.layout)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,12 +63,15 @@ class Augmentation:
         uncalibrated: Fraction of samples whose unit also has unequal gradient gains.
         mirror: Whether contacts are mirrored along x, along y and along both.
         clean: Fraction of samples without noise, as of a perfect sensor.
+        loose: Fraction of samples of which a grid is given 1024 points alone, as clouds in files
+            have them; an even layout always has so many.
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
     uncalibrated: float = 0.25
     mirror: bool = True
     clean: float = 0.0
+    loose: float = field(default=0.0, repr=False)  # names of trainings without it stay
 
     @property
     def is_noisy(self) -> bool:
@@ -86,12 +96,9 @@ class Sampler:
         dataset: Source of the contacts.
         augmentation: Variation of the contacts.
         seed: Random seed of order, variation, noise and points.
-        sampling: Layout of the points.
+        layout: Layout of the points.
         moved: Fraction of contacts that are shifted and turned on the pad
             (``cltp.data.placement``).
-
-    Points can be missing from the even layout alone: it is the one that sensors' clouds are brought
-    into, where the gaps are filled.
     """
 
     def __init__(
@@ -100,10 +107,10 @@ class Sampler:
         augmentation: Augmentation | None = None,
         *,
         seed: int = 0,
-        sampling: Sampling = EVEN,
+        layout: PointLayout = EVEN,
         moved: float = 0.0,
     ) -> None:
-        self.dataset, self.sampling, self.moved = dataset, sampling, moved
+        self.dataset, self.layout, self.moved = dataset, layout, moved
         self.augmentation = augmentation or Augmentation()
         self.seed = seed
         self._orders: dict[int, NDArray[np.int64]] = {}
@@ -138,6 +145,7 @@ class Sampler:
             states=states,
             mirror=mirror,
             moved=moved,
+            layout=self.layout,
         )
 
     def numbered(self, batch_size: int, step: int) -> Batch:
@@ -156,27 +164,62 @@ class Sampler:
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
     ) -> NDArray[np.float32]:
-        """One cloud of clean heights: shape (side², 3), scaled, in lattice order.
+        """One cloud of clean heights: shape (N, 3), scaled, row by row in the layout.
 
         With noise the median height is 0, since photometric sensors lose the constant. A cloud
         without noise is that of a perfect sensor, whose heights count from the untouched gel.
         """
-        varied = self.augmentation
-        spread = spread_of(sensor)
+        unit = self._unit(sensor, rng)
+        if self.layout.is_sampled:
+            return self._sampled(height_mm, sensor, unit, rng)
+        return grid_points(self._grid(height_mm, sensor, unit, rng), sensor)
+
+    def _unit(self, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit | None:
+        """The errors of one sample; None for a perfect sensor."""
+        varied, spread = self.augmentation, spread_of(sensor)
         gain = spread.gain_log_ratio if rng.random() < varied.uncalibrated else 0.0
-        unit = None
-        if varied.is_noisy and not (varied.clean > 0 and rng.random() < varied.clean):
-            levels = varied.draw_levels(rng)
-            unit = NoiseUnit.draw(rng, levels, gain_log_ratio=gain, spread=spread)
+        if not varied.is_noisy or (varied.clean > 0 and rng.random() < varied.clean):
+            return None
+        return NoiseUnit.draw(rng, varied.draw_levels(rng), gain_log_ratio=gain, spread=spread)
+
+    def _grid(
+        self,
+        height_mm: NDArray[np.float32],
+        sensor: SensorSpec,
+        unit: NoiseUnit | None,
+        rng: np.random.Generator,
+    ) -> NDArray[np.float32]:
+        """Heights in the cells of the layout [mm], of all that the sensor gives."""
+        if sensor.markers is not None:
+            return height_grid(marker_cloud(height_mm, sensor, unit=unit, rng=rng), self.layout)
+        if unit is not None:
+            height_mm = unit.apply(height_mm, sensor, rng)
+        if self.augmentation.loose > 0 and rng.random() < self.augmentation.loose:
+            points = sampled(height_mm, sensor, EVEN, rng).astype(np.float32)
+            if unit is not None:
+                points = unit.received(points, rng)
+            return height_grid(TactileCloud(points_mm=points, sensor=sensor), self.layout)
+        known = None
+        if unit is not None and unit.point_loss > 0:
+            known = rng.random(height_mm.shape, np.float32) >= unit.point_loss
+        return resampled(height_mm, self.layout, known)
+
+    def _sampled(
+        self,
+        height_mm: NDArray[np.float32],
+        sensor: SensorSpec,
+        unit: NoiseUnit | None,
+        rng: np.random.Generator,
+    ) -> NDArray[np.float32]:
+        """One point in each cell of the layout, scaled."""
         if sensor.markers is not None:
             sparse = marker_cloud(height_mm, sensor, unit=unit, rng=rng)
-            dense = densified(sparse, rng=rng, num_points=self.sampling.side**2)
+            dense = densified(sparse, rng=rng, num_points=self.layout.num_points)
             return scaled(dense.points_mm, sensor)
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
-        points = sampled(height_mm, sensor, self.sampling, rng)
-        is_partial = unit is not None and (unit.point_loss > 0 or unit.shuffled)
-        if unit is not None and is_partial and self.sampling == EVEN:
+        points = sampled(height_mm, sensor, self.layout, rng)
+        if unit is not None and (unit.point_loss > 0 or unit.shuffled):
             points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
         return scaled(points, sensor)
 
@@ -200,14 +243,21 @@ def mirrored(
 
 
 def sampled(
-    height_mm: NDArray[np.float32], sensor: SensorSpec, sampling: Sampling, rng: np.random.Generator
+    height_mm: NDArray[np.float32],
+    sensor: SensorSpec,
+    layout: PointLayout,
+    rng: np.random.Generator,
 ) -> NDArray[np.float32]:
-    """Points of a height map of the whole sensing area, shape (side², 3) [mm], in lattice order.
+    """Points of a height map of the whole sensing area, one at random in each cell of a layout.
 
-    ``cltp.tactile.cloud.cloud_from_heights`` without its checks, in float32: it runs at every pass.
+    Shape (N, 3) [mm], row by row. ``cltp.tactile.cloud.cloud_from_heights`` without its checks, in
+    float32: it runs at every pass.
     """
     rows, columns = height_mm.shape
-    u, v = sampling.positions(height_mm, rng)
+    down, across = np.divmod(np.arange(layout.num_points), layout.columns)
+    jitter = rng.random((2, layout.num_points), np.float32)
+    u = (across.astype(np.float32) + jitter[0]) / layout.columns
+    v = (down.astype(np.float32) + jitter[1]) / layout.rows
     row = np.clip(v * rows - 0.5, 0, rows - 1)
     column = np.clip(u * columns - 0.5, 0, columns - 1)
     r0 = np.minimum(row.astype(np.int32), rows - 2)

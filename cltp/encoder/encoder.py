@@ -18,9 +18,14 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.class_token import ClassTokenFeatures, HeightQuantiles, HeightTerms
-from cltp.encoder.tokenizers import FpsTokenizer, LatticeTokenizer, PatchTokenizer
+from cltp.encoder.tokenizers import (
+    FpsTokenizer,
+    GridTokenizer,
+    LatticeTokenizer,
+    PatchTokenizer,
+)
 from cltp.errors import TouchError
-from cltp.tactile.point_layout import CONTACT_ADAPTIVE, EVEN, FINE, Sampling
+from cltp.tactile.point_layout import EVEN, GRID, PointLayout
 
 Sizes = Mapping[str, int]
 """Sizes of an ``EncoderConfig`` that differ from its defaults."""
@@ -33,56 +38,53 @@ class EncoderVariant:
     Attributes:
         build: Makes the tokenizer of a configuration, with random weights.
         presets: Named sizes.
-        sampling: How the points lie that it takes.
-        group_counts: Numbers of groups that it can make; None for any.
-        is_lattice: Whether its groups stand at fixed positions, which the class token can read
+        layout: How the points lie that it takes.
+        groups: Number of groups that it makes; None for any.
+        has_places: Whether its groups stand at fixed positions, which the class token can read
             directly (``cltp.encoder.class_token``).
         takes_images: Whether it takes pixels (B, 3, 64, 64) instead of points.
     """
 
     build: Callable[[EncoderConfig], nn.Module]
     presets: Mapping[str, Sizes]
-    sampling: Sampling = EVEN
-    group_counts: tuple[int, ...] | None = None
-    is_lattice: bool = False
+    layout: PointLayout = EVEN
+    groups: int | None = None
+    has_places: bool = False
     takes_images: bool = False
 
 
-def _lattice(sampling: Sampling, presets: Mapping[str, Sizes]) -> EncoderVariant:
-    return EncoderVariant(
-        build=lambda c: LatticeTokenizer(c.dim, c.stem_dim, c.stem_blocks, c.num_groups, sampling),
-        presets=presets,
-        sampling=sampling,
-        group_counts=(16, 64, 256),
-        is_lattice=True,
-    )
-
-
 _READING = {"bearing": 64, "projection": 256}
-"""Height quantiles and a hidden layer before the feature, as all small lattices but one have."""
+"""Height quantiles and a hidden layer before the feature."""
 
 VARIANTS: Mapping[str, EncoderVariant] = {
-    # Ours. Clouds have one point in each of 32 × 32 cells, so that neighbours are known without a
-    # search: convolutions over the lattice of points mix a point with its neighbours, and each of
-    # 8 × 8 groups becomes a token. It learns the same contacts many times faster (README).
-    "lattice": _lattice(
-        EVEN,
-        {
+    # Ours: all heights in 75 × 100 cells, convolutions down to 7 × 9 groups.
+    "grid": EncoderVariant(
+        build=lambda c: GridTokenizer(c.dim, c.stem_dim, c.stem_blocks),
+        presets={
+            "grid": {**_READING, "num_groups": 63, "stem_dim": 32, "grades": 60},
+            "tiny_grid": {
+                **{"num_groups": 63, "dim": 48, "depth": 1, "heads": 2, "stem_dim": 4},
+                **{"bearing": 16},
+            },
+        },
+        layout=GRID,
+        groups=GridTokenizer.GROUPS,
+        has_places=True,
+    ),
+    # Ours, of the paper's 1024 points. They have one point in each of 32 × 32 cells, so that
+    # neighbours are known without a search: convolutions over the lattice of points mix a point
+    # with its neighbours, and each of 8 × 8 groups becomes a token. It learns the same contacts
+    # many times faster than groups around farthest points (README).
+    "lattice": EncoderVariant(
+        build=lambda c: LatticeTokenizer(c.dim, c.stem_dim, c.stem_blocks),
+        presets={
             "tiny": {"dim": 48, "depth": 1, "heads": 2, "stem_dim": 8},
             "small": _READING,
-            "small_plain": {},
             "small_graded": {**_READING, "grades": 60},
-            "small_16": {"num_groups": 16, **_READING},
-            "small_256": {"num_groups": 256, **_READING},
         },
+        groups=LatticeTokenizer.GROUPS,
+        has_places=True,
     ),
-    # 1024 points with contact-adaptive sampling, and 4096 points, evenly. Both are compared with
-    # the paper's uniform sampling: clouds of sensors have 1024 points, evenly.
-    "pressed": _lattice(
-        CONTACT_ADAPTIVE,
-        {"small_pressed": _READING, "small_pressed_graded": {**_READING, "grades": 60}},
-    ),
-    "fine": _lattice(FINE, {"small_fine": _READING}),
     # The reference. Group centres by farthest point sampling, their nearest points relative to the
     # centre, a small PointNet with a maximum over each group. "pointbert" is Point-BERT at 1024
     # points, "ulip2" as deep as ULIP-2, for CLIP ViT-bigG-14.
@@ -99,7 +101,7 @@ VARIANTS: Mapping[str, EncoderVariant] = {
     "image": EncoderVariant(
         build=lambda c: PatchTokenizer(c.dim),
         presets={"small_image": {}},
-        group_counts=(64,),
+        groups=64,
         takes_images=True,
     ),
 }
@@ -133,10 +135,10 @@ class EncoderConfig:
         heads: Number of attention heads; divides ``dim``.
         num_groups: Number of tokens beside the class token.
         group_size: Number of points in a group of ``fps``.
-        stem_dim: Channels of a lattice before its groups; width of the PointNet in ``fps``.
-        stem_blocks: Pairs of convolutions over a lattice.
+        stem_dim: Channels of the first convolution; width of the PointNet in ``fps``.
+        stem_blocks: Pairs of convolutions over a lattice, or at either size of a grid.
         feature_dim: Width of the aligned feature, that of CLIP.
-        bearing: Number of height quantiles beside a lattice; 0 for none.
+        bearing: Number of height quantiles beside the groups; 0 for none.
         projection: Hidden width between the pooled tokens and the aligned feature; 0 for one
             matrix, as in the paper.
         grades: Bins of the piecewise linear encoding of height quantiles; 0 for none.
@@ -169,14 +171,13 @@ class EncoderConfig:
             raise TouchError(f"unknown tokenizer {self.tokenizer!r}; known: {', '.join(VARIANTS)}")
         if self.dim % self.heads:
             raise TouchError(f"dim {self.dim} must be a multiple of heads {self.heads}")
-        counts = self.variant.group_counts
-        if counts is not None and self.num_groups not in counts:
-            several = ", ".join(map(str, counts))
-            raise TouchError(f"{self.tokenizer} has {several} groups, got {self.num_groups}")
+        groups = self.variant.groups
+        if groups not in (None, self.num_groups):
+            raise TouchError(f"{self.tokenizer} has {groups} groups, got {self.num_groups}")
         if self.grades and not self.bearing:
             raise TouchError(f"{self.grades} grades need height quantiles, got a bearing of 0")
-        if self.bearing and not self.variant.is_lattice:
-            raise TouchError(f"height quantiles are for a lattice, not for {self.tokenizer}")
+        if self.bearing and not self.variant.has_places:
+            raise TouchError(f"height quantiles are not for {self.tokenizer}")
 
     @property
     def variant(self) -> EncoderVariant:
@@ -223,13 +224,11 @@ class TactileEncoder(nn.Module):
         dim = config.dim
         self.tokenizer = config.variant.build(config)
         self.cls = nn.Parameter(torch.randn(1, 1, dim) * 0.02)
-        is_lattice = config.variant.is_lattice
-        self.survey = ClassTokenFeatures(dim, config.num_groups) if is_lattice else None
+        has_places = config.variant.has_places
+        self.survey = ClassTokenFeatures(dim, config.num_groups) if has_places else None
         self.bearing = None
         if config.bearing:
-            self.bearing = HeightQuantiles(
-                dim, config.bearing, grades=config.grades, sampling=config.variant.sampling
-            )
+            self.bearing = HeightQuantiles(dim, config.bearing, grades=config.grades)
         self.blocks = nn.ModuleList(
             TransformerBlock(dim, config.heads) for _ in range(config.depth)
         )
@@ -247,10 +246,10 @@ class TactileEncoder(nn.Module):
     def forward(self, points: Tensor) -> Encoded:
         """Encode scaled points, shape (B, N, 3), or pixels, where the variant takes images.
 
-        A lattice needs the order of ``cltp.tactile.encoder_input``.
+        Points have the variant's layout and the order of ``cltp.tactile.encoder_input``.
         """
         tokens = self.tokenizer(points)
-        terms = None if self.bearing is None else self.bearing(points, tokens)
+        terms = None if self.bearing is None else self.bearing(points)
         x = self.mixed(tokens, self.class_token(tokens, terms))
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
         if terms is not None:

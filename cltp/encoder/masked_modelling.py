@@ -20,7 +20,7 @@ from torch import Tensor, nn
 from cltp.encoder.encoder import EncoderConfig, TactileEncoder, TransformerBlock
 from cltp.encoder.tokenizers import FpsTokenizer
 from cltp.errors import TouchError
-from cltp.tactile.encoder_input import LATTICE
+from cltp.tactile.point_layout import LATTICE
 
 MAE_MASKED = 0.6
 """Fraction of hidden patches. Source: Point-MAE, section 3.1 and its ablation."""
@@ -52,11 +52,10 @@ def patches(encoder: TactileEncoder, points: Tensor) -> Patches:
     tokenizer = encoder.tokenizer
     if isinstance(tokenizer, FpsTokenizer):
         return Patches(*tokenizer.groups(points))
-    config = encoder.config
-    if config.tokenizer != "lattice" or config.num_groups != (LATTICE // _CELL) ** 2:
+    if encoder.config.tokenizer != "lattice":
         raise TouchError(
-            "masked pre-training is for a lattice of 64 groups or for fps, not for "
-            f"{config.num_groups} groups of {config.tokenizer}"
+            "masked pre-training is for groups of points, a lattice's or fps', not for "
+            f"{encoder.config.tokenizer}"
         )
     side = LATTICE // _CELL
     grid = points.view(-1, side, _CELL, side, _CELL, 3).transpose(2, 3)
@@ -67,7 +66,7 @@ def patches(encoder: TactileEncoder, points: Tensor) -> Patches:
 
 def patch_size(config: EncoderConfig) -> int:
     """Number of points in each of an encoder's ``patches``."""
-    return _CELL * _CELL if config.variant.is_lattice else config.group_size
+    return _CELL * _CELL if config.variant.has_places else config.group_size
 
 
 def visible_tokens(
@@ -94,7 +93,7 @@ def visible_tokens(
         points = torch.where(whole.reshape(len(points), -1, 1), points * flat, points)
         tokens = tokenizer(points)
     tokens = tokens * ~hidden[..., None]
-    terms = None if encoder.bearing is None else encoder.bearing(points, tokens)
+    terms = None if encoder.bearing is None else encoder.bearing(points)
     return tokens, encoder.class_token(tokens, terms)
 
 

@@ -25,6 +25,7 @@ from cltp.checkpoints.frozen import FrozenEncoder, noisy_frames
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Augmentation, Batch, Sampler
 from cltp.errors import TouchError
+from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.states import NUMBERS
 from cltp.train.stage import ProgressReport, silent
 from cltp.train.text_targets import class_numbers
@@ -91,7 +92,7 @@ def encode_contacts(
         "order": hashlib.sha256(rows.tobytes()).hexdigest(),
     }
     name = hashlib.sha256(json.dumps(key, sort_keys=True).encode()).hexdigest()[:20]
-    sampler = Sampler(data, noise, seed=seed, sampling=encoder.sampling)
+    sampler = Sampler(data, noise, seed=seed, layout=encoder.layout)
     blocks = []
     for first in range(0, len(rows), BLOCK):
         number, of_block = first // BLOCK, rows[first : first + BLOCK]
@@ -131,10 +132,15 @@ def numbered_batches(
 
 
 def random_batches(
-    data: ContactDataset, limit: int, noise: Augmentation = NOISY, *, seed: int = 0
+    data: ContactDataset,
+    limit: int,
+    noise: Augmentation = NOISY,
+    *,
+    seed: int = 0,
+    layout: PointLayout = EVEN,
 ) -> list[Batch]:
     """Noisy clouds of up to ``limit`` contacts spread over a split, the same at every call."""
-    sampler = Sampler(data, noise, seed=seed)
+    sampler = Sampler(data, noise, seed=seed, layout=layout)
     chosen = np.random.default_rng(seed).permutation(len(data))[:limit]
     parts = np.array_split(chosen, -(-len(chosen) // _BATCH))
     return [sampler.batch(part, number) for number, part in enumerate(parts)]

@@ -21,7 +21,7 @@ class HeightsAlone:
 
     sha256 = f"heights alone, {_SAMPLES} and {_GRADES} grades"
     sees_images = False
-    sampling = EVEN
+    layout = EVEN
 
     def encode(self, batch: Batch, frames: Tensor | None) -> tuple[Tensor, Tensor]:
         """Scaled heights and their piecewise linear encoding (B, 1024), and no feature (B, 1)."""

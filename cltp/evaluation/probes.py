@@ -42,7 +42,7 @@ _DEPTH = list(CLASSES).index("depth")
 @torch.inference_mode()
 def predict_with_heads(heads: StateHeads, encoded: EncodedContacts) -> Predictions:
     """What state heads that were trained with the encoder predict."""
-    logits, numbers, _, _ = heads(encoded.pooled)
+    logits, numbers, *_ = heads(encoded.pooled)
     return Predictions(best_classes(logits), restored(numbers).numpy())
 
 

@@ -48,9 +48,9 @@ EVALUATION_SPLITS = (
     EvaluationSplit("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
 )
 
-LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2)
+LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05)
 """Noise of the contacts that methods and probes learn from: drawn from wide ranges, none in a fifth
-of them."""
+of them. Some come as 1024 loose points, as clouds in files do."""
 
 
 def evaluation_splits(data_dir: Path, names: tuple[str, ...] = ()) -> list[EvaluationSplit]:

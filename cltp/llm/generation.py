@@ -22,6 +22,7 @@ from torch import Tensor
 from cltp.llm.causal_lm import CUE, Language
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
+from cltp.tactile.point_layout import PointLayout
 from cltp.texts.tokenizer import ACTIONS
 
 MAX_TOKENS = 96
@@ -69,6 +70,11 @@ class Talker:
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
 
+    @property
+    def layout(self) -> PointLayout:
+        """How the points lie that it takes."""
+        return self.model.layout
+
     @torch.inference_mode()
     def reply(
         self,
@@ -82,7 +88,7 @@ class Talker:
         """Ask about one contact.
 
         Args:
-            points: Shape (1024, 3), from ``cltp.tactile.encoder_input.encoder_input``.
+            points: Shape (N, 3), from ``cltp.tactile.encoder_input`` in the encoder's ``layout``.
             prompt: A person's question or instruction.
             max_tokens: Bound on the tokens of the reply.
             penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which

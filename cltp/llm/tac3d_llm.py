@@ -17,6 +17,7 @@ from cltp.encoder.encoder import Encoded, TactileEncoder
 from cltp.encoder.heads import HeadsOutput, StateHeads, scaled_force
 from cltp.llm.causal_lm import Language
 from cltp.llm.reading_tokens import NUM_READINGS, ReadingTokens
+from cltp.tactile.point_layout import PointLayout
 from cltp.texts.exchange_packing import NOT_LEARNED, Packed
 
 
@@ -66,8 +67,13 @@ class Tac3dLlm(nn.Module):
         """Number of touch tokens before a prompt: the groups, the class token and the readings."""
         return self.encoder.config.num_groups + 1 + NUM_READINGS
 
+    @property
+    def layout(self) -> PointLayout:
+        """How the points lie that it takes."""
+        return self.encoder.config.variant.layout
+
     def touch(self, points: Tensor) -> Tensor:
-        """Embeddings of scaled points (B, 1024, 3): shape (B, P, D)."""
+        """Embeddings of scaled points (B, N, 3): shape (B, P, D)."""
         return self.projected(self.encoder(points))
 
     def projected(self, encoded: Encoded, force_factor: float | Tensor = 1.0) -> Tensor:

@@ -1,7 +1,8 @@
 """A cloud averaged in equal cells of the sensing area, and what is computed on such a grid.
 
-Contact test, direct measurement and registration all work on cells, so that any density and order
-of points will do. Loads no torch.
+Contact test, direct measurement, registration and encoders all work on cells, so that any density
+and order of points will do. For encoders no cell stays empty (``height_grid``): data sets, files
+and the loop all come through that one function. Loads no torch.
 """
 
 from __future__ import annotations
@@ -10,10 +11,21 @@ import math
 from functools import lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import ndimage
+from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator
 
 from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
+from cltp.tactile.markers import interpolated
+from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import SensorSpec
+
+Grid = NDArray[np.float32]
+"""Heights in cells of the sensing area [mm], row 0 = top."""
+
+LEAST_FILLED = 0.5
+"""Fraction of the cells of a ``height_grid`` that must hold a point of their own. Our choice: a
+sensor that loses 30 % of its pixels stays above it, a cloud of 1024 loose points below."""
 
 MAX_CELLS = 32
 """Most cells along either side. Constants of the measurement are fitted with so many: more would
@@ -38,14 +50,20 @@ def cell_means(cloud: TactileCloud, n: int | None = None) -> FloatArray:
         rows, columns = cloud.grid
         heights = cloud.points_mm[:, 2].reshape(rows, columns)
         return np.asarray(_overlaps(rows, n) @ heights @ _overlaps(columns, n).T)
-    sensor, points = cloud.sensor, cloud.points_mm.astype(np.float64)
-    column = np.clip(((points[:, 0] / sensor.width_mm + 0.5) * n).astype(int), 0, n - 1)
-    row = np.clip(((0.5 - points[:, 1] / sensor.height_mm) * n).astype(int), 0, n - 1)
-    index = row * n + column
-    count = np.bincount(index, minlength=n * n)
-    total = np.bincount(index, weights=points[:, 2], minlength=n * n)
+    count, total = _sums(cloud, n, n)
     with np.errstate(invalid="ignore"):
-        return np.asarray((total / count).reshape(n, n))
+        return np.asarray(total / count)
+
+
+def _sums(cloud: TactileCloud, rows: int, columns: int) -> tuple[NDArray[np.intp], FloatArray]:
+    """Number of points in each cell and the sum of their heights, (rows, columns) each."""
+    sensor, points = cloud.sensor, cloud.points_mm.astype(np.float64)
+    column = ((points[:, 0] / sensor.width_mm + 0.5) * columns).astype(int)
+    row = ((0.5 - points[:, 1] / sensor.height_mm) * rows).astype(int)
+    index = np.clip(row, 0, rows - 1) * columns + np.clip(column, 0, columns - 1)
+    count = np.bincount(index, minlength=rows * columns)
+    total = np.bincount(index, weights=points[:, 2], minlength=rows * columns).astype(np.float64)
+    return count.reshape(rows, columns), total.reshape(rows, columns)
 
 
 @lru_cache(maxsize=16)
@@ -96,3 +114,84 @@ def quadratic_basis(n: int, sensor: SensorSpec) -> FloatArray:
     basis = np.stack([each.ravel() for each in functions], axis=1)
     basis.setflags(write=False)
     return basis
+
+
+def height_grid(cloud: TactileCloud, layout: PointLayout) -> Grid:
+    """Heights of any cloud in the cells of a layout: shape (rows, columns) [mm]."""
+    if cloud.grid is not None:
+        return resampled(cloud.points_mm[:, 2].reshape(cloud.grid), layout)
+    count, total = _sums(cloud, layout.rows, layout.columns)
+    if np.count_nonzero(count) >= LEAST_FILLED * count.size:
+        return without_holes(total / np.maximum(count, 1), count > 0)
+    smooth = cloud.sensor.markers is not None  # a surface seen at its markers is smooth between
+    x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, layout.rows, layout.columns))
+    surface = CloughTocher2DInterpolator if smooth else LinearNDInterpolator
+    return interpolated(cloud, x, y, surface).astype(np.float32)
+
+
+def resampled(
+    height_mm: NDArray[np.floating], layout: PointLayout, known: NDArray[np.bool_] | None = None
+) -> Grid:
+    """A map of the whole sensing area, shape (H, W) [mm], in the cells of a layout.
+
+    Args:
+        height_mm: The map, row 0 = top.
+        layout: The cells.
+        known: Shape (H, W), the pixels that were measured; all when not given. Cells without one
+            have the mean of their neighbours.
+    """
+    heights = np.asarray(height_mm, dtype=np.float32)
+    down = _weights(heights.shape[0], layout.rows)
+    across = _weights(heights.shape[1], layout.columns)
+    if known is None:
+        return _product(down, heights, across)
+    weight = _product(down, known.astype(np.float32), across)
+    total = _product(down, np.where(known, heights, np.float32(0)), across)
+    return without_holes(total / np.maximum(weight, 1e-6), weight > 1e-3)
+
+
+def without_holes(heights: NDArray[np.floating], known: NDArray[np.bool_]) -> Grid:
+    """A grid whose unknown cells are the means of the known ones around, from the edges inwards.
+
+    Args:
+        heights: Shape (rows, columns); any finite value where it is not known.
+        known: Shape (rows, columns), at least one True.
+    """
+    heights = np.where(known, heights, 0).astype(np.float32)
+    while not known.all():
+        total, count = _sums_around(heights), _sums_around(known.astype(np.float32))
+        reached = ~known & (count > 0)
+        heights[reached] = total[reached] / count[reached]
+        known = known | reached
+    return heights
+
+
+def _sums_around(cells: Grid) -> Grid:
+    """Sums over 3 × 3 cells."""
+    padded = np.pad(cells, 1)
+    rows = padded[:-2] + padded[1:-1] + padded[2:]
+    return np.asarray(rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:], dtype=np.float32)
+
+
+def _product(down: Grid | None, heights: Grid, across: Grid | None) -> Grid:
+    if down is not None:
+        heights = down @ heights
+    return heights if across is None else heights @ across.T
+
+
+@lru_cache(maxsize=32)
+def _weights(pixels: int, cells: int) -> Grid | None:
+    """Weights (cells, pixels) of a row of pixels in a row of cells; None where they are the same.
+
+    Overlaps where pixels are smaller than cells, else linear interpolation between pixel centres.
+    """
+    if pixels == cells:
+        return None
+    if pixels > cells:
+        weights = _overlaps(pixels, cells).astype(np.float32)
+    else:
+        at = np.clip((np.arange(cells)[:, None] + 0.5) * pixels / cells - 0.5, 0, pixels - 1)
+        between = 1 - np.abs(at - np.arange(pixels)[None, :])
+        weights = np.clip(between, 0, None).astype(np.float32)
+    weights.setflags(write=False)
+    return weights

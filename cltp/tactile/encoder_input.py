@@ -1,4 +1,4 @@
-"""From clouds to what the encoder is given: 1024 stratified points, scaled by sensor constants.
+"""From clouds to what an encoder is given: points in its layout, scaled by constants.
 
 Absolute x, y and z are kept: a cloud is never centred or scaled by its own extent, which would
 destroy position, depth and area. Loads no torch.
@@ -6,23 +6,37 @@ destroy position, depth and area. Loads no torch.
 
 from __future__ import annotations
 
-import math
 from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from cltp.tactile.cloud import NUM_POINTS, TactileCloud, cloud_of_pixels, heights_at
+from cltp.tactile.cells import height_grid
+from cltp.tactile.cloud import NUM_POINTS, TactileCloud, cloud_of_pixels, grid_axes_mm, heights_at
+from cltp.tactile.point_layout import EVEN, LATTICE, PointLayout
 from cltp.tactile.sensors import SensorSpec
 
-LATTICE = math.isqrt(NUM_POINTS)
-"""Cells of the stratification along either side of the sensing area: 32 × 32 hold 1024 points."""
+GRID_UNIT_MM = 10.0
+"""Length that becomes 1 in x and y of a grid: half the width of a GelSight Mini. The same for every
+sensor, so that an encoder knows how large what it sees is."""
 
 
-def encoder_input(cloud: TactileCloud) -> NDArray[np.float32]:
-    """Points of any cloud as an encoder takes them: shape (1024, 3), scaled, row by row."""
-    return scaled(lattice_points(cloud), cloud.sensor)
+def encoder_input(cloud: TactileCloud, layout: PointLayout = EVEN) -> NDArray[np.float32]:
+    """Points of any cloud as an encoder takes them: shape (N, 3), scaled, row by row."""
+    if layout.is_sampled:
+        return scaled(lattice_points(cloud), cloud.sensor)
+    return grid_points(height_grid(cloud, layout), cloud.sensor)
+
+
+def grid_points(height_mm: NDArray[np.float32], sensor: SensorSpec) -> NDArray[np.float32]:
+    """Heights in the cells of a layout, (rows, columns) [mm], as scaled points (N, 3)."""
+    rows, columns = height_mm.shape
+    x, y = grid_axes_mm(sensor, rows, columns)
+    points = np.empty((rows, columns, 3), np.float32)
+    points[..., 0], points[..., 1] = x[None, :] / GRID_UNIT_MM, y[:, None] / GRID_UNIT_MM
+    points[..., 2] = height_mm / np.float32(sensor.max_depth_mm)
+    return points.reshape(-1, 3)
 
 
 def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.float32]:
@@ -34,6 +48,15 @@ def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.fl
     half = sensor.width_mm / 2
     factors = np.array([1 / half, 1 / half, 1 / sensor.max_depth_mm], dtype=np.float32)
     return np.asarray(points_mm, dtype=np.float32) * factors
+
+
+def unscaled(
+    points: NDArray[np.float32], sensor: SensorSpec, layout: PointLayout = EVEN
+) -> TactileCloud:
+    """The cloud of scaled points (N, 3) in a layout."""
+    unit_mm = sensor.width_mm / 2 if layout.is_sampled else GRID_UNIT_MM
+    factors = np.array([unit_mm, unit_mm, sensor.max_depth_mm], np.float32)
+    return TactileCloud(points_mm=points * factors, sensor=sensor)
 
 
 def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:

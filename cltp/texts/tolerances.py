@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cltp.tactile.encoder_input import LATTICE
+from cltp.tactile.point_layout import LATTICE
 from cltp.tactile.sensor_noise import MINI_SPREAD
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import ContactState

@@ -111,8 +111,8 @@ class _Work:
         sizes, variant = self.config.identity, str(self.augmentation)
         identity = {"data": self.data.checksum(), "config": sizes, "variant": variant}
         stage = Stage(name, self.run, model, schedule or self.schedule, identity)
-        sampling = self.config.variant.sampling
-        sampler = Sampler(self.data, self.augmentation, seed=self.run.seed, sampling=sampling)
+        layout = self.config.variant.layout
+        sampler = Sampler(self.data, self.augmentation, seed=self.run.seed, layout=layout)
         batches = prefetched(stage.batches(sampler))
 
         def terms(step: int) -> dict[str, Tensor]:

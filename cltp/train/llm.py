@@ -27,8 +27,8 @@ from torch import Tensor, nn
 
 from cltp.checkpoints.manifest import manifest_digest
 from cltp.checkpoints.tac3d_llm import (
+    load_encoder,
     load_tac3d_llm,
-    load_touching_encoder,
     save_tac3d_llm,
 )
 from cltp.data.contact import Split
@@ -146,7 +146,7 @@ def train_llm(
         TouchError: Data, encoder, start or a checkpoint can't be used.
     """
     data = run.dataset()
-    encoder, heads = load_touching_encoder(run.out / "encoder")
+    encoder, heads = load_encoder(run.out / "encoder")
     torch.manual_seed(run.seed)
     if start is None:
         language = Language(small_lm(words, dim=dim, layers=layers), words=words)
@@ -203,7 +203,8 @@ class _Learner:
     def _batches(
         self, stage: Stage, number: int
     ) -> Iterator[tuple[Encoded | None, Tensor | None, Packed]]:
-        sampler = Sampler(self.data, self.augmentation, seed=1000 * self.run.seed + number)
+        seed = 1000 * self.run.seed + number
+        sampler = Sampler(self.data, self.augmentation, seed=seed, layout=self.model.layout)
         size = stage.schedule.batch_size
         for step in range(stage.step, stage.schedule.steps):
             rng = np.random.default_rng([self.run.seed, number, step])

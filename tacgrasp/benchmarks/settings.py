@@ -523,12 +523,12 @@ class EncoderSettings(BenchmarkSettings):
     """Time training and encoding beside a PointBERT of the same size, written plainly in torch.
 
     Attributes:
-        preset: Name of the encoder: small, ulip2, ...
+        preset: Name of the encoder: grid, small, ulip2, ...
         repeats: Number of encodings of one cloud; batches and training steps take a tenth of it.
         threads: Number of torch's threads.
     """
 
-    preset: str = "small"
+    preset: str = "grid"
     repeats: int = 100
     threads: int = 1
 

@@ -132,7 +132,8 @@ def score_by_model(wordings: Sequence[Wording], task: TaskTerms, policy: LlmPoli
     cloud = cloud_from_heights(np.zeros((60, 80)), sensor)
     right = []
     for wording in wordings:
-        answer = policy.talker.reply(encoder_input(cloud), GOAL_QUESTIONS[0].format(wording.text))
+        points = encoder_input(cloud, policy.talker.layout)
+        answer = policy.talker.reply(points, GOAL_QUESTIONS[0].format(wording.text))
         match = GOAL_IN_TEXT.search(answer.text)
         middle = None if match is None else (float(match[1]) + float(match[2])) / 2
         ratio = 1.0 if middle is None else middle / task.force.force_n.middle

@@ -63,7 +63,7 @@ def score_geometry(run: EvaluationRun, split: EvaluatedContacts) -> ClassScores:
         sampler = Sampler(data, split.noise, seed=run.seed)
         batches = [batch for batch, _ in numbered_batches(sampler, rows)]
         labels = torch.cat([class_numbers(batch.states) for batch in batches])
-        classes = predict_geometrically(data, batches).classes
+        classes = predict_geometrically(batches).classes
     return score_classes(classes, labels).restricted(MEASURABLE)
 
 

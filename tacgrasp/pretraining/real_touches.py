@@ -21,14 +21,14 @@ from torch import Tensor
 
 from cltp.atomic_write import replacing
 from cltp.checkpoints.frozen import FrozenEncoder
-from cltp.data.sampler import sampled
 from cltp.errors import TouchError
 from cltp.evaluation.features import EncodedContacts
 from cltp.sensing.frames import FRAME_SUFFIXES
 from cltp.sensing.touch_files import read_cloud, read_heights
+from cltp.tactile.cells import resampled
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.encoder_input import encoder_input, scaled
-from cltp.tactile.point_layout import EVEN, Sampling
+from cltp.tactile.encoder_input import encoder_input, grid_points
+from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.render import render
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NUMBERS
@@ -59,13 +59,12 @@ class RealTouches:
     heights_mm: Sequence[NDArray[np.float32]]
     frames: Tensor
 
-    def points(self, sampling: Sampling) -> Tensor:
-        """Scaled points, shape (N, side², 3), in the layout that an encoder takes."""
-        if sampling == EVEN:
+    def points(self, layout: PointLayout) -> Tensor:
+        """Scaled points, shape (N, points, 3), in the layout that an encoder takes."""
+        if layout.is_sampled:
             return torch.from_numpy(np.stack([encoder_input(cloud) for cloud in self.clouds]))
-        rng = np.random.default_rng(0)
         points = [
-            scaled(sampled(heights_mm, cloud.sensor, sampling, rng), cloud.sensor)
+            grid_points(resampled(heights_mm, layout), cloud.sensor)
             for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True)
         ]
         return torch.from_numpy(np.stack(points))
@@ -76,7 +75,7 @@ class RealTouches:
         Raises:
             TouchError: A feature is not finite; it names the file.
         """
-        inputs = self.frames if encoder.sees_images else self.points(encoder.sampling)
+        inputs = self.frames if encoder.sees_images else self.points(encoder.layout)
         parts = [encoder.read(batch) for batch in inputs.split(64)]
         pooled, feature = (torch.cat(part).float() for part in zip(*parts, strict=True))
         is_finite = feature.isfinite().all(dim=1)

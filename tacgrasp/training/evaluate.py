@@ -24,7 +24,7 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Batch, Sampler
 from cltp.evaluation.features import encode_batches, random_batches
-from cltp.evaluation.geometric_baseline import predict_geometrically, unscaled
+from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.llm_scores import predict_by_captions, score_answers
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.retrieval import score_image_retrieval
@@ -33,7 +33,6 @@ from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.measure import contact_state
-from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, PolicyError
@@ -86,7 +85,8 @@ def evaluate(
     cases = _CaseEvaluation(
         data, policy, load_llm(blind) if blind is not None else None, seed, report
     )
-    described = random_batches(data, request.captions, NOISY, seed=seed)
+    layout = encoder.config.variant.layout
+    described = random_batches(data, request.captions, NOISY, seed=seed, layout=layout)
     encoded = encode_batches(frozen(encoder), described)
     predictions = {
         "llm": predict_by_captions(
@@ -95,11 +95,11 @@ def evaluate(
             read_numbers,
         ),
         "heads": predict_with_heads(heads.eval(), encoded),
-        "geometric_baseline": predict_geometrically(data, described),
+        "geometric_baseline": predict_geometrically(described),
     }
     states = [state for batch in described for state in batch.states]
     prompted = best_classes(ClassPrompts(towers).cosines(encoded.feature))
-    asked = random_batches(data, request.answers, NOISY, seed=seed + 1)
+    asked = random_batches(data, request.answers, NOISY, seed=seed + 1, layout=layout)
     return {
         "weights": str(weights),
         "blind": str(blind) if blind is not None else None,
@@ -160,7 +160,7 @@ class _CaseEvaluation:
         report: ProgressReport,
     ) -> None:
         self._data, self._seed, self._report = data, seed, report
-        self._sampler = Sampler(data, NOISY, seed=seed)
+        self._sampler = Sampler(data, NOISY, seed=seed, layout=llm.talker.layout)
         self._deciders: dict[str, Callable[[TactileCloud, Case], str | None]] = {
             "llm": lambda cloud, case: _decided(llm, cloud, case.instruction.text),
             "rules": lambda cloud, case: answer_of(
@@ -217,8 +217,7 @@ class _CaseEvaluation:
         for number, case in enumerate(cases, start=1):
             # noise of the contact's own, the same under every instruction
             batch = self._sampler.batch(np.array([case.index]), case.index)
-            sensor = sensor_named(self._data.column("sensor")[case.index])
-            cloud = unscaled(batch.points[0], sensor)
+            cloud = batch.cloud(0)
             for name, answer in self._deciders.items():
                 right[name].append(answer(cloud, case) == case.answer)
             self._report(stage, number, len(cases), {})

@@ -26,7 +26,6 @@ from cltp.checkpoints.manifest import write_manifest
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
     load_encoder,
-    load_touching_encoder,
     size_bytes,
 )
 from cltp.data.dataset import ContactDataset
@@ -157,7 +156,7 @@ def take_pretrained(methods: Path, out: Path) -> None:
     part = out / "encoder.part"  # exists while copying is under way, or was interrupted
     if (out / "encoder").exists() or ((out / "clip").exists() and not part.exists()):
         raise UsageError(f"{out} holds another encoder; choose another folder with --out")
-    load_touching_encoder(trained.folder / "encoder")
+    load_encoder(trained.folder / "encoder")
     load_clip(methods / "clip")
     for folder in (part, out / "clip"):
         shutil.rmtree(folder, ignore_errors=True)

@@ -1,6 +1,7 @@
 """Time encoders beside the reference design of the same size, in one run on one machine.
 
-Training: samples a second of forward, backward and step. Encoding: milliseconds at batch 1 and 64.
+Training: samples a second of forward, backward and step, in 32 bits and in bfloat16 where the
+processor computes it. Encoding: milliseconds at batch 1 and 64, and of a sensor's frame to points.
 Scaling: with the number of points and of groups, where an encoder takes any number.
 """
 
@@ -18,7 +19,9 @@ from torch import Tensor, nn
 
 from cltp.encoder.encoder import PRESETS, EncoderConfig, TactileEncoder
 from cltp.errors import TouchError
-from cltp.tactile.point_layout import EVEN
+from cltp.tactile.cloud import cloud_of_pixels
+from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import SENSORS
 from cltp.torch_threads import torch_threads
 from tacgrasp.base.errors import UsageError
@@ -27,6 +30,7 @@ from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert
 from tacgrasp.benchmarks.settings import EncoderSettings
 
 WARM_UP = 3
+SENSOR = SENSORS["gelsight_mini"]
 SCALES = ((256, 64), (1024, 64), (4096, 64), (1024, 32), (1024, 128), (1024, 256))
 """Points and groups of one cloud, one of them varied at a time."""
 
@@ -57,7 +61,7 @@ def run(
     config = PRESETS[preset]
     if config.variant.takes_images:
         raise UsageError(f"preset {preset!r} takes images; the reference design takes points")
-    groups = dataclasses.replace(config, tokenizer="fps", bearing=0, grades=0)
+    groups = dataclasses.replace(config, tokenizer="fps", num_groups=64, bearing=0, grades=0)
     models: dict[str, nn.Module] = {f"ours, {config.tokenizer}": TactileEncoder(config)}
     models["ours, fps"] = TactileEncoder(groups)
     models["plain PointBERT"] = PlainPointBert(groups)
@@ -69,6 +73,8 @@ def run(
                 **_latency(model, 1, repeats, clock),
                 **_latency(model, 64, few, clock),
                 "train_samples_per_s": _training(model, few, clock),
+                "train_bf16_samples_per_s": _training(model, few, clock, autocast=True),
+                "input_p50_ms": _input_ms(_layout_of(model), few, clock),
             }
             for name, model in models.items()
         }
@@ -81,16 +87,13 @@ def run(
     write_figures(settings.json, report | {"encoders": figures, "scaling": scaling})
 
 
-def clouds(count: int, num_points: int = 1024) -> Tensor:
-    """Scaled points of smooth bumps in lattice order, shape (count, num_points, 3)."""
-    side = round(num_points**0.5)
-    if side * side != num_points:
-        raise TouchError(f"clouds to time need a square number of points, got {num_points}")
-    sensor = SENSORS["gelsight_mini"]
-    aspect = sensor.height_mm / sensor.width_mm
+def clouds(count: int, layout: PointLayout = EVEN) -> Tensor:
+    """Scaled points of smooth bumps in the order of a layout, shape (count, N, 3)."""
+    aspect = SENSOR.height_mm / SENSOR.width_mm
     rng = torch.Generator().manual_seed(0)
-    steps = (torch.arange(side) + 0.5) / side * 2 - 1
-    x, y = steps.repeat(side), -aspect * steps.repeat_interleave(side)
+    across = (torch.arange(layout.columns) + 0.5) / layout.columns * 2 - 1
+    down = (torch.arange(layout.rows) + 0.5) / layout.rows * 2 - 1
+    x, y = across.repeat(layout.rows), -aspect * down.repeat_interleave(layout.columns)
     centre = torch.rand(count, 2, generator=rng) - 0.5
     squared = (x - centre[:, :1]) ** 2 + (y - centre[:, 1:]) ** 2
     return torch.stack(
@@ -103,27 +106,42 @@ def _latency(
     model: nn.Module, batch: int, repeats: int, clock: Callable[[], float]
 ) -> dict[str, float]:
     model.eval()
-    points = clouds(batch, _points_of(model))
+    points = clouds(batch, _layout_of(model))
     times = times_ms(lambda: model(points), repeats, warm_up=WARM_UP, clock=clock)
     p50, p99 = np.percentile(times, [50, 99])
     return {f"batch_{batch}_p50_ms": float(p50), f"batch_{batch}_p99_ms": float(p99)}
 
 
-def _points_of(model: nn.Module) -> int:
-    sampling = model.config.variant.sampling if isinstance(model, TactileEncoder) else EVEN
-    return int(sampling.side**2)
+def _layout_of(model: nn.Module) -> PointLayout:
+    return model.config.variant.layout if isinstance(model, TactileEncoder) else EVEN
 
 
-def _training(model: nn.Module, steps: int, clock: Callable[[], float], batch: int = 32) -> float:
+def _input_ms(layout: PointLayout, repeats: int, clock: Callable[[], float]) -> float:
+    """Median time from a frame of the sensor to an encoder's points [ms]."""
+    heights = np.zeros((SENSOR.rows, SENSOR.columns), np.float32)
+    cloud = cloud_of_pixels(heights, SENSOR)
+    times = times_ms(lambda: encoder_input(cloud, layout), repeats, warm_up=WARM_UP, clock=clock)
+    return float(np.median(times))
+
+
+def _training(
+    model: nn.Module,
+    steps: int,
+    clock: Callable[[], float],
+    batch: int = 32,
+    *,
+    autocast: bool = False,
+) -> float:
     model.train()
-    points = clouds(batch, _points_of(model))
+    points = clouds(batch, _layout_of(model))
     optimiser = torch.optim.AdamW(model.parameters(), lr=1e-4)
     began = clock()
     for number in range(1 + steps):
         if number == 1:
             began = clock()
-        out = model(points)
-        feature = out if isinstance(out, Tensor) else out.feature
+        with torch.autocast("cpu", torch.bfloat16, enabled=autocast):
+            out = model(points)
+        feature = (out if isinstance(out, Tensor) else out.feature).float()
         optimiser.zero_grad()
         feature.square().mean().backward()
         optimiser.step()
@@ -135,7 +153,10 @@ def _scaling(
     config: EncoderConfig, points: int, groups: int, repeats: int, clock: Callable[[], float]
 ) -> dict[str, float]:
     sized = dataclasses.replace(config, num_groups=groups)
-    figures, cloud = {}, clouds(1, points)
+    side = round(points**0.5)
+    if side * side != points:
+        raise TouchError(f"clouds to time need a square number of points, got {points}")
+    figures, cloud = {}, clouds(1, PointLayout(rows=side, columns=side, is_sampled=True))
     for name, model in (("ours", TactileEncoder(sized)), ("plain", PlainPointBert(sized))):
         encode = partial(model.eval(), cloud)
         times = times_ms(encode, repeats, warm_up=WARM_UP, clock=clock)

@@ -14,17 +14,19 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
 
+from cltp.checkpoints.tac3d_llm import load_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.placement import Placement, move
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.errors import TouchError
-from cltp.tactile.cloud import NUM_POINTS
+from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState
@@ -89,7 +91,9 @@ class ContactSource:
         folder = self._folder(nuisance, condition)
         data = ContactDataset(folder, split=Split.TEST if folder == self.data else None)
         chosen = np.random.default_rng(SEED).permutation(len(data))[: self.count]
-        return sample(data, np.sort(chosen)[rows].tolist(), condition)
+        return sample(
+            data, np.sort(chosen)[rows].tolist(), condition, layout=layout_of(self.weights)
+        )
 
     def _folder(self, nuisance: str, condition: Condition) -> Path:
         if self.data is not None and nuisance not in GEL_NUISANCES:
@@ -107,12 +111,22 @@ def _press(target: Path, gel: GelMaterial, count: int) -> None:
                 writer.add(contact)
 
 
+@lru_cache(maxsize=1)
+def layout_of(weights: Path) -> PointLayout:
+    """How the points lie that the encoder of some weights takes."""
+    return load_encoder(weights / "encoder")[0].config.variant.layout
+
+
 def sample(
-    data: ContactDataset, indices: list[int], condition: Condition, seed: int = SEED
+    data: ContactDataset,
+    indices: list[int],
+    condition: Condition,
+    seed: int = SEED,
+    layout: PointLayout = EVEN,
 ) -> Sampled:
     """Draw the clouds of contacts under a condition; some can't be turned and are left out."""
     noise = Augmentation(noise_level=condition.levels, uncalibrated=0.0, mirror=False)
-    sampler = Sampler(data, noise, seed=seed)
+    sampler = Sampler(data, noise, seed=seed, layout=layout)
     kept, points, heights, sensors, states, exact = [], [], [], [], [], []
     for index in indices:
         sensor = sensor_named(data.column("sensor")[index])
@@ -138,12 +152,13 @@ def sample(
         states.append(state)
     batch = Batch(
         index=np.array(kept, dtype=np.int64),
-        points=np.array(points, dtype=np.float32).reshape(len(kept), NUM_POINTS, 3),
+        points=np.array(points, dtype=np.float32).reshape(len(kept), layout.num_points, 3),
         height_mm=heights,
         sensors=sensors,
         states=states,
         mirror=np.zeros((len(kept), 2), dtype=np.bool_),
         moved=np.zeros(len(kept), dtype=np.bool_),
+        layout=layout,
     )
     return Sampled(batch=batch, exact=exact, factor=force_factor(condition))
 

@@ -81,7 +81,8 @@ def make_reader(
             text = f"nothing: {error}"
         shape, depth = _caption_words(text)
         numbers = read_numbers(text)
-        logits, values, _, _ = heads(encoder(torch.from_numpy(encoder_input(cloud))[None]).pooled)
+        points = encoder_input(cloud, encoder.config.variant.layout)
+        logits, values, *_ = heads(encoder(torch.from_numpy(points)[None]).pooled)
         return BallReading(
             name=name,
             depth_mm=press.depth_mm,

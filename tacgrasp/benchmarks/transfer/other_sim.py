@@ -28,7 +28,7 @@ from cltp.evaluation.features import encode_batches
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import best_classes
 from cltp.evaluation.zero_shot import ClassPrompts
-from cltp.tactile.point_layout import Sampling
+from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import CLASSES
 from cltp.torch_threads import torch_threads
@@ -118,7 +118,7 @@ def read(
     encoder, heads = load_encoder(weights / "encoder")
     encoder.eval(), heads.eval()
     reader = frozen(encoder)
-    batches = _batches(data, rows, reader.sampling, noise_seed)
+    batches = _batches(data, rows, reader.layout, noise_seed)
     encoded = encode_batches(reader, batches)
     prompts = ClassPrompts(load_clip(weights / "clip"))
     return {
@@ -128,9 +128,9 @@ def read(
 
 
 def _batches(
-    data: ContactDataset, rows: NDArray[np.int64], sampling: Sampling, noise_seed: int | None
+    data: ContactDataset, rows: NDArray[np.int64], layout: PointLayout, noise_seed: int | None
 ) -> list[Batch]:
-    sampler = Sampler(data, CLEAN, sampling=sampling)
+    sampler = Sampler(data, CLEAN, layout=layout)
     batches = []
     for first in range(0, len(rows), _BATCH):
         part = rows[first : first + _BATCH]
@@ -152,6 +152,7 @@ def _batches(
             states=[data.nominal_state(index) for index in part.tolist()],
             mirror=none,
             moved=none[:, 0],
+            layout=layout,
         )
         batches.append(batch)
     return batches

@@ -22,9 +22,15 @@ KEYS = {
 
 @pytest.mark.parametrize("tokenizer", VARIANTS)
 def test_every_variant_is_read_back_as_it_was_written(tokenizer: str, tmp_path: Path) -> None:
-    bearing = 16 if VARIANTS[tokenizer].is_lattice else 0
+    variant = VARIANTS[tokenizer]
     config = EncoderConfig(
-        tokenizer=tokenizer, dim=24, depth=1, heads=2, stem_dim=8, bearing=bearing
+        tokenizer=tokenizer,
+        dim=24,
+        depth=1,
+        heads=2,
+        stem_dim=8,
+        num_groups=variant.groups or 64,
+        bearing=16 if variant.has_places else 0,
     )
     encoder = TactileEncoder(config)
     save_frozen(tmp_path, encoder, "random")
@@ -37,7 +43,7 @@ def test_every_variant_is_read_back_as_it_was_written(tokenizer: str, tmp_path: 
 def test_every_preset_belongs_to_one_variant() -> None:
     names = [name for variant in VARIANTS.values() for name in variant.presets]
     assert sorted(names) == sorted(PRESETS)
-    assert {"small_graded", "small_pressed", "small_fine", "pointbert", "ulip2"} <= set(names)
+    assert {"grid", "small_graded", "pointbert", "ulip2"} <= set(names)
     assert {config.tokenizer for config in PRESETS.values()} == set(VARIANTS)
 
 

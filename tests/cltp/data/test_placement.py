@@ -17,7 +17,7 @@ from cltp.data.placement import (
 )
 from cltp.data.sampler import mirrored, sampled
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.point_layout import FINE
+from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     AREA_LIMITS,
@@ -30,6 +30,7 @@ from cltp.tactile.states import (
 from sim.tcl3d.labels import label
 
 MINI = SENSORS["gelsight_mini"]
+FINE = PointLayout(rows=64, columns=64, is_sampled=True)
 ROWS, COLUMNS = 96, 128
 PITCH_MM = MINI.width_mm / COLUMNS
 X, Y = np.meshgrid(*grid_axes_mm(MINI, ROWS, COLUMNS))

@@ -9,9 +9,9 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Augmentation, Sampler, sampled
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.encoder_input import LATTICE, encoder_input
+from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.noise_levels import WIDE, NoiseLevels
-from cltp.tactile.point_layout import EVEN, FINE
+from cltp.tactile.point_layout import EVEN, GRID, LATTICE
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import SENSORS
 from tests.fakes.fake_contacts import write_contacts
@@ -78,7 +78,25 @@ def test_the_default_noise_is_named_as_it_always_was():
     assert str(NOISY) == "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
 
 
-def test_points_are_missing_from_the_even_layout_alone(data):
-    lossy, whole = (sampler_of(data, level, sampling=FINE) for level in (LOSSY, 1.0))
-    points = [each.batch(np.arange(2), 0).points for each in (lossy, whole)]
-    assert points[0].shape == points[1].shape == (2, 4 * LATTICE**2, 3)
+def test_a_grid_without_some_pixels_is_nearly_the_whole_one(data):
+    lossy, whole = (sampler_of(data, level, layout=GRID) for level in (LOSSY, 1.0))
+    points = [each.batch(np.arange(6), 0).points for each in (lossy, whole)]
+    assert points[0].shape == points[1].shape == (6, GRID.num_points, 3)
+    difference = np.abs(points[0] - points[1])[..., 2]
+    assert 0 < np.median(difference.max(axis=1)) < 0.2  # in depths of 1.5 mm
+
+
+def test_a_grid_of_loose_points_is_smoother_than_that_of_all(data):
+    all_points, loose = (
+        Sampler(data, Augmentation(noise_level=0.0, mirror=False, loose=part), layout=GRID)
+        for part in (0.0, 1.0)
+    )
+    exact, rough = (each.batch(np.arange(6), 0) for each in (all_points, loose))
+    assert exact.points.shape == rough.points.shape
+    np.testing.assert_array_equal(exact.points[..., :2], rough.points[..., :2])
+    error_mm = 1.5 * np.abs(exact.points - rough.points)[..., 2]
+    assert error_mm.max() > 0
+    assert error_mm.mean() < 0.01
+    cloud = exact.cloud(0)
+    assert cloud.grid == (GRID.rows, GRID.columns)
+    np.testing.assert_allclose(encoder_input(cloud, GRID), exact.points[0], atol=1e-6)

@@ -94,7 +94,7 @@ def test_the_geometric_baseline_is_computed_from_the_same_contacts(data_dir: Pat
     data = ContactDataset(data_dir, split=Split.TEST)
     rows = selected_rows(len(data))
     batches = [batch for batch, _ in numbered_batches(Sampler(data, CLEAN), rows)]
-    predicted = predict_geometrically(data, batches).classes
+    predicted = predict_geometrically(batches).classes
     encoded = encode_contacts(frozen(TactileEncoder(SMALL)), data, CLEAN)
     labels = class_numbers([state for batch in batches for state in batch.states])
     torch.testing.assert_close(labels, encoded.classes)

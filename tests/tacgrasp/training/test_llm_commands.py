@@ -15,6 +15,7 @@ import torch
 from cltp.checkpoints.manifest import write_manifest
 from cltp.data.dataset import ContactDataset
 from cltp.llm.generation import Reply
+from cltp.tactile.point_layout import EVEN
 from cltp.texts.tokenizer import ACTIONS, Words
 from cltp.train.stage import TrainingRun
 from policies import PolicyError
@@ -61,6 +62,8 @@ def touch(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 class Scripted:
     """A talker that always says the same."""
+
+    layout = EVEN
 
     def __init__(self, text: str, *, ended: bool = True) -> None:
         named = [action for action in ACTIONS if action in text]

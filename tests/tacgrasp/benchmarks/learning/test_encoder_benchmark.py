@@ -10,6 +10,7 @@ import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.errors import TouchError
+from cltp.tactile.point_layout import GRID
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.learning import encoder as bench_encoder
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert
@@ -50,12 +51,13 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
     for figures in found["encoders"].values():
         assert figures["batch_1_p50_ms"] == figures["batch_64_p99_ms"] == 1000.0
         assert figures["train_samples_per_s"] == 3 * 32  # one tick for all of the steps
+        assert figures["train_bf16_samples_per_s"] == 3 * 32
     assert set(found["scaling"]) == {"256 points, 64 groups"}
 
 
-@pytest.mark.parametrize("tokenizer", ["lattice", "pressed", "fine"])
-def test_lattices_with_a_bearing_curve_are_timed(
-    tokenizer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("tokenizer", "groups"), [("lattice", 64), ("grid", 63)])
+def test_encoders_with_height_quantiles_are_timed(
+    tokenizer: str, groups: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     ticks, path = itertools.count(), tmp_path / "encoder.json"
     few = dataclasses.replace(
@@ -63,7 +65,8 @@ def test_lattices_with_a_bearing_curve_are_timed(
         tokenizer=tokenizer,
         bearing=8,
         grades=4,
-        num_groups=16,
+        num_groups=groups,
+        stem_dim=2,
         group_size=4,
         dim=8,
     )
@@ -78,10 +81,12 @@ def test_lattices_with_a_bearing_curve_are_timed(
     assert found["ours, fps"]["batch_1_p50_ms"] == 1000.0
 
 
-def test_points_to_time_stand_in_a_square() -> None:
+def test_points_to_time_lie_in_their_layout(tmp_path: Path) -> None:
     assert bench_encoder.clouds(2).shape == (2, 1024, 3)
+    assert bench_encoder.clouds(2, GRID).shape == (2, 7500, 3)
+    settings = EncoderSettings(preset="tiny", repeats=1, json=tmp_path / "encoder.json")
     with pytest.raises(TouchError, match="square number"):
-        bench_encoder.clouds(2, 1000)
+        bench_encoder.run(settings, scales=[(1000, 64)])
 
 
 def test_wrong_use_is_told(capsys: pytest.CaptureFixture[str]) -> None:
