@@ -76,7 +76,8 @@ class StoredEncoder:
         config = _part_config(folder, ENCODER, ENCODER_VERSION)
         check_room(folder, config)
         encoder = random_encoder(folder, config)
-        stored = cls(encoder, StateHeads(2 * encoder.config.dim))
+        has_intervals = config.get("intervals") is True  # weights of before have none
+        stored = cls(encoder, StateHeads(2 * encoder.config.dim, intervals=has_intervals))
         load_weights(folder, _EncoderWithHeads(stored.encoder, stored.heads))
         return stored
 
@@ -86,6 +87,7 @@ class StoredEncoder:
             **named(ENCODER, TactileEncoder, StateHeads),
             "version": ENCODER_VERSION,
             "encoder": dataclasses.asdict(self.encoder.config),
+            **({"intervals": True} if self.heads.has_intervals else {}),
         }
         _save_halved(Path(folder), config, _EncoderWithHeads(self.encoder, self.heads))
 

@@ -40,7 +40,6 @@ from cltp.encoder.heads import StateHeads
 from cltp.llm.causal_lm import Language, load_language
 from cltp.llm.stored_lm import load_stored_lm, write_seed_oss_config
 from cltp.llm.tac3d_llm import Tac3dLlm
-from cltp.tactile.point_layout import EVEN
 from cltp.texts.tokenizer import Words
 
 
@@ -57,21 +56,6 @@ def load_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
     """
     stored = StoredEncoder.from_pretrained(folder)
     return stored.encoder, stored.heads
-
-
-def load_touching_encoder(folder: Path) -> tuple[TactileEncoder, StateHeads]:
-    """As ``load_encoder``, for an encoder that can take the clouds of sensors.
-
-    Raises:
-        WeightsError: As there, or the encoder takes points that lie otherwise.
-    """
-    encoder, heads = load_encoder(folder)
-    if encoder.config.variant.sampling != EVEN:
-        raise WeightsError(
-            f"the encoder in {folder} takes points as {encoder.config.tokenizer!r} lays them out; "
-            "clouds of sensors have 1024, evenly: train one with another preset"
-        )
-    return encoder, heads
 
 
 def load_clip(folder: Path) -> Towers:
@@ -113,11 +97,10 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
         lm_folder: Another language model in transformers' layout, behind the same projector.
 
     Raises:
-        WeightsError: A part is missing, damaged, or belongs to other weights, or the encoder takes
-            points that sensors don't give.
+        WeightsError: A part is missing, damaged, or belongs to other weights.
         TouchError: The language model can't be read.
     """
-    encoder, heads = load_touching_encoder(folder / "encoder")
+    encoder, heads = load_encoder(folder / "encoder")
     config = ProjectorConfig.read(folder / "projector")
     if lm_folder is None:
         require_files(folder / "lm")

@@ -20,6 +20,16 @@ from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 SMALLEST_FORCE_N = 0.05
 """Forces are learned as logarithms; below this force, errors count in newtons."""
 
+COVERAGE = 0.9
+"""Fraction of contacts whose true number lies in its interval."""
+
+USUAL = 0.999
+"""Fraction of contacts that are not strange."""
+
+SHRINKAGE = 0.01
+"""Part of the mean variance of the pooled tokens that is added to each. Our choice: some thousand
+contacts tell the smallest variances badly."""
+
 IGNORED = -1
 
 
@@ -105,38 +115,106 @@ class HeadsOutput(NamedTuple):
         numbers: Shape (B, 5), transformed ``NUMBERS``.
         touching: Shape (B,), logit of contact.
         cut: Shape (B, 4), logit that each side cuts the contact.
+        margins: Shape (B, 5, 2), how far below and above ``numbers`` their intervals reach, at
+            least 0; None of heads without intervals.
+        strangeness: Shape (B,), distance from what was learned from, 1 where hardly any of it lies;
+            None of heads without intervals.
     """
 
     logits: tuple[Tensor, ...]
     numbers: Tensor
     touching: Tensor
     cut: Tensor
+    margins: Tensor | None = None
+    strangeness: Tensor | None = None
 
 
 class StateHeads(nn.Module):
     """All heads behind one hidden layer.
 
+    Intervals are learned as quantiles, and afterwards widened by one factor for each number until
+    they hold ``COVERAGE`` of the truth on contacts that nothing was learned from.
+
+    Strangeness is the Mahalanobis distance of the pooled tokens from those of contacts that nothing
+    was learned from either.
+
+    Source: conformalized quantile regression, Romano, Patterson and Candès, 2019, with a factor
+    where they have a term; Mahalanobis distance of features, Lee et al., 2018.
+
     Args:
         pooled_dim: Width of ``Encoded.pooled``.
         hidden_dim: Width of the hidden layer.
+        intervals: Whether the numbers have intervals.
     """
 
-    def __init__(self, pooled_dim: int, hidden_dim: int = 256) -> None:
+    widening: Tensor | None
+    usual: Tensor
+    whitening: Tensor
+
+    def __init__(self, pooled_dim: int, hidden_dim: int = 256, *, intervals: bool = True) -> None:
         super().__init__()
+        count = len(NUMBERS)
         self.sizes = [len(names) for names in CLASSES.values()]
-        outputs = sum(self.sizes) + len(NUMBERS) + 1 + len(Side)
+        self.sizes += [count, 1, len(Side)] + ([2 * count] if intervals else [])
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
-        self.out = nn.Linear(hidden_dim, outputs)
+        self.out = nn.Linear(hidden_dim, sum(self.sizes))
+        shapes = {"widening": (count,), "usual": (pooled_dim,), "whitening": (pooled_dim,) * 2}
+        for name, shape in shapes.items():
+            self.register_buffer(name, torch.ones(shape) if intervals else None)
+
+    @property
+    def has_intervals(self) -> bool:
+        return self.widening is not None
 
     def forward(self, pooled: Tensor) -> HeadsOutput:
         """Read states from ``Encoded.pooled`` (B, 2 C)."""
-        out = self.out(F.gelu(self.hidden(pooled)))
-        *logits, numbers, touching, cut = out.split([*self.sizes, len(NUMBERS), 1, len(Side)], -1)
-        return HeadsOutput(tuple(logits), numbers, touching[:, 0], cut)
+        parts = self.out(F.gelu(self.hidden(pooled))).split(self.sizes, -1)
+        logits, (numbers, touching, cut) = parts[: len(CLASSES)], parts[len(CLASSES) :][:3]
+        margins = strangeness = None
+        if self.widening is not None:
+            margins = F.softplus(parts[-1]).unflatten(-1, (len(NUMBERS), 2))
+            margins = margins * self.widening[:, None]
+            strangeness = ((pooled - self.usual) @ self.whitening).norm(dim=-1)
+        return HeadsOutput(logits, numbers, touching[:, 0], cut, margins, strangeness)
+
+    @torch.no_grad()
+    def calibrate(self, pooled: Tensor, labels: Targets) -> None:
+        """Set intervals and strangeness by contacts that nothing was learned from.
+
+        Args:
+            pooled: Their pooled tokens, shape (N, 2 C).
+            labels: Their labels.
+        """
+        if self.widening is None:
+            return
+        self._widen(pooled, labels)
+        self._whiten(pooled)
+
+    def _whiten(self, pooled: Tensor) -> None:
+        """Scale distances by one half of the contacts, and their unit by the other."""
+        one, other = pooled[::2].double(), pooled[1::2].double()
+        usual = one.mean(dim=0)
+        variances, axes = torch.linalg.eigh(torch.cov(one.T))
+        floor = SHRINKAGE * variances.mean()
+        whitening = axes / (variances + floor).clamp_min(1e-9).sqrt()
+        distances = ((other - usual) @ whitening).norm(dim=1)
+        self.usual.copy_(usual)
+        self.whitening.copy_(whitening / distances.quantile(USUAL))
+
+    def _widen(self, pooled: Tensor, labels: Targets) -> None:
+        assert self.widening is not None  # as ``calibrate`` has seen
+        self.widening.fill_(1.0)
+        read = self(pooled)
+        assert read.margins is not None
+        errors = labels.numbers - read.numbers
+        below, above = (read.margins + 1e-9).unbind(-1)
+        needed = torch.maximum(-errors / below, errors / above)[labels.touching > 0]
+        rank = min(1.0, COVERAGE * (1 + 1 / max(1, len(needed))))
+        self.widening.copy_(needed.quantile(rank, dim=0))
 
     def losses(self, pooled: Tensor, labels: Targets) -> dict[str, Tensor]:
         """Named terms, each a mean over the batch."""
-        logits, numbers, touching, cut = self(pooled)
+        logits, numbers, touching, cut, margins, _ = self(pooled)
         terms = {}
         for column, (slot, scores) in enumerate(zip(CLASSES, logits, strict=True)):
             classes = labels.classes[:, column]
@@ -146,4 +224,15 @@ class StateHeads(nn.Module):
         terms["numbers"] = (errors * labels.touching[:, None]).sum(1).mean()
         terms["touching"] = F.binary_cross_entropy_with_logits(touching, labels.touching)
         terms["cut"] = F.binary_cross_entropy_with_logits(cut, labels.cut)
+        if margins is not None:
+            beyond = _pinball(labels.numbers - numbers.detach(), margins)
+            terms["margins"] = (beyond * labels.touching[:, None]).sum(1).mean()
         return terms
+
+
+def _pinball(errors: Tensor, margins: Tensor) -> Tensor:
+    """Quantile loss of the two ends of margins (..., 2) around errors (...): shape (...)."""
+    tail = (1 - COVERAGE) / 2
+    below, above = -errors - margins[..., 0], errors - margins[..., 1]  # both positive outside
+    ends = torch.stack([below, above])
+    return torch.maximum((1 - tail) * ends, -tail * ends).sum(0)

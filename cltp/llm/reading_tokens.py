@@ -50,7 +50,7 @@ class ReadingTokens(nn.Module):
 
     def forward(self, readings: HeadsOutput) -> Tensor:
         """Output of ``StateHeads`` to tokens (B, 1 + 5, D)."""
-        logits, numbers, touching, cut = readings
+        logits, numbers, touching, cut = readings[:4]
         classes = [scores.softmax(-1) for scores in logits]
         words = torch.cat([*classes, touching.sigmoid()[:, None], cut.sigmoid()], dim=-1)
         features = self.features(numbers)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import threading
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -24,9 +25,10 @@ from cltp.data.sampler import Batch
 from cltp.encoder.clip_towers import Towers
 from cltp.errors import TouchError
 from cltp.tactile.render import render
-from cltp.tactile.sensors import sensor_named
 
 SAVE_S = 120.0
+
+_BLOCK = 32
 
 
 class FrozenFeatures:
@@ -52,6 +54,7 @@ class FrozenFeatures:
     ) -> None:
         self.data = data
         self._towers, self._clock = towers, clock
+        self._lock = threading.RLock()  # texts are asked for by two threads of a training
         self._texts: dict[str, Tensor] = {}
         # Rows 4 i to 4 i + 3: contact i as it is, mirrored along y, along x, along both.
         self._images = torch.zeros(4 * len(data), towers.feature_dim, dtype=torch.float16)
@@ -71,38 +74,49 @@ class FrozenFeatures:
 
     def texts(self, texts: Sequence[str]) -> Tensor:
         """Features of texts, shape (B, F)."""
-        for text in texts:
-            if text not in self._texts:
-                # One by one: the other texts of a batch would change the last bits.
-                self._texts[text] = self._towers.texts([text])[0].cpu()
-                self._note_change()
-        return torch.stack([self._texts[text] for text in texts])
+        with self._lock:
+            for text in texts:
+                if text not in self._texts:
+                    # One by one: the other texts of a batch would change the last bits.
+                    self._texts[text] = self._towers.texts([text])[0].cpu()
+                    self._note_change()
+            return torch.stack([self._texts[text] for text in texts])
 
     def images(self, batch: Batch) -> Tensor:
         """Features of the clean images of a batch, shape (B, F); moved contacts are not stored."""
         mirror = torch.from_numpy(batch.mirror).long()
         rows = 4 * torch.from_numpy(batch.index) + 2 * mirror[:, 0] + mirror[:, 1]
-        for index in batch.index[~self._computed[rows].numpy() & ~batch.moved]:
-            # The four mirror images of one contact, always these together: see ``texts``.
-            own = slice(4 * int(index), 4 * int(index) + 4)
-            if self._computed[own].all():
-                continue
-            heights = self.data.height_mm(int(index))
-            sensor = sensor_named(self.data.column("sensor")[index])
-            mirrored = [heights[:: 1 - 2 * y, :: 1 - 2 * x] for x in (0, 1) for y in (0, 1)]
-            pixels = torch.stack([render(height_mm, sensor) for height_mm in mirrored])
-            self._images[own] = self._towers.images(pixels).cpu().half()
-            self._computed[own] = True
-            self._note_change()
+        moved = torch.from_numpy(batch.moved)
+        new = ~self._computed[rows] & ~moved
+        if new.any():
+            features = self._image_features(batch, new).half()
+            with self._lock:
+                self._images[rows[new]], self._computed[rows[new]] = features, True
+                self._note_change()
         features = self._images[rows].float()
-        if batch.moved.any():
-            moved = torch.from_numpy(batch.moved)
-            pixels = rendered(batch)[moved]
-            features[moved] = self._towers.images(pixels).cpu().float()
+        if moved.any():
+            features[moved] = self._image_features(batch, moved)
         return features
+
+    def _image_features(self, batch: Batch, mask: Tensor) -> Tensor:
+        """Features of some contacts of a batch, computed in blocks of one size.
+
+        The last bits of a feature depend on the size of its block, but not on the others in it.
+        """
+        pixels = rendered(batch, mask.nonzero()[:, 0].tolist())
+        blocks = []
+        for block in pixels.split(_BLOCK):
+            padded = torch.zeros(_BLOCK, *block.shape[1:])
+            padded[: len(block)] = block
+            blocks.append(self._towers.images(padded).cpu().float()[: len(block)])
+        return torch.cat(blocks)
 
     def save(self) -> None:
         """Write all features, where any are new."""
+        with self._lock:
+            self._save()
+
+    def _save(self) -> None:
         if self._path is None or not self._changed:
             return
         texts = sorted(self._texts)
@@ -147,6 +161,7 @@ def fingerprint(towers: Towers) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def rendered(batch: Batch) -> Tensor:
-    """Images of the clean gel of a batch, shape (B, 3, 64, 64)."""
-    return torch.stack([render(h, s) for h, s in zip(batch.height_mm, batch.sensors, strict=True)])
+def rendered(batch: Batch, rows: Sequence[int] | None = None) -> Tensor:
+    """Images of the clean gel of some rows of a batch, or of all, shape (B, 3, 64, 64)."""
+    chosen = range(len(batch.sensors)) if rows is None else rows
+    return torch.stack([render(batch.height_mm[row], batch.sensors[row]) for row in chosen])

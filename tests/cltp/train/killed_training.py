@@ -27,7 +27,7 @@ def train_a_little(
     """The training that is killed, or not."""
     train_cltp(
         TrainingRun(data=data, out=weights, report=report, checkpoint_s=checkpoint_s),
-        PRESETS["tiny"],
+        PRESETS["tiny_grid"],
         Schedule(steps=steps, batch_size=6, learning_rate=1e-3),
         CltpRecipe(prompt_weight=0.5),
     )

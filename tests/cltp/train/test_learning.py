@@ -194,13 +194,13 @@ def test_both_tokenizers_give_a_token_for_each_group(tokenizer: str) -> None:
 def test_sizes_that_do_not_fit_are_refused() -> None:
     with pytest.raises(TouchError, match="multiple"):
         EncoderConfig(dim=30, heads=4)
-    with pytest.raises(TouchError, match="known: lattice, pressed, fine, fps, image"):
+    with pytest.raises(TouchError, match="known: grid, lattice, fps, image"):
         EncoderConfig(tokenizer="voxels")
     with pytest.raises(TouchError, match="whole number of 0 to"):
         EncoderConfig(projection=-1)
-    with pytest.raises(TouchError, match="for a lattice, not for fps"):
+    with pytest.raises(TouchError, match="height quantiles are not for fps"):
         EncoderConfig(tokenizer="fps", bearing=16)
-    with pytest.raises(TouchError, match="has 16, 64, 256 groups, got 32"):
+    with pytest.raises(TouchError, match="lattice has 64 groups, got 32"):
         EncoderConfig(num_groups=32)
     with pytest.raises(TouchError, match="image has 64 groups, got 256"):
         EncoderConfig(tokenizer="image", num_groups=256)
@@ -209,14 +209,14 @@ def test_sizes_that_do_not_fit_are_refused() -> None:
 def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     torch.manual_seed(0)
     curve = HeightQuantiles(8, 16)
-    points, none = torch.rand(2, 1024, 3), torch.zeros(2, 0, 8)
+    points = torch.rand(2, 1024, 3)
     moved = points.clone()
     moved[0, :, :2] += 0.3
     moved[1] = points[1, torch.randperm(1024)]
-    torch.testing.assert_close(curve(moved, none), curve(points, none))
+    torch.testing.assert_close(curve(moved), curve(points))
     deeper = points.clone()
     deeper[0, points[0, :, 2].argmax(), 2] += 0.2
-    for before, after in zip(curve(points, none), curve(deeper, none), strict=True):
+    for before, after in zip(curve(points), curve(deeper), strict=True):
         assert not torch.equal(before[0], after[0])
         torch.testing.assert_close(before[1], after[1])
     ranks = quantile_ranks(16, 1024)
@@ -393,7 +393,7 @@ def test_scores_without_training_exist_too(trained: Path, data_dir: Path) -> Non
     encoded = encode_batches(frozen(encoder), samples)
     prompts = ClassPrompts(load_clip(trained / "clip"))
     assert score_classes(best_classes(prompts.cosines(encoded.feature)), encoded.classes).count == 6
-    direct = score_classes(predict_geometrically(data, samples).classes, encoded.classes)
+    direct = score_classes(predict_geometrically(samples).classes, encoded.classes)
     assert direct.accuracy["depth"] >= 0.5
     assert direct.accuracy["shape"] == 0.0  # nothing computes a shape directly
 

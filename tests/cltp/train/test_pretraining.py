@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 import torch
 
-from cltp.checkpoints.tac3d_llm import save_pretrained
+from cltp.checkpoints.tac3d_llm import load_encoder, save_pretrained
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import NOISY, Sampler
@@ -22,6 +22,7 @@ from cltp.encoder.clip_towers import Towers, small_clip
 from cltp.encoder.encoder import PRESETS
 from cltp.encoder.heads import targets
 from cltp.errors import TouchError
+from cltp.tactile.point_layout import GRID
 from cltp.texts.tokenizer import Words
 from cltp.train.alignment import train_cltp
 from cltp.train.clip_feature_cache import FrozenFeatures, rendered
@@ -145,6 +146,28 @@ def test_without_images_and_heads_language_alone_is_learned(
     }
 
 
+def test_a_grid_is_learned_and_its_intervals_are_set_by_validation_contacts(
+    towers_dir: Path, tmp_path: Path
+) -> None:
+    seeds = {Split.TRAIN: range(12), Split.VALIDATION: range(200, 230)}
+    data = write_contacts(tmp_path / "data", seeds)
+    run = TrainingRun(data=data, out=tmp_path / "out")
+    schedule = Schedule(steps=4, batch_size=12, learning_rate=1e-3)
+    folder = train_cltp(run, PRESETS["tiny_grid"], schedule, clip_dir=towers_dir)
+    encoder, heads = load_encoder(folder)
+    assert encoder.config.variant.layout == GRID
+    assert heads.has_intervals
+    assert heads.widening is not None and (heads.widening != 1).all()
+    sampler = Sampler(ContactDataset(data, split=Split.VALIDATION), layout=GRID)
+    batch = sampler.batch(np.arange(len(sampler.dataset)), 0)
+    read = heads.eval()(encoder.eval()(torch.from_numpy(batch.points)).pooled)
+    assert read.margins is not None and read.strangeness is not None
+    error = targets(batch.states).numbers - read.numbers
+    held = (error >= -read.margins[..., 0]) & (error <= read.margins[..., 1])
+    assert held.float().mean() > 0.75  # by the noise of these few contacts, not of those
+    assert read.strangeness.median() < 1
+
+
 def test_features_are_computed_once_and_read_again(
     data_dir: Path, towers_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -158,19 +181,23 @@ def test_features_are_computed_once_and_read_again(
     batch = Sampler(data, seed=3).numbered(8, 0)
     first = FrozenFeatures(towers, data, tmp_path)
     images, texts = first.images(batch), first.texts(["Contact is deep."])
-    assert sum(computed) == 4 * 8 + 1  # all mirror images of eight contacts, and a text
+    assert computed == [32, 1]  # eight contacts in a block of one size, and a text
     first.save()
     computed.clear()
     again = FrozenFeatures(towers, data, tmp_path)
     torch.testing.assert_close(again.images(batch), images, rtol=0, atol=0)
     torch.testing.assert_close(again.texts(["Contact is deep."]), texts, rtol=0, atol=0)
     assert not computed
-    mirrored = dataclasses.replace(batch, mirror=~batch.mirror)
-    other = again.images(mirrored)
-    assert not computed
-    assert not torch.equal(other, images)
     pixels = rendered(batch)  # mirrored by the sampler, not by us
     torch.testing.assert_close(towers.images(pixels), images, rtol=0, atol=1e-3)
+    other = Sampler(data, seed=4).batch(batch.index, 0)
+    same = torch.from_numpy((other.mirror == batch.mirror).all(axis=1))
+    assert 0 < same.sum() < 8
+    mirrored = again.images(other)
+    torch.testing.assert_close(mirrored[same], images[same], rtol=0, atol=0)
+    assert not torch.equal(mirrored[~same], images[~same])
+    alone = FrozenFeatures(towers, data).images(other)  # with others in its block
+    torch.testing.assert_close(alone, mirrored, rtol=0, atol=0)
 
 
 def test_images_of_moved_contacts_are_those_of_where_they_came_to(
