@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -27,6 +29,7 @@ class DescribeFlags:
         calibration: For a frame: calibration of its sensor unit; by default the shipped one.
         instruction: Instruction that the model advises on; by default the strawberry's.
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
+        json: Print one JSON object instead: state, numbers with their intervals, contact, flags.
     """
 
     file: tyro.conf.Positional[Path]
@@ -35,6 +38,7 @@ class DescribeFlags:
     calibration: Path | None = None
     instruction: str | None = None
     weights: Path | None = None
+    json: bool = False
 
 
 def main(argv: Sequence[str]) -> int:
@@ -45,7 +49,13 @@ def main(argv: Sequence[str]) -> int:
     from policies import PolicyError
     from tacgrasp.config.layers import load
     from tacgrasp.console import make_console, working
-    from tacgrasp.playback.describe import describe, describe_by_model, is_touched
+    from tacgrasp.playback.describe import (
+        describe,
+        describe_by_model,
+        describe_in_numbers,
+        is_touched,
+        make_reader,
+    )
     from tacgrasp.policy_factory import default_weights, load_llm, shipped_weights
 
     console = make_console()
@@ -55,6 +65,10 @@ def main(argv: Sequence[str]) -> int:
         background=flags.background,
         calibration=flags.calibration,
     )
+    if flags.json:
+        reader = make_reader(flags.weights or default_weights())
+        sys.stdout.write(json.dumps(describe_in_numbers(cloud, reader), indent=2) + "\n")
+        return 0
     for line in describe(cloud):
         console.print(line)
     if not is_touched(cloud):

@@ -5,22 +5,31 @@ Not here: reading files (``cltp.sensing.touch_files``), measuring (``cltp.tactil
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact_test import touches_alone
 from cltp.tactile.measure import contact_state
+from cltp.tactile.states import DIMENSIONS, NUMBERS
 from cltp.texts.captions import caption
 from policies import Observation, PolicyError
 
 if TYPE_CHECKING:
+    from cltp.encoder.reader import TouchReader
     from policies.llm import LlmPolicy
 
 CAPTION_REQUEST = "Describe the contact."
 
 
 NO_CONTACT = "nothing touches the gel"
+
+NO_INTERVALS = "no_intervals"
+"""Flag of numbers that were measured directly, without weights."""
+
+UNCALIBRATED_FORCE = "uncalibrated_force"
+"""Flag of a force on a unit without a force calibration."""
 
 
 def is_touched(cloud: TactileCloud) -> bool:
@@ -36,6 +45,19 @@ def is_touched(cloud: TactileCloud) -> bool:
             "positive into the gel, with the untouched gel at 0"
         )
     return evidence.in_contact
+
+
+def make_reader(weights: Path) -> TouchReader | None:
+    """What reads clouds by the encoder of some weights; None where they give no intervals.
+
+    Raises:
+        TouchError: The weights can't be used.
+    """
+    from cltp.checkpoints.tac3d_llm import load_encoder  # torch, which measuring does without
+    from cltp.encoder.reader import TouchReader
+
+    encoder, heads = load_encoder(weights / "encoder")
+    return TouchReader(encoder, heads) if heads.has_intervals else None
 
 
 def describe(cloud: TactileCloud) -> list[str]:
@@ -62,6 +84,48 @@ def describe(cloud: TactileCloud) -> list[str]:
         f"cut       {', '.join(sorted(state.cut)) or 'no'}",
         f"caption   {caption(state)}",
     ]
+
+
+def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict[str, Any]:
+    """The same for programs: words, numbers with their intervals, and warnings.
+
+    Args:
+        cloud: The cloud.
+        reader: Reads it by weights; None measures it directly, without shape, texture, intervals.
+
+    Raises:
+        TouchError: The cloud can't be measured, or its z has the wrong sign.
+    """
+    is_in_contact = is_touched(cloud)
+    state, flags = contact_state(cloud, in_contact=is_in_contact), []
+    numbers: dict[str, dict[str, float | None]] = {}
+    confidence: dict[str, float] = {}
+    if is_in_contact and reader is not None:
+        reading = reader.read(cloud)
+        flags = [flag.value for flag in reading.flags]
+        state = reading.state if reading.state.in_contact else state
+        numbers = {
+            name: {"value": number.value, "lo": number.low, "hi": number.high}
+            for name, number in reading.numbers.items()
+        }
+        confidence = dict(reading.confidence)
+    elif is_in_contact:
+        flags = [NO_INTERVALS]
+        numbers = {
+            name: {"value": getattr(state, name), "lo": None, "hi": None} for name in NUMBERS
+        }
+    if is_in_contact and not cloud.force_scale.is_calibrated:
+        flags.append(UNCALIBRATED_FORCE)
+    words = {name: getattr(state, name) for name in DIMENSIONS}
+    return {
+        "sensor": cloud.sensor.name,
+        "points": len(cloud.points_mm),
+        "contact": is_in_contact,
+        "state": words | {"cut": sorted(state.cut), "caption": caption(state)},
+        "numbers": numbers,
+        "confidence": confidence,
+        "flags": flags,
+    }
 
 
 def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -> list[str]:

@@ -1,0 +1,190 @@
+"""What an encoder and its heads read of one cloud: words, numbers with intervals, and warnings.
+
+The loop, ``tacgrasp describe`` and the language model's readings are this one reading. Not here:
+the direct measurement without weights (``cltp.tactile.measure``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import NamedTuple
+
+import numpy as np
+import torch
+from torch import Tensor
+
+from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.heads import HeadsOutput, StateHeads, restored
+from cltp.errors import TouchError
+from cltp.tactile.cells import height_grid
+from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.force_scale import ForceScale
+from cltp.tactile.noise_levels import WIDE
+from cltp.tactile.point_layout import GRID
+from cltp.tactile.sensor_noise import MINI_SPREAD
+from cltp.tactile.states import (
+    CLASSES,
+    NO_CONTACT_STATE,
+    NUMBERS,
+    Area,
+    ContactState,
+    Depth,
+    Position,
+    Shape,
+    Side,
+    Texture,
+)
+
+TAILS = 1.645
+"""Standard deviations that 5 % lie beyond, on either side."""
+
+MOST_NOISE_MM = 1.25 * WIDE.factor[1] * MINI_SPREAD.fine_mm
+"""Fine noise in cells of ``GRID`` above which a cloud is noisier than any learned from [mm]. A
+quarter of allowance, for the error of its estimate."""
+
+
+class Flag(StrEnum):
+    """Why a reading is not to be acted on."""
+
+    NOISE = "noise"  # the cloud has more fine noise than any that was learned from
+    UNFAMILIAR = "unfamiliar"  # the encoder's tokens lie far from all that was learned from
+    RANGE = "range"  # a number lies beyond what a gel can show
+
+
+class Number(NamedTuple):
+    """A number with its interval, which holds the truth in nine cases of ten.
+
+    Attributes:
+        value: Best estimate.
+        low, high: Ends of the interval.
+    """
+
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TouchReading:
+    """What is read of a cloud.
+
+    Attributes:
+        state: The most probable words, and the numbers.
+        numbers: ``NUMBERS`` with their intervals; forces in newtons of the unit.
+        confidence: Probability of each word of the state, by dimension.
+        contact: Probability that anything touches.
+        flags: Why it is not to be acted on; empty where it may be.
+    """
+
+    state: ContactState
+    numbers: Mapping[str, Number]
+    confidence: Mapping[str, float]
+    contact: float
+    flags: tuple[Flag, ...]
+
+
+class TouchReader:
+    """Reads clouds.
+
+    Args:
+        encoder: E_T.
+        heads: Its heads, with intervals.
+
+    Raises:
+        TouchError: The heads have no intervals.
+    """
+
+    def __init__(self, encoder: TactileEncoder, heads: StateHeads) -> None:
+        if not heads.has_intervals:
+            raise TouchError(
+                "these weights read numbers without intervals; train them anew: tacgrasp train cltp"
+            )
+        self._encoder, self._heads = encoder.eval(), heads.eval()
+
+    @torch.inference_mode()
+    def read(self, cloud: TactileCloud) -> TouchReading:
+        """Read one cloud."""
+        points = encoder_input(cloud, self._encoder.config.variant.layout)
+        output = self._heads(self._encoder(torch.from_numpy(points)[None]).pooled)
+        return reading_of(output, cloud)
+
+
+def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
+    """The reading of one cloud from the heads' output for it, a batch of one."""
+    numbers = numbers_of(output, cloud.force_scale)
+    flags = []
+    if fine_noise_mm(cloud) > MOST_NOISE_MM:
+        flags.append(Flag.NOISE)
+    assert output.strangeness is not None  # as the heads have intervals
+    if not float(output.strangeness[0]) <= 1.0:
+        flags.append(Flag.UNFAMILIAR)
+    if not all(math.isfinite(value) for number in numbers.values() for value in number) or (
+        numbers["depth_mm"].value > cloud.sensor.gel_mm
+    ):
+        flags.append(Flag.RANGE)
+    contact = float(output.touching[0].sigmoid())
+    chances = {name: x[0].softmax(-1) for name, x in zip(CLASSES, output.logits, strict=True)}
+    words = {name: CLASSES[name][int(chance.argmax())] for name, chance in chances.items()}
+    state = NO_CONTACT_STATE
+    if contact >= 0.5:
+        state = ContactState(
+            **{name: number.value for name, number in numbers.items()},
+            depth=Depth(words["depth"]),
+            position=Position(words["position"]),
+            area=Area(words["area"]),
+            shape=Shape(words["shape"]),
+            texture=Texture(words["texture"]),
+            cut=frozenset(side for side, x in zip(Side, output.cut[0], strict=True) if x > 0),
+        )
+    return TouchReading(
+        state=state,
+        numbers=numbers,
+        confidence={name: float(chance.max()) for name, chance in chances.items()},
+        contact=contact,
+        flags=tuple(flags),
+    )
+
+
+def numbers_of(output: HeadsOutput, scale: ForceScale) -> dict[str, Number]:
+    """Numbers with their intervals, of the heads' output for one cloud.
+
+    Without a force calibration the interval of the force is as wide as units differ.
+
+    Raises:
+        TouchError: The heads have no intervals.
+    """
+    if output.margins is None:
+        raise TouchError("these heads read numbers without intervals")
+    below, above = output.margins[0].unbind(-1)
+    value = output.numbers[0]
+    ends: Tensor = restored(torch.stack([value - below, value, value + above]))
+    table = dict(zip(NUMBERS, ends.T.tolist(), strict=True))
+    low, force, high = (scale.factor * each for each in table.pop("force_n"))
+    table = {name: _clipped(name, ends_of) for name, ends_of in table.items()}
+    least = 1e-3
+    widest = TAILS * scale.spread
+    up = math.hypot(math.log(max(high, least) / max(force, least)), widest)
+    down = math.hypot(math.log(max(force, least) / max(low, least)), widest)
+    table["force_n"] = [force * math.exp(-down) if low > 0 else 0.0, force, force * math.exp(up)]
+    return {name: Number(table[name][1], table[name][0], table[name][2]) for name in NUMBERS}
+
+
+def _clipped(name: str, values: list[float]) -> list[float]:
+    low = -math.inf if name in ("x_mm", "y_mm") else 0.0
+    high = 1.0 if name == "area_fraction" else math.inf
+    return [min(max(value, low), high) for value in values]
+
+
+def fine_noise_mm(cloud: TactileCloud) -> float:
+    """Fine noise of a cloud in cells of ``GRID`` [mm]: of heights less their neighbours' mean.
+
+    The median of absolute values, which a contact on part of the pad hardly changes.
+    """
+    heights = height_grid(cloud, GRID)
+    rows = heights[:-2] + heights[1:-1] + heights[2:]
+    relief = heights[1:-1, 1:-1] - (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) / 9
+    return float(1.4826 * np.median(np.abs(relief)) / math.sqrt(1 - 1 / 9))

@@ -1,0 +1,107 @@
+"""A contact for programs: numbers with intervals, and why a reading is not to be acted on."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+import torch
+
+from cltp.encoder.encoder import PRESETS, TactileEncoder
+from cltp.encoder.heads import StateHeads
+from cltp.encoder.reader import Flag, TouchReader, fine_noise_mm
+from cltp.errors import TouchError
+from cltp.tactile.cells import resampled
+from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
+from cltp.tactile.force_scale import ForceScale
+from cltp.tactile.point_layout import GRID
+from cltp.tactile.sensors import SENSORS
+from cltp.tactile.states import NUMBERS
+from tacgrasp.__main__ import main
+from tacgrasp.playback.describe import NO_INTERVALS, UNCALIBRATED_FORCE, describe_in_numbers
+from tests.fakes.tiny_weights import bump
+
+MINI = SENSORS["gelsight_mini"]
+
+
+def cloud(noise_mm: float = 0.0, depth_mm: float = 0.5) -> TactileCloud:
+    heights = resampled(bump(1.0, -2.0, depth_mm), GRID)
+    rng = np.random.default_rng(0)
+    return cloud_of_pixels(heights + noise_mm * rng.standard_normal(heights.shape), MINI)
+
+
+@pytest.fixture(scope="module")
+def reader() -> TouchReader:
+    torch.manual_seed(0)
+    encoder = TactileEncoder(PRESETS["tiny_grid"])
+    heads = StateHeads(2 * encoder.config.dim)
+    with torch.no_grad():
+        heads.out.bias[sum(heads.sizes[:6])] = 5.0  # something touches
+        heads.out.bias[sum(heads.sizes[:6]) - 1] = 1.0  # with some force
+        heads.whitening.mul_(1e-6)  # and nothing is strange
+    return TouchReader(encoder, heads)
+
+
+def test_every_number_has_an_interval_that_holds_it(reader: TouchReader) -> None:
+    told = describe_in_numbers(cloud(), reader)
+    assert json.loads(json.dumps(told)) == told
+    assert told["contact"] is True
+    assert list(told["numbers"]) == list(NUMBERS)
+    for number in told["numbers"].values():
+        assert number["lo"] <= number["value"] <= number["hi"]
+    assert told["numbers"]["depth_mm"]["lo"] >= 0
+    assert set(told["confidence"]) == {"shape", "texture", "depth", "position", "area"}
+    assert told["flags"] == [UNCALIBRATED_FORCE]
+
+
+def test_a_force_without_a_calibration_is_less_certain(reader: TouchReader) -> None:
+    widths = []
+    for spread in (0.02, 0.3):
+        scale = ForceScale(factor=1.4, spread=spread, source="unit 7")
+        number = reader.read(dataclasses.replace(cloud(), force_scale=scale)).numbers["force_n"]
+        nominal = reader.read(cloud()).numbers["force_n"]
+        assert number.value == pytest.approx(1.4 * nominal.value)
+        widths.append(number.high - number.low)
+    assert widths[1] > widths[0]
+
+
+def test_more_noise_than_was_learned_from_is_flagged(reader: TouchReader) -> None:
+    assert Flag.NOISE not in reader.read(cloud(0.03)).flags
+    assert Flag.NOISE in reader.read(cloud(0.08)).flags
+    assert fine_noise_mm(cloud(0.03)) == pytest.approx(0.03, rel=0.1)
+
+
+def test_what_is_strange_is_flagged(reader: TouchReader) -> None:
+    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
+    with torch.no_grad():
+        heads.whitening.mul_(1e3)
+    assert Flag.UNFAMILIAR in TouchReader(encoder, heads).read(cloud()).flags
+
+
+def test_numbers_that_are_not_finite_are_flagged() -> None:
+    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
+    with torch.no_grad():
+        heads.out.bias.fill_(float("inf"))
+    assert Flag.RANGE in TouchReader(encoder, heads).read(cloud()).flags
+
+
+def test_an_untouched_gel_has_no_numbers(reader: TouchReader) -> None:
+    told = describe_in_numbers(cloud(depth_mm=0.0), reader)
+    assert (told["contact"], told["numbers"], told["flags"]) == (False, {}, [])
+    assert told["state"]["shape"] is None
+
+
+def test_without_intervals_the_measured_numbers_say_so() -> None:
+    told = describe_in_numbers(cloud(), None)
+    assert told["flags"] == [NO_INTERVALS, UNCALIBRATED_FORCE]
+    assert told["numbers"]["depth_mm"]["value"] == pytest.approx(0.5, abs=0.06)
+    assert told["numbers"]["depth_mm"]["lo"] is None
+    with pytest.raises(TouchError, match="without intervals"):
+        TouchReader(TactileEncoder(PRESETS["tiny"]), StateHeads(96, intervals=False))
+
+
+def test_the_command_prints_one_object(tmp_path, capsys) -> None:
+    np.save(tmp_path / "touch.npy", bump(1.0, -2.0, 0.5))
+    assert main(["describe", str(tmp_path / "touch.npy"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["contact"] is True and "force_n" in told["numbers"]
