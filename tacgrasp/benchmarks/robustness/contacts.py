@@ -14,7 +14,6 @@ from __future__ import annotations
 import dataclasses
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -72,12 +71,14 @@ class ContactSource:
         pressed: Folder for pressed contacts.
         count: Largest number of contacts.
         weights: Weights of what reads them.
+        layout: How the points lie that these take.
     """
 
     data: Path | None
     pressed: Path
     count: int
     weights: Path
+    layout: PointLayout = EVEN
 
     def press(self, jobs: Sequence[tuple[str, Condition]]) -> None:
         """Press all contacts that some nuisances and conditions need."""
@@ -91,9 +92,7 @@ class ContactSource:
         folder = self._folder(nuisance, condition)
         data = ContactDataset(folder, split=Split.TEST if folder == self.data else None)
         chosen = np.random.default_rng(SEED).permutation(len(data))[: self.count]
-        return sample(
-            data, np.sort(chosen)[rows].tolist(), condition, layout=layout_of(self.weights)
-        )
+        return sample(data, np.sort(chosen)[rows].tolist(), condition, layout=self.layout)
 
     def _folder(self, nuisance: str, condition: Condition) -> Path:
         if self.data is not None and nuisance not in GEL_NUISANCES:
@@ -111,7 +110,6 @@ def _press(target: Path, gel: GelMaterial, count: int) -> None:
                 writer.add(contact)
 
 
-@lru_cache(maxsize=1)
 def layout_of(weights: Path) -> PointLayout:
     """How the points lie that the encoder of some weights takes."""
     return load_encoder(weights / "encoder")[0].config.variant.layout

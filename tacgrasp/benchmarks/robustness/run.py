@@ -24,6 +24,7 @@ from rich.console import Console
 from cltp.data.dataset import ContactDataset
 from cltp.errors import TouchError
 from cltp.evaluation.scores import Predictions
+from cltp.tactile.point_layout import EVEN
 from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.loop.contestants import SWEEP, swept_forces_n
@@ -31,7 +32,7 @@ from tacgrasp.benchmarks.pool import each_result
 from tacgrasp.benchmarks.results_file import weights_sum
 from tacgrasp.benchmarks.robustness import readers
 from tacgrasp.benchmarks.robustness.conditions import NOMINAL, NUISANCES, Condition
-from tacgrasp.benchmarks.robustness.contacts import ContactSource
+from tacgrasp.benchmarks.robustness.contacts import ContactSource, layout_of
 from tacgrasp.benchmarks.robustness.episodes import run_episode_under
 from tacgrasp.benchmarks.robustness.report import draw, print_tables
 from tacgrasp.benchmarks.robustness.store import (
@@ -89,10 +90,15 @@ def run(settings: RobustnessSettings) -> None:
     jobs = [(name, condition) for name in nuisances for condition in NUISANCES[name].values()]
     bench = _Bench(store=store, console=console, workers=settings.workers)
     with tempfile.TemporaryDirectory() as folder:
+        on_contacts = [name for name in CONTACT_SUBJECTS if name in subjects]
         source = ContactSource(
-            data=settings.data, pressed=Path(folder), count=num_contacts, weights=weights
+            data=settings.data,
+            pressed=Path(folder),
+            count=num_contacts,
+            weights=weights,
+            layout=layout_of(weights) if on_contacts else EVEN,
         )
-        for subject in (name for name in CONTACT_SUBJECTS if name in subjects):
+        for subject in on_contacts:
             _read_contacts(bench, source, subject, jobs)
     seeds = range(settings.first_seed, settings.first_seed + episodes)
     policies = [name for name in POLICY_SUBJECTS if name in subjects]
