@@ -1,0 +1,169 @@
+"""Reads answers: numbers with units, yes and no, words of a class, and what can't be answered.
+
+Strict: a number counts only with its unit, two different numbers are no answer to a question for
+one, and a text with both yes and no is neither. Not here: comparing with the truth
+(``tacgrasp.lessons.dialogue.question_scores``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from cltp.tactile.states import CLASSES
+from cltp.texts.captions import alternatives
+from policies.teacher import Reason
+from primitives import Primitive
+from tacgrasp.lessons.dialogue.quantities import UNITS
+from tacgrasp.lessons.dialogue.scene import HOLD, LIFT
+
+_UNIT_NAMES: Mapping[str, str] = {
+    "mm": r"mm|millimet(?:re|er)s?",
+    "µm": r"[µμ]m|um|microns?|micromet(?:re|er)s?",
+    "cm": r"cm|centimet(?:re|er)s?",
+    "N": r"N|newtons?",
+    "mN": r"mN|millinewtons?",
+    "%": r"%|percent|per cent",
+    "mm²": r"mm²|mm\^?2|square millimet(?:re|er)s?|sq\.? mm",
+    "g": r"gf?|grams?|grammes?",
+    "kg": r"kg|kilograms?",
+}
+_NUMBER = r"(?<![\w.])([+-]?\d+(?:[.,]\d+)?)"
+_MEASURED = re.compile(
+    _NUMBER
+    + r"\s*-?(?:"
+    + "|".join(
+        f"(?P<u{index}>{pattern})(?![\\w²^])" for index, pattern in enumerate(_UNIT_NAMES.values())
+    )
+    + ")?"
+)
+_POLARITY = r"(?P<yes>yes|yeah|yep|correct|true)|(?P<no>no|nope|false|wrong|incorrect)"
+_FIRST = re.compile(rf"\s*(?:{_POLARITY})\b(?=\s*(?:[.,;:!\d]|$|(?:it|the|an?|in)\b))", re.I)
+_LAST = re.compile(rf"(?:,|;|:)?\s*\bso (?:{_POLARITY})\s*[.!]?\s*$", re.I)
+_ANY = re.compile(r"(?:(?<=^)|(?<=[;.,:] ))(?:(?P<yes>yes)|(?P<no>no))\b(?=[,.;:]|$)", re.I)
+_UNKNOWN = re.compile(
+    r"\b(?:can(?:no|['’]|\s?no)?t (?:feel|tell|say|know|answer|see|judge|sense)|don['’]?t know|"
+    r"do not know|unknown|not (?:something|a thing) (?:that )?(?:i|touch) can)\b",
+    re.I,
+)
+_OFF_TOPIC = re.compile(
+    r"\bonly (?:answer|talk|speak|know)\b.*\b(?:touch\w*|contact|pad)\b"
+    r"|\bnot (?:about|a question about) (?:touch|the contact|this contact|this touch)\b"
+    r"|\boff[- ]topic\b",
+    re.I,
+)
+_NOTHING = re.compile(
+    r"\bnothing (?:touches|is touching|touched|on the pad)\b|\b(?:there is )?no contact\b", re.I
+)
+_PHRASES: Mapping[str, Mapping[str, str]] = {
+    "action": {
+        Primitive.MOVE_UP: r"\b(?:move|shift|go)[ _](?:the gripper )?up",
+        Primitive.MOVE_DOWN: r"\b(?:move|shift|go)[ _](?:the gripper )?down",
+        Primitive.MOVE_LEFT: r"\b(?:move|shift|go)[ _](?:the gripper )?(?:to the )?left",
+        Primitive.MOVE_RIGHT: r"\b(?:move|shift|go)[ _](?:the gripper )?(?:to the )?right",
+        Primitive.INCREASE_FORCE: r"\bincrease\b|\btighten\b|\bmore force\b|\bgrip harder\b",
+        Primitive.DECREASE_FORCE: r"\bdecrease\b|\bloosen\b|\bless force\b|\bgrip softer\b",
+        Primitive.RESET: r"\breset\b|\bgrasp again\b",
+        LIFT: r"\blift\b",
+        HOLD: r"\bhold still\b|\bhold on\b",
+    },
+    "reason": {
+        Reason.NO_CONTACT: r"\bnothing touches\b|\bno contact\b|\bmissed\b",
+        Reason.OVER_THE_EDGE: r"\bsliver\b|\bover the edge\b",
+        Reason.TOO_FIRM: r"\btoo (?:firm|hard|strong|tight)(?:ly)?\b|\btoo much\b",
+        Reason.OFF_CENTER: r"\boff[- ]cent(?:er|re)\b|\bbadly cent(?:er|re)d\b",
+        Reason.CUT: r"\bcuts? it\b|\bcut off\b",
+        Reason.TOO_LIGHT: r"\btoo (?:light|loose|weak)(?:ly)?\b|\btoo little\b",
+        Reason.BAND_TOO_NARROW: r"\bno step fits\b|\bovershoot\b",
+        Reason.GOOD: r"\bwithin the (?:goal|band|limits)\b",
+    },
+    "side_x": {"left": r"\bleft\b", "right": r"\bright\b"},
+    "side_y": {"fingertip": r"\bfingertip\b|\btip\b|\bbottom\b", "palm": r"\bpalm\b|\btop\b"},
+    "force_band": {
+        "below": r"\bbelow\b|\btoo (?:little|light|low)\b",
+        "within": r"\bwithin\b|\bon target\b|\binside\b",
+        "above": r"\babove\b|\btoo (?:much|hard|high)\b",
+    },
+    "wholeness": {"cut": r"\bcuts?\b", "whole": r"\bwhole\b|\bnot cut\b|\bcomplete\b"},
+    "worse_axis": {"horizontal": r"\bhorizontal", "vertical": r"\bvertical"},
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measured:
+    """A number of an answer.
+
+    Attributes:
+        value: Its value in mm, N, percent, mm² or g.
+        dimension: What it measures; '' for a number without a unit.
+    """
+
+    value: float
+    dimension: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class AnswerReading:
+    """What an answer says.
+
+    Attributes:
+        text: The answer.
+        numbers: Its numbers in order.
+        is_yes: Whether it says yes, or no; None where neither, or both.
+        verdicts: Every yes and no at the beginning of a clause, in order.
+        is_unknown: Whether it says that touch, or what was given, does not tell.
+        is_off_topic: Whether it says that the question is not about touch.
+        is_nothing: Whether it says that nothing touches.
+    """
+
+    text: str
+    numbers: tuple[Measured, ...]
+    is_yes: bool | None
+    verdicts: tuple[bool, ...]
+    is_unknown: bool
+    is_off_topic: bool
+    is_nothing: bool
+
+    def words(self, name: str) -> Sequence[str]:
+        """Words of a scene's name in the answer, each once, in order."""
+        if name in CLASSES:
+            return _class_words(name, self.text)
+        phrases = _PHRASES.get(name, {})
+        text = self.text.replace("not cut", "whole")
+        return [str(word) for word, pattern in phrases.items() if re.search(pattern, text, re.I)]
+
+
+def read_answer(text: str) -> AnswerReading:
+    """Read an answer."""
+    first, last = _FIRST.match(text), _LAST.search(text)
+    polarity = {bool(match["yes"]) for match in (first, last) if match is not None}
+    return AnswerReading(
+        text=text,
+        numbers=tuple(_measured(match) for match in _MEASURED.finditer(text)),
+        is_yes=polarity.pop() if len(polarity) == 1 else None,
+        verdicts=tuple(bool(match["yes"]) for match in _ANY.finditer(text)),
+        is_unknown=bool(_UNKNOWN.search(text)),
+        is_off_topic=bool(_OFF_TOPIC.search(text)),
+        is_nothing=bool(_NOTHING.search(text)),
+    )
+
+
+def _measured(match: re.Match[str]) -> Measured:
+    value = float(match[1].replace(",", "."))
+    for index, symbol in enumerate(_UNIT_NAMES):
+        if match[f"u{index}"] is not None:
+            unit = UNITS[symbol]
+            return Measured(value=value * unit.size, dimension=unit.dimension)
+    return Measured(value=value, dimension="")
+
+
+def _class_words(name: str, text: str) -> list[str]:
+    """Words of a class; 'very deep' is not 'deep', and '0.3 mm deep' names no class."""
+    plain = re.sub(r"(?<=[mµ]m) deep\b", "", text.lower())
+    if name == "position":
+        plain = re.sub(r"\b(top|middle|bottom)[ -](left|center|centre|right)\b", r"\1-\2", plain)
+        plain = plain.replace("centre", "center")
+        plain = re.sub(r"\bin the (?:center|middle)\b(?!-)", "centered", plain)
+    pattern = rf"(?<![\w-])(?:{alternatives(CLASSES[name])})(?![\w-])"
+    return list(dict.fromkeys(match[0] for match in re.finditer(pattern, plain)))

@@ -1,0 +1,211 @@
+"""True answers to questions, worded: in one word, in a sentence, or in between.
+
+Every wording reads back to the same value (``tacgrasp.lessons.dialogue.answer_reading``; tested).
+An answer that needs what nobody gave says what is missing.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from cltp.texts.captions import with_article
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.facts import (
+    ACTIONS,
+    NOTHING_TOUCHES,
+    REASONS,
+    UNMEASURED,
+    UNTOUCHED_NAMES,
+    capital,
+    fact,
+    is_plural,
+    named,
+    place,
+)
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    AnswerKind,
+    Check,
+    Description,
+    Length,
+    Meaning,
+    OffTopic,
+    Several,
+    Unknowable,
+    Which,
+    Why,
+    kind_of,
+    names_of,
+)
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in
+from tacgrasp.lessons.dialogue.scene import AskedScene, Value
+
+OFF_TOPIC = (
+    "I only answer about touch.",
+    "That is not about touch.",
+    "I can only talk about what touches the pad.",
+)
+UNKNOWABLE = ("I can't feel {}.", "Touch can't tell {}.", "I can't tell {} by touch.")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answer:
+    """An answer.
+
+    Attributes:
+        text: Its wording.
+        kind: What kind of answer it is.
+        value: Its value: a number in ``unit``, a word, or whether yes; None without one.
+        unit: Unit of a number; ''.
+        decidable: Whether touch and what was given decide the question.
+    """
+
+    text: str
+    kind: AnswerKind
+    value: Value = None
+    unit: str = ""
+    decidable: bool = True
+
+
+def answer(meaning: Meaning, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    """The true answer to a question about a scene; ``rng`` draws its wording."""
+    lacking = _lacking(meaning, scene)
+    if lacking is not None:
+        return lacking
+    match meaning:
+        case Amount():
+            return _amount(meaning, scene, rng)
+        case Check():
+            return _check(meaning, scene, rng)
+        case Which():
+            return _which(meaning, scene, rng)
+        case Several():
+            return _several(meaning, scene, rng)
+        case Why():
+            return _why(meaning, scene, rng)
+        case Description():
+            return Answer(text=_description(scene), kind=AnswerKind.TEXT)
+        case Unknowable(subject=subject, length=length):
+            text = "Unknown." if length is Length.WORD else _draw(rng, *UNKNOWABLE).format(subject)
+            return Answer(text=text, kind=AnswerKind.UNKNOWABLE, decidable=False)
+        case OffTopic():
+            text = _draw(rng, *OFF_TOPIC)
+            return Answer(text=text, kind=AnswerKind.OFF_TOPIC, decidable=False)
+
+
+def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
+    """The answer where a name has no value; None where all have one."""
+    names, values = names_of(meaning), scene.values()
+    needed_n = meaning.needed_n if isinstance(meaning, Check) else ""
+    needed = Expression(needed_n).names if needed_n else ()
+    if not scene.state.in_contact and not set(names) <= UNTOUCHED_NAMES:
+        return Answer(text=NOTHING_TOUCHES, kind=kind_of(meaning))
+    for name in (*names, *needed):
+        if values[name] is None:
+            reason = UNMEASURED.get(name)
+            text = f"I can't say: {reason}." if reason else f"I can't tell the {name}."
+            return Answer(
+                text=text.replace("force_n", "force"),
+                kind=AnswerKind.UNKNOWABLE,
+                decidable=False,
+            )
+    return None
+
+
+def _amount(asked: Amount, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    quantity = QUANTITIES[asked.quantity]
+    value = Expression(quantity.truth).evaluate(scene.values()).value
+    text = amount_text(asked.quantity, float(value or 0.0), asked.unit, scene)
+    article = "" if asked.quantity in "xy" else "The "
+    whole = f"{article}{quantity.noun} is {text}."
+    if asked.length is Length.FREE:
+        whole = _draw(rng, f"{text}.", f"{text}.", whole, f"It is {text}.")
+    worded = f"{text}." if asked.length is Length.WORD else whole
+    return Answer(text=worded, kind=AnswerKind.NUMBER, value=number_in(text), unit=asked.unit)
+
+
+def _check(asked: Check, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    values = scene.values()
+    is_so = bool(Expression(asked.condition).evaluate(values).value)
+    yes = "yes" if is_so else "no"
+    shorts, clauses = zip(*(fact(name, scene) for name in asked.shows), strict=True)
+    clause = " and ".join(clauses)
+    if asked.needed_n:
+        needed = float(Expression(asked.needed_n).evaluate(values).value or 0.0)
+        clause = f"it needs {needed:.2f} N and {clause}"
+        shorts = (clause,)
+    whole = f"{yes.capitalize()}, {clause}."
+    if asked.length is Length.WORD:
+        text = f"{yes.capitalize()}."
+    elif asked.length is Length.SENTENCE:
+        text = whole
+    else:
+        short = f"{yes.capitalize()}, {' and '.join(shorts)}."
+        text = _draw(rng, short, short, whole, f"{capital(clause)}, so {yes}.")
+    return Answer(text=text, kind=AnswerKind.YES_NO, value=is_so)
+
+
+def _which(asked: Which, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    word = str(scene.values()[asked.name])
+    short, clause = named(asked.name, word, scene)
+    if asked.length is Length.WORD:
+        text = f"{capital(short if asked.name == 'action' else word)}."
+    elif asked.length is Length.SENTENCE:
+        text = f"{capital(clause)}."
+    else:
+        text = _draw(rng, f"{capital(short)}.", f"{capital(clause)}.")
+    return Answer(text=text, kind=kind_of(asked), value=word)
+
+
+def _several(asked: Several, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    shorts, clauses = [], []
+    for part in asked.parts:
+        if isinstance(part, Which):
+            short, clause = named(part.name, str(scene.values()[part.name]), scene)
+        elif isinstance(part, Amount):
+            value = float(
+                Expression(QUANTITIES[part.quantity].truth).evaluate(scene.values()).value or 0
+            )
+            amount = amount_text(part.quantity, value, part.unit, scene)
+            noun = QUANTITIES[part.quantity].noun
+            is_axis = part.quantity in "xy"
+            short = f"{part.quantity} {amount}" if is_axis else amount
+            clause = f"{'' if is_axis else 'the '}{noun} is {amount}"
+        else:
+            yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
+            short = f"{yes}, {fact(part.shows[0], scene)[0]}"
+            clause = f"{yes}, {fact(part.shows[0], scene)[1]}"
+        shorts.append(short)
+        clauses.append(clause)
+    text = _draw(rng, "; ".join(shorts), "; ".join(clauses))
+    return Answer(text=f"{capital(text)}.", kind=AnswerKind.TEXT)
+
+
+def _why(asked: Why, scene: AskedScene, rng: np.random.Generator) -> Answer:
+    values = scene.values()
+    clauses = [fact(name, scene)[1] for name in asked.shows]
+    clause = " and ".join(clauses) or REASONS[str(values["reason"])]
+    if asked.with_action:
+        text = f"{capital(ACTIONS[str(values['action'])])}: {clause}."
+    else:
+        text = _draw(rng, f"Because {clause}.", f"{capital(clause)}.")
+    return Answer(text=text, kind=AnswerKind.TEXT)
+
+
+def _description(scene: AskedScene) -> str:
+    state = scene.state
+    words = [str(word) for word in (state.texture, state.shape) if word is not None]
+    several = state.shape is not None and is_plural(state.shape)
+    noun = " ".join(words if several else [with_article(" ".join(words or ["object"]))])
+    area = amount_text("area", 100 * state.area_fraction, "%", scene)
+    return (
+        f"{capital(noun)}, {place(str(state.position))}, pressed {state.depth} "
+        f"({state.depth_mm:.2f} mm), with {with_article(str(state.area))} contact area ({area}) "
+        f"and {state.force_n:.2f} N."
+    )
+
+
+def _draw(rng: np.random.Generator, *choices: str) -> str:
+    return choices[int(rng.integers(len(choices)))]

@@ -1,0 +1,179 @@
+"""The truth of a question as an expression over a scene's names, evaluated without running code.
+
+An expression has names of ``tacgrasp.lessons.dialogue.scene``, numbers, words in quotes (or bare,
+where they are words of a class: ``shape == sphere``), ``+ - * /``, comparisons, ``and or not`` and
+the functions ``abs``, ``hypot``, ``min`` and ``max``. Nothing else is read. Words of depth and area
+have an order, so ``depth >= 'deep'`` is a comparison.
+"""
+
+from __future__ import annotations
+
+import ast
+import math
+import operator
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from cltp.tactile.states import CLASSES
+from tacgrasp.lessons.dialogue.scene import NAMES, Value
+
+MAX_LENGTH = 200
+"""Longest expression [characters]."""
+
+_WORDS = frozenset(word for words in CLASSES.values() for word in words)
+_ORDERED = [CLASSES["depth"], CLASSES["area"]]
+_ARITHMETIC: Mapping[type[ast.AST], Callable[[float, float], float]] = {
+    ast.Add: operator.add,
+    ast.Sub: operator.sub,
+    ast.Mult: operator.mul,
+    ast.Div: operator.truediv,
+}
+_COMPARISONS: Mapping[type[ast.AST], Callable[[Any, Any], bool]] = {
+    ast.Lt: operator.lt,
+    ast.LtE: operator.le,
+    ast.Gt: operator.gt,
+    ast.GtE: operator.ge,
+    ast.Eq: operator.eq,
+    ast.NotEq: operator.ne,
+}
+_FUNCTIONS: Mapping[str, tuple[int, Callable[..., float]]] = {
+    "abs": (1, abs),
+    "hypot": (2, math.hypot),
+    "min": (2, min),
+    "max": (2, max),
+}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TruthValue:
+    """Value of an expression in a scene.
+
+    Attributes:
+        value: The value; None where a name that it needs has none.
+        margin: Least distance of two numbers that were compared; infinite without a comparison.
+    """
+
+    value: Value
+    margin: float = math.inf
+
+
+class Expression:
+    """A parsed expression.
+
+    Args:
+        text: The expression.
+
+    Raises:
+        ValueError: It is too long, or has something that is no part of an expression.
+    """
+
+    def __init__(self, text: str) -> None:
+        self.text = text.strip()
+        if not self.text or len(self.text) > MAX_LENGTH:
+            raise ValueError(f"a truth needs 1 to {MAX_LENGTH} characters, got {len(self.text)}")
+        try:
+            self._tree = ast.parse(self.text, mode="eval").body
+        except (SyntaxError, ValueError, RecursionError, MemoryError):
+            raise ValueError(f"{self.text!r} is no expression") from None
+        nodes = [node for node in ast.walk(self._tree) if isinstance(node, ast.Name)]
+        nodes.sort(key=lambda node: node.col_offset)
+        self.names = tuple(dict.fromkeys(node.id for node in nodes if node.id in NAMES))
+        self._check(self._tree)
+
+    def _check(self, node: ast.AST) -> None:
+        """Refuse all that is not listed in the module's docstring."""
+        match node:
+            case ast.Name(id=name) if name in NAMES or name in _WORDS:
+                return
+            case ast.Name(id=name):
+                raise ValueError(f"no name is called {name!r}; known: {', '.join(NAMES)}")
+            case ast.Constant(value=str() | int() | float()):
+                return
+            case ast.UnaryOp(op=ast.USub() | ast.UAdd() | ast.Not(), operand=operand):
+                parts = [operand]
+            case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
+                parts = [left, right]
+            case ast.BoolOp(values=values):
+                parts = values
+            case ast.Compare(left=left, ops=ops, comparators=others) if all(
+                type(op) in _COMPARISONS for op in ops
+            ):
+                parts = [left, *others]
+            case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if (
+                name in _FUNCTIONS and len(args) == _FUNCTIONS[name][0]
+            ):
+                parts = args
+            case _:
+                raise ValueError(
+                    f"{self.text!r} has {type(node).__name__}, which no truth may have; use names, "
+                    "numbers, quoted words, + - * /, comparisons, and or not, abs hypot min max"
+                )
+        for part in parts:
+            self._check(part)
+
+    def evaluate(self, values: Mapping[str, Value]) -> TruthValue:
+        """The value in a scene.
+
+        Raises:
+            ValueError: Words and numbers are mixed, or something is divided by 0.
+        """
+        margins = [math.inf]
+        try:
+            value = _evaluate(self._tree, values, margins)
+        except _UndefinedError:
+            return TruthValue(value=None)
+        except (TypeError, ZeroDivisionError) as error:
+            raise ValueError(f"{self.text!r} can't be evaluated: {error}") from None
+        return TruthValue(value=value, margin=min(margins))
+
+
+class _UndefinedError(Exception):
+    """A name has no value in the scene."""
+
+
+def _evaluate(node: ast.AST, values: Mapping[str, Value], margins: list[float]) -> Any:
+    match node:
+        case ast.Name(id=name):
+            value = values.get(name) if name in NAMES else name
+            if value is None:
+                raise _UndefinedError
+            return value
+        case ast.Constant(value=value):
+            return value
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            return not _evaluate(operand, values, margins)
+        case ast.UnaryOp(op=op, operand=operand):
+            inner = _evaluate(operand, values, margins)
+            return -inner if isinstance(op, ast.USub) else +inner
+        case ast.BinOp(left=left, op=op, right=right):
+            pair = (_evaluate(left, values, margins), _evaluate(right, values, margins))
+            if any(isinstance(one, (str, bool)) for one in pair):
+                raise TypeError("words have no sum or product")
+            return _ARITHMETIC[type(op)](*pair)
+        case ast.BoolOp(op=op, values=parts):
+            truths = [bool(_evaluate(part, values, margins)) for part in parts]
+            return all(truths) if isinstance(op, ast.And) else any(truths)
+        case ast.Compare(left=left, ops=ops, comparators=others):
+            sides = [_evaluate(part, values, margins) for part in (left, *others)]
+            return all(
+                _compare(_COMPARISONS[type(op)], a, b, margins)
+                for op, a, b in zip(ops, sides, sides[1:], strict=False)
+            )
+        case ast.Call(func=ast.Name(id=name), args=args):
+            return _FUNCTIONS[name][1](*(_evaluate(arg, values, margins) for arg in args))
+    raise TypeError(f"unexpected {type(node).__name__}")
+
+
+def _compare(comparison: Callable[[Any, Any], bool], a: Any, b: Any, margins: list[float]) -> bool:
+    if isinstance(a, str) != isinstance(b, str):
+        raise TypeError(f"{a!r} and {b!r} can't be compared")
+    if isinstance(a, str):
+        if comparison in (operator.eq, operator.ne):
+            return comparison(a, b)
+        for order in _ORDERED:
+            if a in order and b in order:
+                return comparison(order.index(a), order.index(b))
+        raise TypeError(f"{a!r} and {b!r} have no order")
+    margins.append(abs(float(a) - float(b)))
+    return comparison(a, b)

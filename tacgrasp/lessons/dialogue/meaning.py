@@ -1,0 +1,191 @@
+"""The meaning of a question: what kind of answer it wants, and its truth in any scene.
+
+A meaning knows no wording. Its truth is an expression over a scene's names; several ones are
+separated by semicolons, as in the files of questions. Not here: words of the answer
+(``tacgrasp.lessons.dialogue.answers``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES
+
+
+class AnswerKind(StrEnum):
+    """Kind of an answer."""
+
+    NUMBER = "number"
+    YES_NO = "yes_no"
+    CHOICE = "choice"
+    TEXT = "text"
+    UNKNOWABLE = "unknowable"
+    OFF_TOPIC = "off_topic"
+
+
+class Length(StrEnum):
+    """How long an answer is asked to be."""
+
+    FREE = ""
+    WORD = "word"
+    SENTENCE = "sentence"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Amount:
+    """A number is asked for.
+
+    Attributes:
+        quantity: Name in ``QUANTITIES``.
+        unit: Unit of the answer.
+        length: How long the answer is to be.
+    """
+
+    quantity: str
+    unit: str
+    length: Length = Length.FREE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Check:
+    """Yes or no is asked for.
+
+    Attributes:
+        condition: Expression that is true for yes.
+        shows: Facts that the answer names, by their names in ``FACTS``.
+        needed_n: Expression of the force that is needed [N]; '' where none is.
+        length: How long the answer is to be.
+    """
+
+    condition: str
+    shows: tuple[str, ...]
+    needed_n: str = ""
+    length: Length = Length.FREE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Which:
+    """A word is asked for.
+
+    Attributes:
+        name: Name of a scene whose value is a word.
+        is_open: Whether no words to choose from are offered.
+        length: How long the answer is to be.
+    """
+
+    name: str
+    is_open: bool = False
+    length: Length = Length.FREE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Several:
+    """Several things are asked for at once.
+
+    Attributes:
+        parts: Each of them.
+    """
+
+    parts: tuple[Amount | Check | Which, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Why:
+    """The reason of advice, or of an answer.
+
+    Attributes:
+        shows: Facts behind a yes or no; empty for the reason of the advice.
+        with_action: Whether the advice itself is asked for too.
+    """
+
+    shows: tuple[str, ...] = ()
+    with_action: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Description:
+    """A description of the whole contact."""
+
+    length: Length = Length.FREE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unknowable:
+    """Something that touch can't know.
+
+    Attributes:
+        subject: What it is, with its article ('its price').
+    """
+
+    subject: str
+    length: Length = Length.FREE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OffTopic:
+    """Nothing about the contact."""
+
+
+Meaning = Amount | Check | Which | Several | Why | Description | Unknowable | OffTopic
+
+FACTS: Mapping[str, str] = {
+    "depth": "depth_mm",
+    "force": "force_n",
+    "area": "area_percent",
+    "x": "x_mm",
+    "y": "y_mm",
+    "distance": "hypot(x_mm, y_mm)",
+    "shape": "shape",
+    "texture": "texture",
+    "depth_word": "depth",
+    "area_word": "area",
+    "position": "position",
+    "contact": "contact",
+    "cut": "wholeness",
+    "force_band": "force_band",
+}
+"""Facts that an answer may name, with their truths."""
+
+
+def kind_of(meaning: Meaning) -> AnswerKind:
+    """The kind of answer that a question wants."""
+    match meaning:
+        case Amount():
+            return AnswerKind.NUMBER
+        case Check():
+            return AnswerKind.YES_NO
+        case Which(is_open=is_open):
+            return AnswerKind.TEXT if is_open else AnswerKind.CHOICE
+        case Several() | Why() | Description():
+            return AnswerKind.TEXT
+        case Unknowable():
+            return AnswerKind.UNKNOWABLE
+    return AnswerKind.OFF_TOPIC
+
+
+def truth_of(meaning: Meaning) -> str:
+    """Truth of a question, as in a file of questions; '' where touch knows none."""
+    match meaning:
+        case Amount(quantity=quantity):
+            return QUANTITIES[quantity].truth
+        case Check(condition=condition):
+            return condition
+        case Which(name=name):
+            return name
+        case Several(parts=parts):
+            return "; ".join(truth_of(part) for part in parts)
+        case Why(shows=shows, with_action=with_action):
+            reasons = [FACTS[fact] for fact in shows] or ["reason"]
+            return "; ".join(["action", *reasons] if with_action else reasons)
+        case Description():
+            return "depth; position; area"
+    return ""
+
+
+def names_of(meaning: Meaning) -> tuple[str, ...]:
+    """Names of a scene that the answer needs."""
+    parts = [part for part in truth_of(meaning).split(";") if part]
+    return tuple(dict.fromkeys(name for part in parts for name in Expression(part).names))

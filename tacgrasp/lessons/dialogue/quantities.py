@@ -1,0 +1,136 @@
+"""Quantities that can be asked for, their units, and numbers as text.
+
+Numbers have the digits of the captions (``cltp.texts.captions``): mm and N with two, x and y with
+one, percent with two figures or so. Other units follow from these digits, so that 0.19 mm and
+190 µm are the same answer.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tacgrasp.lessons.dialogue.scene import AskedScene
+
+GRAVITY_N_PER_G = 9.80665e-3
+"""Weight of a gram [N/g]."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Unit:
+    """A unit.
+
+    Attributes:
+        symbol: As answers write it.
+        dimension: What it measures: length, force, fraction, area or mass.
+        size: Its size in mm, N, percent, mm² or g.
+    """
+
+    symbol: str
+    dimension: str
+    size: float
+
+
+UNITS: Mapping[str, Unit] = {
+    unit.symbol: unit
+    for unit in (
+        Unit(symbol="mm", dimension="length", size=1.0),
+        Unit(symbol="µm", dimension="length", size=1e-3),
+        Unit(symbol="cm", dimension="length", size=10.0),
+        Unit(symbol="N", dimension="force", size=1.0),
+        Unit(symbol="mN", dimension="force", size=1e-3),
+        Unit(symbol="%", dimension="fraction", size=1.0),
+        Unit(symbol="mm²", dimension="area", size=1.0),
+        Unit(symbol="g", dimension="mass", size=1.0),
+        Unit(symbol="kg", dimension="mass", size=1000.0),
+    )
+}
+"""Units by symbol. Grams also stand for the force that they weigh."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """A number that can be asked for.
+
+    Attributes:
+        truth: Its expression (``tacgrasp.lessons.dialogue.expression``).
+        unit: Unit of that expression.
+        noun: What it is, after 'the'.
+        decimals: Digits after the point in that unit.
+        is_signed: Whether answers show a plus.
+    """
+
+    truth: str
+    unit: str
+    noun: str
+    decimals: int = 2
+    is_signed: bool = False
+
+
+QUANTITIES: Mapping[str, Quantity] = {
+    "depth": Quantity(truth="depth_mm", unit="mm", noun="depth"),
+    "x": Quantity(truth="x_mm", unit="mm", noun="x", decimals=1, is_signed=True),
+    "y": Quantity(truth="y_mm", unit="mm", noun="y", decimals=1, is_signed=True),
+    "offset_x": Quantity(
+        truth="abs(x_mm)", unit="mm", noun="distance from the vertical midline", decimals=1
+    ),
+    "offset_y": Quantity(
+        truth="abs(y_mm)", unit="mm", noun="distance from the horizontal midline", decimals=1
+    ),
+    "distance": Quantity(
+        truth="hypot(x_mm, y_mm)", unit="mm", noun="distance from the center", decimals=1
+    ),
+    "area": Quantity(truth="area_percent", unit="%", noun="contact area", decimals=0),
+    "force": Quantity(truth="force_n", unit="N", noun="force"),
+    "band_low": Quantity(truth="band_low_n", unit="N", noun="least force wanted"),
+    "band_high": Quantity(truth="band_high_n", unit="N", noun="most force wanted"),
+    "limit": Quantity(truth="limit_n", unit="N", noun="limit"),
+    "headroom": Quantity(truth="limit_n - force_n", unit="N", noun="force left to the limit"),
+    "mass": Quantity(truth="mass_g", unit="g", noun="mass", decimals=0),
+    "holds": Quantity(truth="holds_g", unit="g", noun="heaviest load held", decimals=0),
+}
+"""Quantities by name."""
+
+
+def amount_text(name: str, value: float, unit: str, scene: AskedScene) -> str:
+    """A value of a quantity, given in the quantity's own unit, as text in another unit.
+
+    The value is rounded in its own unit first, as captions round it.
+    """
+    quantity = QUANTITIES[name]
+    if unit == "%":
+        return f"{percent_text(value)} %"
+    shown = round(value, quantity.decimals) + 0.0  # no minus before zeros
+    if unit == quantity.unit:
+        sign = "+" if quantity.is_signed else ""
+        return f"{shown:{sign}.{quantity.decimals}f} {unit}"
+    converted = _in_unit(quantity, value if unit == "mm²" else shown, unit, scene)
+    if unit == "cm":
+        return f"{converted:.{quantity.decimals + 1}f} cm"
+    if unit == "kg":
+        return f"{converted:.3f} kg"
+    return f"{converted:.0f} {unit}" if abs(converted) >= 10 else f"{converted:.1f} {unit}"
+
+
+def percent_text(percent: float) -> str:
+    """A percentage as captions write it: two figures or so."""
+    return f"{percent:.1f}" if percent < 9.95 else f"{percent:.0f}"
+
+
+def number_in(text: str) -> float:
+    """The first number of a text that ``amount_text`` wrote."""
+    match = re.search(r"[+-]?\d+(?:\.\d+)?", text)
+    if match is None:
+        raise ValueError(f"no number in {text!r}")
+    return float(match[0])
+
+
+def _in_unit(quantity: Quantity, value: float, unit: str, scene: AskedScene) -> float:
+    """A value in another unit; grams of a force are those that weigh as much."""
+    base = value * UNITS[quantity.unit].size
+    if unit == "mm²":
+        return base / 100 * scene.sensor.area_mm2
+    if unit == "g" and UNITS[quantity.unit].dimension == "force":
+        return base / GRAVITY_N_PER_G
+    return base / UNITS[unit].size

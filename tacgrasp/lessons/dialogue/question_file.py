@@ -1,0 +1,159 @@
+"""Files of questions with their truths.
+
+A file has the columns family, question, kind, truth, tolerance and, where a question follows
+another, before:
+
+    kind        number, yes_no, choice, text, unknowable or off_topic
+    truth       an expression (``tacgrasp.lessons.dialogue.expression``), or several with semicolons
+                for a text; empty for unknowable and off_topic
+    tolerance   of a number: in its unit (0.3) or of the value (15%); of a yes or no: how near to
+                the threshold a contact is left out. Empty: ``TOLERANCES`` for numbers, 0 for yes
+                and no
+    before      the question that was answered before this one
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
+
+from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.meaning import AnswerKind
+
+KEPT_OUT = "kept_out_questions.csv"
+"""Questions in ``tacgrasp.lessons`` that were written before the grammar and are not in it."""
+
+COLUMNS = ("family", "question", "kind", "truth", "tolerance")
+UNDECIDABLE = (AnswerKind.UNKNOWABLE, AnswerKind.OFF_TOPIC)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tolerance:
+    """How far a number may be off: in its unit, or as a fraction of it, whichever is more."""
+
+    absolute: float = 0.0
+    fraction: float = 0.0
+
+    def of(self, value: float) -> float:
+        """Largest error of a value."""
+        return max(self.absolute, self.fraction * abs(value))
+
+
+TOLERANCES: Mapping[str, Tolerance] = {
+    "x_mm": Tolerance(absolute=1.0),
+    "y_mm": Tolerance(absolute=1.0),
+    "depth_mm": Tolerance(absolute=0.05, fraction=0.15),
+    "area_percent": Tolerance(absolute=1.0, fraction=0.25),
+    "force_n": Tolerance(absolute=0.1, fraction=0.25),
+    "holds_g": Tolerance(absolute=5.0, fraction=0.25),
+}
+"""Tolerance of a number by a name in its truth; 2 % where none of these is in it.
+
+Source: single frames of an uncalibrated unit (``cltp.texts.tolerances``), and for the force
+``tacgrasp.lessons.answer_scoring``."""
+
+EXACT = Tolerance(fraction=0.02)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class QuestionRow:
+    """One question of a file.
+
+    Attributes:
+        family: Its family, for the table.
+        question: Its wording.
+        kind: Kind of the right answer.
+        truths: Its truth, or several; empty where touch knows none.
+        tolerance: Of a number or a threshold.
+        before: The question before it; ''.
+    """
+
+    family: str
+    question: str
+    kind: AnswerKind
+    truths: tuple[Expression, ...] = ()
+    tolerance: Tolerance | None = None
+    before: str = ""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of a scene that its truths use."""
+        return tuple(dict.fromkeys(name for truth in self.truths for name in truth.names))
+
+    def tolerance_of(self, truth: Expression) -> Tolerance:
+        """Tolerance of one of its truths: the row's, else that of ``TOLERANCES``."""
+        if self.tolerance is not None:
+            return self.tolerance
+        for name, tolerance in TOLERANCES.items():
+            if name in truth.names:
+                return tolerance
+        return EXACT
+
+
+def read_questions(path: Path | None) -> list[QuestionRow]:
+    """Questions of a CSV file; None takes those that come along.
+
+    Raises:
+        UsageError: The file can't be read, or a row is not as the module says.
+    """
+    source = path or Path(str(resources.files("tacgrasp.lessons") / KEPT_OUT))
+    try:
+        with source.open(encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise UsageError(f"{source} can't be read as CSV: {error}") from None
+    if not rows or not set(COLUMNS) <= set(rows[0]):
+        raise UsageError(f"{source} needs the columns {', '.join(COLUMNS)}, and a row")
+    questions = []
+    for line, row in enumerate(rows, start=2):
+        try:
+            questions.append(question_row({key: value or "" for key, value in row.items() if key}))
+        except ValueError as error:
+            raise UsageError(f"{source}, line {line}: {error}") from None
+    return questions
+
+
+def question_row(row: Mapping[str, str]) -> QuestionRow:
+    """A question out of its columns.
+
+    Raises:
+        ValueError: A column is wrong; the message names it.
+    """
+    try:
+        kind = AnswerKind(row["kind"].strip())
+    except ValueError:
+        raise ValueError(
+            f"kind must be one of {', '.join(AnswerKind)}, got {row['kind']!r}"
+        ) from None
+    if not row["question"].strip():
+        raise ValueError("the question is empty")
+    truths = tuple(Expression(part) for part in row["truth"].split(";") if part.strip())
+    if bool(truths) == (kind in UNDECIDABLE):
+        wanted = "no truth" if truths else "a truth"
+        raise ValueError(f"a question of kind {kind} needs {wanted}")
+    if len(truths) > 1 and kind is not AnswerKind.TEXT:
+        raise ValueError(f"a question of kind {kind} needs one truth, got {len(truths)}")
+    return QuestionRow(
+        family=row["family"].strip() or kind.value,
+        question=row["question"].strip(),
+        kind=kind,
+        truths=truths,
+        tolerance=_tolerance(row["tolerance"].strip()),
+        before=row.get("before", "").strip(),
+    )
+
+
+def _tolerance(text: str) -> Tolerance | None:
+    if not text:
+        return None
+    try:
+        value = float(text.rstrip(" %"))
+    except ValueError:
+        value = -1.0
+    if not 0 <= value < float("inf"):
+        raise ValueError(f"tolerance must be a number such as 0.3 or 15%, got {text!r}")
+    return Tolerance(fraction=value / 100) if text.endswith("%") else Tolerance(absolute=value)
