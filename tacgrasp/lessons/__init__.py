@@ -4,5 +4,5 @@ Not here: captions (``cltp.texts``), training (``cltp.train``, ``tacgrasp.traini
 behind the advice (``policies.teacher``).
 
 May import: cltp.data, cltp.tactile, cltp.texts, policies, primitives, tacgrasp.base,
-tacgrasp.config.
+tacgrasp.config, tacgrasp.lessons.dialogue.
 """

@@ -1,0 +1,257 @@
+"""Questions drawn from the grammar for a contact, with their true answers, for training and tests.
+
+Balanced over the kinds of answers, over the families of a kind, and between yes and no: thresholds
+are drawn around the values of the contact, and words are its own or others, half and half.
+
+Not wired into the training of the shipped weights, which learned ``tacgrasp.lessons.questions``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+
+from cltp.tactile.states import ContactState
+from cltp.texts.exchange_packing import Exchange
+from tacgrasp.lessons.dialogue.answers import Answer, answer
+from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES, understand
+from tacgrasp.lessons.dialogue.families.family import QuestionFamily
+from tacgrasp.lessons.dialogue.meaning import (
+    AnswerKind,
+    Check,
+    Meaning,
+    kind_of,
+    names_of,
+    truth_of,
+)
+from tacgrasp.lessons.dialogue.pattern import draw
+from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
+from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
+from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+
+KIND_WEIGHTS: Mapping[AnswerKind, float] = {
+    AnswerKind.NUMBER: 0.22,
+    AnswerKind.YES_NO: 0.30,
+    AnswerKind.CHOICE: 0.14,
+    AnswerKind.TEXT: 0.14,
+    AnswerKind.UNKNOWABLE: 0.10,
+    AnswerKind.OFF_TOPIC: 0.10,
+}
+"""How often each kind of answer is asked for. Our choice."""
+
+TRIES = 20
+"""Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
+
+ADVISED = ("action", "reason")
+"""Names whose values come from the truth, as all advice does; others come from the reading."""
+
+SPOILED = 0.12
+"""Fraction of questions with contractions left out, or common misspellings."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnQuestion:
+    """A question with its meaning.
+
+    Attributes:
+        family: Its family.
+        text: Its wording.
+        meaning: Its meaning.
+        before: The question before it, where it is a follow-up; ''.
+    """
+
+    family: str
+    text: str
+    meaning: Meaning
+    before: str = ""
+
+    @property
+    def row(self) -> QuestionRow:
+        """The question as a row of a file."""
+        columns = {
+            "family": self.family,
+            "question": self.text,
+            "kind": kind_of(self.meaning).value,
+            "truth": truth_of(self.meaning),
+            "tolerance": "",
+            "before": self.before,
+        }
+        return question_row(columns)
+
+
+@lru_cache(maxsize=1)
+def families_by_kind() -> Mapping[AnswerKind, tuple[QuestionFamily, ...]]:
+    """Families by the kind of their answers."""
+    rng = np.random.default_rng(0)
+    kinds = [kind_of(_wording(family, AskedScene(), rng, {})[1]) for family in FAMILIES]
+    return {
+        kind: tuple(f for f, own in zip(FAMILIES, kinds, strict=True) if own is kind)
+        for kind in AnswerKind
+    }
+
+
+def draw_question(
+    scene: AskedScene, rng: np.random.Generator, family: QuestionFamily | None = None
+) -> DrawnQuestion:
+    """Draw a question about a scene.
+
+    Args:
+        scene: What it is asked about; numbers and words of the question are drawn around it.
+        rng: Draws.
+        family: Its family; None draws one.
+    """
+    if family is None:
+        kinds = list(KIND_WEIGHTS)
+        kind = kinds[int(rng.choice(len(kinds), p=list(KIND_WEIGHTS.values())))]
+        families = families_by_kind()[kind]
+        family = families[int(rng.integers(len(families)))]
+    wants_yes = bool(rng.random() < 0.5)
+    values = scene.values()
+    for _ in range(TRIES):
+        text, meaning = _wording(family, scene, rng, family.steer(scene, wants_yes, rng))
+        if not isinstance(meaning, Check) or any(values[n] is None for n in names_of(meaning)):
+            break
+        if answer(meaning, scene, rng).value == wants_yes:
+            break
+    before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
+    return DrawnQuestion(
+        family=family.name,
+        text=spelled(text, rng),
+        meaning=meaning,
+        before=before,
+    )
+
+
+def _wording(
+    family: QuestionFamily, scene: AskedScene, rng: np.random.Generator, given: Mapping[str, str]
+) -> tuple[str, Meaning]:
+    drawn = draw(family.node, rng, given)
+    numbers = dict(family.choose(scene, drawn.bindings, rng)) if drawn.numbers else {}
+    for name in drawn.numbers:
+        numbers.setdefault(name, str(int(rng.integers(2, 100))))
+    named = {name: float(numbers[name]) for name in drawn.numbers}
+    return _sentence(drawn.text(numbers)), family.build(drawn.bindings, named)
+
+
+def _sentence(text: str) -> str:
+    """A wording with a capital, and with a sign at its end."""
+    if text[-1:] not in "?.":
+        text += "." if _REQUEST.match(text) else "?"
+    return f"{text[:1].upper()}{text[1:]}"
+
+
+def spelled(text: str, rng: np.random.Generator) -> str:
+    """A wording as people type it: perhaps small, without its last sign, or misspelled.
+
+    Its plain words stay the same.
+    """
+    if rng.random() < 0.25:
+        text = text.lower().replace("µm", "um")
+    if rng.random() < 0.2:
+        text = text.rstrip("?. ")
+    if rng.random() < SPOILED:
+        lowered = text.lower()
+        right, wrong = _SPELLINGS[int(rng.integers(len(_SPELLINGS)))]
+        if f" {right} " in f" {lowered} ":
+            text = f" {lowered} ".replace(f" {right} ", f" {wrong} ", 1).strip()
+    return text
+
+
+_REQUEST = re.compile(
+    r"(?:(?:please|hey,|ok,|now,|so,|and|then) )?(?:give|tell|report|show|state|log|estimate|check|"
+    r"describe|say|let|i (?:need|want|would|am|wonder)|write|remind|convert|choose)\b",
+    re.I,
+)
+_SPELLINGS = [
+    (right, wrong) for table in (MISSPELLINGS, CONTRACTIONS) for wrong, right in table.items()
+]
+
+
+def draw_scene(state: ContactState, rng: np.random.Generator) -> AskedScene:
+    """A contact with a contract near its force, or none, and a mass near what it holds, or none."""
+    force_n = state.force_n if state.in_contact and state.force_n > 0 else 1.0
+    contract = None
+    if rng.random() < 0.85:
+        middle = float(np.clip(force_n * np.exp(rng.uniform(-0.7, 0.7)), 0.2, 12.0))
+        ratio = float(rng.uniform(1.1, 1.5))
+        low, high = round(middle / ratio, 2), round(middle * ratio, 2)
+        contract = band_contract(low, high, round(high * float(rng.uniform(1.1, 1.4)), 2))
+    mass_g = None
+    if rng.random() < 0.75:
+        mass_g = float(max(2, round(force_n / 0.0205 * float(np.exp(rng.uniform(-0.8, 0.8))))))
+    return AskedScene(state=state, contract=contract, mass_g=mass_g)
+
+
+def question_prompt(question: str, scene: AskedScene, before: Exchange | None = None) -> str:
+    """A question with what the model is told beside the contact.
+
+    Args:
+        question: The question.
+        scene: Its contract and mass are named where there are any.
+        before: The exchange before it.
+    """
+    facts = []
+    if scene.contract is not None:
+        terms = scene.contract.terms
+        facts.append(f"Goal {terms.force_n.low:.2f} - {terms.force_n.high:.2f} N")
+        facts.append(f"limit {terms.limit_n:.2f} N")
+    if scene.mass_g is not None:
+        facts.append(f"mass {scene.mass_g:.0f} g")
+    told = f"{', '.join(facts)}. " if facts else ""
+    earlier = f"{before.prompt} {before.reply} " if before is not None else ""
+    return f"{told}{earlier}{question}"
+
+
+def true_answer(
+    meaning: Meaning, truth: AskedScene, reading: AskedScene, rng: np.random.Generator
+) -> Answer:
+    """The answer to learn: advice from the truth, all else from what the encoder's heads read."""
+    is_advice = any(name in ADVISED for name in names_of(meaning))
+    return answer(meaning, truth if is_advice else reading, rng)
+
+
+def question_exchange(
+    state: ContactState, reading: ContactState, rng: np.random.Generator
+) -> Exchange:
+    """One question about a contact with its answer, to be learned.
+
+    Args:
+        state: The truth, from which advice comes.
+        reading: The same words with the numbers as the encoder's heads read them.
+        rng: Draws contract, mass, question and wordings.
+    """
+    truth = draw_scene(state, rng)
+    read = replace(truth, state=reading)
+    question = draw_question(read, rng)
+    before = None
+    if question.before:
+        earlier = understand(question.before)
+        if earlier is None:
+            raise ValueError(f"no family has the question {question.before!r}")
+        reply = true_answer(earlier, truth, read, rng).text
+        before = Exchange(prompt=question.before, reply=reply)
+    return Exchange(
+        prompt=question_prompt(question.text, read, before),
+        reply=true_answer(question.meaning, truth, read, rng).text,
+    )
+
+
+def question_samples(states: Sequence[ContactState], seed: int) -> Iterator[Exchange]:
+    """Endless exchanges about some contacts, deterministic in the seed."""
+    rng = np.random.default_rng(seed)
+    while True:
+        state = states[int(rng.integers(len(states)))]
+        yield question_exchange(state, state, rng)
+
+
+def drawn_rows(
+    scenes: Sequence[AskedScene], num: int, seed: int
+) -> list[tuple[QuestionRow, AskedScene]]:
+    """Questions of the grammar with the scenes that they were drawn for."""
+    rng = np.random.default_rng(seed)
+    chosen = [scenes[int(rng.integers(len(scenes)))] for _ in range(num)]
+    return [(draw_question(scene, rng).row, scene) for scene in chosen]
