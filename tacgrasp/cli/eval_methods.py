@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.eval_instructions import main as instructions
+from tacgrasp.cli.eval_questions import main as questions
 from tacgrasp.cli.flags import contacts_in, parse, writable
 
 if TYPE_CHECKING:
@@ -208,6 +209,7 @@ def report(argv: Sequence[str]) -> None:
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
     "instructions": instructions,
+    "questions": questions,
     "zero-shot": zero_shot,
     "probe": probe,
     "retrieval": retrieval,

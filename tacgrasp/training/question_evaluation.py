@@ -1,0 +1,178 @@
+"""``tacgrasp eval questions``: the language model's answers to a file of questions.
+
+Contacts are of a data set's test split, or a few that are made for the purpose; all with the noise
+of a calibrated unit. Each has a contract and a mass, or not, drawn from the seed.
+
+Not here: what is right (``tacgrasp.lessons.dialogue.answer_scores``), trivial answers
+(``tacgrasp.lessons.question_scores``).
+"""
+
+from __future__ import annotations
+
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.data.contact import Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
+from cltp.data.sampler import NOISY, Sampler
+from cltp.llm.generation import Talker
+from cltp.tactile.sensors import sensor_named
+from cltp.texts.exchange_packing import Exchange
+from cltp.train.stage import ProgressReport, silent
+from sim.starter.contacts import make_group
+from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons.dialogue.question_file import QuestionRow
+from tacgrasp.lessons.dialogue.scene import AskedScene
+from tacgrasp.lessons.question_draws import draw_scene, drawn_rows, question_prompt
+from tacgrasp.lessons.question_scores import (
+    AskedQuestion,
+    ScoredAnswer,
+    answer_all,
+    ask_all,
+    baselines,
+    figures,
+    figures_by_family,
+)
+
+MADE_SEED = 900_007
+"""Seed of the contacts that are made where none are given; no data set was made from it."""
+
+GRAMMAR_QUESTIONS = 500
+"""Number of the grammar's own questions that its answers are scored on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FeltContact:
+    """A contact as the model gets it, and as it is.
+
+    Attributes:
+        points: Shape (1024, 3), scaled.
+        scene: The truth, with contract and mass.
+    """
+
+    points: NDArray[np.float32]
+    scene: AskedScene
+
+
+def felt_contacts(folder: Path | None, num: int, seed: int) -> list[FeltContact]:
+    """Contacts of a data set's test split, or made ones.
+
+    Args:
+        folder: The data set; None makes a group of the starter set.
+        num: How many.
+        seed: Random seed of choice, noise, contracts and masses.
+
+    Raises:
+        TouchError: The data set can't be used.
+    """
+    with tempfile.TemporaryDirectory() as work:
+        data = ContactDataset(folder, split=Split.TEST) if folder else _made(Path(work), num)
+        rng = np.random.default_rng([seed, 41])
+        chosen = rng.permutation(len(data))[:num]
+        batch = Sampler(data, NOISY, seed=seed).batch(np.sort(chosen), 0)
+    return [
+        FeltContact(points=points, scene=draw_scene(state, rng))
+        for points, state in zip(batch.points, batch.states, strict=True)
+    ]
+
+
+def _made(work: Path, num: int) -> ContactDataset:
+    spec = sensor_named("gelsight_mini")
+    with DatasetWriter(work / "made") as writer:
+        written = group = 0
+        while written < num:
+            for contact in make_group(MADE_SEED, group, spec):
+                writer.add(contact)
+                written += 1
+            group += 1
+    return ContactDataset(work / "made")
+
+
+def evaluate_questions(
+    rows: Sequence[QuestionRow],
+    contacts: Sequence[FeltContact],
+    talker: Talker | None,
+    *,
+    per_question: int,
+    with_context: bool,
+    seed: int = 0,
+    report: ProgressReport = silent,
+) -> tuple[dict[str, Any], list[ScoredAnswer]]:
+    """Ask every question and score the answers of the model and of what needs no model.
+
+    Args:
+        rows: The questions.
+        contacts: The contacts.
+        talker: The model; None scores the others alone.
+        per_question: Number of contacts for each question.
+        with_context: Whether the model is told contract, mass and the exchange before.
+        seed: Random seed of the grammar's own questions.
+        report: Receives the progress.
+
+    Returns:
+        Figures for JSON, and the model's answers.
+
+    Raises:
+        UsageError: A truth can't be evaluated in a scene.
+    """
+    scenes = [contact.scene for contact in contacts]
+    asked = ask_all(rows, scenes, per_question)
+    try:
+        contestants = baselines(asked)
+        scored = {name: answer_all(asked, one) for name, one in contestants.items()}
+        own = _own_questions(scenes, seed)
+        scored["grammar"] = answer_all(own, contestants["grammar"])
+        answers: list[ScoredAnswer] = []
+        if talker is not None:
+            model = _model(talker, contacts, len(asked), report, with_context=with_context)
+            answers = answer_all(asked, model)
+            scored = {"model": answers, **scored}
+    except ValueError as error:
+        raise UsageError(f"the file of questions: {error}") from None
+    return {
+        "questions": len(rows),
+        "contacts": len(contacts),
+        "per_question": min(per_question, len(contacts)),
+        "figures": {name: asdict(figures(each)) for name, each in scored.items()},
+        "families": {name: asdict(each) for name, each in figures_by_family(answers).items()},
+    }, answers
+
+
+def _own_questions(scenes: Sequence[AskedScene], seed: int) -> list[AskedQuestion]:
+    rows = drawn_rows(scenes, GRAMMAR_QUESTIONS, seed)
+    return [AskedQuestion(row=row, contact=i, scene=scene) for i, (row, scene) in enumerate(rows)]
+
+
+def _model(
+    talker: Talker,
+    contacts: Sequence[FeltContact],
+    total: int,
+    report: ProgressReport,
+    *,
+    with_context: bool,
+) -> Callable[[AskedQuestion], str]:
+    done = 0
+
+    def reply(asked: AskedQuestion) -> str:
+        nonlocal done
+        points, row = contacts[asked.contact].points, asked.row
+        prompt = row.question
+        if with_context:
+            before = None
+            if row.before:
+                first = talker.reply(points, question_prompt(row.before, asked.scene)).text
+                before = Exchange(prompt=row.before, reply=first)
+            prompt = question_prompt(row.question, asked.scene, before)
+        text = talker.reply(points, prompt).text
+        done += 1
+        report("questions", done, total, {})
+        return text
+
+    return reply

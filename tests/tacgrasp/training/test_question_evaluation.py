@@ -1,0 +1,113 @@
+"""``tacgrasp eval questions`` with a model of a few words: prompts, figures, and refused files."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from tacgrasp.__main__ import main
+from tacgrasp.base.errors import UsageError
+from tacgrasp.lessons.dialogue.question_file import question_row
+from tacgrasp.training import question_evaluation
+from tacgrasp.training.question_evaluation import FeltContact, evaluate_questions, felt_contacts
+from tests.fakes.question_scenes import FIRM, HELD
+
+CONTACTS = [FeltContact(points=np.zeros((1024, 3), np.float32), scene=s) for s in (HELD, FIRM)]
+
+
+class Parrot:
+    """Answers with the same text, and remembers what it was asked."""
+
+    def __init__(self, text):
+        self.text, self.prompts = text, []
+
+    def reply(self, points, prompt):
+        assert points.shape == (1024, 3)
+        self.prompts.append(prompt)
+        return SimpleNamespace(text=self.text)
+
+
+def row(question, kind, truth="", before=""):
+    columns = {"family": kind, "question": question, "kind": kind, "truth": truth}
+    return question_row({**columns, "tolerance": "", "before": before})
+
+
+ROWS = [
+    row("Over 1 N?", "yes_no", "force_n > 1"),
+    row("And how deep?", "number", "depth_mm", before="Over 1 N?"),
+    row("Is it red?", "unknowable"),
+]
+
+
+@pytest.fixture(autouse=True)
+def _few_own_questions(monkeypatch):
+    monkeypatch.setattr(question_evaluation, "GRAMMAR_QUESTIONS", 3)
+
+
+def evaluated(talker, *, with_context=False):
+    return evaluate_questions(ROWS, CONTACTS, talker, per_question=2, with_context=with_context)
+
+
+def test_the_model_is_asked_each_question_about_its_contacts():
+    parrot = Parrot("Yes, 5.31 N.")
+    results, answers = evaluated(parrot)
+    assert parrot.prompts == [each.question for each in ROWS for _ in CONTACTS]
+    model = results["figures"]["model"]
+    assert (model["right"], model["decidable_n"], model["undecidable_n"]) == (0.25, 4, 2)
+    assert model["undecidable"] == 0
+    assert model["right_kind"] == pytest.approx(2 / 6)
+    assert results["families"]["yes_no"]["right"] == 0.5
+    assert len(answers) == 6
+    assert json.dumps(results)
+
+
+def test_the_upper_bounds_are_reached():
+    results, answers = evaluated(None)
+    assert answers == []
+    assert results["figures"]["truth in words"]["right"] == 1
+    assert results["figures"]["grammar"]["right_kind"] == 1
+    assert results["figures"]["unknowable"]["undecidable"] == 1
+
+
+def test_with_context_the_model_is_told_contract_mass_and_the_exchange_before():
+    parrot = Parrot("No.")
+    evaluated(parrot, with_context=True)
+    told = "Goal 0.62 - 0.95 N, limit 1.30 N, mass 25 g. "
+    assert parrot.prompts[0] == f"{told}Over 1 N?"
+    follow_ups = [prompt for prompt in parrot.prompts if prompt.endswith("And how deep?")]
+    assert follow_ups[0] == f"{told}Over 1 N? No. And how deep?"
+
+
+def test_contacts_are_made_where_none_are_given():
+    first, second = felt_contacts(None, 5, 0), felt_contacts(None, 5, 0)
+    assert len(first) == 5
+    assert all(each.points.shape == (1024, 3) for each in first)
+    assert [each.scene for each in first] == [each.scene for each in second]
+
+
+def test_a_truth_that_can_not_be_evaluated_is_named():
+    with pytest.raises(UsageError, match="can't be evaluated"):
+        evaluate_questions(
+            [row("?", "yes_no", "shape > 3")], CONTACTS, None, per_question=1, with_context=False
+        )
+
+
+def test_a_bad_file_is_one_line(tmp_path, capsys):
+    path = tmp_path / "q.csv"
+    path.write_text("family,question,kind,truth,tolerance\na,How?,number,depth,x\n")
+    assert main(["eval", "questions", "--file", str(path)]) == 2
+    printed = capsys.readouterr().err
+    assert printed.count("\n") == 1
+    assert "line 2" in printed
+
+
+@pytest.mark.slow
+def test_the_command_prints_and_writes_its_figures(tmp_path, capsys):
+    path = tmp_path / "figures.json"
+    argv = ["eval", "questions", "--no-model", "--contacts", "4", "--per-question", "1"]
+    assert main([*argv, "--json", str(path)]) == 0
+    assert "truth in words" in capsys.readouterr().out
+    written = json.loads(path.read_text())
+    assert written["questions"] == 300
+    assert written["figures"]["truth in words"]["right"] == 1
