@@ -26,6 +26,7 @@ from policies.goal import Goal
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from tacgrasp.lessons.instructions import draw_instruction, draw_instruction_near
+from tacgrasp.lessons.question_draws import question_exchange
 from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
 
 ADVICE_PER_CONTACT = 3
@@ -100,10 +101,14 @@ class TouchLessons:
     Args:
         blind: Whether every instruction is replaced by ``BLIND``: the control, whose model can't
             know the goal.
+        num_grammar_questions: Questions of the grammar (``tacgrasp.lessons.question_draws``) for
+            each contact; they take the place of the old ones. 0, as the shipped weights were
+            taught, leaves those.
     """
 
-    def __init__(self, *, blind: bool = False) -> None:
+    def __init__(self, *, blind: bool = False, num_grammar_questions: int = 0) -> None:
         self._blind = blind
+        self._num_grammar_questions = num_grammar_questions
 
     def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
         return [caption_exchange(reading, rng)]
@@ -112,9 +117,13 @@ class TouchLessons:
         self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
         """A caption or a question, advice for several goals, and meanings of instructions."""
-        first = (
-            caption_exchange(reading, rng) if rng.random() < 0.3 else draw_question(reading, rng)
-        )
+        is_caption = rng.random() < 0.3
+        num = self._num_grammar_questions
+        questions = [question_exchange(state, reading, rng) for _ in range(num)]
+        if is_caption:
+            first = [caption_exchange(reading, rng), *questions]
+        else:
+            first = questions or [draw_question(reading, rng)]
         instructions = [
             draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
             for _ in range(ADVICE_PER_CONTACT)
@@ -127,8 +136,8 @@ class TouchLessons:
             for each in instructions
         ]
         if self._blind:
-            return [first, *exchanges]
-        return [first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
+            return [*first, *exchanges]
+        return [*first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
 
 
 BLIND = "Do what is needed."
