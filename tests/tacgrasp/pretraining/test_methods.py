@@ -374,7 +374,10 @@ def test_encoders_of_other_data_are_refused(
         (["eval", "probe", "--checkpoint", "."], "--methods tvl or unitouch"),
         (["eval", "probe", "--methods", "cltp", "--checkpoint", "."], "is for tvl or unitouch"),
         (["eval", "probe", "--methods", "tvl", "--checkpoint", "/no"], "is no directory"),
-        (["eval", "dance"], "expects one of instructions, questions, zero-shot, probe, retrieval, report"),
+        (
+            ["eval", "dance"],
+            "expects one of instructions, questions, zero-shot, probe, retrieval, report",
+        ),
     ],
 )
 def test_wrong_use_of_eval_is_told_in_one_line(
