@@ -11,7 +11,7 @@ from tests.fuzz.runner import fuzz
 from tests.fuzz.target import FuzzTarget
 from tests.fuzz.targets import all_targets
 
-BUDGET_S = 40.0
+BUDGET_S = 20.0
 """Time of all parsers together [s]; `make fuzz` runs them longer."""
 
 
