@@ -19,7 +19,7 @@ from torch import Tensor
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import HeadsOutput, StateHeads, restored
 from cltp.errors import TouchError
-from cltp.tactile.cells import height_grid
+from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.force_scale import ForceScale
@@ -185,6 +185,5 @@ def fine_noise_mm(cloud: TactileCloud) -> float:
     The median of absolute values, which a contact on part of the pad hardly changes.
     """
     heights = height_grid(cloud, GRID)
-    rows = heights[:-2] + heights[1:-1] + heights[2:]
-    relief = heights[1:-1, 1:-1] - (rows[:, :-2] + rows[:, 1:-1] + rows[:, 2:]) / 9
+    relief = (heights - sums_around(heights) / 9)[1:-1, 1:-1]
     return float(1.4826 * np.median(np.abs(relief)) / math.sqrt(1 - 1 / 9))

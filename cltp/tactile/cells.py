@@ -159,14 +159,14 @@ def without_holes(heights: NDArray[np.floating], known: NDArray[np.bool_]) -> Gr
     """
     heights = np.where(known, heights, 0).astype(np.float32)
     while not known.all():
-        total, count = _sums_around(heights), _sums_around(known.astype(np.float32))
+        total, count = sums_around(heights), sums_around(known.astype(np.float32))
         reached = ~known & (count > 0)
         heights[reached] = total[reached] / count[reached]
         known = known | reached
     return heights
 
 
-def _sums_around(cells: Grid) -> Grid:
+def sums_around(cells: Grid) -> Grid:
     """Sums over 3 × 3 cells."""
     padded = np.pad(cells, 1)
     rows = padded[:-2] + padded[1:-1] + padded[2:]

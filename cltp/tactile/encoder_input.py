@@ -45,8 +45,8 @@ def scaled(points_mm: NDArray[np.floating], sensor: SensorSpec) -> NDArray[np.fl
     x and y are divided by half the width of the sensing area, so that x fills -1 .. 1 and shapes
     keep their proportions; z is divided by the sensor's ``max_depth_mm``.
     """
-    half = sensor.width_mm / 2
-    factors = np.array([1 / half, 1 / half, 1 / sensor.max_depth_mm], dtype=np.float32)
+    unit_mm = _unit_mm(sensor, EVEN)
+    factors = np.array([1 / unit_mm, 1 / unit_mm, 1 / sensor.max_depth_mm], dtype=np.float32)
     return np.asarray(points_mm, dtype=np.float32) * factors
 
 
@@ -54,9 +54,14 @@ def unscaled(
     points: NDArray[np.float32], sensor: SensorSpec, layout: PointLayout = EVEN
 ) -> TactileCloud:
     """The cloud of scaled points (N, 3) in a layout."""
-    unit_mm = sensor.width_mm / 2 if layout.is_sampled else GRID_UNIT_MM
+    unit_mm = _unit_mm(sensor, layout)
     factors = np.array([unit_mm, unit_mm, sensor.max_depth_mm], np.float32)
     return TactileCloud(points_mm=points * factors, sensor=sensor)
+
+
+def _unit_mm(sensor: SensorSpec, layout: PointLayout) -> float:
+    """Length that becomes 1 in x and y [mm]."""
+    return sensor.width_mm / 2 if layout.is_sampled else GRID_UNIT_MM
 
 
 def lattice_points(cloud: TactileCloud) -> NDArray[np.float32]:

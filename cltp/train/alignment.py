@@ -188,19 +188,17 @@ def _terms(
 @torch.inference_mode()
 def calibrate_heads(
     run: TrainingRun, encoder: TactileEncoder, heads: StateHeads, augmentation: Augmentation | None
-) -> int:
+) -> None:
     """Calibrate the heads on the validation split, with the noise of training.
 
-    Returns:
-        Number of contacts; 0, and the intervals stay as they were learned, where the data has no
-        such split.
+    Where the data has no such split, the intervals stay as they were learned.
     """
-    stored = ContactDataset(run.data).column("split")
-    if not (stored == Split.VALIDATION.value).any():
-        return 0
-    data = ContactDataset(run.data, split=Split.VALIDATION)
+    data = ContactDataset(run.data)
+    held_out = np.flatnonzero(data.column("split") == Split.VALIDATION.value)
+    if not len(held_out):
+        return
     sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=encoder.config.variant.layout)
-    chosen = np.random.default_rng([run.seed, 71]).permutation(len(data))[:CALIBRATION_CONTACTS]
+    chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
     encoder.eval(), heads.eval()
     pooled, labels = [], []
     for step, first in enumerate(range(0, len(chosen), 64)):
@@ -210,4 +208,3 @@ def calibrate_heads(
     heads.calibrate(
         torch.cat(pooled), Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True)))
     )
-    return len(chosen)

@@ -16,7 +16,6 @@ A kind that is one of these words may stand with the number alone in ``expect``.
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import resources
@@ -30,6 +29,7 @@ from cltp.tactile.sensors import sensor_named
 from policies.contract import read_contract
 from policies.llm import GOAL_IN_TEXT, LlmPolicy
 from primitives.contract import Contract, TaskTerms
+from tacgrasp.base.csv_rows import csv_rows
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.exchanges import GOAL_QUESTIONS
 
@@ -76,11 +76,7 @@ def read_wordings(path: Path | None) -> list[Wording]:
         UsageError: The file can't be read, or a row is not of the module's table.
     """
     source = path or Path(str(resources.files("tacgrasp.lessons") / KEPT_OUT))
-    try:
-        with source.open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"{source} can't be read as CSV: {error}") from None
+    rows = csv_rows(source)
     if not rows or not {"text", "expect"} <= set(rows[0]):
         raise UsageError(f"{source} needs the columns text, kind and expect, and a row")
     return [_wording(source, number, row) for number, row in enumerate(rows, start=2)]

@@ -14,12 +14,12 @@ another, before:
 
 from __future__ import annotations
 
-import csv
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
+from tacgrasp.base.csv_rows import csv_rows
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
@@ -101,11 +101,7 @@ def read_questions(path: Path | None) -> list[QuestionRow]:
         UsageError: The file can't be read, or a row is not as the module says.
     """
     source = path or Path(str(resources.files("tacgrasp.lessons") / KEPT_OUT))
-    try:
-        with source.open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise UsageError(f"{source} can't be read as CSV: {error}") from None
+    rows = csv_rows(source)
     if not rows or not set(COLUMNS) <= set(rows[0]):
         raise UsageError(f"{source} needs the columns {', '.join(COLUMNS)}, and a row")
     questions = []

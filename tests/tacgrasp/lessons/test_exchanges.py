@@ -6,15 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     ContactState,
     Shape,
     Side,
     Texture,
-    area_word,
-    depth_word,
-    position_word,
 )
 from cltp.texts.captions import caption
 from policies.extraction import extract
@@ -33,8 +29,8 @@ from tacgrasp.lessons.instructions import (
     task_goals,
 )
 from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS, answer
+from tests.fakes import question_scenes
 
-MINI = SENSORS["gelsight_mini"]
 SMOOTH_BALL = {"shape": Shape.SPHERE, "texture": Texture.SMOOTH}
 
 
@@ -46,17 +42,8 @@ def contact(
     force_n: float = 1.5,
     cut: frozenset[Side] = frozenset(),
 ) -> ContactState:
-    return ContactState(
-        depth_mm=depth_mm,
-        x_mm=x_mm,
-        y_mm=y_mm,
-        area_fraction=area_fraction,
-        force_n=force_n,
-        depth=depth_word(depth_mm),
-        position=position_word(x_mm, y_mm, MINI),
-        area=area_word(area_fraction),
-        cut=cut,
-        **SMOOTH_BALL,
+    return question_scenes.contact(
+        depth_mm, x_mm, y_mm, area_fraction, force_n, cut=cut, **SMOOTH_BALL
     )
 
 

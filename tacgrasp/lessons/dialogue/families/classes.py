@@ -88,26 +88,21 @@ def _open(name: str, subject: str, direct: str, indirect: str, noun: str) -> Que
 
 
 def _checks(
-    name: str, shows: str, words: dict[str, str], subject: str, predicate: str
+    name: str,
+    shows: str,
+    words: dict[str, str],
+    subject: str,
+    predicate: str,
+    *,
+    denied: bool = False,
 ) -> QuestionFamily:
+    pattern = denied_pattern if denied else check_pattern
     return QuestionFamily(
-        name=f"{name}_is",
-        pattern=check_pattern(subject, predicate),
-        build=_checked(name, shows, denied=False),
+        name=f"not_{name}_is" if denied else f"{name}_is",
+        pattern=pattern(subject, predicate),
+        build=_checked(name, shows, denied=denied),
         slots={name: words},
-        steer=_steered(name, denied=False),
-    )
-
-
-def _denials(
-    name: str, shows: str, words: dict[str, str], subject: str, predicate: str
-) -> QuestionFamily:
-    return QuestionFamily(
-        name=f"not_{name}_is",
-        pattern=denied_pattern(subject, predicate),
-        build=_checked(name, shows, denied=True),
-        slots={name: words},
-        steer=_steered(name, denied=True),
+        steer=_steered(name, denied=denied),
     )
 
 
@@ -205,13 +200,20 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "area", "area_word", AREAS, "the (contact area|area|footprint|contact|patch)", "{area}"
     ),
     _checks("position", "position", PLACES, _PLACED, "{position}"),
-    _denials("shape", "shape", SHAPES, _OBJECT, "{shape}|shaped like {shape}"),
-    _denials("texture", "texture", TEXTURES, _SURFACE, "{texture}"),
-    _denials(
-        "depth", "depth_word", DEPTHS, "the (press|depth|indentation|contact|dent)", "{depth}"
+    _checks("shape", "shape", SHAPES, _OBJECT, "{shape}|shaped like {shape}", denied=True),
+    _checks("texture", "texture", TEXTURES, _SURFACE, "{texture}", denied=True),
+    _checks(
+        "depth",
+        "depth_word",
+        DEPTHS,
+        "the (press|depth|indentation|contact|dent)",
+        "{depth}",
+        denied=True,
     ),
-    _denials("area", "area_word", AREAS, "the (contact area|area|footprint|patch)", "{area}"),
-    _denials("position", "position", PLACES, _PLACED, "{position}"),
+    _checks(
+        "area", "area_word", AREAS, "the (contact area|area|footprint|patch)", "{area}", denied=True
+    ),
+    _checks("position", "position", PLACES, _PLACED, "{position}", denied=True),
     _offered("shape", SHAPES, _OBJECT),
     _offered("texture", TEXTURES, _SURFACE),
 )
