@@ -26,6 +26,9 @@ COVERAGE = 0.9
 USUAL = 0.999
 """Fraction of contacts that are not strange."""
 
+LEAST_CONTACTS = 20
+"""Fewest contacts to calibrate by. Our choice: a tail of 5 % is then one contact."""
+
 SHRINKAGE = 0.01
 """Part of the mean variance of the pooled tokens that is added to each. Our choice: some thousand
 contacts tell the smallest variances badly."""
@@ -159,8 +162,9 @@ class StateHeads(nn.Module):
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
         self.out = nn.Linear(hidden_dim, sum(self.sizes))
         shapes = {"widening": (count,), "usual": (pooled_dim,), "whitening": (pooled_dim,) * 2}
-        for name, shape in shapes.items():
-            self.register_buffer(name, torch.ones(shape) if intervals else None)
+        for name, shape in shapes.items():  # as long as nothing is calibrated, nothing is strange
+            start = torch.ones(shape) if name == "widening" else torch.zeros(shape)
+            self.register_buffer(name, start if intervals else None)
 
     @property
     def has_intervals(self) -> bool:
@@ -181,11 +185,13 @@ class StateHeads(nn.Module):
     def calibrate(self, pooled: Tensor, labels: Targets) -> None:
         """Set intervals and strangeness by contacts that nothing was learned from.
 
+        With fewer than ``LEAST_CONTACTS`` that touch, both stay as they are.
+
         Args:
             pooled: Their pooled tokens, shape (N, 2 C).
             labels: Their labels.
         """
-        if self.widening is None:
+        if self.widening is None or int((labels.touching > 0).sum()) < LEAST_CONTACTS:
             return
         self._widen(pooled, labels)
         self._whiten(pooled)

@@ -109,3 +109,13 @@ def test_heads_without_intervals_say_so():
     read = heads(torch.randn(2, 16))
     assert read.margins is None and read.strangeness is None
     assert not heads.has_intervals
+
+
+def test_a_few_contacts_calibrate_nothing_and_nothing_is_strange_then():
+    heads = StateHeads(16)
+    before = {name: value.clone() for name, value in heads.state_dict().items()}
+    for count in (1, 3, 18):
+        heads.calibrate(*drawn(count, 2))
+    assert all(torch.equal(value, before[name]) for name, value in heads.state_dict().items())
+    read = heads(100 * torch.randn(8, 16))
+    assert read.margins is not None and (read.strangeness == 0).all()
