@@ -41,8 +41,8 @@ ENCODER, PROJECTOR = "tacgrasp_encoder", "tacgrasp_projector"
 """``model_type`` of the two."""
 
 ENCODER_VERSION = 1
-PROJECTOR_VERSION = 2
-"""2: the heads' readings follow the tokens."""
+PROJECTOR_VERSION = 3
+"""3: pooled tokens and the heads' readings with intervals follow the tokens."""
 
 _LARGEST_DIM = 16_384
 

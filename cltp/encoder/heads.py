@@ -8,7 +8,6 @@ contrastive losses, and in evaluation.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import NamedTuple
 
 import torch
@@ -77,37 +76,6 @@ def restored(values: Tensor) -> Tensor:
     depth, x, y, area, force = values.unbind(-1)
     newtons = SMALLEST_FORCE_N * torch.expm1(2 * force.clamp(0, 5))
     return torch.stack([depth * 0.3, x * 5, y * 5, (area.clamp(min=0) * 0.3) ** 2, newtons], dim=-1)
-
-
-def scaled_force(numbers: Tensor, factor: float | Tensor) -> Tensor:
-    """Transformed numbers with the force in newtons instead of nominal newtons.
-
-    Args:
-        numbers: Shape (..., 5), transformed ``NUMBERS``, as the heads give them.
-        factor: Newtons per nominal newton, one number or (...), above 0
-            (``cltp.tactile.force_scale``). The number 1 gives ``numbers`` themselves.
-    """
-    if isinstance(factor, float | int) and factor == 1:
-        return numbers
-    *others, force = numbers.unbind(-1)
-    newtons = torch.expm1(2 * force.clamp(0, 5)) * factor
-    return torch.stack([*others, torch.where(force > 0, torch.log1p(newtons) / 2, force)], -1)
-
-
-def with_read_numbers(states: Sequence[ContactState], numbers: Tensor) -> list[ContactState]:
-    """States with the heads' numbers in place of their own; words stay, and states without contact.
-
-    Args:
-        states: B states.
-        numbers: Shape (B, 5), transformed ``NUMBERS``, as the heads give them.
-    """
-    read = restored(numbers.detach().float().cpu())
-    read[:, NUMBERS.index("depth_mm")].clamp_(min=0)
-    read[:, NUMBERS.index("area_fraction")].clamp_(max=1)
-    return [
-        replace(state, **dict(zip(NUMBERS, row, strict=True))) if state.in_contact else state
-        for state, row in zip(states, read.tolist(), strict=True)
-    ]
 
 
 class HeadsOutput(NamedTuple):

@@ -14,15 +14,14 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
-from torch import Tensor
 
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, restored
+from cltp.encoder.heads import HeadsOutput, StateHeads
+from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
-from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensor_noise import MINI_SPREAD
@@ -38,9 +37,6 @@ from cltp.tactile.states import (
     Side,
     Texture,
 )
-
-TAILS = 1.645
-"""Standard deviations that 5 % lie beyond, on either side."""
 
 MOST_NOISE_MM = 1.25 * WIDE.factor[1] * MINI_SPREAD.fine_mm
 """Fine noise in cells of ``GRID`` above which a cloud is noisier than any learned from [mm]. A
@@ -115,7 +111,10 @@ class TouchReader:
 
 def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
     """The reading of one cloud from the heads' output for it, a batch of one."""
-    numbers = numbers_of(output, cloud.force_scale)
+    scale = cloud.force_scale
+    read = readings_of(output, scale.factor, scale.spread)
+    ends = torch.cat([read.values, read.low, read.high]).T.tolist()
+    numbers = {name: Number(*each) for name, each in zip(NUMBERS, ends, strict=True)}
     flags = []
     if fine_noise_mm(cloud) > MOST_NOISE_MM:
         flags.append(Flag.NOISE)
@@ -126,8 +125,8 @@ def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
         numbers["depth_mm"].value > cloud.sensor.gel_mm
     ):
         flags.append(Flag.RANGE)
-    contact = float(output.touching[0].sigmoid())
-    chances = {name: x[0].softmax(-1) for name, x in zip(CLASSES, output.logits, strict=True)}
+    contact = float(read.touching[0])
+    chances = {name: x[0] for name, x in zip(CLASSES, read.words, strict=True)}
     words = {name: CLASSES[name][int(chance.argmax())] for name, chance in chances.items()}
     state = NO_CONTACT_STATE
     if contact >= 0.5:
@@ -138,7 +137,7 @@ def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
             area=Area(words["area"]),
             shape=Shape(words["shape"]),
             texture=Texture(words["texture"]),
-            cut=frozenset(side for side, x in zip(Side, output.cut[0], strict=True) if x > 0),
+            cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
         )
     return TouchReading(
         state=state,
@@ -147,36 +146,6 @@ def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
         contact=contact,
         flags=tuple(flags),
     )
-
-
-def numbers_of(output: HeadsOutput, scale: ForceScale) -> dict[str, Number]:
-    """Numbers with their intervals, of the heads' output for one cloud.
-
-    Without a force calibration the interval of the force is as wide as units differ.
-
-    Raises:
-        TouchError: The heads have no intervals.
-    """
-    if output.margins is None:
-        raise TouchError("these heads read numbers without intervals")
-    below, above = output.margins[0].unbind(-1)
-    value = output.numbers[0]
-    ends: Tensor = restored(torch.stack([value - below, value, value + above]))
-    table = dict(zip(NUMBERS, ends.T.tolist(), strict=True))
-    low, force, high = (scale.factor * each for each in table.pop("force_n"))
-    table = {name: _clipped(name, ends_of) for name, ends_of in table.items()}
-    least = 1e-3
-    widest = TAILS * scale.spread
-    up = math.hypot(math.log(max(high, least) / max(force, least)), widest)
-    down = math.hypot(math.log(max(force, least) / max(low, least)), widest)
-    table["force_n"] = [force * math.exp(-down) if low > 0 else 0.0, force, force * math.exp(up)]
-    return {name: Number(table[name][1], table[name][0], table[name][2]) for name in NUMBERS}
-
-
-def _clipped(name: str, values: list[float]) -> list[float]:
-    low = -math.inf if name in ("x_mm", "y_mm") else 0.0
-    high = 1.0 if name == "area_fraction" else math.inf
-    return [min(max(value, low), high) for value in values]
 
 
 def fine_noise_mm(cloud: TactileCloud) -> float:

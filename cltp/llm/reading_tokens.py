@@ -2,8 +2,9 @@
 
 Beyond the paper, which passes on the encoder's tokens alone: from those, a language model of a few
 million weights, trained for minutes, learns to write a millimetre only coarsely. Here each number
-becomes a token of its phases at ten, a hundred, a thousand and ten thousand times the last digit
-that is written, so that each digit is a direction of the embedding.
+becomes a token of its phases, and those of the ends of its interval, at ten, a hundred, a thousand
+and ten thousand times the last digit that is written, so that each digit is a direction of the
+embedding. A reading that is left out becomes a token that says so.
 
 Source: Fourier number embeddings (Zhou et al., FoNE, 2025), here of measured numbers.
 """
@@ -16,7 +17,8 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
-from cltp.encoder.heads import HeadsOutput, restored
+from cltp.encoder.heads import transformed
+from cltp.encoder.readings import Readings
 from cltp.tactile.states import CLASSES, NUMBERS, Side
 
 LAST_DIGIT = {"depth_mm": 0.01, "x_mm": 0.1, "y_mm": 0.1, "area_fraction": 0.001, "force_n": 0.01}
@@ -29,7 +31,7 @@ NUM_READINGS = 1 + len(NUMBERS)
 
 
 class ReadingTokens(nn.Module):
-    """The heads' readings as tokens: one for all words, one for each number.
+    """The readings as tokens: one for all words, one for each number with its interval.
 
     Args:
         dim: Width D of the tokens.
@@ -41,25 +43,36 @@ class ReadingTokens(nn.Module):
     def __init__(self, dim: int) -> None:
         super().__init__()
         num_words = sum(len(names) for names in CLASSES.values()) + 1 + len(Side)
+        num_features = 3 * (1 + 2 * len(PERIODS))
         self.words = nn.Linear(num_words, dim)
-        self.numbers = nn.ModuleList(nn.Linear(1 + 2 * len(PERIODS), dim) for _ in NUMBERS)
+        self.numbers = nn.ModuleList(nn.Linear(num_features, dim) for _ in NUMBERS)
+        self.left_out = nn.Parameter(torch.zeros(NUM_READINGS, dim))
         self.out = nn.Linear(dim, dim)
         unit = torch.tensor([LAST_DIGIT[name] for name in NUMBERS])
         self.register_buffer("unit", unit, persistent=False)
         self.register_buffer("periods", torch.tensor(PERIODS), persistent=False)
 
-    def forward(self, readings: HeadsOutput) -> Tensor:
-        """Output of ``StateHeads`` to tokens (B, 1 + 5, D)."""
-        logits, numbers, touching, cut = readings[:4]
-        classes = [scores.softmax(-1) for scores in logits]
-        words = torch.cat([*classes, touching.sigmoid()[:, None], cut.sigmoid()], dim=-1)
-        features = self.features(numbers)
-        tokens = [self.words(words)]
-        tokens += [layer(features[:, i]) for i, layer in enumerate(self.numbers)]
-        return self.out(F.gelu(torch.stack(tokens, dim=1)))
+    def forward(self, readings: Readings, given: Tensor | None = None) -> Tensor:
+        """Readings of B contacts to tokens (B, 6, D).
 
-    def features(self, numbers: Tensor) -> Tensor:
-        """Transformed numbers (B, 5) beside the sines and cosines of their phases: (B, 5, 9)."""
-        digits = restored(numbers) / self.unit
-        phases = 2 * math.pi * digits[..., None] / self.periods
-        return torch.cat([numbers[..., None], phases.sin(), phases.cos()], dim=-1)
+        Args:
+            readings: The readings.
+            given: Shape (B, 6), bool: whether words and each number are given, or left out; None
+                gives all.
+        """
+        touching, cut = readings.touching[:, None], readings.cut
+        words = self.words(torch.cat([*readings.words, touching, cut], dim=-1))
+        features = self.features(readings)
+        numbers = [layer(features[:, i]) for i, layer in enumerate(self.numbers)]
+        tokens = torch.stack([words, *numbers], dim=1)
+        if given is not None:
+            tokens = torch.where(given[..., None], tokens, self.left_out.to(tokens.dtype))
+        return self.out(F.gelu(tokens))
+
+    def features(self, readings: Readings) -> Tensor:
+        """Numbers and the ends of their intervals with sines and cosines of phases: (B, 5, 27)."""
+        parts = []
+        for numbers in (readings.values, readings.low, readings.high):
+            phases = 2 * math.pi * (numbers / self.unit)[..., None] / self.periods
+            parts += [transformed(numbers)[..., None], phases.sin(), phases.cos()]
+        return torch.cat(parts, dim=-1)

@@ -1,8 +1,9 @@
 """Tac3D-LLM: encoder tokens, projected into a causal language model's input space.
 
 Source: paper, section 5.3, after LLaVA: a small MLP maps the encoder's tokens to embeddings, which
-stand before the prompt. Beyond the paper, the readings of the encoder's state heads follow them as
-a few more tokens (``cltp.llm.reading_tokens``). Not here: replies (``cltp.llm.generation``).
+stand before the prompt. Beyond the paper, the encoder's pooled tokens and the readings of its state
+heads follow them as a few more tokens (``cltp.llm.reading_tokens``). Not here: replies
+(``cltp.llm.generation``).
 """
 
 from __future__ import annotations
@@ -14,15 +15,24 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.encoder import Encoded, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, scaled_force
+from cltp.encoder.heads import StateHeads
+from cltp.encoder.readings import Readings, readings_of
 from cltp.llm.causal_lm import Language
 from cltp.llm.reading_tokens import NUM_READINGS, ReadingTokens
 from cltp.tactile.point_layout import PointLayout
 from cltp.texts.exchange_packing import NOT_LEARNED, Packed
 
+NUM_POOLED = 4
+"""Tokens of the encoder's pooled tokens. Our choice: what the heads read is read from these, and
+the language model is to feel it without the heads."""
+
+_POOLED_HIDDEN = 256
+
 
 class Projector(nn.Module):
     """Two layers from the encoder's width to the language model's, and the heads' readings.
+
+    The pooled tokens become ``NUM_POOLED`` further ones.
 
     Args:
         encoder_dim: Width C of the encoder's tokens.
@@ -34,12 +44,22 @@ class Projector(nn.Module):
         self.encoder_dim, self.lm_dim = encoder_dim, lm_dim
         self.first = nn.Linear(encoder_dim, lm_dim)
         self.second = nn.Linear(lm_dim, lm_dim)
+        self.pooled = nn.Sequential(
+            nn.Linear(2 * encoder_dim, _POOLED_HIDDEN),
+            nn.GELU(),
+            nn.Linear(_POOLED_HIDDEN, NUM_POOLED * lm_dim),
+            nn.Unflatten(-1, (NUM_POOLED, lm_dim)),
+        )
         self.readings = ReadingTokens(lm_dim)
 
-    def forward(self, tokens: Tensor, readings: HeadsOutput) -> Tensor:
-        """Tokens (B, G + 1, C) and the heads' readings to embeddings (B, G + 1 + 6, D)."""
-        projected = self.second(F.gelu(self.first(tokens)))
-        return torch.cat([projected, self.readings(readings)], dim=1)
+    def forward(self, encoded: Encoded, readings: Readings, given: Tensor | None = None) -> Tensor:
+        """An encoded batch and its readings to embeddings (B, G + 1 + 4 + 6, D).
+
+        ``given`` is as in ``ReadingTokens.forward``.
+        """
+        projected = self.second(F.gelu(self.first(encoded.tokens)))
+        read = self.readings(readings, given)
+        return torch.cat([projected, self.pooled(encoded.pooled), read], dim=1)
 
 
 class Tac3dLlm(nn.Module):
@@ -64,8 +84,8 @@ class Tac3dLlm(nn.Module):
 
     @property
     def num_touch(self) -> int:
-        """Number of touch tokens before a prompt: the groups, the class token and the readings."""
-        return self.encoder.config.num_groups + 1 + NUM_READINGS
+        """Tokens before a prompt: groups, class token, pooled tokens, readings."""
+        return self.encoder.config.num_groups + 1 + NUM_POOLED + NUM_READINGS
 
     @property
     def layout(self) -> PointLayout:
@@ -76,17 +96,28 @@ class Tac3dLlm(nn.Module):
         """Embeddings of scaled points (B, N, 3): shape (B, P, D)."""
         return self.projected(self.encoder(points))
 
-    def projected(self, encoded: Encoded, force_factor: float | Tensor = 1.0) -> Tensor:
+    def projected(
+        self,
+        encoded: Encoded,
+        force_factor: float | Tensor = 1.0,
+        force_spread: float = 0.0,
+        *,
+        readings: Readings | None = None,
+        given: Tensor | None = None,
+    ) -> Tensor:
         """Embeddings of an encoded batch: shape (B, P, D).
 
         Args:
             encoded: The batch.
             force_factor: Newtons per nominal newton of its units, one number or (B,): the language
                 model is told newtons.
+            force_spread: Standard deviation of the factor's logarithm.
+            readings: Other readings than the heads' own of this batch.
+            given: Shape (B, 6), bool: which readings the model is given; None for all.
         """
-        read = self.heads(encoded.pooled)
-        read = read._replace(numbers=scaled_force(read.numbers, force_factor))
-        return self.projector(encoded.tokens, read)
+        if readings is None:
+            readings = readings_of(self.heads(encoded.pooled), force_factor, force_spread)
+        return self.projector(encoded, readings, given)
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.

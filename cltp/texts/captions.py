@@ -10,7 +10,7 @@ silent we chose: an unknown shape or texture is left out ('an object, pressed ..
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -38,8 +38,12 @@ def slots_of(state: ContactState) -> Slots:
     return Slots(**words) if state.in_contact else Slots()
 
 
-def caption(state: ContactState) -> str:
+def caption(state: ContactState, rivals: Mapping[str, str] | None = None) -> str:
     """Word a state in the paper's template.
+
+    Args:
+        state: The state.
+        rivals: A second word for dimensions that are in doubt: 'sphere or ellipsoid'.
 
     Raises:
         TouchError: It has a depth but no position or area.
@@ -48,9 +52,16 @@ def caption(state: ContactState) -> str:
         return NO_CONTACT
     if state.position is None or state.area is None:
         raise TouchError("a contact with a depth needs a position and an area to be worded")
-    words = [str(word) for word in (state.texture, state.shape) if word is not None]
-    noun = with_article(" ".join([*words, "object"]))
-    return f"{noun}, pressed {state.depth} in {state.position} with {state.area} contact area."
+    words = {
+        slot: f"{word} or {rivals[slot]}" if rivals and slot in rivals else str(word)
+        for slot in DIMENSIONS
+        if (word := getattr(state, slot)) is not None
+    }
+    nouns = [words[slot] for slot in ("texture", "shape") if slot in words]
+    return (
+        f"{with_article(' '.join([*nouns, 'object']))}, pressed {words['depth']} in "
+        f"{words['position']} with {words['area']} contact area."
+    )
 
 
 def with_article(noun: str) -> str:

@@ -1,16 +1,18 @@
 """Stages 'text', 'projector' and 'joint' of Tac3D-LLM (paper, section 5.3, after LLaVA).
 
-text: the language model alone learns how contacts are described and which advice they get.
+text: the language model learns how contacts are described, which questions are asked and which
+    advice follows, behind readings alone that are drawn around the truth.
 projector: encoder and language model are frozen; the MLP between them learns by captioning, which
     is all that the paper does.
 joint: projector and language model learn captions, questions and advice together; the encoder
-    stays as CLTP left it.
+    stays as CLTP left it. Some readings are left out or wrong (``cltp.llm.unsure_readings``), so
+    that the touch tokens are listened to.
 
-The texts about a contact come from ``Lessons``; this package knows no goals and no actions. Words
-and advice are learned from the truth, numbers from the readings of the encoder's heads. Written
-digit by digit, the most probable digits of the true number are not its most probable value: where
-0.97 and 1.03 are equally probable, the first digit is arbitrary and the next ones follow it. A
-reading can be copied instead.
+The texts about a contact come from ``Lessons``; this package knows no targets and no actions. Words
+are learned from the truth, numbers from the readings of the encoder's heads. Written digit by
+digit, the most probable digits of the true number are not its most probable value: where 0.97 and
+1.03 are equally probable, the first digit is arbitrary and the next ones follow it. A reading can
+be copied instead.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import torch
@@ -33,22 +35,26 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import Augmentation, Sampler
+from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import Encoded
-from cltp.encoder.heads import scaled_force, with_read_numbers
+from cltp.encoder.readings import Readings, readings_of
 from cltp.llm.causal_lm import Language, small_lm
+from cltp.llm.reading_tokens import NUM_READINGS
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
-from cltp.tactile.states import ContactState
+from cltp.llm.unsure_readings import ShownReadings, drawn_readings, shown, told_numbers
+from cltp.tactile.force_scale import UNCALIBRATED_SPREAD
+from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.exchange_packing import Exchange, Packed, pack
+from cltp.texts.felt import FeltContact
 from cltp.texts.tokenizer import Words
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 
 STAGES = {
-    "text": Schedule(steps=300, batch_size=24, learning_rate=2e-3),
+    "text": Schedule(steps=1600, batch_size=16, learning_rate=2e-3),
     "projector": Schedule(steps=200, batch_size=32, learning_rate=2e-3),
-    "joint": Schedule(steps=1800, batch_size=16, learning_rate=1e-3),
+    "joint": Schedule(steps=1600, batch_size=16, learning_rate=1e-3),
 }
 
 FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
@@ -58,6 +64,15 @@ UNIT_FACTORS = (0.5, 2.0)
 """Range of the factors from nominal newtons to newtons, log-uniform. Our choice: wider than units
 differ, so that the language model takes newtons from the readings, which a calibration scales."""
 
+UNCALIBRATED = 0.15
+"""Fraction of contacts of units without a force calibration, whose forces have wide intervals."""
+
+IN_DOUBT = 0.2
+"""Fraction of contacts with words in doubt: each word in a third of them."""
+
+BEFORE_TOUCH = ("text", "encoder")
+"""The stage that goes on behind another encoder: it does not use any."""
+
 ACTION_WEIGHT = 4.0
 """Weight of the one token that moves the robot, beside about sixty that describe."""
 
@@ -65,20 +80,12 @@ ACTION_WEIGHT = 4.0
 class Lessons(Protocol):
     """The exchanges that a language model learns about a contact."""
 
-    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        """Descriptions of a contact, in one or more wordings; ``reading`` as in ``mixed``."""
+    def captions(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Descriptions of a contact, in one or more wordings."""
         ...
 
-    def mixed(
-        self, state: ContactState, reading: ContactState, rng: np.random.Generator
-    ) -> Sequence[Exchange]:
-        """Captions, questions and advice on a contact.
-
-        Args:
-            state: The truth, from which advice comes.
-            reading: The same words with the numbers as the encoder's heads read them.
-            rng: Draws wordings.
-        """
+    def mixed(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Captions, questions and advice on a contact; ``rng`` draws wordings."""
         ...
 
 
@@ -86,7 +93,7 @@ def train_words(
     data_dir: Path,
     lessons: Lessons,
     *,
-    size: int = 1024,
+    size: int = 8192,
     num_contacts: int = 4000,
     seed: int = 0,
     texts: Sequence[str] = (),
@@ -111,8 +118,8 @@ def train_words(
     rng = np.random.default_rng([seed, 77])
     learned = list(texts)
     for index in rng.integers(len(data), size=num_contacts):
-        state = data.state(int(index))
-        for exchange in (*lessons.mixed(state, state, rng), *lessons.captions(state, rng)):
+        felt = FeltContact(state=data.state(int(index)))
+        for exchange in (*lessons.mixed(felt, rng), *lessons.captions(felt, rng)):
             learned += [exchange.prompt, exchange.reply]
     return Words.train(learned, size, whole)
 
@@ -170,12 +177,21 @@ def train_llm(
     for number, name in enumerate(STAGES, start=1):
         if name not in schedules:
             continue
+        made_of = {key: value for key, value in identity.items() if (name, key) != BEFORE_TOUCH}
         model.requires_grad_(False)
         model.projector.requires_grad_(name in ("projector", "joint"))
         model.lm.requires_grad_(name in ("text", "joint"))
-        learner.train(Stage(name, run, learned, schedules[name], identity), number)
+        learner.train(Stage(name, run, learned, schedules[name], made_of), number)
     save_tac3d_llm(run.out, model.cpu().eval())
     return run.out
+
+
+class _Sample(NamedTuple):
+    """A batch with all that is computed of it before the language model's turn."""
+
+    encoded: Encoded | None
+    shown: ShownReadings
+    packed: Packed
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,55 +204,93 @@ class _Learner:
     augmentation: Augmentation | None
 
     def train(self, stage: Stage, number: int) -> None:
-        batches = prefetched(self._batches(stage, number))
+        samples = prefetched(self._samples(stage, number))
+        model, device = self.model, self.run.workers.device
 
         def losses(step: int) -> dict[str, Tensor]:
-            encoded, factors, packed = next(batches)
-            packed = Packed(*(part.to(self.run.workers.device) for part in packed))
-            touch = None
-            if encoded is not None and factors is not None:
-                touch = self.model.projected(encoded, factors.to(self.run.workers.device))
-            return self.model.loss(touch, packed)
+            encoded, shown, packed = next(samples)
+            packed = Packed(*(part.to(device) for part in packed))
+            readings, given = shown.readings.to(device), shown.given.to(device)
+            with self.run.workers.autocast():
+                if encoded is None:
+                    touch = model.projector.readings(readings, given)
+                else:
+                    touch = model.projected(encoded, readings=readings, given=given)
+                return model.loss(touch, packed)
 
         stage.train(losses)
 
-    def _batches(
-        self, stage: Stage, number: int
-    ) -> Iterator[tuple[Encoded | None, Tensor | None, Packed]]:
+    def _samples(self, stage: Stage, number: int) -> Iterator[_Sample]:
         seed = 1000 * self.run.seed + number
         sampler = Sampler(self.data, self.augmentation, seed=seed, layout=self.model.layout)
         size = stage.schedule.batch_size
         for step in range(stage.step, stage.schedule.steps):
             rng = np.random.default_rng([self.run.seed, number, step])
+            factors, spreads = _units(size, rng)
             if stage.name == "text":
-                states = [self.data.state(int(i)) for i in rng.integers(len(self.data), size=size)]
-                encoded, readings, num_touch = None, states, 0
-                factors = None
+                chosen = rng.integers(len(self.data), size=size)
+                states = _in_newtons([self.data.state(int(i)) for i in chosen], factors)
+                encoded, readings = None, drawn_readings(states, rng)
+                told, num_touch = ShownReadings(readings, *_all_given(size)), NUM_READINGS
             else:
                 batch = sampler.numbered(size, step)
-                states, num_touch = batch.states, self.model.num_touch
-                with torch.no_grad():
-                    points = torch.from_numpy(batch.points).to(self.run.workers.device)
-                    encoded = self.model.encoder(points)
-                    numbers = self.model.heads(encoded.pooled).numbers
-                factors = _unit_factors(size, rng)
-                states = [
-                    replace(state, force_n=state.force_n * factor)
-                    for state, factor in zip(states, factors.tolist(), strict=True)
-                ]
-                readings = with_read_numbers(states, scaled_force(numbers.cpu(), factors))
-            exchanges = [
-                self.lessons.captions(reading, rng)
-                if stage.name == "projector"
-                else self.lessons.mixed(state, reading, rng)
-                for state, reading in zip(states, readings, strict=True)
-            ]
+                states, num_touch = _in_newtons(batch.states, factors), self.model.num_touch
+                encoded, readings = self._felt(batch, factors, spreads)
+                told = shown(readings, rng)
+            felt = [_felt(states[row], readings, row, rng) for row in told.meant.tolist()]
+            teach = self.lessons.captions if stage.name == "projector" else self.lessons.mixed
+            exchanges = [teach(each, rng) for each in felt]
             packed = pack(self.words, exchanges, num_touch, action_weight=ACTION_WEIGHT)
-            yield encoded, factors, packed
+            yield _Sample(encoded, told, packed)
+
+    @torch.no_grad()
+    def _felt(self, batch: Batch, factors: Tensor, spreads: Tensor) -> tuple[Encoded, Readings]:
+        """Encoding and readings of a batch; the readings on the CPU."""
+        with self.run.workers.autocast():
+            encoded = self.model.encoder(torch.from_numpy(batch.points).to(self.run.workers.device))
+        encoded = Encoded(*(part.float() for part in encoded))
+        output = self.model.heads(encoded.pooled)
+        device = encoded.pooled.device
+        readings = readings_of(output, factors.to(device), spreads.to(device))
+        return encoded, readings.to(torch.device("cpu"))
 
 
-def _unit_factors(size: int, rng: np.random.Generator) -> Tensor:
-    """Newtons per nominal newton of each sample's unit, shape (size,); of half of them 1."""
+def _all_given(size: int) -> tuple[Tensor, Tensor]:
+    return torch.ones(size, NUM_READINGS, dtype=torch.bool), torch.arange(size)
+
+
+def _units(size: int, rng: np.random.Generator) -> tuple[Tensor, Tensor]:
+    """Newtons per nominal newton of each sample's unit, of half of them 1, and its spread: (B,)."""
     low, high = (math.log(limit) for limit in UNIT_FACTORS)
-    drawn = np.exp(rng.uniform(low, high, size)) ** (rng.random(size) < 0.5)
-    return torch.from_numpy(drawn.astype(np.float32))
+    factors = np.exp(rng.uniform(low, high, size)) ** (rng.random(size) < 0.5)
+    spreads = UNCALIBRATED_SPREAD * (rng.random(size) < UNCALIBRATED)
+    return torch.from_numpy(factors.astype(np.float32)), torch.from_numpy(
+        spreads.astype(np.float32)
+    )
+
+
+def _in_newtons(states: Sequence[ContactState], factors: Tensor) -> list[ContactState]:
+    return [
+        replace(state, force_n=state.force_n * factor)
+        for state, factor in zip(states, factors.tolist(), strict=True)
+    ]
+
+
+def _felt(
+    state: ContactState, readings: Readings, row: int, rng: np.random.Generator
+) -> FeltContact:
+    """What is to be told of a contact: its words, the numbers that are read, drawn doubts."""
+    if not state.in_contact:
+        return FeltContact(state=state)
+    numbers, ends = told_numbers(readings, row)
+    rivals = {}
+    if rng.random() < IN_DOUBT:
+        for chances, (name, classes) in zip(readings.words, CLASSES.items(), strict=True):
+            others = [word for word in classes if word != getattr(state, name)]
+            if getattr(state, name) is None or rng.random() > 1 / 3:
+                continue
+            likely = max(others, key=lambda w: float(chances[row, classes.index(w)]))
+            is_near = rng.random() < 0.7
+            rivals[name] = likely if is_near else others[int(rng.integers(len(others)))]
+    read = replace(state, **numbers)  # type: ignore[arg-type]  # names of numbers alone
+    return FeltContact(state=read, ends=ends, rivals=rivals)

@@ -1,4 +1,4 @@
-"""The words of D_t: the contact with its numbers, the target, the action, the reason, in this order.
+"""The words of D_t, in this order: contact with its numbers, target, action, reason.
 
     smooth sphere or ellipsoid, slight 0.12-0.21 mm, centered x +0.4 y -1.1, tiny 2.1 %, 0.43 N.
     Goal 0.42 - 0.51 N. Action: <none>. The grasp is stable.

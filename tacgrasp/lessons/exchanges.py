@@ -1,16 +1,12 @@
-"""Exchanges that teach the language model: captions, questions, and advice on goals.
+"""Exchanges that teach the language model: captions, questions of the grammar, and advice.
 
-An instruction stands for a numeric goal, ``policies.teacher`` advises on a contact for that goal,
-and the reply is the D_t that the model learns. ``cltp.train`` receives texts and knows no goals.
+Advice is D_t (``policies.reply``): a target stands in the request, ``policies.teacher`` advises on
+the contact for it, and the reply is what the model learns. ``cltp.train`` receives texts and knows
+no targets. The paper's caption is the reply to a request for a description.
 
-D_t consists of the contact in words and numbers, the force that the instruction asks for,
-``Action:`` with one of eight tokens, and the reason, in this order. It is short, since every token
-costs time in the loop; the paper's caption is the reply to a request for a description. The action
-comes before the reason, so that the softmax of its token is the model's own confidence and not an
-echo of the reason.
-
-A ``reading`` is a state whose words are the truth and whose numbers are as the encoder's heads read
-them (the reason is in ``cltp.train.llm``); advice always comes from the truth.
+Words are learned from the truth, numbers as the encoder's heads read them (the reason is in
+``cltp.train.llm``). Advice follows from the numbers that are said, so that a reply does not
+contradict itself.
 """
 
 from __future__ import annotations
@@ -22,122 +18,132 @@ import numpy as np
 from cltp.tactile.states import ContactState
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
+from cltp.texts.felt import FeltContact
 from policies.goal import Goal
-from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
-from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.instructions import draw_instruction, draw_instruction_near
-from tacgrasp.lessons.question_draws import question_exchange
-from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
-
-ADVICE_PER_CONTACT = 3
-"""Number of goals, and so of pieces of advice, for one contact. Our choice: the tactile tokens,
-which they share, cost the most."""
-
-GOAL_QUESTIONS = (
-    "What force is meant by: {}",
-    "Which force does this ask for? {}",
-    "In newtons, what does this mean? {}",
-    "How many newtons are wanted here? {}",
+from policies.reply.text import (
+    advice_text,
+    contact_text,
+    cut_text,
+    goal_text,
+    percent,
+    said_numbers,
+    step_request,
 )
-MEANINGS_PER_CONTACT = 2
-"""Number of instructions that are read for their force alone: more wordings in fewer tokens than
-with whole advice."""
+from policies.teacher import LESSON_MOVE_STEP_MM, teacher
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
+from tacgrasp.lessons.dialogue.families.family import word_lists
+from tacgrasp.lessons.question_draws import question_exchange
+
+CAPTION_REQUESTS: tuple[str, ...] = (
+    "Describe the contact.",
+    "What do you feel?",
+    "Describe what touches the pad.",
+    "Tell me about the contact.",
+    "What is touching the sensor?",
+    "Give a description of this touch.",
+    "What can you feel?",
+    "What is the contact like?",
+    "Say what you feel.",
+    "Describe this.",
+)
+
+CAPTIONS = 0.3
+"""Fraction of contacts that are also captioned."""
+
+TARGETS_N = (0.1, 10.0)
+"""Range of the middles of targets [N]."""
+
+RATIOS = (1.03, 4.0)
+"""Range of the ends of targets over their middles. Source: a step's target has 1.1, the tasks'
+bands 1.4, the band of all berries 4."""
+
+PLACE_MM = {"x_mm": 4.0, "y_mm": 3.0}
+"""Half widths of the place of a good grasp [mm]. Source: the tasks, and the contract's default."""
+
+BLIND = "Do what is needed."
+"""What the instruction-blind control is asked instead of a target."""
 
 
 def numbers(state: ContactState) -> str:
-    """Numbers of a contact as text: depth [mm], force [N], area [%], x and y [mm], cut sides."""
+    """Numbers of a contact behind its caption: depth [mm], force [N], area [%], x and y [mm]."""
     if not state.in_contact:
         return "0.00 mm, 0.00 N."
-    cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
     return (
-        f"{state.depth_mm:.2f} mm, {state.force_n:.2f} N, {percent(state)} %, "
-        f"x {state.x_mm:+.1f}, y {state.y_mm:+.1f}{cut}."
+        f"{state.depth_mm:.2f} mm, {state.force_n:.2f} N, {percent(state.area_fraction)} %, "
+        f"x {state.x_mm:+.1f}, y {state.y_mm:+.1f}{cut_text(state.cut)}."
     )
 
 
-def contact_text(state: ContactState) -> str:
-    """First part of D_t: the five slots, each beside its number, the force, and the cut sides."""
-    if not state.in_contact:
-        return "Nothing touches."
-    nouns = " ".join(str(word) for word in (state.texture, state.shape) if word is not None)
-    cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
-    return (
-        f"{nouns or 'object'}, {state.depth} {state.depth_mm:.2f} mm, {state.position} "
-        f"x {state.x_mm:+.1f} y {state.y_mm:+.1f}, {state.area} {percent(state)} %, "
-        f"{state.force_n:.2f} N{cut}."
-    )
-
-
-def goal_text(goal: Goal) -> str:
-    """Force of the goal in D_t, with as many digits as that of the contact, to compare the two."""
-    return f"Goal {goal.force_n.low:.2f} - {goal.force_n.high:.2f} N."
-
-
-def advice_reply(state: ContactState, goal: Goal, reading: ContactState | None = None) -> str:
-    """D_t for a contact and a goal; ``policies.extraction`` reads the advice back from it."""
-    advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
-    action = f"<{advice.action}>" if advice.action is not None else "<none>"
-    contact = contact_text(reading or state)
-    reason = SUCCESS_WORDINGS[0] if advice.success else REASON_WORDINGS[advice.reason][0]
-    return f"{contact} {goal_text(goal)} Action: {action}. {reason}"
-
-
-def meaning_exchange(rng: np.random.Generator) -> Exchange:
-    """A question about the force that an instruction means, and that force as in D_t."""
-    instruction = draw_instruction(rng)
-    question = GOAL_QUESTIONS[rng.integers(len(GOAL_QUESTIONS))]
-    return Exchange(prompt=question.format(instruction.text), reply=goal_text(instruction.goal))
-
-
-def caption_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
+def caption_exchange(felt: FeltContact, rng: np.random.Generator) -> Exchange:
     """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
-    return Exchange(prompt=request, reply=f"{caption(state)} {numbers(state)}")
+    return Exchange(
+        prompt=request, reply=f"{caption(felt.state, felt.rivals)} {numbers(felt.state)}"
+    )
+
+
+def target_goal(force_n: Band) -> Goal:
+    """Goal of a target of the force; depth and area follow from it."""
+    x, y = (Band(low=-half, high=half) for half in PLACE_MM.values())
+    return Goal(
+        force_n=force_n, depth_mm=DEFAULT_DEPTH_MM, area_fraction=DEFAULT_AREA, x_mm=x, y_mm=y
+    )
+
+
+def draw_target(force_n: float, rng: np.random.Generator) -> tuple[Band, float]:
+    """A target, mostly near a force so that the two must be compared, and the limit above it."""
+    low, high = np.log(TARGETS_N)
+    middle = float(np.exp(rng.uniform(low, high)))
+    if force_n > 0 and rng.random() < 0.75:
+        middle = float(np.clip(force_n * np.exp(rng.normal(scale=0.6)), *TARGETS_N))
+    ratio = float(np.exp(rng.beta(1.0, 3.0) * np.log(RATIOS[1] / RATIOS[0]))) * RATIOS[0]
+    band = Band(low=round(middle / ratio, 2), high=round(middle * ratio, 2))
+    return band, round(band.high * float(rng.uniform(1.0, 1.6)), 2)
+
+
+def advice_reply(felt: FeltContact, force_n: Band) -> str:
+    """D_t for a contact and a target; ``policies.extraction`` reads the advice back from it."""
+    advice = teacher(felt.state, target_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+    said = said_numbers(felt.state, felt.ends)
+    contact = contact_text(felt.state, said, felt.rivals)
+    return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
+
+
+def advice_exchange(felt: FeltContact, rng: np.random.Generator, *, blind: bool) -> Exchange:
+    """A step: the request for a drawn target, and D_t."""
+    band, limit_n = draw_target(felt.state.force_n, rng)
+    prompt = BLIND if blind else step_request(band, limit_n)
+    return Exchange(prompt=prompt, reply=advice_reply(felt, band))
+
+
+def known_words() -> list[str]:
+    """Words that become one token each: those that a person's question may be about."""
+    entries = (entry for entries in word_lists().values() for entry in entries)
+    words = {word for entry in entries for word in entry.split()}
+    return sorted(word for word in words if word.isalpha())
 
 
 class TouchLessons:
     """All exchanges about a contact, as ``cltp.train.llm.Lessons``; deterministic in the generator.
 
     Args:
-        blind: Whether every instruction is replaced by ``BLIND``: the control, whose model can't
-            know the goal.
-        num_grammar_questions: Questions of the grammar (``tacgrasp.lessons.question_draws``) for
-            each contact; they take the place of the old ones. 0, as the shipped weights were
-            taught, leaves those.
+        blind: Whether every target is replaced by ``BLIND``: the control, whose model can't know
+            it.
+        num_questions: Questions of the grammar for each contact.
+        num_advice: Targets, and so pieces of advice, for each contact. The touch tokens, which they
+            share, cost the most.
     """
 
-    def __init__(self, *, blind: bool = False, num_grammar_questions: int = 0) -> None:
+    def __init__(self, *, blind: bool = False, num_questions: int = 4, num_advice: int = 2) -> None:
         self._blind = blind
-        self._num_grammar_questions = num_grammar_questions
+        self._num_questions, self._num_advice = num_questions, num_advice
 
-    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        return [caption_exchange(reading, rng)]
+    def captions(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [caption_exchange(felt, rng)]
 
-    def mixed(
-        self, state: ContactState, reading: ContactState, rng: np.random.Generator
-    ) -> Sequence[Exchange]:
-        """A caption or a question, advice for several goals, and meanings of instructions."""
-        is_caption = rng.random() < 0.3
-        num = self._num_grammar_questions
-        questions = [question_exchange(state, reading, rng) for _ in range(num)]
-        if is_caption:
-            first = [caption_exchange(reading, rng), *questions]
-        else:
-            first = questions or [draw_question(reading, rng)]
-        instructions = [
-            draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
-            for _ in range(ADVICE_PER_CONTACT)
-        ]
-        exchanges = [
-            Exchange(
-                prompt=BLIND if self._blind else each.text,
-                reply=advice_reply(state, each.goal, reading),
-            )
-            for each in instructions
-        ]
-        if self._blind:
-            return [*first, *exchanges]
-        return [*first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
-
-
-BLIND = "Do what is needed."
+    def mixed(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        """A caption for some, questions, and advice for several targets."""
+        captions = [caption_exchange(felt, rng)] if rng.random() < CAPTIONS else []
+        questions = [question_exchange(felt.state, rng) for _ in range(self._num_questions)]
+        advice = [advice_exchange(felt, rng, blind=self._blind) for _ in range(self._num_advice)]
+        return [*captions, *questions, *advice]

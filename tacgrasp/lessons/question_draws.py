@@ -2,22 +2,20 @@
 
 Balanced over the kinds of answers, over the families of a kind, and between yes and no: thresholds
 are drawn around the values of the contact, and words are its own or others, half and half.
-
-Not wired into the training of the shipped weights, which learned ``tacgrasp.lessons.questions``.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
 from cltp.tactile.states import ContactState
 from cltp.texts.exchange_packing import Exchange
-from tacgrasp.lessons.dialogue.answers import Answer, answer
+from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES, understand
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
 from tacgrasp.lessons.dialogue.meaning import (
@@ -45,9 +43,6 @@ KIND_WEIGHTS: Mapping[AnswerKind, float] = {
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
-
-ADVISED = ("action", "reason")
-"""Names whose values come from the truth, as all advice does; others come from the reading."""
 
 SPOILED = 0.12
 """Fraction of questions with contractions left out, or common misspellings."""
@@ -206,37 +201,24 @@ def question_prompt(question: str, scene: AskedScene, before: Exchange | None = 
     return f"{told}{earlier}{question}"
 
 
-def true_answer(
-    meaning: Meaning, truth: AskedScene, reading: AskedScene, rng: np.random.Generator
-) -> Answer:
-    """The answer to learn: advice from the truth, all else from what the encoder's heads read."""
-    is_advice = any(name in ADVISED for name in names_of(meaning))
-    return answer(meaning, truth if is_advice else reading, rng)
-
-
-def question_exchange(
-    state: ContactState, reading: ContactState, rng: np.random.Generator
-) -> Exchange:
+def question_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
     """One question about a contact with its answer, to be learned.
 
     Args:
-        state: The truth, from which advice comes.
-        reading: The same words with the numbers as the encoder's heads read them.
+        state: The true words, and the numbers as they are read.
         rng: Draws contract, mass, question and wordings.
     """
-    truth = draw_scene(state, rng)
-    read = replace(truth, state=reading)
-    question = draw_question(read, rng)
+    scene = draw_scene(state, rng)
+    question = draw_question(scene, rng)
     before = None
     if question.before:
         earlier = understand(question.before)
         if earlier is None:
             raise ValueError(f"no family has the question {question.before!r}")
-        reply = true_answer(earlier, truth, read, rng).text
-        before = Exchange(prompt=question.before, reply=reply)
+        before = Exchange(prompt=question.before, reply=answer(earlier, scene, rng).text)
     return Exchange(
-        prompt=question_prompt(question.text, read, before),
-        reply=true_answer(question.meaning, truth, read, rng).text,
+        prompt=question_prompt(question.text, scene, before),
+        reply=answer(question.meaning, scene, rng).text,
     )
 
 
@@ -245,7 +227,7 @@ def question_samples(states: Sequence[ContactState], seed: int) -> Iterator[Exch
     rng = np.random.default_rng(seed)
     while True:
         state = states[int(rng.integers(len(states)))]
-        yield question_exchange(state, state, rng)
+        yield question_exchange(state, rng)
 
 
 def drawn_rows(

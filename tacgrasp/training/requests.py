@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from tacgrasp.base.errors import UsageError
 
@@ -31,7 +32,7 @@ class EvaluationRequest:
     """
 
     weights: Path | None = None
-    data: Path = Path("runs/data")
+    data: Path = Path("runs/full")
     json: Path | None = None
     blind: Path | None = None
     captions: int = 500
@@ -56,13 +57,15 @@ class TrainAllRequest:
         contacts: Number of contacts.
         seed: Random seed of data, weights, order, noise and wordings.
         threads: Threads of torch; one for each core when not given.
+        precision: Precision of matrix products.
     """
 
     out: Path = Path("weights")
-    data: Path = Path("runs/data")
-    contacts: int = 24_000
+    data: Path = Path("runs/full")
+    contacts: int = 120_000
     seed: int = 0
     threads: int | None = None
+    precision: Literal["no", "bf16"] = "no"
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ from cltp.checkpoints.tac3d_llm import (
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.texts.tokenizer import Words
+from cltp.train.distributed import joined_workers
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from cltp.train.stage import TrainingRun
@@ -38,7 +39,7 @@ from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.datasets.requests import GenerateRequest
 from tacgrasp.datasets.trainable import check_trainable
-from tacgrasp.lessons.exchanges import TouchLessons
+from tacgrasp.lessons.exchanges import TouchLessons, known_words
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
 from tacgrasp.pretraining.run_all import pretraining_run
@@ -63,11 +64,18 @@ def train_all(request: TrainAllRequest, command: str) -> None:
     """
     out, data, seed, threads = request.out, request.data, request.seed, request.threads
     _require_mark(out, blind=False)
-    generate(GenerateRequest(out=data, set="starter", contacts=request.contacts, seed=seed))
+    generate(GenerateRequest(out=data, set="full", contacts=request.contacts, seed=seed))
     methods = out / ".training" / "methods"
     # Tells encoders apart (``take_pretrained``): folders and threads may change when it goes on.
     identity = f"tacgrasp train all --contacts {request.contacts} --seed {seed}"
-    with pretraining_run(methods, data, seed=seed, command=identity, threads=threads) as run:
+    with pretraining_run(
+        methods,
+        data,
+        seed=seed,
+        command=identity,
+        threads=threads,
+        precision=request.precision,
+    ) as run:
         pretrain_clip(run)
         pretrain("cltp", run)
     train_language_model(TrainLlmRequest(**vars(request), methods=methods), command)
@@ -96,16 +104,18 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         take_encoder(blind_of, out)
     _require_mark(out, blind=blind_of is not None)
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
-    generate(GenerateRequest(out=data, set="starter", contacts=contacts, seed=seed))
+    generate(GenerateRequest(out=data, set="full", contacts=contacts, seed=seed))
     check_trainable(ContactDataset(data))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
     if request.start is None:
-        words = train_words(data, TouchLessons(), seed=seed)  # the same data and seed give the same
+        # the same data and seed give the same words
+        words = train_words(data, TouchLessons(), seed=seed, whole=known_words())
     else:
         words = Words.load(request.start / "lm")
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
-        run = TrainingRun(data=data, out=out, seed=seed, report=report)
+        workers = joined_workers(request.precision)
+        run = TrainingRun(data=data, out=out, seed=seed, report=report, workers=workers)
         train_llm(run, words, lessons, augmentation=LEARNING_NOISE, start=request.start)
     if _digest(out) == before:
         return  # nothing was left to do: the card with its scores still holds
