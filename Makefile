@@ -4,7 +4,8 @@
 # make test-lerobot  loads an exported data set with the real lerobot (gigabytes)
 # make test-openpi  openpi's own client against our policy server
 # make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
-# make weights  train all weights from nothing into weights/ and measure them; goes on if stopped
+# make weights  train all weights from nothing into weights/ and measure them; goes on if stopped.
+#               PRECISION=no where the processor has no bf16
 # Each step of the set-up leaves a stamp in .venv; a second run repeats nothing that is done.
 
 PYTHON ?= $(shell command -v python3.11 || command -v python3)
@@ -44,14 +45,17 @@ SEED ?= 0
 fuzz: setup
 	$(BIN)/python -m tests.fuzz --cases $(CASES) --parser $(PARSER) --seed $(SEED)
 
+PRECISION ?= bf16
+
 weights: setup
-	$(BIN)/tacgrasp data generate --set paper --out runs/tcl3d --seed 0
-	$(BIN)/tacgrasp data generate --out runs/data --set starter --contacts 24000 --seed 0
-	$(BIN)/tacgrasp train clip --data runs/tcl3d --out runs/pretrained --steps 700
-	$(BIN)/tacgrasp train cltp --data runs/tcl3d --also runs/data --out runs/pretrained \
-	    --steps 2200 --batch-size 64
-	$(BIN)/tacgrasp train llm --methods runs/pretrained --out weights --data runs/data
-	$(BIN)/tacgrasp eval --weights weights --data runs/data --card
+	$(BIN)/tacgrasp data generate --set full --out runs/full --seed 0
+	$(BIN)/tacgrasp train clip --data runs/full --out runs/pretrained --steps 700 \
+	    --precision $(PRECISION)
+	$(BIN)/tacgrasp train cltp --data runs/full --out runs/pretrained --steps 8000 \
+	    --precision $(PRECISION)
+	$(BIN)/tacgrasp train llm --data runs/full --methods runs/pretrained --out weights \
+	    --precision $(PRECISION)
+	$(BIN)/tacgrasp eval --data runs/full --weights weights --card
 
 setup: $(STAMPS)/app
 

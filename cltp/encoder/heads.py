@@ -22,15 +22,14 @@ SMALLEST_FORCE_N = 0.05
 COVERAGE = 0.9
 """Fraction of contacts whose true number lies in its interval."""
 
-USUAL = 0.999
-"""Fraction of contacts that are not strange."""
-
 LEAST_CONTACTS = 20
 """Fewest contacts to calibrate by. Our choice: a tail of 5 % is then one contact."""
 
-SHRINKAGE = 0.01
-"""Part of the mean variance of the pooled tokens that is added to each. Our choice: some thousand
-contacts tell the smallest variances badly."""
+FIT_CONTACTS = 500
+"""Fewest contacts that the intervals are fitted by. Our choice: two rows of 256 weights each."""
+
+FIT_STEPS, FIT_RATE = 300, 0.01
+"""How long and how fast they are fitted."""
 
 IGNORED = -1
 
@@ -88,8 +87,6 @@ class HeadsOutput(NamedTuple):
         cut: Shape (B, 4), logit that each side cuts the contact.
         margins: Shape (B, 5, 2), how far below and above ``numbers`` their intervals reach, at
             least 0; None of heads without intervals.
-        strangeness: Shape (B,), distance from what was learned from, 1 where hardly any of it lies;
-            None of heads without intervals.
     """
 
     logits: tuple[Tensor, ...]
@@ -97,20 +94,17 @@ class HeadsOutput(NamedTuple):
     touching: Tensor
     cut: Tensor
     margins: Tensor | None = None
-    strangeness: Tensor | None = None
 
 
 class StateHeads(nn.Module):
     """All heads behind one hidden layer.
 
-    Intervals are learned as quantiles, and afterwards widened by one factor for each number until
-    they hold ``COVERAGE`` of the truth on contacts that nothing was learned from.
-
-    Strangeness is the Mahalanobis distance of the pooled tokens from those of contacts that nothing
-    was learned from either.
+    Intervals are learned as quantiles. Afterwards they are fitted once more, and widened by one
+    factor for each number until they hold ``COVERAGE`` of the truth, on contacts that nothing else
+    was learned from: those of training have smaller errors.
 
     Source: conformalized quantile regression, Romano, Patterson and Candès, 2019, with a factor
-    where they have a term; Mahalanobis distance of features, Lee et al., 2018.
+    where they have a term.
 
     Args:
         pooled_dim: Width of ``Encoded.pooled``.
@@ -119,8 +113,6 @@ class StateHeads(nn.Module):
     """
 
     widening: Tensor | None
-    usual: Tensor
-    whitening: Tensor
 
     def __init__(self, pooled_dim: int, hidden_dim: int = 256, *, intervals: bool = True) -> None:
         super().__init__()
@@ -129,10 +121,7 @@ class StateHeads(nn.Module):
         self.sizes += [count, 1, len(Side)] + ([2 * count] if intervals else [])
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
         self.out = nn.Linear(hidden_dim, sum(self.sizes))
-        shapes = {"widening": (count,), "usual": (pooled_dim,), "whitening": (pooled_dim,) * 2}
-        for name, shape in shapes.items():  # as long as nothing is calibrated, nothing is strange
-            start = torch.ones(shape) if name == "widening" else torch.zeros(shape)
-            self.register_buffer(name, start if intervals else None)
+        self.register_buffer("widening", torch.ones(count) if intervals else None)
 
     @property
     def has_intervals(self) -> bool:
@@ -142,53 +131,61 @@ class StateHeads(nn.Module):
         """Read states from ``Encoded.pooled`` (B, 2 C)."""
         parts = self.out(F.gelu(self.hidden(pooled))).split(self.sizes, -1)
         logits, (numbers, touching, cut) = parts[: len(CLASSES)], parts[len(CLASSES) :][:3]
-        margins = strangeness = None
+        margins = None
         if self.widening is not None:
             margins = F.softplus(parts[-1]).unflatten(-1, (len(NUMBERS), 2))
             margins = margins * self.widening[:, None]
-            strangeness = ((pooled - self.usual) @ self.whitening).norm(dim=-1)
-        return HeadsOutput(logits, numbers, touching[:, 0], cut, margins, strangeness)
+        return HeadsOutput(logits, numbers, touching[:, 0], cut, margins)
 
-    @torch.no_grad()
     def calibrate(self, pooled: Tensor, labels: Targets) -> None:
-        """Set intervals and strangeness by contacts that nothing was learned from.
+        """Set the intervals by contacts that nothing was learned from: fit by half, widen by half.
 
-        With fewer than ``LEAST_CONTACTS`` that touch, both stay as they are.
+        With fewer than ``LEAST_CONTACTS`` that touch, they stay as they are.
 
         Args:
             pooled: Their pooled tokens, shape (N, 2 C).
             labels: Their labels.
         """
-        if self.widening is None or int((labels.touching > 0).sum()) < LEAST_CONTACTS:
+        touched = labels.touching > 0
+        if self.widening is None or int(touched.sum()) < LEAST_CONTACTS:
             return
-        self._widen(pooled, labels)
-        self._whiten(pooled)
-
-    def _whiten(self, pooled: Tensor) -> None:
-        """Scale distances by one half of the contacts, and their unit by the other."""
-        one, other = pooled[::2].double(), pooled[1::2].double()
-        usual = one.mean(dim=0)
-        variances, axes = torch.linalg.eigh(torch.cov(one.T))
-        floor = SHRINKAGE * variances.mean()
-        whitening = axes / (variances + floor).clamp_min(1e-9).sqrt()
-        distances = ((other - usual) @ whitening).norm(dim=1)
-        self.usual.copy_(usual)
-        self.whitening.copy_(whitening / distances.quantile(USUAL))
-
-    def _widen(self, pooled: Tensor, labels: Targets) -> None:
-        assert self.widening is not None  # as ``calibrate`` has seen
         self.widening.fill_(1.0)
+        pooled, truth = pooled[touched].detach(), labels.numbers[touched]
+        if len(pooled) >= 2 * FIT_CONTACTS:
+            self._fit(pooled[::2], truth[::2])
+            pooled, truth = pooled[1::2], truth[1::2]
+        self._widen(pooled, truth)
+
+    def _fit(self, pooled: Tensor, truth: Tensor) -> None:
+        """Fit the rows of the margins, and nothing else, to errors of contacts (N, 2 C), (N, 5)."""
+        count = 2 * len(NUMBERS)
+        with torch.no_grad():
+            hidden = F.gelu(self.hidden(pooled))
+            errors = truth - self(pooled).numbers
+        weight, bias = (p.detach()[-count:].clone().requires_grad_() for p in self.out.parameters())
+        optimiser = torch.optim.AdamW([weight, bias], lr=FIT_RATE, weight_decay=0.01)
+        for _ in range(FIT_STEPS):
+            margins = F.softplus(F.linear(hidden, weight, bias)).unflatten(-1, (len(NUMBERS), 2))
+            optimiser.zero_grad()
+            _pinball(errors, margins).mean().backward()
+            optimiser.step()
+        with torch.no_grad():
+            self.out.weight[-count:] = weight
+            self.out.bias[-count:] = bias
+
+    @torch.no_grad()
+    def _widen(self, pooled: Tensor, truth: Tensor) -> None:
         read = self(pooled)
-        assert read.margins is not None
-        errors = labels.numbers - read.numbers
+        assert self.widening is not None and read.margins is not None  # as ``calibrate`` has seen
+        errors = truth - read.numbers
         below, above = (read.margins + 1e-9).unbind(-1)
-        needed = torch.maximum(-errors / below, errors / above)[labels.touching > 0]
-        rank = min(1.0, COVERAGE * (1 + 1 / max(1, len(needed))))
+        needed = torch.maximum(-errors / below, errors / above)
+        rank = min(1.0, COVERAGE * (1 + 1 / len(needed)))
         self.widening.copy_(needed.quantile(rank, dim=0))
 
     def losses(self, pooled: Tensor, labels: Targets) -> dict[str, Tensor]:
         """Named terms, each a mean over the batch."""
-        logits, numbers, touching, cut, margins, _ = self(pooled)
+        logits, numbers, touching, cut, margins = self(pooled)
         terms = {}
         for column, (slot, scores) in enumerate(zip(CLASSES, logits, strict=True)):
             classes = labels.classes[:, column]

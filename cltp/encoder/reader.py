@@ -7,7 +7,7 @@ the direct measurement without weights (``cltp.tactile.measure``).
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import NamedTuple
@@ -17,7 +17,7 @@ import torch
 
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import HeadsOutput, StateHeads
-from cltp.encoder.readings import readings_of
+from cltp.encoder.readings import WITHOUT_INTERVALS, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
@@ -47,8 +47,17 @@ class Flag(StrEnum):
     """Why a reading is not to be acted on."""
 
     NOISE = "noise"  # the cloud has more fine noise than any that was learned from
-    UNFAMILIAR = "unfamiliar"  # the encoder's tokens lie far from all that was learned from
+    UNSURE = "unsure"  # depth or place is too uncertain to tell anything
     RANGE = "range"  # a number lies beyond what a gel can show
+    FORCE = "force"  # the force is impossible for the one that is commanded
+
+
+UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
+"""Width of an interval that tells nothing: two words for depths, half of the pad."""
+
+POSSIBLE_RATIO = 3.0
+"""Largest ratio of a felt force to the commanded one, either way. Our choice: grippers are off by
+up to 2 (``sim.grasp.rig``); far beyond that the gel, its scale or the gripper is another one."""
 
 
 class Number(NamedTuple):
@@ -96,9 +105,7 @@ class TouchReader:
 
     def __init__(self, encoder: TactileEncoder, heads: StateHeads) -> None:
         if not heads.has_intervals:
-            raise TouchError(
-                "these weights read numbers without intervals; train them anew: tacgrasp train cltp"
-            )
+            raise TouchError(WITHOUT_INTERVALS)
         self._encoder, self._heads = encoder.eval(), heads.eval()
 
     @torch.inference_mode()
@@ -109,22 +116,24 @@ class TouchReader:
         return reading_of(output, cloud)
 
 
-def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
-    """The reading of one cloud from the heads' output for it, a batch of one."""
+def reading_of(
+    output: HeadsOutput, cloud: TactileCloud, *, commanded_force_n: float | None = None
+) -> TouchReading:
+    """The reading of one cloud.
+
+    Args:
+        output: The heads' output for it, a batch of one.
+        cloud: The cloud.
+        commanded_force_n: Force that the gripper was told to grip with [N]; None where none is
+            known.
+
+    Raises:
+        TouchError: The heads have no intervals.
+    """
     scale = cloud.force_scale
     read = readings_of(output, scale.factor, scale.spread)
     ends = torch.cat([read.values, read.low, read.high]).T.tolist()
     numbers = {name: Number(*each) for name, each in zip(NUMBERS, ends, strict=True)}
-    flags = []
-    if fine_noise_mm(cloud) > MOST_NOISE_MM:
-        flags.append(Flag.NOISE)
-    assert output.strangeness is not None  # as the heads have intervals
-    if not float(output.strangeness[0]) <= 1.0:
-        flags.append(Flag.UNFAMILIAR)
-    if not all(math.isfinite(value) for number in numbers.values() for value in number) or (
-        numbers["depth_mm"].value > cloud.sensor.gel_mm
-    ):
-        flags.append(Flag.RANGE)
     contact = float(read.touching[0])
     chances = {name: x[0] for name, x in zip(CLASSES, read.words, strict=True)}
     words = {name: CLASSES[name][int(chance.argmax())] for name, chance in chances.items()}
@@ -139,6 +148,9 @@ def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
             texture=Texture(words["texture"]),
             cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
         )
+    flags = list(_flags(numbers, cloud))
+    if state.in_contact and _is_impossible(numbers["force_n"], state, commanded_force_n):
+        flags.append(Flag.FORCE)
     return TouchReading(
         state=state,
         numbers=numbers,
@@ -146,6 +158,29 @@ def reading_of(output: HeadsOutput, cloud: TactileCloud) -> TouchReading:
         contact=contact,
         flags=tuple(flags),
     )
+
+
+def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]:
+    """What a cloud and the numbers of it say by themselves."""
+    if fine_noise_mm(cloud) > MOST_NOISE_MM:
+        yield Flag.NOISE
+    if not all(math.isfinite(value) for number in numbers.values() for value in number) or (
+        numbers["depth_mm"].value > cloud.sensor.gel_mm
+    ):
+        yield Flag.RANGE
+    elif any(numbers[name].high - numbers[name].low > most for name, most in UNSURE_MM.items()):
+        yield Flag.UNSURE
+
+
+def _is_impossible(force: Number, state: ContactState, commanded_n: float | None) -> bool:
+    """Whether all of a force's interval lies beyond what a command can come to.
+
+    A contact that the pad's edge cuts may show any part of the force.
+    """
+    if not commanded_n:
+        return False
+    is_below = not state.cut and force.high < commanded_n / POSSIBLE_RATIO
+    return force.low > POSSIBLE_RATIO * commanded_n or is_below
 
 
 def fine_noise_mm(cloud: TactileCloud) -> float:

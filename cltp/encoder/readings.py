@@ -18,6 +18,10 @@ from cltp.tactile.states import NUMBERS
 TAILS = 1.645
 """Standard deviations that 5 % lie beyond, on either side."""
 
+WITHOUT_INTERVALS = (
+    "these weights read numbers without intervals; train them anew: tacgrasp train cltp"
+)
+
 LEAST_FORCE_N = 1e-3
 """Force below which ratios of forces mean nothing."""
 
@@ -70,9 +74,7 @@ def readings_of(
         TouchError: The heads have no intervals.
     """
     if output.margins is None:
-        raise TouchError(
-            "these weights read numbers without intervals; train them anew: tacgrasp train cltp"
-        )
+        raise TouchError(WITHOUT_INTERVALS)
     below, above = output.margins.unbind(-1)
     values, low, high = (
         restored(ends) for ends in (output.numbers, output.numbers - below, output.numbers + above)

@@ -34,6 +34,9 @@ from cltp.train.text_targets import TextTargets, draw_texts, matches_of_all, pro
 CALIBRATION_CONTACTS = 4000
 """Most contacts that are read. The coverage then has a standard error of half a percent."""
 
+CALIBRATION_VIEWS = 2
+"""How often each is read, with another noise each time."""
+
 
 class _Learner(nn.Module):
     def __init__(self, config: EncoderConfig) -> None:
@@ -185,7 +188,6 @@ def _terms(
     return terms | {"temperature": 1 / loss.contrast.scale.detach()}
 
 
-@torch.inference_mode()
 def calibrate_heads(
     run: TrainingRun, encoder: TactileEncoder, heads: StateHeads, augmentation: Augmentation | None
 ) -> None:
@@ -201,10 +203,12 @@ def calibrate_heads(
     chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
     encoder.eval(), heads.eval()
     pooled, labels = [], []
-    for step, first in enumerate(range(0, len(chosen), 64)):
-        batch = sampler.batch(chosen[first : first + 64], step)
-        pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
-        labels.append(targets(batch.states))
+    with torch.no_grad():
+        for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), 64)):
+            drawn = chosen[np.arange(first, first + 64) % len(chosen)]
+            batch = sampler.batch(drawn, step)
+            pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
+            labels.append(targets(batch.states))
     heads.calibrate(
         torch.cat(pooled), Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True)))
     )

@@ -27,17 +27,15 @@ class PretrainingMethod:
 METHODS: Mapping[str, PretrainingMethod] = {
     "point_bert": PretrainingMethod(title="Point-BERT"),
     "point_mae": PretrainingMethod(title="Point-MAE"),
-    "cltp_no_image": PretrainingMethod(
-        title="CLTP w/o image", preset="small_graded", is_aligned=True
-    ),
-    "cltp": PretrainingMethod(title="CLTP", preset="small_graded", is_aligned=True),
+    "cltp_no_image": PretrainingMethod(title="CLTP w/o image", preset="grid", is_aligned=True),
+    "cltp": PretrainingMethod(title="CLTP", preset="grid", is_aligned=True),
     "unitouch": PretrainingMethod(title="UniTouch (image)", preset="small_image", sees_images=True),
     "tvl": PretrainingMethod(title="TVL (image)", preset="small_image", sees_images=True),
     "random": PretrainingMethod(title="random encoder"),
 }
-"""Encoders of points are ``small`` for all methods but CLTP, which is evaluated with it too, so
-that objectives are compared and not tokens; a step of ``small_pointbert`` takes eight times as long
-on a CPU."""
+"""Encoders of 1024 points are ``small`` for all methods; CLTP takes all heights of a grid, and is
+evaluated with ``small`` too, so that objectives are compared and not inputs. A step of
+``small_pointbert`` takes eight times as long on a CPU."""
 
 ALIGNED_METHODS = tuple(name for name, method in METHODS.items() if method.is_aligned)
 IMAGE_METHODS = tuple(name for name, method in METHODS.items() if method.sees_images)
