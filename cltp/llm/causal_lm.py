@@ -89,6 +89,10 @@ class Language:
             return prompt_ids(self.words, text)
         return self._stock_ids(f"{text}\n<|im_end|>\n<|im_start|>assistant\n")
 
+    def encode(self, text: str) -> list[int]:
+        """Tokens of a part of a reply."""
+        return self.words.encode(text) if self.words else self._stock_ids(text)
+
     def decode(self, ids: Sequence[int]) -> str:
         if self.words:
             return self.words.decode(ids)

@@ -7,7 +7,7 @@ a few million parameters a token costs little arithmetic: the number of calls de
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import torch
@@ -26,7 +26,7 @@ class _Layer(NamedTuple):
 
 
 class FastDecoder:
-    """Runs a Qwen2 token by token.
+    """Runs a Qwen2 by one or more tokens at a time, and goes back where they were wrong.
 
     Args:
         lm: A ``Qwen2ForCausalLM`` or a ``cltp.llm.stored_lm.StoredLm``. Its weights are copied, so
@@ -55,23 +55,54 @@ class FastDecoder:
         self._sin[:, :half] *= -1  # rotation by halves: (-x2, x1) becomes one multiplication
         shape = (len(self._layers), 1, self._kv_heads, longest, self._size)
         self._keys, self._values = self._norm.new_zeros(shape), self._norm.new_zeros(shape)
+        self._causal = torch.ones(
+            longest, longest, dtype=torch.bool, device=self._norm.device
+        ).tril()
         self._length = 0
 
     @torch.no_grad()
     def prefill(self, embeddings: Tensor) -> Tensor:
         """Begin with inputs (T, D); return the logits of what follows, shape (V,)."""
+        return self.begin(embeddings)[0]
+
+    @torch.no_grad()
+    def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
+        """Begin with inputs (T, D) and tokens after them, in one pass.
+
+        Returns:
+            Logits of what follows the inputs, and each of the tokens: shape (1 + tokens, V).
+        """
         self._length = 0
-        return self._advance(embeddings)
+        return self._advance(
+            torch.cat([embeddings, self._embedding[list(tokens)]]), len(tokens) + 1
+        )
 
     @torch.no_grad()
     def step(self, token: int) -> Tensor:
         """Append a token; return the logits of what follows, shape (V,)."""
-        return self._advance(self._embedding[token : token + 1])
+        return self._advance(self._embedding[token : token + 1], 1)[0]
 
-    def _advance(self, x: Tensor) -> Tensor:
+    @torch.no_grad()
+    def advance(self, tokens: Sequence[int]) -> Tensor:
+        """Append one or more tokens in one pass; the logits of what follows each, (tokens, V)."""
+        return self._advance(self._embedding[list(tokens)], len(tokens))
+
+    def rewind(self, length: int) -> None:
+        """Forget all but the first ``length`` positions.
+
+        Raises:
+            ValueError: There are not as many.
+        """
+        if not 0 <= length <= self._length:
+            raise ValueError(f"{self._length} positions can't be rewound to {length}")
+        self._length = length
+
+    def _advance(self, x: Tensor, rows: int) -> Tensor:
+        """Append inputs (T, D); the logits of what follows the last ``rows`` of them."""
         count = len(x)
         start, end = self._length, self._length + count
         cos, sin = self._cos[start:end], self._sin[start:end]
+        mask = self._causal[start:end, :end] if count > 1 and start > 0 else None
         width = (x.shape[1],)
         heads, kv_heads, size = self._heads, self._kv_heads, self._size
         for number, layer in enumerate(self._layers):
@@ -87,6 +118,7 @@ class FastDecoder:
                 rotated[None, :heads],
                 keys[:, :, :end],
                 values[:, :, :end],
+                attn_mask=mask,
                 is_causal=count > 1 and start == 0,
                 enable_gqa=heads != kv_heads,
             )
@@ -95,7 +127,7 @@ class FastDecoder:
             gate, up = F.linear(normed, layer.gate_up).chunk(2, -1)
             x = x + F.linear(F.silu(gate) * up, layer.down)
         self._length = end
-        return F.linear(F.rms_norm(x[-1], width, self._norm, self._eps), self._head)
+        return F.linear(F.rms_norm(x[-rows:], width, self._norm, self._eps), self._head)
 
 
 def _joined(layer: Any) -> _Layer:

@@ -1,18 +1,20 @@
 """Replies of Tac3D-LLM about one contact: text, the choice among eight actions, and durations.
 
 In our own model the eight actions are tokens, and the choice is the softmax over them at the
-position where the reply names one. In a stock checkpoint, a prefix trie after ``Action:`` leaves
-only the tokens that continue one of the eight names. The rest of a reply is not constrained.
+position where the reply names one. With a grammar a reply says nothing else
+(``cltp.llm.constrained``), in our model and in a stock checkpoint alike. Without one the reply is
+free; then, in a stock checkpoint, a prefix trie after ``Action:`` leaves only the tokens that
+continue one of the eight names.
 """
 
 from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import torch
@@ -20,13 +22,19 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.llm.causal_lm import CUE, Language
+from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, Decision
+from cltp.llm.constrained.grammar import Grammar
+from cltp.llm.constrained.tokens import Tokens
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.tactile.point_layout import PointLayout
 from cltp.texts.tokenizer import ACTIONS
 
 MAX_TOKENS = 96
-"""Bound on the tokens of a reply; our own take about 60."""
+"""Bound on the tokens of a reply in free words; our own take about 60."""
+
+ACTION_PART = "action"
+"""Name of the part of a grammar whose options are ``cltp.texts.tokenizer.ACTIONS``."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,12 +43,19 @@ class Reply:
 
     Attributes:
         text: D_t.
-        ended: False when ``max_tokens`` came before the end: the text is cut off.
+        ended: False when ``max_tokens`` came before the end: the text is cut off. With a grammar it
+            is False when the model's positions did not suffice.
         num_tokens: Number of generated tokens.
         action: One of ``cltp.texts.tokenizer.ACTIONS``; None when the reply has none.
-        probabilities: Probabilities of the eight at the action's position; empty without one.
+        probabilities: Probabilities of the eight at the action's position, of those that are
+            allowed where there is a grammar; empty without one.
         stage_ms: Durations of encode, project, prefill (the prompt's tokens, which also give the
-            first of the reply) and generate (the others) [ms].
+            first of the reply, and the draft's) and generate (the others) [ms].
+        slots: With a grammar, what was decided about each part, by its name; otherwise empty.
+        passes: Number of forward passes.
+        close_calls: Number of passes among these that were spent on close decisions.
+        token_probabilities: Probability of each token of a free reply, among all tokens; empty with
+            a grammar.
     """
 
     text: str
@@ -49,6 +64,10 @@ class Reply:
     action: str | None
     probabilities: tuple[float, ...]
     stage_ms: dict[str, float]
+    slots: Mapping[str, Decision] = field(default_factory=dict)
+    passes: int = 0
+    close_calls: int = 0
+    token_probabilities: tuple[float, ...] = ()
 
     @property
     def confidence(self) -> float:
@@ -69,6 +88,9 @@ class Talker:
         self._language = model.language
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
+        self._constrained = ConstrainedDecoder(
+            self._fast or _Run(model.language), Tokens(model.language.encode)
+        )
 
     @property
     def layout(self) -> PointLayout:
@@ -81,6 +103,9 @@ class Talker:
         points: NDArray[np.float32],
         prompt: str,
         *,
+        grammar: Grammar | None = None,
+        draft: str = "",
+        doubt_below: Mapping[str, float] | None = None,
         max_tokens: int = MAX_TOKENS,
         penalties: Mapping[str, float] | None = None,
         force_factor: float = 1.0,
@@ -90,11 +115,18 @@ class Talker:
         Args:
             points: Shape (N, 3), from ``cltp.tactile.encoder_input`` in the encoder's ``layout``.
             prompt: A person's question or instruction.
-            max_tokens: Bound on the tokens of the reply.
+            grammar: What may be said; None for anything.
+            draft: With a grammar, a whole expected reply. It saves time, and changes nothing else.
+            doubt_below: With a grammar, probabilities below which a text is said with its rival, by
+                the name of its part; ``cltp.llm.constrained.decode.DOUBT_BELOW`` for the others.
+            max_tokens: Bound on the tokens of a reply without a grammar.
             penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which
                 are taken from their logits: a penalised action must be exp(penalty) times as
                 probable as the one that replaces it. An infinite penalty excludes an action.
             force_factor: Newtons per nominal newton of the unit that measured the points.
+
+        Raises:
+            TouchError: Grammar and penalties leave no action.
         """
         marks = [self._clock()]
         encoded = self.model.encoder(torch.from_numpy(points)[None])
@@ -102,24 +134,78 @@ class Talker:
         touch = self.model.projected(encoded, force_factor)[0]
         marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
-        generate = partial(_own, self._fast) if self._fast is not None else _stock
-        ids, ended, probabilities = generate(
-            self._language, inputs, max_tokens, lambda: marks.append(self._clock()), penalties or {}
-        )
-        text = self._language.decode(ids).strip()
+
+        def prefilled() -> None:
+            marks.append(self._clock())
+
+        if grammar is not None:
+            said = _generated(
+                self._constrained.decode(
+                    inputs,
+                    grammar,
+                    draft=draft,
+                    penalties=penalties,
+                    doubt_below=doubt_below,
+                    prefilled=prefilled,
+                )
+            )
+        else:
+            generate = partial(_own, self._fast) if self._fast is not None else _stock
+            said = generate(self._language, inputs, max_tokens, prefilled, penalties or {})
+        text = said.text or self._language.decode(said.ids).strip()
         marks.append(self._clock())
         stages = ("encode", "project", "prefill", "generate")
         return Reply(
             text=text,
-            ended=ended,
-            num_tokens=len(ids),
-            action=ACTIONS[int(np.argmax(probabilities))] if probabilities else None,
-            probabilities=tuple(probabilities),
+            ended=said.ended,
+            num_tokens=len(said.ids),
+            action=ACTIONS[int(np.argmax(said.probabilities))] if said.probabilities else None,
+            probabilities=tuple(said.probabilities),
             stage_ms={
                 stage: 1e3 * (end - begin)
                 for stage, begin, end in zip(stages, marks, marks[1:], strict=False)
             },
+            slots=said.slots,
+            passes=said.passes,
+            close_calls=said.close_calls,
+            token_probabilities=tuple(said.token_probabilities),
         )
+
+
+class _Generated(NamedTuple):
+    """What was generated, before it is a ``Reply``; ``text`` is '' where the tokens give it."""
+
+    ids: list[int]
+    ended: bool
+    probabilities: list[float]
+    passes: int
+    token_probabilities: Sequence[float] = ()
+    text: str = ""
+    slots: Mapping[str, Decision] = {}
+    close_calls: int = 0
+
+
+def _generated(reply: Constrained) -> _Generated:
+    """A reply under a grammar, with the probabilities of the eight actions."""
+    action = reply.decisions.get(ACTION_PART)
+    return _Generated(
+        ids=reply.ids,
+        ended=reply.ended,
+        probabilities=_of_eight(action) if action is not None else [],
+        passes=reply.passes,
+        text=reply.text,
+        slots=reply.decisions,
+        close_calls=reply.close_calls,
+    )
+
+
+def _of_eight(action: Decision) -> list[float]:
+    """Probabilities of the eight; actions that share one share it equally."""
+    probabilities = dict.fromkeys(ACTIONS, 0.0)
+    for names, probability in action.probabilities.items():
+        together = names.split("|")
+        probabilities |= dict.fromkeys(together, probability / len(together))
+    return list(probabilities.values())
 
 
 def _own(
@@ -129,11 +215,13 @@ def _own(
     max_tokens: int,
     prefilled: Callable[[], None],
     penalties: Mapping[str, float],
-) -> tuple[list[int], bool, list[float]]:
+) -> _Generated:
     actions = [tokens[0] for tokens in language.actions()]
     probabilities: list[Tensor] = []
+    token_probabilities: list[float] = []
 
     def watch(token: int, logits: Tensor) -> None:
+        token_probabilities.append(float(logits.softmax(-1)[token]))
         if token in actions and not probabilities:
             probabilities.append(logits[actions].softmax(-1))
 
@@ -148,7 +236,13 @@ def _own(
             t: penalties[a] for t, a in zip(actions, ACTIONS, strict=True) if a in penalties
         },
     )
-    return ids, len(ids) < max_tokens, probabilities[0].tolist() if probabilities else []
+    return _Generated(
+        ids=ids,
+        ended=len(ids) < max_tokens,
+        probabilities=probabilities[0].tolist() if probabilities else [],
+        passes=len(ids) + 1,
+        token_probabilities=token_probabilities,
+    )
 
 
 def _stock(
@@ -157,19 +251,21 @@ def _stock(
     max_tokens: int,
     prefilled: Callable[[], None],
     penalties: Mapping[str, float],
-) -> tuple[list[int], bool, list[float]]:
+) -> _Generated:
     """Generate by transformers' own forward, with its cache, for any checkpoint of the family."""
     run = _Run(language)
-    logits = run.feed(inputs)
+    logits = run.begin(inputs)[0]
     prefilled()
     ids: list[int] = []
+    chances: list[float] = []
     while len(ids) < max_tokens:
         token = int(logits.argmax())
         if token == language.end:
-            return ids, True, []
+            return _Generated(ids, True, [], run.passes, chances)
         ids.append(token)
+        chances.append(float(logits.softmax(-1)[token]))
+        logits = run.advance([token])[0]
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
-            logits = run.append(token)
             weights = [
                 probability * math.exp(-penalties.get(name, 0.0))
                 for name, probability in zip(
@@ -177,22 +273,41 @@ def _stock(
                 )
             ]
             probabilities = [weight / (sum(weights) or 1.0) for weight in weights]
-            ids += language.actions()[int(np.argmax(probabilities))]
-            return ids, True, probabilities
-        logits = run.append(token)
-    return ids, False, []
+            best = int(np.argmax(probabilities))
+            ids += language.actions()[best]
+            chances += [probabilities[best]] + [1.0] * (len(language.actions()[best]) - 1)
+            return _Generated(ids, True, probabilities, run.passes, chances)
+    return _Generated(ids, False, [], run.passes, chances)
 
 
 class _Run:
-    """A forward pass that continues after the tokens so far."""
+    """A stock checkpoint's forward pass, with its cache, under the names of ``FastDecoder``."""
 
     def __init__(self, language: Language) -> None:
         self._language = language
         self._past: Any = None
-        self.length = 0
+        self.length = self.passes = 0
+        self.longest = int(language.lm.config.get_text_config().max_position_embeddings)
 
-    def feed(self, inputs: Tensor) -> Tensor:
+    def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
+        """Begin with inputs (T, D) and tokens; the logits after the inputs and each token."""
+        self._past, self.length = None, 0
+        inputs = torch.cat([embeddings, self._language.embed(tokens)]) if tokens else embeddings
+        return self._feed(inputs, len(tokens) + 1)
+
+    def advance(self, tokens: Sequence[int]) -> Tensor:
+        """Append tokens; the logits of what follows each, shape (tokens, V)."""
+        return self._feed(self._language.embed(tokens), len(tokens))
+
+    def rewind(self, length: int) -> None:
+        """Forget all but the first ``length`` positions."""
+        if self.length > length:
+            self._past.crop(length - self.length)  # negative: so many fewer
+        self.length = length
+
+    def _feed(self, inputs: Tensor, rows: int) -> Tensor:
         self.length += len(inputs)
+        self.passes += 1
         out = self._language.lm(
             inputs_embeds=inputs[None],
             attention_mask=torch.ones(1, self.length, dtype=torch.long, device=inputs.device),
@@ -200,16 +315,8 @@ class _Run:
             use_cache=True,
         )
         self._past = out.past_key_values
-        return out.logits[0, -1]
-
-    def rewind(self, length: int) -> None:
-        if self.length > length:
-            self._past.crop(length - self.length)  # negative: so many fewer
-        self.length = length
-
-    def append(self, token: int) -> Tensor:
-        """Logits of what follows ``token``."""
-        return self.feed(self._language.embed([token]))
+        logits: Tensor = out.logits[0, -rows:]
+        return logits
 
 
 def _action_probabilities(run: _Run, logits: Tensor, names: list[list[int]]) -> list[float]:
@@ -232,7 +339,7 @@ def _action_probabilities(run: _Run, logits: Tensor, names: list[list[int]]) -> 
         for token, fraction in zip(nexts, fractions, strict=True):
             branch = [*prefix, token]
             is_leaf = sum(names[n][: len(branch)] == branch for n in inside) == 1
-            descend(branch, logits if is_leaf else run.append(token), mass * fraction)
+            descend(branch, logits if is_leaf else run.advance([token])[0], mass * fraction)
             if not is_leaf:
                 run.rewind(length)
 

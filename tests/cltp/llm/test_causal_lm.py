@@ -176,7 +176,7 @@ class ScriptedDecoder:
 
 def test_the_choice_is_a_softmax_over_the_eight_at_the_place_of_the_action(words: Words) -> None:
     language = tiny_model(words).language
-    ids, ended, probabilities = _own(
+    ids, ended, probabilities, *_ = _own(
         ScriptedDecoder(words), language, torch.zeros(3, 48), 10, lambda: None, {}
     )
     assert words.decode(ids).strip() == "<increase_force>"
@@ -188,7 +188,7 @@ def test_a_barred_action_is_neither_said_nor_given_a_chance(words: Words) -> Non
     language = tiny_model(words).language
     decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
     barred = {"<increase_force>": math.inf}
-    ids, _, probabilities = _own(decoder, language, inputs, 10, lambda: None, barred)
+    ids, _, probabilities, *_ = _own(decoder, language, inputs, 10, lambda: None, barred)
     assert words.decode(ids).strip() != "<increase_force>"
     assert probabilities == pytest.approx([1 / 7] * 4 + [0.0] + [1 / 7] * 3)
 
@@ -197,7 +197,7 @@ def test_what_speaks_against_an_action_takes_from_its_chance(words: Words) -> No
     language = tiny_model(words).language
     decoder, inputs = ScriptedDecoder(words), torch.zeros(3, 48)
     penalties = {"<increase_force>": math.log(3.5)}
-    ids, _, probabilities = _own(decoder, language, inputs, 10, lambda: None, penalties)
+    ids, _, probabilities, *_ = _own(decoder, language, inputs, 10, lambda: None, penalties)
     assert words.decode(ids).strip() == "<increase_force>"  # still the likeliest, by 2 to 1
     assert probabilities == pytest.approx([1 / 9] * 4 + [2 / 9] + [1 / 9] * 3)
 
@@ -268,11 +268,11 @@ def test_a_stock_checkpoint_chooses_among_the_eight_after_the_cue(tmp_path: Path
     with torch.no_grad():
         run = _Run(language)
         inputs = torch.randn(6, language.dim)
-        logits = run.feed(inputs)
+        logits = run.begin(inputs)[0]
         probabilities = _action_probabilities(run, logits, names)
         assert sum(probabilities) == pytest.approx(1.0, abs=1e-5)
         fresh = _Run(language)  # the trie leaves the model where it was
-        torch.testing.assert_close(fresh.feed(inputs), logits)
+        torch.testing.assert_close(fresh.begin(inputs)[0], logits)
         assert run.length == fresh.length
 
 
