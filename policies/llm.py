@@ -1,8 +1,9 @@
 """The policy of the paper: Tac3D-LLM generates D_t from a cloud, and the action is read out of D_t.
 
-The contract is put to the model in a wording that it knows (``known_wording``): it was taught bands
-of one width in newtons. A faulty reply leads to no action: one that does not end, names no action
-or two, has too low a confidence, or names a goal outside the contract.
+The model is asked for the step's target and answers in the grammar of D_t (``policies.reply``). A
+draft of the reply, from what the heads read and the teacher's advice on it, saves time and changes
+nothing. A step leads to no action where what is felt can't be trusted (``cltp.encoder.reader``), or
+where the model has too low a confidence.
 """
 
 from __future__ import annotations
@@ -15,19 +16,27 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
+from cltp.encoder.reader import TouchReading, reading_of
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
-from policies.contract_steps import refuted, target_of
+from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.teacher import LESSON_MOVE_STEP_MM
+from policies.reply.grammar import step_grammar
+from policies.reply.text import (
+    advice_text,
+    contact_text,
+    goal_text,
+    said_numbers,
+    step_request,
+)
+from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
-from primitives.sense import Interval
 
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
@@ -39,10 +48,6 @@ ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
 A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
 1,000,000.
 """
-
-KNOWN_SPAN = 2.07
-"""High over low end of every band that the model was taught. Source: the square of
-``tacgrasp.lessons.instructions.FORCE_RATIO``."""
 
 MAX_INSTRUCTION_WORDS = 120
 """Longest instruction [words]. The model would read only the end of a longer one."""
@@ -127,42 +132,57 @@ class LlmPolicy:
 
         Raises:
             LimitError: The contract is refused.
+            TouchError: The weights' heads have no intervals.
         """
-        target, felt = target_of(contract).force_n, observation.felt_force_n
-        barred = [f"<{action or 'none'}>" for action in refuted(contract, felt)]
-        return self.follow(observation, known_wording(target, felt), target, barred)
+        terms = contract.terms
+        barred = [f"<{a or 'none'}>" for a in refuted(contract, observation.felt_force_n)]
+        return self.follow(observation, terms.force_n, terms.limit_n, barred)
 
     def follow(
         self,
         observation: Observation,
-        instruction: str,
-        target: Band | None = None,
+        force_n: Band,
+        limit_n: float,
         barred: Sequence[str] = (),
+        request: str | None = None,
     ) -> Decision:
-        """Decide for an instruction in words that the model was taught.
+        """Decide for a target.
 
         Args:
             observation: What is felt.
-            instruction: The words.
-            target: Force band that D_t may not leave [N]; None for any.
+            force_n: The target [N].
+            limit_n: Force that is never exceeded [N].
             barred: Tokens of actions that what is felt refutes; the most probable other is taken.
+            request: What the model is asked; ``policies.reply.text.step_request`` when not given.
         """
         begin = self._clock()
-        points = encoder_input(observation.cloud, self._talker.layout)
+        cloud = observation.cloud
+        points = encoder_input(cloud, self._talker.layout)
         sampled = self._clock()
+        felt = self._talker.feel(points, cloud.force_scale)
+        read_from = self._clock()
+        commanded_n = observation.commanded_force_n
+        reading = reading_of(felt.readings, cloud, commanded_force_n=commanded_n)
+        draft = drafted(reading, force_n)
+        read = self._clock()
         excluded = (*repeated_moves(self._moves), *barred)
-        penalties = ACTION_PENALTIES | dict.fromkeys(excluded, math.inf)
-        factor = observation.cloud.force_scale.factor
-        reply = self._talker.reply(points, instruction, penalties=penalties, force_factor=factor)
+        reply = self._talker.reply_to(
+            felt.touch,
+            request or step_request(force_n, limit_n),
+            grammar=step_grammar(cloud.sensor, force_n, excluded),
+            draft=draft,
+            penalties=ACTION_PENALTIES,
+        )
         replied = self._clock()
         extraction = extract(reply.text)
         stages = {
             "sample": 1e3 * (sampled - begin),
+            **felt.stage_ms,
+            "read": 1e3 * (read - read_from),
             **reply.stage_ms,
             "extract": 1e3 * (self._clock() - replied),
         }
-        hold = hold_reason(reply, extraction, self._abstain_below)
-        hold = hold or goal_beyond(reply.text, target)
+        hold = flag_reason(reading) or hold_reason(reply, extraction, self._abstain_below)
         if not hold and extraction.action in PAD_DIRECTION:
             self._moves.append(extraction.action)
         return Decision(
@@ -182,9 +202,8 @@ class LlmPolicy:
                 not end.
         """
         self.check(question)
-        factor = cloud.force_scale.factor
         points = encoder_input(cloud, self._talker.layout)
-        reply = self._talker.reply(points, question, force_factor=factor)
+        reply = self._talker.reply(points, question, scale=cloud.force_scale)
         if not reply.ended:
             raise PolicyError(
                 f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "
@@ -193,41 +212,20 @@ class LlmPolicy:
         return reply.text
 
 
-def known_wording(band: Band, felt: Interval | None) -> str:
-    """A force band [N] in words that the model knows, for what is felt.
-
-    The model knows bands of ``KNOWN_SPAN`` alone. A narrower one is put to it by the end that
-    matters: by its low end below it, by its high end above it, by its middle inside; a wider one by
-    a part of it around what is felt.
-    """
-    force_n = None if felt is None else felt.value
-    root = math.sqrt(KNOWN_SPAN)
-    is_narrow = band.high < 0.9 * KNOWN_SPAN * band.low
-    is_wide = band.high > 1.1 * KNOWN_SPAN * band.low
-    low_n = math.ceil(10 * band.low - 1e-6) / 10  # to the model the band begins no lower
-    if force_n is not None and is_wide:
-        low_n = min(max(force_n / root, band.low), band.high / KNOWN_SPAN)
-    elif force_n is not None and is_narrow and force_n > band.high:
-        low_n = math.floor(10 * band.high / KNOWN_SPAN + 1e-6) / 10  # and ends no higher
-    elif force_n is not None and is_narrow and force_n >= band.low:
-        low_n = math.sqrt(band.low * band.high) / root
-    low_n = max(low_n, 0.1)
-    return f"Hold it with {low_n:.1f} to {KNOWN_SPAN * low_n:.1f} N."
+def drafted(reading: TouchReading, force_n: Band) -> str:
+    """The reply that is expected: what the heads read, and the teacher's advice on it."""
+    state = reading.state
+    ends = {name: (number.low, number.high) for name, number in reading.numbers.items()}
+    advice = teacher(state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+    contact = contact_text(state, said_numbers(state, ends))
+    return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
 
 
-GOAL_IN_TEXT = re.compile(r"Goal (\d+(?:\.\d+)?) - (\d+(?:\.\d+)?) N")
-
-
-def goal_beyond(text: str, target: Band | None) -> str:
-    """Why the goal that D_t names lies outside the contract; '' where it meets it."""
-    match = GOAL_IN_TEXT.search(text)
-    if target is None or match is None:
+def flag_reason(reading: TouchReading) -> str:
+    """Why what is felt is not acted on; '' where it may be."""
+    if not reading.flags:
         return ""
-    low_n, high_n = float(match[1]), float(match[2])
-    if high_n < target.low - 0.1 or low_n > target.high + 0.1:
-        contract = f"{target.low:.2f}-{target.high:.2f} N"
-        return f"D_t names a goal of {match[1]}-{match[2]} N, outside {contract}"
-    return ""
+    return f"what is felt can't be trusted: {', '.join(reading.flags)}"
 
 
 def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:

@@ -7,13 +7,14 @@ worded (``policies.speech``).
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
 from cltp.tactile.states import ContactState, Side
 from policies.goal import Goal
 from primitives import Primitive
-from primitives.contract import Band
+from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
 from primitives.execution import INCREASE_FACTOR
 
 LESSON_MOVE_STEP_MM = 3.0
@@ -22,6 +23,9 @@ Source: the design."""
 
 DEPTH_EXPONENT = 2.0 / 3.0
 """Indentation grows with the force to this power. Source: Hertz; in a bonded gel it grows less."""
+
+PLACE_MM: Mapping[str, float] = {"x_mm": 4.0, "y_mm": 3.0}
+"""Half widths of the place of a good grasp in lessons [mm]. Source: the tasks."""
 
 SLIVER_FRACTION = 0.004
 """Fraction of the sensing area below which a contact cut by the edge is out of reach of one step.
@@ -112,6 +116,14 @@ def teacher(state: ContactState, goal: Goal, *, move_step_mm: float) -> Advice:
     if state.x_mm not in goal.x_mm or state.y_mm not in goal.y_mm:
         return _advise(None, Reason.BAND_TOO_NARROW)
     return Advice(action=None, success=True, reason=Reason.GOOD)
+
+
+def force_goal(force_n: Band) -> Goal:
+    """Goal of the lessons for a target of the force [N]; depth and area follow from it."""
+    x, y = (Band(low=-half, high=half) for half in PLACE_MM.values())
+    return Goal(
+        force_n=force_n, depth_mm=DEFAULT_DEPTH_MM, area_fraction=DEFAULT_AREA, x_mm=x, y_mm=y
+    )
 
 
 def _advise(action: Primitive | None, reason: Reason) -> Advice:

@@ -16,8 +16,8 @@ import numpy as np
 import torch
 
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads
-from cltp.encoder.readings import WITHOUT_INTERVALS, readings_of
+from cltp.encoder.heads import StateHeads
+from cltp.encoder.readings import WITHOUT_INTERVALS, Readings, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
@@ -113,25 +113,21 @@ class TouchReader:
         """Read one cloud."""
         points = encoder_input(cloud, self._encoder.config.variant.layout)
         output = self._heads(self._encoder(torch.from_numpy(points)[None]).pooled)
-        return reading_of(output, cloud)
+        scale = cloud.force_scale
+        return reading_of(readings_of(output, scale.factor, scale.spread), cloud)
 
 
 def reading_of(
-    output: HeadsOutput, cloud: TactileCloud, *, commanded_force_n: float | None = None
+    read: Readings, cloud: TactileCloud, *, commanded_force_n: float | None = None
 ) -> TouchReading:
     """The reading of one cloud.
 
     Args:
-        output: The heads' output for it, a batch of one.
+        read: What the heads read of it, a batch of one.
         cloud: The cloud.
         commanded_force_n: Force that the gripper was told to grip with [N]; None where none is
             known.
-
-    Raises:
-        TouchError: The heads have no intervals.
     """
-    scale = cloud.force_scale
-    read = readings_of(output, scale.factor, scale.spread)
     ends = torch.cat([read.values, read.low, read.high]).T.tolist()
     numbers = {name: Number(*each) for name, each in zip(NUMBERS, ends, strict=True)}
     contact = float(read.touching[0])

@@ -12,8 +12,9 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,12 +22,15 @@ import torch
 from numpy.typing import NDArray
 from torch import Tensor
 
+from cltp.encoder.encoder import Encoded
+from cltp.encoder.readings import Readings, readings_of
 from cltp.llm.causal_lm import CUE, Language
 from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, Decision
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.constrained.tokens import Tokens
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
 from cltp.texts.tokenizer import ACTIONS
 
@@ -75,6 +79,27 @@ class Reply:
         return max(self.probabilities, default=0.0)
 
 
+@dataclass(frozen=True, slots=True)
+class Felt:
+    """One contact as the model feels it.
+
+    Attributes:
+        encoded: The encoder's output, a batch of one.
+        readings: What the heads read of it, in the unit's newtons.
+        touch: Touch embeddings, shape (P, D).
+        stage_ms: Durations of encode and project [ms].
+    """
+
+    encoded: Encoded
+    readings: Readings
+    touch: Tensor
+    stage_ms: dict[str, float]
+
+
+NOMINAL = ForceScale(factor=1.0, spread=0.0, source="nominal")
+"""Scale of a unit whose newtons are nominal ones."""
+
+
 class Talker:
     """Asks a Tac3D-LLM about contacts.
 
@@ -98,9 +123,46 @@ class Talker:
         return self.model.layout
 
     @torch.inference_mode()
+    def feel(self, points: NDArray[np.float32], scale: ForceScale = NOMINAL) -> Felt:
+        """Encode one contact, once for all that is asked about it.
+
+        Args:
+            points: Shape (N, 3), from ``cltp.tactile.encoder_input`` in the encoder's ``layout``.
+            scale: Force scale of the unit that measured them.
+
+        Raises:
+            TouchError: The weights' heads have no intervals.
+        """
+        marks = [self._clock()]
+        encoded = self.model.encoder(torch.from_numpy(points)[None])
+        marks.append(self._clock())
+        output = self.model.heads(encoded.pooled)
+        readings = readings_of(output, scale.factor, scale.spread)
+        touch = self.model.projected(encoded, readings)[0]
+        marks.append(self._clock())
+        return Felt(encoded, readings, touch, _durations(("encode", "project"), marks))
+
     def reply(
         self,
         points: NDArray[np.float32],
+        prompt: str,
+        *,
+        scale: ForceScale = NOMINAL,
+        grammar: Grammar | None = None,
+        max_tokens: int = MAX_TOKENS,
+        penalties: Mapping[str, float] | None = None,
+    ) -> Reply:
+        """Ask about one contact: ``feel`` and ``reply_to``, whose arguments it takes."""
+        felt = self.feel(points, scale)
+        reply = self.reply_to(
+            felt.touch, prompt, grammar=grammar, max_tokens=max_tokens, penalties=penalties
+        )
+        return replace(reply, stage_ms={**felt.stage_ms, **reply.stage_ms})
+
+    @torch.inference_mode()
+    def reply_to(
+        self,
+        touch: Tensor,
         prompt: str,
         *,
         grammar: Grammar | None = None,
@@ -108,13 +170,12 @@ class Talker:
         doubt_below: Mapping[str, float] | None = None,
         max_tokens: int = MAX_TOKENS,
         penalties: Mapping[str, float] | None = None,
-        force_factor: float = 1.0,
     ) -> Reply:
-        """Ask about one contact.
+        """Ask about one contact that is felt already.
 
         Args:
-            points: Shape (N, 3), from ``cltp.tactile.encoder_input`` in the encoder's ``layout``.
-            prompt: A person's question or instruction.
+            touch: Shape (P, D), touch embeddings as ``feel`` gives them.
+            prompt: A person's question, or the request of a step.
             grammar: What may be said; None for anything.
             draft: With a grammar, a whole expected reply. It saves time, and changes nothing else.
             doubt_below: With a grammar, probabilities below which a text is said with its rival, by
@@ -123,16 +184,11 @@ class Talker:
             penalties: Penalties of actions out of ``cltp.texts.tokenizer.ACTIONS`` in nats, which
                 are taken from their logits: a penalised action must be exp(penalty) times as
                 probable as the one that replaces it. An infinite penalty excludes an action.
-            force_factor: Newtons per nominal newton of the unit that measured the points.
 
         Raises:
             TouchError: Grammar and penalties leave no action.
         """
         marks = [self._clock()]
-        encoded = self.model.encoder(torch.from_numpy(points)[None])
-        marks.append(self._clock())
-        touch = self.model.projected(encoded, force_factor)[0]
-        marks.append(self._clock())
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
 
         def prefilled() -> None:
@@ -154,22 +210,24 @@ class Talker:
             said = generate(self._language, inputs, max_tokens, prefilled, penalties or {})
         text = said.text or self._language.decode(said.ids).strip()
         marks.append(self._clock())
-        stages = ("encode", "project", "prefill", "generate")
         return Reply(
             text=text,
             ended=said.ended,
             num_tokens=len(said.ids),
             action=ACTIONS[int(np.argmax(said.probabilities))] if said.probabilities else None,
             probabilities=tuple(said.probabilities),
-            stage_ms={
-                stage: 1e3 * (end - begin)
-                for stage, begin, end in zip(stages, marks, marks[1:], strict=False)
-            },
+            stage_ms=_durations(("prefill", "generate"), marks),
             slots=said.slots,
             passes=said.passes,
             close_calls=said.close_calls,
             token_probabilities=tuple(said.token_probabilities),
         )
+
+
+def _durations(stages: Sequence[str], marks: Sequence[float]) -> dict[str, float]:
+    """Durations [ms] of stages between marks [s]."""
+    spans = pairwise(marks)
+    return {stage: 1e3 * (end - begin) for stage, (begin, end) in zip(stages, spans, strict=False)}
 
 
 class _Generated(NamedTuple):

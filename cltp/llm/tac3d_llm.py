@@ -93,31 +93,22 @@ class Tac3dLlm(nn.Module):
         return self.encoder.config.variant.layout
 
     def touch(self, points: Tensor) -> Tensor:
-        """Embeddings of scaled points (B, N, 3): shape (B, P, D)."""
-        return self.projected(self.encoder(points))
+        """Embeddings of scaled points (B, N, 3) of nominal units: shape (B, P, D)."""
+        encoded = self.encoder(points)
+        return self.projected(encoded, readings_of(self.heads(encoded.pooled)))
 
     def projected(
-        self,
-        encoded: Encoded,
-        force_factor: float | Tensor = 1.0,
-        force_spread: float = 0.0,
-        *,
-        readings: Readings | None = None,
-        given: Tensor | None = None,
+        self, encoded: Encoded, readings: Readings, given: Tensor | None = None
     ) -> Tensor:
         """Embeddings of an encoded batch: shape (B, P, D).
 
         Args:
             encoded: The batch.
-            force_factor: Newtons per nominal newton of its units, one number or (B,): the language
-                model is told newtons.
-            force_spread: Standard deviation of the factor's logarithm.
-            readings: Other readings than the heads' own of this batch.
-            given: Shape (B, 6), bool: which readings the model is given; None for all.
+            readings: What the language model is told of it, in newtons.
+            given: Shape (B, 6), bool: which readings it is told; None for all.
         """
-        if readings is None:
-            readings = readings_of(self.heads(encoded.pooled), force_factor, force_spread)
-        return self.projector(encoded, readings, given)
+        embeddings: Tensor = self.projector(encoded, readings, given)
+        return embeddings
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.

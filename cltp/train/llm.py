@@ -215,7 +215,7 @@ class _Learner:
                 if encoded is None:
                     touch = model.projector.readings(readings, given)
                 else:
-                    touch = model.projected(encoded, readings=readings, given=given)
+                    touch = model.projected(encoded, readings, given)
                 return model.loss(touch, packed)
 
         stage.train(losses)

@@ -19,7 +19,6 @@ from cltp.tactile.states import ContactState
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from cltp.texts.felt import FeltContact
-from policies.goal import Goal
 from policies.reply.text import (
     advice_text,
     contact_text,
@@ -29,8 +28,8 @@ from policies.reply.text import (
     said_numbers,
     step_request,
 )
-from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band
+from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
+from primitives.contract import Band
 from tacgrasp.lessons.dialogue.families.family import word_lists
 from tacgrasp.lessons.question_draws import question_exchange
 
@@ -57,9 +56,6 @@ RATIOS = (1.03, 4.0)
 """Range of the ends of targets over their middles. Source: a step's target has 1.1, the tasks'
 bands 1.4, the band of all berries 4."""
 
-PLACE_MM = {"x_mm": 4.0, "y_mm": 3.0}
-"""Half widths of the place of a good grasp [mm]. Source: the tasks, and the contract's default."""
-
 BLIND = "Do what is needed."
 """What the instruction-blind control is asked instead of a target."""
 
@@ -82,14 +78,6 @@ def caption_exchange(felt: FeltContact, rng: np.random.Generator) -> Exchange:
     )
 
 
-def target_goal(force_n: Band) -> Goal:
-    """Goal of a target of the force; depth and area follow from it."""
-    x, y = (Band(low=-half, high=half) for half in PLACE_MM.values())
-    return Goal(
-        force_n=force_n, depth_mm=DEFAULT_DEPTH_MM, area_fraction=DEFAULT_AREA, x_mm=x, y_mm=y
-    )
-
-
 def draw_target(force_n: float, rng: np.random.Generator) -> tuple[Band, float]:
     """A target, mostly near a force so that the two must be compared, and the limit above it."""
     low, high = np.log(TARGETS_N)
@@ -103,7 +91,7 @@ def draw_target(force_n: float, rng: np.random.Generator) -> tuple[Band, float]:
 
 def advice_reply(felt: FeltContact, force_n: Band) -> str:
     """D_t for a contact and a target; ``policies.extraction`` reads the advice back from it."""
-    advice = teacher(felt.state, target_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+    advice = teacher(felt.state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
     said = said_numbers(felt.state, felt.ends)
     contact = contact_text(felt.state, said, felt.rivals)
     return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
