@@ -22,8 +22,12 @@ from cltp.llm.causal_lm import Language, load_language, small_lm
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.generation import Talker, _action_probabilities, _own, _Run
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
+from cltp.tactile.sensors import SENSORS
 from cltp.texts.exchange_packing import NOT_LEARNED, Exchange, pack
 from cltp.texts.tokenizer import ACTIONS, Words
+from policies.reply.grammar import step_grammar
+from policies.reply.parse import parse_reply
+from primitives.contract import Band
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -274,6 +278,20 @@ def test_a_stock_checkpoint_chooses_among_the_eight_after_the_cue(tmp_path: Path
         fresh = _Run(language)  # the trie leaves the model where it was
         torch.testing.assert_close(fresh.begin(inputs)[0], logits)
         assert run.length == fresh.length
+
+
+@pytest.mark.parametrize("kind", ["qwen2", "qwen2_5_vl"])
+def test_a_stock_checkpoint_keeps_the_same_grammar(kind: str, tmp_path: Path) -> None:
+    language = load_language(stock_directory(tmp_path, kind))
+    model = Tac3dLlm(
+        TactileEncoder(PRESETS["tiny"]), StateHeads(96), Projector(48, language.dim), language
+    )
+    grammar = step_grammar(SENSORS["gelsight_mini"], Band(low=0.4, high=0.8))
+    reply = Talker(model).reply(torch.rand(1024, 3).numpy(), "Pick it.", grammar=grammar)
+    advice = parse_reply(reply.text).advice
+    assert reply.ended
+    assert reply.action == f"<{advice.action or 'none'}>"
+    assert sum(reply.probabilities) == pytest.approx(1.0)
 
 
 def test_other_architectures_and_missing_weights_are_refused(tmp_path: Path) -> None:
