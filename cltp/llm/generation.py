@@ -39,6 +39,7 @@ class Reply:
         num_tokens: Number of generated tokens.
         action: One of ``cltp.texts.tokenizer.ACTIONS``; None when the reply has none.
         probabilities: Probabilities of the eight at the action's position; empty without one.
+        token_probabilities: Probability of each token of a free reply; empty where not known.
         stage_ms: Durations of encode, project, prefill (the prompt's tokens, which also give the
             first of the reply) and generate (the others) [ms].
     """
@@ -49,6 +50,7 @@ class Reply:
     action: str | None
     probabilities: tuple[float, ...]
     stage_ms: dict[str, float]
+    token_probabilities: tuple[float, ...] = ()
 
     @property
     def confidence(self) -> float:
