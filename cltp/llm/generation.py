@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -98,11 +98,36 @@ class Talker:
                 probable as the one that replaces it. An infinite penalty excludes an action.
             force_factor: Newtons per nominal newton of the unit that measured the points.
         """
-        marks = [self._clock()]
+        began = self._clock()
         encoded = self.model.encoder(torch.from_numpy(points)[None])
-        marks.append(self._clock())
+        encoded_at = self._clock()
         touch = self.model.projected(encoded, force_factor)[0]
-        marks.append(self._clock())
+        projected_at = self._clock()
+        reply = self.reply_to(touch, prompt, max_tokens=max_tokens, penalties=penalties)
+        stages = {
+            "encode": 1e3 * (encoded_at - began),
+            "project": 1e3 * (projected_at - encoded_at),
+        }
+        return replace(reply, stage_ms=stages | reply.stage_ms)
+
+    @torch.inference_mode()
+    def reply_to(
+        self,
+        touch: Tensor,
+        prompt: str,
+        *,
+        max_tokens: int = MAX_TOKENS,
+        penalties: Mapping[str, float] | None = None,
+    ) -> Reply:
+        """Ask about one contact that is embedded already.
+
+        Args:
+            touch: Shape (P, D), touch embeddings as ``Tac3dLlm.projected`` gives them.
+            prompt: As for ``reply``.
+            max_tokens: As for ``reply``.
+            penalties: As for ``reply``.
+        """
+        marks = [self._clock()]
         inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
         generate = partial(_own, self._fast) if self._fast is not None else _stock
         ids, ended, probabilities = generate(
@@ -110,7 +135,7 @@ class Talker:
         )
         text = self._language.decode(ids).strip()
         marks.append(self._clock())
-        stages = ("encode", "project", "prefill", "generate")
+        stages = ("prefill", "generate")
         return Reply(
             text=text,
             ended=ended,
