@@ -18,7 +18,7 @@ COMMANDS = {
     "why": "what went wrong first in an episode: the state before it, what was sent, how to replay",
     "view": "see an episode, a rig or a sensor in rerun's viewer (extra 'view')",
     "describe": "describe the contact in a cloud, height map or camera frame",
-    "ask": 'answer a question about the contact in a file: ask FILE "How deep is it pressed?"',
+    "ask": 'answer questions about the contact in a file: ask FILE "How deep is it pressed?"',
     "train": "train clip, cltp, llm, all or a compared method; an interrupted training resumes",
     "eval": "evaluate weights on unseen contacts: scores, instructions, zero-shot, probe, ...",
     "simulate": "press one object into a sensor's gel: heights, pressure and force",

@@ -45,8 +45,8 @@ from cltp.llm.unsure_readings import ShownReadings, drawn_readings, shown, told_
 from cltp.tactile.force_scale import UNCALIBRATED_SPREAD
 from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.exchange_packing import Exchange, Packed, pack
-from cltp.texts.felt import FeltContact
 from cltp.texts.tokenizer import Words
+from cltp.texts.told import ToldContact
 from cltp.train.prefetch import prefetched
 from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
@@ -80,11 +80,11 @@ ACTION_WEIGHT = 4.0
 class Lessons(Protocol):
     """The exchanges that a language model learns about a contact."""
 
-    def captions(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+    def captions(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         """Descriptions of a contact, in one or more wordings."""
         ...
 
-    def mixed(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+    def mixed(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         """Captions, questions and advice on a contact; ``rng`` draws wordings."""
         ...
 
@@ -118,7 +118,7 @@ def train_words(
     rng = np.random.default_rng([seed, 77])
     learned = list(texts)
     for index in rng.integers(len(data), size=num_contacts):
-        felt = FeltContact(state=data.state(int(index)))
+        felt = ToldContact(state=data.state(int(index)))
         for exchange in (*lessons.mixed(felt, rng), *lessons.captions(felt, rng)):
             learned += [exchange.prompt, exchange.reply]
     return Words.train(learned, size, whole)
@@ -278,10 +278,10 @@ def _in_newtons(states: Sequence[ContactState], factors: Tensor) -> list[Contact
 
 def _felt(
     state: ContactState, readings: Readings, row: int, rng: np.random.Generator
-) -> FeltContact:
+) -> ToldContact:
     """What is to be told of a contact: its words, the numbers that are read, drawn doubts."""
     if not state.in_contact:
-        return FeltContact(state=state)
+        return ToldContact(state=state)
     numbers, ends = told_numbers(readings, row)
     rivals = {}
     if rng.random() < IN_DOUBT:
@@ -293,4 +293,4 @@ def _felt(
             is_near = rng.random() < 0.7
             rivals[name] = likely if is_near else others[int(rng.integers(len(others)))]
     read = replace(state, **numbers)  # type: ignore[arg-type]  # names of numbers alone
-    return FeltContact(state=read, ends=ends, rivals=rivals)
+    return ToldContact(state=read, ends=ends, rivals=rivals)

@@ -1,53 +1,178 @@
-"""``tacgrasp ask FILE "question"``: the language model answers a question about a contact."""
+"""``tacgrasp ask FILE ["question"]``: the language model answers questions about a contact."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import json
+import os
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import tyro
 
+from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse
+
+if TYPE_CHECKING:
+    from tacgrasp.playback.conversation import Conversation, Spoken
 
 
 @dataclass(frozen=True)
 class AskFlags:
-    """Answer a question about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
+    """Answer questions about a cloud (.ply .pcd .xyz .npy .npz) or height map (.npy .npz).
 
     In mm, positive into the gel, with the untouched gel at 0.
+
+    Without a question, a dialogue: follow-ups such as "Why?" are put with the exchange before, an
+    empty line or ctrl-D ends it. Without a terminal, each line of the input is answered by a line.
 
     Attributes:
         file: Cloud or height map.
         question: Question in plain English, for example "How deep is it pressed?".
         sensor: Name of the sensor that the file is from.
+        goal: Least and most force of a good grasp [N], for questions such as "Safe to lift?".
+        limit: Force that is never exceeded [N]; by default 1.25 times the most of --goal.
+        task: Task whose contract is told to the model, instead of --goal.
+        instruction: Instruction whose contract is told to the model, instead of --goal.
+        mass: Mass of the object [g], for questions such as "Will it slip?".
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
+        json: Print a JSON object for each answer: answer, kind, value, unit, confidence, decidable.
     """
 
     file: tyro.conf.Positional[Path]
-    question: tyro.conf.Positional[str]
+    question: tyro.conf.Positional[str | None] = None
     sensor: str = "gelsight_mini"
+    goal: tuple[float, float] | None = None
+    limit: float | None = None
+    task: str | None = None
+    instruction: str | None = None
+    mass: float | None = None
     weights: Path | None = None
+    json: bool = False
+
+    def __post_init__(self) -> None:
+        if self.goal is not None and (self.task or self.instruction) is not None:
+            raise UsageError("--goal and --task or --instruction both name a contract; give one")
+        if self.limit is not None and self.goal is None:
+            raise UsageError("--limit belongs to --goal LOW HIGH")
 
 
 def main(argv: Sequence[str]) -> int:
-    """Answer one question."""
+    """Answer one question, or those of a dialogue."""
     flags = parse(AskFlags, argv, prog="tacgrasp ask")
+    contract = _contract(flags)
     from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
-    from policies import PolicyError
     from tacgrasp.console import make_console, working
-    from tacgrasp.playback.describe import is_touched
+    from tacgrasp.playback.conversation import Conversation
     from tacgrasp.policy_factory import load_llm
 
     cloud = read_cloud(flags.file, sensor_named(flags.sensor))
     with working("loading the language model"):
         policy = load_llm(flags.weights)
     try:
-        policy.check(flags.question)
+        talk = Conversation(cloud, policy.talker, contract=contract, mass_g=flags.mass)
+    except ValueError as error:
+        raise UsageError(f"--mass: {error}") from None
+    console = make_console()
+
+    def show(spoken: Spoken) -> None:
+        if flags.json:
+            sys.stdout.write(json.dumps(spoken.json(), ensure_ascii=False) + "\n")
+        else:
+            console.print(spoken.answer.text)
+        sys.stdout.flush()
+
+    if flags.question is not None:
+        show(_answer(talk, policy.check, flags.question))
+    elif sys.stdin.isatty():
+        _dialogue(talk, policy.check, show)
+    else:
+        _answer_lines(talk, policy.check, show)
+    return 0
+
+
+def _contract(flags: AskFlags) -> Contract | None:
+    """The contract that the flags name; None where they name none."""
+    from primitives.errors import LimitError
+    from tacgrasp.config.layers import load
+    from tacgrasp.config.terms import contract_of
+    from tacgrasp.lessons.dialogue.scene import band_contract
+
+    if flags.goal is not None:
+        try:
+            return band_contract(*flags.goal, flags.limit)
+        except (LimitError, ValueError) as error:
+            raise UsageError(f"--goal, --limit: {error}") from None
+    if flags.task is None and flags.instruction is None:
+        return None
+    config, sources = load(flags.task, None, os.environ)
+    if flags.instruction is not None:
+        config = config.model_copy(update={"instruction": flags.instruction})
+        sources = {**sources, "instruction": "the command line"}
+    contract = contract_of(config, sources)
+    if contract.refused:
+        raise UsageError(f"the instruction is refused: {contract.refused}")
+    return contract
+
+
+def _answer(talk: Conversation, check: Callable[[str], None], question: str) -> Spoken:
+    from policies import PolicyError
+
+    try:
+        check(question)
     except PolicyError as error:
         raise UsageError(str(error)) from None
-    answer = policy.ask(cloud, flags.question) if is_touched(cloud) else "Nothing touches the gel."
-    make_console().print(answer)
-    return 0
+    return talk.ask(question)
+
+
+def _dialogue(
+    talk: Conversation, check: Callable[[str], None], show: Callable[[Spoken], None]
+) -> None:
+    """Ask on the terminal until an empty line; what can't be answered does not end it."""
+    from policies import PolicyError
+    from tacgrasp.console import make_console
+
+    console = make_console()
+    for question in _typed():
+        try:
+            show(_answer(talk, check, question))
+        except (UsageError, PolicyError) as error:
+            console.print(str(error))
+
+
+def _typed() -> Iterator[str]:
+    """Lines that are typed, until an empty one or the end of the input."""
+    while True:
+        try:
+            line = input("? ").strip()
+        except EOFError:
+            sys.stdout.write("\n")
+            return
+        if not line:
+            return
+        yield line
+
+
+def _answer_lines(
+    talk: Conversation, check: Callable[[str], None], show: Callable[[Spoken], None]
+) -> None:
+    """Answer each line of the input that is not empty.
+
+    Raises:
+        UsageError: There is no question, or a line is none that can be answered.
+    """
+    is_asked = False
+    for number, line in enumerate(sys.stdin, start=1):
+        if not line.strip():
+            continue
+        is_asked = True
+        try:
+            show(_answer(talk, check, line.strip()))
+        except UsageError as error:
+            raise UsageError(f"line {number}: {error}") from None
+    if not is_asked:
+        raise UsageError("there is no question: give one after FILE, or lines of input")

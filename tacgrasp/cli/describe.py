@@ -46,8 +46,8 @@ def main(argv: Sequence[str]) -> int:
     flags = parse(DescribeFlags, argv, prog="tacgrasp describe")
     from cltp.sensing.touch_files import read_cloud
     from cltp.tactile.sensors import sensor_named
-    from policies import PolicyError
     from tacgrasp.config.layers import load
+    from tacgrasp.config.terms import contract_of
     from tacgrasp.console import make_console, working
     from tacgrasp.playback.describe import (
         describe,
@@ -80,15 +80,15 @@ def main(argv: Sequence[str]) -> int:
             "name their folder with --weights"
         )
         return 0
-    instruction = flags.instruction
-    if instruction is None:
-        instruction = load("strawberry")[0].instruction
+    config, sources = load("strawberry")
+    if flags.instruction is not None:
+        config = config.model_copy(update={"instruction": flags.instruction})
+        sources = {**sources, "instruction": "the command line"}
+    contract = contract_of(config, sources)
+    if contract.refused:
+        raise UsageError(f"--instruction is refused: {contract.refused}")
     with working("loading the language model"):
         model = load_llm(weights)
-    try:
-        model.check(instruction)
-    except PolicyError as error:
-        raise UsageError(f"--instruction: {error}") from None
-    for line in describe_by_model(cloud, model, instruction):
+    for line in describe_by_model(cloud, model, contract):
         console.print(line)
     return 0

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.eval_ablate import main as ablate
 from tacgrasp.cli.eval_instructions import main as instructions
 from tacgrasp.cli.eval_questions import main as questions
 from tacgrasp.cli.flags import contacts_in, parse, writable
@@ -208,6 +209,7 @@ def report(argv: Sequence[str]) -> None:
 
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
+    "ablate": ablate,
     "instructions": instructions,
     "questions": questions,
     "zero-shot": zero_shot,

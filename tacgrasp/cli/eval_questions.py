@@ -66,12 +66,14 @@ def main(argv: Sequence[str]) -> None:
     from tacgrasp.lessons.dialogue.question_file import read_questions
 
     rows = read_questions(flags.file)
+    from cltp.tactile.point_layout import EVEN
     from cltp.train.progress import Bar
     from tacgrasp.policy_factory import load_llm
     from tacgrasp.training.question_evaluation import evaluate_questions, felt_contacts
 
     talker = load_llm(flags.weights).talker if flags.model else None
-    contacts = felt_contacts(flags.data, flags.contacts, flags.seed)
+    layout = EVEN if talker is None else talker.layout
+    contacts = felt_contacts(flags.data, flags.contacts, flags.seed, layout)
     with Bar(line_s=10.0) as report:
         results, answers = evaluate_questions(
             rows,

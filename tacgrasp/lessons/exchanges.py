@@ -18,7 +18,7 @@ import numpy as np
 from cltp.tactile.states import ContactState
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
-from cltp.texts.felt import FeltContact
+from cltp.texts.told import ToldContact
 from policies.reply.text import (
     advice_text,
     contact_text,
@@ -70,7 +70,7 @@ def numbers(state: ContactState) -> str:
     )
 
 
-def caption_exchange(felt: FeltContact, rng: np.random.Generator) -> Exchange:
+def caption_exchange(felt: ToldContact, rng: np.random.Generator) -> Exchange:
     """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
     return Exchange(
@@ -89,7 +89,7 @@ def draw_target(force_n: float, rng: np.random.Generator) -> tuple[Band, float]:
     return band, round(band.high * float(rng.uniform(1.0, 1.6)), 2)
 
 
-def advice_reply(felt: FeltContact, force_n: Band) -> str:
+def advice_reply(felt: ToldContact, force_n: Band) -> str:
     """D_t for a contact and a target; ``policies.extraction`` reads the advice back from it."""
     advice = teacher(felt.state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
     said = said_numbers(felt.state, felt.ends)
@@ -97,7 +97,7 @@ def advice_reply(felt: FeltContact, force_n: Band) -> str:
     return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
 
 
-def advice_exchange(felt: FeltContact, rng: np.random.Generator, *, blind: bool) -> Exchange:
+def advice_exchange(felt: ToldContact, rng: np.random.Generator, *, blind: bool) -> Exchange:
     """A step: the request for a drawn target, and D_t."""
     band, limit_n = draw_target(felt.state.force_n, rng)
     prompt = BLIND if blind else step_request(band, limit_n)
@@ -126,10 +126,10 @@ class TouchLessons:
         self._blind = blind
         self._num_questions, self._num_advice = num_questions, num_advice
 
-    def captions(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+    def captions(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         return [caption_exchange(felt, rng)]
 
-    def mixed(self, felt: FeltContact, rng: np.random.Generator) -> Sequence[Exchange]:
+    def mixed(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         """A caption for some, questions, and advice for several targets."""
         captions = [caption_exchange(felt, rng)] if rng.random() < CAPTIONS else []
         questions = [question_exchange(felt.state, rng) for _ in range(self._num_questions)]

@@ -15,6 +15,7 @@ import numpy as np
 
 from cltp.tactile.states import ContactState
 from cltp.texts.exchange_packing import Exchange
+from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES, understand
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -168,17 +169,26 @@ _SPELLINGS = [
 
 def draw_scene(state: ContactState, rng: np.random.Generator) -> AskedScene:
     """A contact with a contract near its force, or none, and a mass near what it holds, or none."""
-    force_n = state.force_n if state.in_contact and state.force_n > 0 else 1.0
-    contract = None
-    if rng.random() < 0.85:
-        middle = float(np.clip(force_n * np.exp(rng.uniform(-0.7, 0.7)), 0.2, 12.0))
-        ratio = float(rng.uniform(1.1, 1.5))
-        low, high = round(middle / ratio, 2), round(middle * ratio, 2)
-        contract = band_contract(low, high, round(high * float(rng.uniform(1.1, 1.4)), 2))
+    force_n = _felt_or_usual(state)
+    contract = draw_contract(state, rng) if rng.random() < 0.85 else None
     mass_g = None
     if rng.random() < 0.75:
         mass_g = float(max(2, round(force_n / 0.0205 * float(np.exp(rng.uniform(-0.8, 0.8))))))
     return AskedScene(state=state, contract=contract, mass_g=mass_g)
+
+
+def draw_contract(state: ContactState, rng: np.random.Generator) -> Contract:
+    """A contract near the force of a contact, so that its band decides what is right."""
+    middle = _felt_or_usual(state) * np.exp(rng.uniform(-0.7, 0.7))
+    middle = float(np.clip(middle, 0.2, 12.0))
+    ratio = float(rng.uniform(1.1, 1.5))
+    low, high = round(middle / ratio, 2), round(middle * ratio, 2)
+    return band_contract(low, high, round(high * float(rng.uniform(1.1, 1.4)), 2))
+
+
+def _felt_or_usual(state: ContactState) -> float:
+    """Force of a contact, 1 N without one [N]."""
+    return state.force_n if state.in_contact and state.force_n > 0 else 1.0
 
 
 def question_prompt(question: str, scene: AskedScene, before: Exchange | None = None) -> str:

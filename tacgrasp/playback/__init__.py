@@ -3,5 +3,5 @@
 Not here: reading episodes (``tacgrasp.episodes``), the commands' flags (``tacgrasp.cli``).
 
 May import: cltp, policies, primitives, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.config,
-tacgrasp.episodes, tacgrasp.rig, tacgrasp.runtime.
+tacgrasp.episodes, tacgrasp.lessons, tacgrasp.rig, tacgrasp.runtime.
 """

@@ -19,6 +19,7 @@ from policies import Observation, PolicyError
 if TYPE_CHECKING:
     from cltp.encoder.reader import TouchReader
     from policies.llm import LlmPolicy
+    from primitives.contract import Contract
 
 CAPTION_REQUEST = "Describe the contact."
 
@@ -128,17 +129,17 @@ def describe_in_numbers(cloud: TactileCloud, reader: TouchReader | None) -> dict
     }
 
 
-def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -> list[str]:
+def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract) -> list[str]:
     """Description and advice of the language model, a line each.
 
     Raises:
-        PolicyError: The model can't understand the instruction.
+        LimitError: The contract is refused.
     """
     try:
         description = model.ask(cloud, CAPTION_REQUEST)
     except PolicyError as error:
         description = f"nothing: {error}"
-    decision = model.follow(Observation(cloud=cloud), instruction)
+    decision = model.decide(Observation(cloud=cloud), contract)
     if decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"
     elif decision.success:
@@ -148,7 +149,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, instruction: str) -
     mark = cloud.force_scale.mark
     return [
         f"model     {description}",
-        f"asked     {instruction}",
+        f"asked     {contract.text}",
         f"says      {decision.text}",
         f"advice    {advice}",
         *([f"forces    {mark}, in the model's texts too"] if mark else []),

@@ -23,6 +23,7 @@ from cltp.data.dataset import ContactDataset
 from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.sampler import NOISY, Sampler
 from cltp.llm.generation import Talker
+from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import sensor_named
 from cltp.texts.exchange_packing import Exchange
 from cltp.train.stage import ProgressReport, silent
@@ -53,7 +54,7 @@ class FeltContact:
     """A contact as the model gets it, and as it is.
 
     Attributes:
-        points: Shape (1024, 3), scaled.
+        points: Shape (N, 3), scaled.
         scene: The truth, with contract and mass.
     """
 
@@ -61,13 +62,16 @@ class FeltContact:
     scene: AskedScene
 
 
-def felt_contacts(folder: Path | None, num: int, seed: int) -> list[FeltContact]:
+def felt_contacts(
+    folder: Path | None, num: int, seed: int, layout: PointLayout = EVEN
+) -> list[FeltContact]:
     """Contacts of a data set's test split, or made ones.
 
     Args:
         folder: The data set; None makes a group of the starter set.
         num: How many.
         seed: Random seed of choice, noise, contracts and masses.
+        layout: Layout of the points that the model takes.
 
     Raises:
         TouchError: The data set can't be used.
@@ -76,7 +80,7 @@ def felt_contacts(folder: Path | None, num: int, seed: int) -> list[FeltContact]
         data = ContactDataset(folder, split=Split.TEST) if folder else _made(Path(work), num)
         rng = np.random.default_rng([seed, 41])
         chosen = rng.permutation(len(data))[:num]
-        batch = Sampler(data, NOISY, seed=seed).batch(np.sort(chosen), 0)
+        batch = Sampler(data, NOISY, seed=seed, layout=layout).batch(np.sort(chosen), 0)
     return [
         FeltContact(points=points, scene=draw_scene(state, rng))
         for points, state in zip(batch.points, batch.states, strict=True)

@@ -22,6 +22,7 @@ from tacgrasp.benchmarks.figures import number_table
 from tacgrasp.benchmarks.loop.contestants import (
     NAMES,
     SWEPT,
+    Contestant,
     PolicyAndForce,
     enter,
     language_model,
@@ -95,8 +96,13 @@ def _run_one(
     slip_minimum_n: float,
     make: Callable[..., SimRig],
 ) -> EpisodeResult:
-    began_s = time.process_time()
     entered = enter(config, policy_and_force, slip_minimum_n, make)
+    return run_entered(config, entered, slip_minimum_n)
+
+
+def run_entered(config: RunConfig, entered: Contestant, slip_minimum_n: float) -> EpisodeResult:
+    """Run a policy in the episode that it has entered."""
+    began_s = time.process_time()
     objections: list[str] = []
 
     def hear(record: StepRecord) -> None:

@@ -9,7 +9,7 @@ from cltp.tactile.states import ContactState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FeltContact:
+class ToldContact:
     """What is to be told of a contact.
 
     Attributes:
