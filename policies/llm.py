@@ -14,10 +14,11 @@ import re
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import NamedTuple
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
 from cltp.encoder.reader import TouchReading, reading_of
-from cltp.llm.generation import Reply, Talker
+from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.texts.tokenizer import Words
@@ -59,6 +60,22 @@ choice: hand-written English paraphrases have 0.8 and more, other languages belo
 _SHORT_WORDS = frozenset(
     "a i an as at be by do go in is it me my no of on or so to up us we".split(" ")  # noqa: SIM905
 )
+
+
+class SaidStep(NamedTuple):
+    """A step of the model.
+
+    Attributes:
+        felt: The contact as the model feels it.
+        reading: What is read of it.
+        reply: D_t.
+        stage_ms: Measured durations of the stages [ms], by name.
+    """
+
+    felt: Felt
+    reading: TouchReading
+    reply: Reply
+    stage_ms: dict[str, float]
 
 
 class LlmPolicy:
@@ -155,6 +172,31 @@ class LlmPolicy:
             barred: Tokens of actions that what is felt refutes; the most probable other is taken.
             request: What the model is asked; ``policies.reply.text.step_request`` when not given.
         """
+        said = self.say(observation, force_n, limit_n, barred, request)
+        replied = self._clock()
+        reply = said.reply
+        extraction = extract(reply.text)
+        hold = flag_reason(said.reading) or hold_reason(reply, extraction, self._abstain_below)
+        if not hold and extraction.action in PAD_DIRECTION:
+            self._moves.append(extraction.action)
+        return Decision(
+            text=reply.text,
+            action=None if hold else extraction.action,
+            success=extraction.success and not hold,
+            reason=hold or extraction.reason,
+            confidence=reply.confidence,
+            stage_ms={**said.stage_ms, "extract": 1e3 * (self._clock() - replied)},
+        )
+
+    def say(
+        self,
+        observation: Observation,
+        force_n: Band,
+        limit_n: float,
+        barred: Sequence[str] = (),
+        request: str | None = None,
+    ) -> SaidStep:
+        """What is felt and said, before anything is decided; arguments as for ``follow``."""
         begin = self._clock()
         cloud = observation.cloud
         points = encoder_input(cloud, self._talker.layout)
@@ -164,35 +206,23 @@ class LlmPolicy:
         commanded_n = observation.commanded_force_n
         reading = reading_of(felt.readings, cloud, commanded_force_n=commanded_n)
         draft = drafted(reading, force_n)
-        read = self._clock()
         excluded = (*repeated_moves(self._moves), *barred)
+        grammar = step_grammar(cloud.sensor, force_n, excluded)
+        read = self._clock()
         reply = self._talker.reply_to(
             felt.touch,
             request or step_request(force_n, limit_n),
-            grammar=step_grammar(cloud.sensor, force_n, excluded),
+            grammar=grammar,
             draft=draft,
             penalties=ACTION_PENALTIES,
         )
-        replied = self._clock()
-        extraction = extract(reply.text)
         stages = {
             "sample": 1e3 * (sampled - begin),
             **felt.stage_ms,
             "read": 1e3 * (read - read_from),
             **reply.stage_ms,
-            "extract": 1e3 * (self._clock() - replied),
         }
-        hold = flag_reason(reading) or hold_reason(reply, extraction, self._abstain_below)
-        if not hold and extraction.action in PAD_DIRECTION:
-            self._moves.append(extraction.action)
-        return Decision(
-            text=reply.text,
-            action=None if hold else extraction.action,
-            success=extraction.success and not hold,
-            reason=hold or extraction.reason,
-            confidence=reply.confidence,
-            stage_ms=stages,
-        )
+        return SaidStep(felt, reading, reply, stages)
 
     def ask(self, cloud: TactileCloud, question: str) -> str:
         """The model's answer to a question about a contact.

@@ -45,7 +45,7 @@ def encoder_operations(encoder: TactileEncoder) -> int:
 
 
 def projector_operations(projector: Projector, num_tokens: int) -> int:
-    """Operations of the MLP on one cloud's tokens, and of the readings' tokens beside them.
+    """Operations of the MLPs on one cloud's tokens and pooled tokens, and of the readings' tokens.
 
     Args:
         projector: The projector.
@@ -53,7 +53,9 @@ def projector_operations(projector: Projector, num_tokens: int) -> int:
     """
     dim = projector.lm_dim
     readings = projector.readings
-    inputs = sum(m.in_features * m.out_features for m in (readings.words, *readings.numbers))
+    once = [readings.words, *readings.numbers]
+    once += [layer for layer in projector.pooled if isinstance(layer, nn.Linear)]
+    inputs = sum(layer.in_features * layer.out_features for layer in once)
     outputs = NUM_READINGS * dim * dim
     return 2 * (num_tokens * (projector.encoder_dim * dim + dim * dim) + inputs + outputs)
 

@@ -18,6 +18,7 @@ from rich.progress import track
 
 from cltp.tactile.cloud import TactileCloud
 from policies import Observation, Policy
+from primitives.contract import Contract
 from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.settings import LatencySettings
 from tacgrasp.config.layers import load
@@ -70,7 +71,7 @@ def run(settings: LatencySettings) -> None:
         "stages_ms": {stage: _quantiles(times) for stage, times in stages.items()},
     }
     if policy_name == "llm":
-        report |= _language_model(policy, clouds, config, report["stages_ms"])
+        report |= _language_model(policy, clouds, config, contract, report["stages_ms"])
     _print(report)
     write_figures(settings.json, report)
 
@@ -79,6 +80,7 @@ def _language_model(
     policy: Policy,
     clouds: list[TactileCloud],
     config: RunConfig,
+    contract: Contract,
     stages_ms: dict[str, dict[str, float]],
 ) -> dict[str, Any]:
     from policies.llm import LlmPolicy
@@ -87,7 +89,7 @@ def _language_model(
     if not isinstance(policy, LlmPolicy):
         return {}
     lm_folder = (config.weights or default_weights()) / "lm"
-    figures = language_report(policy.talker, lm_folder, clouds, config.instruction, stages_ms)
+    figures = language_report(policy, lm_folder, clouds, contract, stages_ms)
     started_s = start_to_first_action_s(config.task, config.weights)
     return figures | {"start_to_first_action_s": started_s}
 
@@ -161,17 +163,15 @@ def _print(report: dict[str, Any]) -> None:
 
 
 def _print_language(report: dict[str, Any], console: Console) -> None:
+    passes = report["passes"]
     console.print(
-        f"tokens generated: {report['tokens']['p50']} (median), {report['tokens']['max']} at most; "
-        f"{report['threads']} thread(s); floors at the {report['product_gflops']:.1f} GFLOP/s of a "
-        "matrix product in this run"
+        f"tokens said: {report['tokens']['p50']} (median), {report['tokens']['max']} at most, in "
+        f"{passes['p50']:.0f} passes (median), {passes['p90']:.0f} (90 %); {report['threads']} "
+        f"thread(s); floors at the {report['product_gflops']:.1f} GFLOP/s of a matrix product in "
+        "this run"
     )
-    baselines = {
-        "no_cache": "transformers, all positions computed anew for each token",
-        "with_cache": "transformers' generate with its cache",
-    }
-    for name, words in baselines.items():
-        figures = report["naive"][name]
-        same = "the same text" if figures["same_text"] else "another text"
-        console.print(f"{words}: {figures['ms']:.0f} ms, {figures['ratio']:.1f} times ours, {same}")
+    console.print(
+        "transformers' generate with its cache, the same tokens: "
+        f"{report['with_cache_ms']:.0f} ms, {report['speedup_cached']:.1f} times ours"
+    )
     console.print(f"from start to first action: {report['start_to_first_action_s']:.1f} s")

@@ -1,9 +1,8 @@
 """``tacgrasp bench latency --policy llm``: arithmetic floors, and transformers' own decoding.
 
-Floor: the operations of each stage, counted by formula, over the rate of a matrix product that is
-measured in the same run. Baselines: the same model through transformers' ``generate``, with its
-cache, and with all positions computed anew for each token. Start: a process of its own, from launch
-to the first action.
+Floor: the operations of each stage, counted by formula for the tokens one by one, over the rate of
+a matrix product that is measured in the same run. Baseline: transformers' ``generate`` with its
+cache, made to say the same tokens. Start: a process of its own, from launch to the first action.
 """
 
 from __future__ import annotations
@@ -21,16 +20,19 @@ import numpy as np
 import torch
 from transformers.utils.logging import disable_progress_bar
 
-from cltp.llm.causal_lm import Language, load_language
+from cltp.llm.causal_lm import load_language
 from cltp.llm.flops import (
     encoder_operations,
     generate_operations,
     prefill_operations,
     projector_operations,
 )
-from cltp.llm.generation import MAX_TOKENS, Talker
+from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.encoder_input import encoder_input
+from policies import Observation
+from policies.llm import LlmPolicy, SaidStep
+from policies.reply.text import step_request
+from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import times_ms
 
@@ -43,52 +45,66 @@ _STEP_LINE = re.compile(r"^\s*\d+\s+\d+\.\d s ")
 
 
 def language_report(
-    talker: Talker,
+    policy: LlmPolicy,
     lm_folder: Path,
     clouds: Sequence[TactileCloud],
-    instruction: str,
+    contract: Contract,
     stages_ms: Mapping[str, Mapping[str, float]],
 ) -> dict[str, Any]:
-    """Numbers of tokens, floors and baselines.
+    """Numbers of tokens and passes, floors and baseline.
 
     Args:
-        talker: The model.
+        policy: The policy of the model.
         lm_folder: Folder of the same language model for transformers.
         clouds: The clouds that were timed.
-        instruction: The instruction that was given with them.
+        contract: The contract that they were timed under.
         stages_ms: Measured durations by stage, with ``p50`` [ms].
 
     Returns:
-        ``tokens``, ``threads``, ``product_gflops``, ``floors``, ``naive``.
+        ``tokens``, ``passes``, ``threads``, ``product_gflops``, ``floors``, ``with_cache``,
+        ``speedup_cached``.
     """
-    points = [encoder_input(cloud) for cloud in clouds]
-    lengths = [talker.reply(each, instruction).num_tokens for each in points]
-    tokens = int(np.median(lengths))
-    rate = product_rate()
+    terms = contract.terms
+    said = [
+        policy.say(Observation(cloud=cloud, in_contact=True), terms.force_n, terms.limit_n)
+        for cloud in clouds
+    ]
+    lengths = [each.reply.num_tokens for each in said]
+    tokens, rate = int(np.median(lengths)), product_rate()
+    request = step_request(terms.force_n, terms.limit_n)
     floors = {
         stage: {
             "million_operations": count / 1e6,
             "floor_ms": 1e3 * count / rate,
             "times_floor": stages_ms[stage]["p50"] * rate / (1e3 * count),
         }
-        for stage, count in operations(talker, instruction, tokens).items()
+        for stage, count in operations(policy.talker, request, tokens).items()
     }
-    model_ms = sum(stages_ms[stage]["p50"] for stage in floors)
+    ours_ms = stages_ms["prefill"]["p50"] + stages_ms["generate"]["p50"]
+    cached_ms = with_cache_ms(policy.talker, lm_folder, said[0], request)
     return {
         "tokens": {"p50": tokens, "max": max(lengths)},
+        "passes": _quantiles([each.reply.passes for each in said]),
+        "close_calls": sum(each.reply.close_calls for each in said),
         "threads": torch.get_num_threads(),
         "product_gflops": rate / 1e9,
         "floors": floors,
-        "naive": decoding_baselines(talker, lm_folder, points[0], instruction, model_ms),
+        "with_cache_ms": cached_ms,
+        "speedup_cached": cached_ms / ours_ms,
     }
 
 
-def operations(talker: Talker, instruction: str, num_tokens: int) -> dict[str, int]:
+def _quantiles(counts: Sequence[int]) -> dict[str, float]:
+    p50, p90 = np.percentile(counts, [50, 90])
+    return {"p50": float(p50), "p90": float(p90)}
+
+
+def operations(talker: Talker, request: str, num_tokens: int) -> dict[str, int]:
     """Number of operations of each stage for a prompt and a reply of ``num_tokens``."""
     model = talker.model
     config = model.language.lm.config
     config = getattr(config, "text_config", config)
-    num_prompt = model.num_touch + len(model.language.prompt(instruction))
+    num_prompt = model.num_touch + len(model.language.prompt(request))
     return {
         "encode": encoder_operations(model.encoder),
         "project": projector_operations(model.projector, model.encoder.config.num_groups + 1),
@@ -104,60 +120,30 @@ def product_rate(runs: int = 20) -> float:
 
 
 @torch.inference_mode()
-def decoding_baselines(
-    talker: Talker, lm_folder: Path, points: np.ndarray, instruction: str, model_ms: float
-) -> dict[str, Any]:
-    """Durations of transformers' decoding, beside ours of ``model_ms`` [ms].
+def with_cache_ms(talker: Talker, lm_folder: Path, said: SaidStep, request: str) -> float:
+    """Duration of transformers' ``generate`` with its cache for the same tokens [ms], the median.
 
-    ``with_cache`` is plain ``generate``. ``no_cache`` computes all earlier positions anew for each
-    token, in a loop of ours, since ``generate`` keeps its cache when it is given embeddings,
-    whatever ``use_cache`` says (transformers 5.23).
-
-    Returns:
-        By baseline: ``ms``, its ``ratio`` to ours, and whether it gives the ``same_text``.
+    Greedy, without our grammar: at each token only ours is allowed.
     """
     disable_progress_bar()
-    model, language = talker.model, load_language(lm_folder)
-    ours = talker.reply(points, instruction).text
-    baselines: dict[str, Any] = {}
-    for name, decode in (("no_cache", _recomputed), ("with_cache", _generated)):
-        times, text = [], ""
-        for _ in range(BASELINE_RUNS):
-            began = time.perf_counter()
-            touch = model.touch(torch.from_numpy(points)[None])[0]
-            inputs = torch.cat([touch, language.embed(language.prompt(instruction))])
-            text = language.decode(decode(language, inputs)).strip()
-            times.append(1e3 * (time.perf_counter() - began))
-        median_ms = float(np.median(times))
-        baselines[name] = {
-            "ms": median_ms,
-            "ratio": median_ms / model_ms,
-            "same_text": text == ours,
-        }
-    return baselines
-
-
-def _recomputed(language: Language, inputs: torch.Tensor) -> list[int]:
-    """Greedy tokens after embeddings (T, D), each from a pass over all positions before it."""
-    ids: list[int] = []
-    while len(ids) < MAX_TOKENS:
-        token = int(language.lm(inputs_embeds=inputs[None], use_cache=False).logits[0, -1].argmax())
-        if token == language.end:
-            break
-        ids.append(token)
-        inputs = torch.cat([inputs, language.embed([token])])
-    return ids
-
-
-def _generated(language: Language, inputs: torch.Tensor) -> list[int]:
-    """Greedy tokens after embeddings (T, D), by ``generate``."""
-    out = language.lm.generate(
-        inputs_embeds=inputs[None],
-        attention_mask=torch.ones(1, len(inputs), dtype=torch.long),
-        max_new_tokens=MAX_TOKENS,
-        do_sample=False,
-    )
-    return [int(token) for token in out[0] if int(token) != language.end]
+    language = load_language(lm_folder)
+    ids = language.encode(said.reply.text)
+    inputs = torch.cat([said.felt.touch, language.embed(language.prompt(request))])
+    times: list[float] = []
+    for _ in range(BASELINE_RUNS):
+        began = time.perf_counter()
+        out = language.lm.generate(
+            inputs_embeds=inputs[None],
+            attention_mask=torch.ones(1, len(inputs), dtype=torch.long),
+            max_new_tokens=len(ids),
+            min_new_tokens=len(ids),
+            do_sample=False,
+            use_cache=True,
+            prefix_allowed_tokens_fn=lambda _, before: [ids[min(len(before), len(ids) - 1)]],
+        )
+        times.append(1e3 * (time.perf_counter() - began))
+        assert out[0].tolist() == ids
+    return float(np.median(times))
 
 
 def start_to_first_action_s(task: str, weights: Path | None) -> float:

@@ -46,8 +46,11 @@ def test_the_matrices_of_a_qwen2_are_all_counted() -> None:
 
 def test_the_projector_is_two_products_for_each_token_and_as_many_for_each_reading() -> None:
     words = 19 + 5 + 4 + 9 + 5 + 1 + 4
-    readings = words * 5 + 5 * 9 * 5 + 6 * 5 * 5
-    assert projector_operations(Projector(3, 5), 7) == 7 * 2 * (3 * 5 + 5 * 5) + 2 * readings
+    readings = words * 5 + 5 * 27 * 5 + 6 * 5 * 5
+    pooled = 2 * 3 * 256 + 256 * 4 * 5
+    assert projector_operations(Projector(3, 5), 7) == 7 * 2 * (3 * 5 + 5 * 5) + 2 * (
+        readings + pooled
+    )
 
 
 def test_the_encoder_agrees_with_torchs_own_counter() -> None:

@@ -4,24 +4,28 @@ import pytest
 import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import HeadsOutput, StateHeads, transformed, with_read_numbers
+from cltp.encoder.heads import HeadsOutput, StateHeads, transformed
+from cltp.encoder.readings import Readings, readings_of
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import LAST_DIGIT, NUM_READINGS, ReadingTokens
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
-from cltp.tactile.states import CLASSES, NUMBERS, Area, ContactState, Depth, Position, Shape
+from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.tokenizer import Words
 
 SPOKEN = torch.tensor([[0.47, -3.2, 1.9, 0.123, 1.58]])
 """Depth [mm], x [mm], y [mm], share, force [N]: whole last digits."""
 
 
-def read(numbers: torch.Tensor) -> HeadsOutput:
+def read(numbers: torch.Tensor, margin: float = 0.1) -> Readings:
     batch = len(numbers)
-    return HeadsOutput(
-        tuple(torch.zeros(batch, len(names)) for names in CLASSES.values()),
-        transformed(numbers),
-        torch.zeros(batch),
-        torch.zeros(batch, 4),
+    return readings_of(
+        HeadsOutput(
+            tuple(torch.zeros(batch, len(names)) for names in CLASSES.values()),
+            transformed(numbers),
+            torch.zeros(batch),
+            torch.zeros(batch, 4),
+            torch.full((batch, len(NUMBERS), 2), margin),
+        )
     )
 
 
@@ -31,7 +35,7 @@ def test_every_number_is_a_token_beside_one_of_the_words() -> None:
 
 
 def test_phases_turn_once_in_ten_last_digits() -> None:
-    features = ReadingTokens(12).features(read(SPOKEN).numbers)[0]
+    features = ReadingTokens(12).features(read(SPOKEN))[0]
     for row, (name, value) in enumerate(zip(NUMBERS, SPOKEN[0].tolist(), strict=True)):
         turns = value / LAST_DIGIT[name] / 10
         sine, cosine = features[row, 1], features[row, 5]
@@ -64,30 +68,23 @@ def test_what_the_heads_read_reaches_the_language_model() -> None:
     assert not torch.allclose(before[:, -NUM_READINGS:], after[:, -NUM_READINGS:])
 
 
-def test_felt_states_keep_their_words_and_take_the_numbers_that_were_read() -> None:
-    true = ContactState(
-        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
-        position=Position.CENTERED, area=Area.MEDIUM, shape=Shape.SPHERE,
-    )  # fmt: skip
-    nothing = ContactState(
-        depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
-        area=None,
-    )  # fmt: skip
-    reading, unread = with_read_numbers([true, nothing], transformed(SPOKEN.expand(2, -1)))
-    for slot in ("depth", "position", "shape"):
-        assert getattr(reading, slot) == getattr(true, slot)
-    read = [getattr(reading, name) for name in NUMBERS]
-    assert read == pytest.approx(SPOKEN[0].tolist(), rel=1e-4)
-    assert unread == nothing
+def test_the_end_of_an_interval_changes_its_number_alone() -> None:
+    tokens = ReadingTokens(12)
+    narrow = read(SPOKEN)
+    high = narrow.high.clone()
+    high[0, 4] += 0.3
+    changed = (tokens(narrow) - tokens(narrow._replace(high=high))).abs().amax(dim=(0, 2)) > 1e-6
+    assert changed.tolist() == [False] * 5 + [True]
 
 
-def test_no_felt_depth_is_negative_and_no_area_above_the_field() -> None:
-    true = ContactState(
-        depth_mm=0.5, x_mm=0.0, y_mm=0.0, area_fraction=0.1, force_n=1.0, depth=Depth.MODERATE,
-        position=Position.CENTERED, area=Area.MEDIUM,
-    )  # fmt: skip
-    (reading,) = with_read_numbers([true], torch.tensor([[-0.2, 0.0, 0.0, 9.0, -1.0]]))
-    assert (reading.depth_mm, reading.area_fraction, reading.force_n) == (0.0, 1.0, 0.0)
+def test_readings_that_are_left_out_tell_nothing() -> None:
+    tokens = ReadingTokens(12)
+    torch.nn.init.normal_(tokens.left_out)
+    given = torch.tensor([[True, False, True, True, True, True]])
+    other = SPOKEN.clone()
+    other[0, 0] = 0.11
+    torch.testing.assert_close(tokens(read(SPOKEN), given), tokens(read(other), given))
+    assert not torch.allclose(tokens(read(SPOKEN), given)[:, 1], tokens(read(SPOKEN))[:, 1])
 
 
 def test_the_factor_of_a_unit_changes_the_token_of_the_force_alone() -> None:
@@ -101,8 +98,11 @@ def test_the_factor_of_a_unit_changes_the_token_of_the_force_alone() -> None:
     model = Tac3dLlm(encoder, heads, Projector(48, 48), language)
     with torch.no_grad():
         encoded = model.encoder(torch.rand(2, 1024, 3))
-        nominal, scaled = (model.projected(encoded, factor) for factor in (1.0, 1.7))
-        batch = model.projected(encoded, torch.tensor([1.0, 1.7]))
+        read_as = model.heads(encoded.pooled)
+        nominal, scaled, batch = (
+            model.projected(encoded, readings_of(read_as, factor))
+            for factor in (1.0, 1.7, torch.tensor([1.0, 1.7]))
+        )
     changed = (nominal - scaled).abs().amax(dim=(0, 2)) > 1e-6
     assert changed.tolist() == [False] * (model.num_touch - 1) + [True]
     torch.testing.assert_close(batch[0], nominal[0])

@@ -8,15 +8,16 @@ import pytest
 import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
-from cltp.encoder.heads import StateHeads
-from cltp.encoder.reader import Flag, TouchReader, fine_noise_mm
+from cltp.encoder.heads import HeadsOutput, StateHeads, transformed
+from cltp.encoder.reader import Flag, TouchReader, fine_noise_mm, reading_of
+from cltp.encoder.readings import readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import resampled
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensors import SENSORS
-from cltp.tactile.states import NUMBERS
+from cltp.tactile.states import CLASSES, NUMBERS
 from tacgrasp.__main__ import main
 from tacgrasp.playback.describe import NO_INTERVALS, UNCALIBRATED_FORCE, describe_in_numbers
 from tests.fakes.tiny_weights import bump
@@ -70,11 +71,28 @@ def test_more_noise_than_was_learned_from_is_flagged(reader: TouchReader) -> Non
     assert fine_noise_mm(cloud(0.03)) == pytest.approx(0.03, rel=0.1)
 
 
-def test_what_is_strange_is_flagged(reader: TouchReader) -> None:
+def test_what_tells_nothing_is_flagged(reader: TouchReader) -> None:
     encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
-    with torch.no_grad():
-        heads.whitening.fill_(1e3)
-    assert Flag.UNFAMILIAR in TouchReader(encoder, heads).read(cloud()).flags
+    assert heads.widening is not None
+    heads.widening.fill_(1e-3)
+    assert Flag.UNSURE not in TouchReader(encoder, heads).read(cloud()).flags
+    heads.widening.fill_(1e2)
+    assert Flag.UNSURE in TouchReader(encoder, heads).read(cloud()).flags
+
+
+@pytest.mark.parametrize(("commanded_n", "is_flagged"), [(None, False), (1.0, False), (0.05, True)])
+def test_a_force_that_no_command_comes_to_is_flagged(
+    commanded_n: float | None, is_flagged: bool
+) -> None:
+    heads = HeadsOutput(
+        logits=tuple(torch.zeros(1, len(names)) for names in CLASSES.values()),
+        numbers=transformed(torch.tensor([[0.4, 0.0, 0.0, 0.05, 1.3]])),
+        touching=torch.full((1,), 5.0),
+        cut=torch.full((1, 4), -5.0),
+        margins=torch.full((1, 5, 2), 0.02),
+    )
+    reading = reading_of(readings_of(heads), cloud(), commanded_force_n=commanded_n)
+    assert (Flag.FORCE in reading.flags) is is_flagged
 
 
 def test_numbers_that_are_not_finite_are_flagged() -> None:

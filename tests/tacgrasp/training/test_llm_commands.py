@@ -353,7 +353,7 @@ def test_a_run_of_the_model_is_decided_again_with_the_recorded_weights(
     )
 
 
-def test_latency_puts_every_stage_beside_its_floor_and_the_naive_way_beside_ours(
+def test_latency_puts_every_stage_beside_its_floor_and_transformers_beside_ours(
     weights: Path,
     tmp_path: Path,
     capsys: pytest.CaptureFixture[str],
@@ -364,14 +364,14 @@ def test_latency_puts_every_stage_beside_its_floor_and_the_naive_way_beside_ours
     argv = ["bench", "latency", "--policies", "llm", "--weights", str(weights), "--ticks", "3"]
     assert main([*argv, "--json", str(figures)]) == 0
     found = json.loads(figures.read_text())
-    stages = ["sample", "encode", "project", "prefill", "generate", "extract", "record"]
+    stages = ["sample", "encode", "project", "read", "prefill", "generate", "extract", "record"]
     assert list(found["stages_ms"]) == stages
     assert set(found["floors"]) == {"encode", "project", "prefill", "generate"}
-    assert found["tokens"]["p50"] == 96  # untrained, it never ends
-    assert found["naive"]["no_cache"]["same_text"]
-    assert found["naive"]["with_cache"]["same_text"]
+    assert found["tokens"]["p50"] > 40
+    assert 1 <= found["passes"]["p50"] <= found["tokens"]["p50"]
+    assert found["speedup_cached"] > 0
     assert found["start_to_first_action_s"] == 4.5
-    assert "tokens generated: 96" in capsys.readouterr().out
+    assert "tokens said" in capsys.readouterr().out
 
 
 def test_a_run_that_comes_to_no_turn_is_told_with_what_it_said(tmp_path: Path) -> None:

@@ -1,0 +1,62 @@
+import math
+
+import pytest
+import torch
+
+from cltp.encoder.heads import HeadsOutput, transformed
+from cltp.encoder.readings import TAILS, readings_of
+from cltp.errors import TouchError
+from cltp.tactile.states import CLASSES, NUMBERS
+
+FORCE = NUMBERS.index("force_n")
+READ = torch.tensor([[0.47, -3.2, 1.9, 0.123, 1.58], [0.2, 0.0, 0.0, 0.05, 0.01]])
+
+
+def output(numbers: torch.Tensor, margin: float | None = 0.05) -> HeadsOutput:
+    batch = len(numbers)
+    return HeadsOutput(
+        logits=tuple(torch.randn(batch, len(names)) for names in CLASSES.values()),
+        numbers=numbers,
+        touching=torch.zeros(batch),
+        cut=torch.zeros(batch, 4),
+        margins=None if margin is None else torch.full((batch, len(NUMBERS), 2), margin),
+    )
+
+
+@pytest.mark.parametrize("factor", [1.7, torch.tensor([0.6, 1.4])])
+def test_the_force_alone_is_scaled_with_its_interval(factor: float | torch.Tensor) -> None:
+    nominal, scaled = (readings_of(output(transformed(READ)), f) for f in (1.0, factor))
+    for before, after in zip(nominal[3:], scaled[3:], strict=True):
+        torch.testing.assert_close(after[:, :FORCE], before[:, :FORCE])
+    torch.testing.assert_close(scaled.values[:, FORCE], READ[:, FORCE] * factor)
+    torch.testing.assert_close(scaled.high[:, FORCE], nominal.high[:, FORCE] * factor)
+
+
+def test_probabilities_add_up_and_ends_stand_around_their_numbers() -> None:
+    read = readings_of(output(transformed(READ)))
+    for chances in read.words:
+        torch.testing.assert_close(chances.sum(-1), torch.ones(2))
+    assert (read.low <= read.values).all() and (read.values <= read.high).all()
+    assert (read.at(1).values == read.values[1:]).all() and len(read.at(1).words[0]) == 1
+
+
+def test_a_spread_of_the_scale_widens_the_force_alone() -> None:
+    sure, unsure = (readings_of(output(transformed(READ)), 1.0, s) for s in (0.0, 0.3))
+    ratio = (unsure.high / unsure.values)[0, FORCE].log()
+    own = (sure.high / sure.values)[0, FORCE].log()
+    assert float(ratio) == pytest.approx(math.hypot(float(own), TAILS * 0.3), rel=1e-3)
+    torch.testing.assert_close(sure.high[:, :FORCE], unsure.high[:, :FORCE])
+    assert (unsure.low[:, FORCE] < sure.low[:, FORCE])[0]
+
+
+def test_no_depth_is_negative_and_no_area_above_the_field() -> None:
+    far = torch.tensor([[-0.2, -1.0, 0.0, 9.0, -1.0], [0.0, 0.0, 0.0, 0.0, 50.0]])
+    read = readings_of(output(far, margin=0.5))
+    assert read.values[0, 0] == 0 and read.low[0, 0] == 0 and read.values[0, 1] < 0
+    assert read.values[0, 3] == 1 and read.high[0, 3] == 1 and read.values[0, FORCE] == 0
+    assert all(torch.isfinite(each).all() for each in read[3:])
+
+
+def test_heads_without_intervals_are_refused() -> None:
+    with pytest.raises(TouchError, match="without intervals"):
+        readings_of(output(transformed(READ), margin=None))
