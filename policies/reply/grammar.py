@@ -211,7 +211,7 @@ def _hundredths(name: str, most: float) -> tuple[str, ...]:
 def _offsets(most_mm: float) -> tuple[str, ...]:
     """Places along one axis, with both of '-0.0' and '+0.0', since both are written."""
     count = math.floor(10 * most_mm + 1e-6)
-    below = [number_text("x_mm", -i / 10) for i in range(count, -1, -1)]
+    below = [number_text("x_mm", -(i / 10)) for i in range(count, -1, -1)]
     return (*below, *(number_text("x_mm", i / 10) for i in range(count + 1)))
 
 

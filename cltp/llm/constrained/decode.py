@@ -2,8 +2,8 @@
 
 What the grammar forces is fed together with the next decision's place. A draft goes through the
 model in the same pass as the prompt: at every place whose tokens so far agree with it, the logits
-are there already. Where the reply leaves the draft, the rest of the draft from the same part on is
-fed along with the next pass.
+are there already. Where the reply leaves the draft, the next ``AHEAD`` tokens of it from the
+same part on are fed along with the next pass.
 
 A choice between texts is made down the trie of their tokens, with softmax over the tokens that may
 follow. If the probability of the chosen text is low, its rival is said too: the likeliest token
@@ -45,6 +45,10 @@ which a decision is taken anew. Our choice: a hundred times what passes of other
 DOUBT_BELOW = 0.6
 """Probability below which a text is said with its rival, where none is set for its slot. Our
 choice: four in ten are worth a word more."""
+
+AHEAD = 16
+"""Tokens of a draft that are fed along after the reply has left it. Our choice: on a CPU they cost
+half a pass, and a draft that was wrong once is often wrong again soon."""
 
 
 class Decoder(Protocol):
@@ -210,7 +214,7 @@ class _Draft:
         if self._ids[: len(said)] == said:
             return self._ids[len(said) :]
         begin = self._begins.get(name)
-        return () if begin is None else self._ids[begin + num_said :]
+        return () if begin is None else self._ids[begin + num_said :][:AHEAD]
 
 
 class ConstrainedDecoder:

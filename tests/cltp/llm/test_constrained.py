@@ -222,7 +222,7 @@ def test_after_a_wrong_word_the_rest_of_a_draft_still_saves_passes(words: Words)
         draft = plain.text.replace(right, wrong, 1)
         drafted = decoder.decode(INPUTS, GRAMMAR, draft=draft)
         assert drafted.text == plain.text
-        assert drafted.passes <= 3  # the draft; the rest after it; perhaps the choice of a rival
+        assert drafted.passes <= 5 < plain.passes  # the draft, its rest in pieces, perhaps a rival
 
 
 @pytest.mark.parametrize("seed", range(12))

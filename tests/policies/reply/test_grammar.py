@@ -82,19 +82,19 @@ def test_the_advice_of_the_grammar_is_what_the_teacher_can_give() -> None:
     for _ in range(4000):
         state = random_state(rng)
         state = dataclasses.replace(state, force_n=rng.uniform(0.05, 2.0))
-        if rng.random() < 0.3:
-            state = dataclasses.replace(state, x_mm=0.0, y_mm=0.0)
+        near = rng.choice([0.0, 0.3, 1.0])
+        state = dataclasses.replace(state, x_mm=near * state.x_mm, y_mm=near * state.y_mm)
         if rng.random() < 0.1:
             state = dataclasses.replace(state, area_fraction=0.002)
         if rng.random() < 0.05:
             state = dataclasses.replace(state, depth=None)
-        low = rng.uniform(0.1, 1.5)
+        low, reach_mm = rng.uniform(0.1, 1.5), rng.choice([1.0, 3.0])
         goal = Goal(
             force_n=Band(low=low, high=low * rng.uniform(1.02, 2.1)),
             depth_mm=Band(low=0.0, high=5.0),
             area_fraction=Band(low=0.0, high=1.0),
-            x_mm=Band(low=-1.0, high=1.0),
-            y_mm=Band(low=-1.0, high=1.0),
+            x_mm=Band(low=-reach_mm, high=reach_mm),
+            y_mm=Band(low=-reach_mm, high=reach_mm),
         )
         given[state.in_contact].add(teacher(state, goal, move_step_mm=3.0))
     assert given[True] == set(ADVICE_IN_CONTACT)
@@ -106,9 +106,8 @@ def test_what_the_teacher_says_is_in_the_grammar_and_reads_back() -> None:
     for _ in range(300):
         state = random_state(rng)
         advice = ADVICE_IN_CONTACT[rng.integers(len(ADVICE_IN_CONTACT))]
-        ends = (
-            {"depth_mm": (0.2, 0.55), "area_fraction": (0.021, 0.12)} if rng.random() < 0.5 else {}
-        )
+        doubtful = {"depth_mm": (0.2, 0.55), "area_fraction": (0.021, 0.12)}
+        ends = doubtful if rng.random() < 0.5 else {}
         rivals = {"shape": "ring", "depth": "deep"} if rng.random() < 0.5 else {}
         if state.shape == "ring" or state.depth == "deep":
             rivals = {}
