@@ -2,8 +2,6 @@
 
 Balanced over the kinds of answers, over the families of a kind, and between yes and no: thresholds
 are drawn around the values of the contact, and words are its own or others, half and half.
-
-Not wired into the training of the shipped weights, which learned ``tacgrasp.lessons.questions``.
 """
 
 from __future__ import annotations
