@@ -1,8 +1,8 @@
-"""What the language model says of contacts: its captions as predictions, its answers' accuracy."""
+"""What the language model says of contacts: its captions as predictions."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -13,7 +13,7 @@ from cltp.data.sampler import Batch
 from cltp.errors import TouchError
 from cltp.evaluation.scores import Predictions
 from cltp.llm.generation import Reply
-from cltp.tactile.states import CLASSES, NUMBERS, ContactState
+from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.captions import Slots, parse_caption
 
 REQUEST = "Describe the contact."
@@ -54,26 +54,3 @@ def predict_by_captions(
             classes.append([-1 if word is None else names.index(word) for names, word in words])
             numbers.append(read_numbers(text) or [np.inf] * len(NUMBERS))
     return Predictions(torch.tensor(classes), np.array(numbers))
-
-
-def score_answers(
-    speaker: Speaker,
-    batches: Sequence[Batch],
-    wordings: Mapping[str, Sequence[str]],
-    is_right: Callable[[str, str, ContactState], bool],
-) -> Mapping[str, float]:
-    """Fraction of right answers to questions about each slot; the wordings take turns.
-
-    Args:
-        speaker: The model.
-        batches: Contacts.
-        wordings: Questions by slot.
-        is_right: Whether the answer to a slot's question is true of a state.
-    """
-    right: dict[str, list[bool]] = {slot: [] for slot in wordings}
-    contacts = [pair for b in batches for pair in zip(b.points, b.states, strict=True)]
-    for number, (points, state) in enumerate(contacts):
-        for slot, questions in wordings.items():
-            text = speaker.reply(points, questions[number % len(questions)]).text
-            right[slot].append(is_right(slot, text, state))
-    return {slot: float(np.mean(of_slot)) for slot, of_slot in right.items()}

@@ -2,7 +2,7 @@
 
 For data sets and benchmarks. Every pair follows from the contact and a seed alone.
 
-Not here: the questions in the language model's training (``tacgrasp.lessons.questions``).
+Not here: the questions in the language model's training (``tacgrasp.lessons.dialogue``).
 """
 
 from __future__ import annotations

@@ -20,14 +20,12 @@ class InstructionFlags:
             expect: band V, range A B, max V, min V [N], softer, firmer, refuse or task.
         task: Task of the instructions.
         json: File for the figures.
-        model: Also ask the language model for the manner, to compare it with the rules.
         wrong: Print every instruction that is read wrongly.
     """
 
     file: Path | None = None
     task: str | None = None
     json: Path | None = None
-    model: bool = False
     wrong: bool = True
 
 
@@ -67,14 +65,6 @@ def main(argv: Sequence[str]) -> None:
         figures[name] = {"right": right, "n": len(mine), "rate": right / len(mine)}
         table.add_row(name, str(right), str(len(mine)), f"{100 * right / len(mine):.1f}")
     console.print(table)
-    if flags.model:
-        from tacgrasp.lessons.instruction_scores import score_by_model
-        from tacgrasp.policy_factory import load_llm
-
-        manner = [w for w in wordings if w.expect in ("softer", "firmer")]
-        right = sum(score_by_model(manner, task, load_llm()))
-        figures["manner_by_model"] = {"right": right, "n": len(manner), "rate": right / len(manner)}
-        console.print(f"manner by the language model: {right} of {len(manner)}")
     if flags.json is not None:
         rows = [
             {

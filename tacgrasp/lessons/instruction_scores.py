@@ -21,17 +21,10 @@ from dataclasses import dataclass
 from importlib import resources
 from pathlib import Path
 
-import numpy as np
-
-from cltp.tactile.cloud import cloud_from_heights
-from cltp.tactile.encoder_input import encoder_input
-from cltp.tactile.sensors import sensor_named
 from policies.contract import read_contract
-from policies.llm import GOAL_IN_TEXT, LlmPolicy
 from primitives.contract import Contract, TaskTerms
 from tacgrasp.base.csv_rows import csv_rows
 from tacgrasp.base.errors import UsageError
-from tacgrasp.lessons.exchanges import GOAL_QUESTIONS
 
 KEPT_OUT = "kept_out_instructions.csv"
 """Wordings beside this file, written by someone who did not know the rules.
@@ -117,24 +110,6 @@ def score(wordings: Sequence[Wording], task: TaskTerms) -> list[Score]:
             Score(wording=wording, contract=contract, right=_is_right(wording, contract, task))
         )
     return scores
-
-
-def score_by_model(wordings: Sequence[Wording], task: TaskTerms, policy: LlmPolicy) -> list[bool]:
-    """Whether the language model reads each manner rightly: what it learned, beside the rules.
-
-    It is asked for the force that an instruction means, on an untouched gel, as it was taught.
-    """
-    sensor = sensor_named("gelsight_mini")
-    cloud = cloud_from_heights(np.zeros((60, 80)), sensor)
-    right = []
-    for wording in wordings:
-        points = encoder_input(cloud, policy.talker.layout)
-        answer = policy.talker.reply(points, GOAL_QUESTIONS[0].format(wording.text))
-        match = GOAL_IN_TEXT.search(answer.text)
-        middle = None if match is None else (float(match[1]) + float(match[2])) / 2
-        ratio = 1.0 if middle is None else middle / task.force.force_n.middle
-        right.append(ratio <= 1 - WIDTH if wording.expect == "softer" else ratio >= 1 + WIDTH)
-    return right
 
 
 def _is_right(wording: Wording, contract: Contract, task: TaskTerms) -> bool:

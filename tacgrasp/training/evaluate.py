@@ -1,10 +1,12 @@
 """``tacgrasp eval``: accuracy of trained weights on contacts that they have not seen.
 
-All clouds are of the test split, with the noise of a calibrated unit, drawn from the seed. The
-geometric baseline (``cltp.evaluation.geometric_baseline``) is computed from the same points.
+All clouds are of the test split, with the noise of a calibrated unit, drawn from the seed. Advice
+is compared with the teacher's on the truth, under contracts: of drawn force bands, and of
+instructions that the contract reader has read. The geometric baseline
+(``cltp.evaluation.geometric_baseline``) is computed from the same points.
 
-Not here: how pairs are chosen (``tacgrasp.lessons.instruction_pairs``), printing
-(``tacgrasp.training.model_card``).
+Not here: how cases are chosen (``tacgrasp.lessons.instruction_pairs``), more of questions
+(``tacgrasp.training.question_evaluation``), printing (``tacgrasp.training.model_card``).
 """
 
 from __future__ import annotations
@@ -22,36 +24,42 @@ from cltp.checkpoints.frozen import frozen
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import NOISY, Batch, Sampler
+from cltp.data.sampler import NOISY, Sampler
 from cltp.evaluation.features import encode_batches, random_batches
 from cltp.evaluation.geometric_baseline import predict_geometrically
-from cltp.evaluation.llm_scores import predict_by_captions, score_answers
+from cltp.evaluation.llm_scores import predict_by_captions
 from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.retrieval import score_image_retrieval
 from cltp.evaluation.scores import Predictions, best_classes, median_errors, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, PolicyError
+from policies.contract_steps import target_of
 from policies.llm import LlmPolicy
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.answer_scoring import is_right, read_numbers
+from primitives.contract import Contract
+from tacgrasp.lessons.captions import read_numbers
+from tacgrasp.lessons.dialogue.meaning import AnswerKind
+from tacgrasp.lessons.dialogue.question_file import UNDECIDABLE, read_questions
 from tacgrasp.lessons.exchanges import BLIND
-from tacgrasp.lessons.heldout_instructions import PARAPHRASES
 from tacgrasp.lessons.instruction_pairs import (
     NONE,
     Case,
     answer_of,
+    choose_goals,
     choose_pairs,
-    choose_paraphrases,
+    choose_wordings,
     counts,
     fraction,
 )
-from tacgrasp.lessons.questions import HELD_OUT, QUESTIONS
+from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
+from tacgrasp.training.question_evaluation import asked_model, felt_contacts, own_questions
 from tacgrasp.training.requests import EvaluationRequest
 
 KINDS = ("clear", "any")
@@ -69,9 +77,9 @@ def evaluate(
         report: Receives the progress.
 
     Returns:
-        ``captions``, ``numbers``, ``answers``, ``instruction_pairs``, ``paraphrases``,
-        ``zero_shot``, ``clip_retrieval``, and the weights and data; None for a figure that can't be
-        measured.
+        ``captions``, ``numbers``, ``answers``, ``advice``, ``instruction_pairs``,
+        ``paraphrases``, ``zero_shot``, ``clip_retrieval``, and the weights and data; None for a
+        figure that can't be measured.
 
     Raises:
         TouchError: Weights or data can't be used.
@@ -99,7 +107,6 @@ def evaluate(
     }
     states = [state for batch in described for state in batch.states]
     prompted = best_classes(ClassPrompts(towers).cosines(encoded.feature))
-    asked = random_batches(data, request.answers, NOISY, seed=seed + 1, layout=layout)
     return {
         "weights": str(weights),
         "blind": str(blind) if blind is not None else None,
@@ -111,13 +118,10 @@ def evaluate(
         "numbers": {
             name: _plain(median_errors(one.numbers, states)) for name, one in predictions.items()
         },
-        "answers": {
-            "contacts": sum(len(batch.states) for batch in asked),
-            "held_out": _answers(policy.talker, asked, HELD_OUT, "held-out questions", report),
-            "trained": _answers(policy.talker, asked, QUESTIONS, "trained questions", report),
-        },
+        "answers": _answers(policy.talker, request, report),
+        "advice": {kind: cases.goals(request.goals, kind) for kind in KINDS},
         "instruction_pairs": {kind: cases.pairs(request.pairs, kind) for kind in KINDS},
-        "paraphrases": {kind: cases.paraphrases(request.per_wording, kind) for kind in KINDS},
+        "paraphrases": {kind: cases.wordings(request.per_wording, kind) for kind in KINDS},
         "zero_shot": _plain(score_classes(prompted, encoded.classes).accuracy),
         "clip_retrieval": _plain(score_image_retrieval(towers, described)),
     }
@@ -135,17 +139,28 @@ class _ReportedTalker:
         return reply
 
 
-def _answers(
-    talker: Talker,
-    samples: Sequence[Batch],
-    wordings: Mapping[str, Sequence[str]],
-    stage: str,
-    report: ProgressReport,
-) -> dict[str, float | None]:
-    total = sum(len(batch.states) for batch in samples) * len(wordings)
-    reported = _ReportedTalker(talker, stage, total, report)
-    accuracy = dict(score_answers(reported, samples, wordings, is_right))
-    return _plain(accuracy | {"mean": float(np.mean(list(accuracy.values())))})
+def _answers(talker: Talker, request: EvaluationRequest, report: ProgressReport) -> dict[str, Any]:
+    """Fractions of right answers, where decidable, by the kind of the answer.
+
+    ``held_out`` are questions that were kept out of the grammar, ``trained`` the grammar's own.
+    """
+    contacts = felt_contacts(request.data, request.answers, request.seed + 1, talker.layout)
+    scenes = [contact.scene for contact in contacts]
+    sets = {
+        "held_out": ask_all(read_questions(None), scenes, 1),
+        "trained": own_questions(scenes, 2 * len(scenes), request.seed),
+    }
+    right: dict[str, Any] = {"contacts": len(contacts)}
+    for name, asked in sets.items():
+        stage = f"{name.replace('_', '-')} questions"
+        model = asked_model(talker, contacts, len(asked), report, with_context=True, stage=stage)
+        answers = answer_all(asked, model)
+        by_kind = {kind: [a for a in answers if a.asked.row.kind is kind] for kind in AnswerKind}
+        right[name] = {
+            kind.value: (figures(some).undecidable if kind in UNDECIDABLE else figures(some).right)
+            for kind, some in by_kind.items()
+        } | {"mean": figures(answers).right}
+    return right
 
 
 class _CaseEvaluation:
@@ -162,22 +177,32 @@ class _CaseEvaluation:
         self._data, self._seed, self._report = data, seed, report
         self._sampler = Sampler(data, NOISY, seed=seed, layout=llm.talker.layout)
         self._deciders: dict[str, Callable[[TactileCloud, Case], str | None]] = {
-            "llm": lambda cloud, case: _decided(llm, cloud, case.instruction.text),
+            "llm": lambda cloud, case: _decided(llm, cloud, case.contract),
             "rules": lambda cloud, case: answer_of(
                 teacher(
-                    contact_state(cloud), case.instruction.goal, move_step_mm=LESSON_MOVE_STEP_MM
+                    contact_state(cloud), target_of(case.contract), move_step_mm=LESSON_MOVE_STEP_MM
                 )
             ),
         }
         if blind is not None:
-            self._deciders["blind"] = lambda cloud, case: _decided(blind, cloud, BLIND)
+            self._deciders["blind"] = lambda cloud, _: _named(blind.talker, cloud, BLIND)
+
+    def goals(self, num: int, kind: str) -> dict[str, Any]:
+        """Figures of ``num`` drawn force bands on contacts of a kind out of ``KINDS``."""
+        cases = choose_goals(self._data, num, clear=kind == "clear", seed=self._seed)
+        right = self._right(cases, f"{kind} goals")
+        return {
+            "cases": len(cases),
+            "answers": counts(cases),
+            "right": _fractions(right),
+            "right_by_answer": _by_answer(cases, right),
+        }
 
     def pairs(self, num: int, kind: str) -> dict[str, Any]:
         """Figures of ``num`` instruction pairs on contacts of a kind out of ``KINDS``."""
         pairs = choose_pairs(self._data, num, clear=kind == "clear", seed=self._seed)
         cases = [case for pair in pairs for case in pair]
         right = self._right(cases, f"{kind} instruction pairs")
-        answers = np.array([case.answer for case in cases])
         return {
             "pairs": len(pairs),
             "answers": counts(cases),
@@ -185,30 +210,23 @@ class _CaseEvaluation:
             "both_right": _fractions(
                 {name: mask[::2] & mask[1::2] for name, mask in right.items()}
             ),
-            "right_by_answer": {
-                name: _fractions({answer: mask[answers == answer] for answer in counts(cases)})
-                for name, mask in right.items()
-            },
+            "right_by_answer": _by_answer(cases, right),
         }
 
-    def paraphrases(self, per_wording: int, kind: str) -> dict[str, Any]:
-        """Figures of paraphrased instructions on contacts of a kind out of ``KINDS``."""
-        chosen = choose_paraphrases(self._data, per_wording, clear=kind == "clear", seed=self._seed)
-        cases = [case for case, _ in chosen]
-        naming = np.array([names_object for _, names_object in chosen], dtype=bool)
-        right = self._right(cases, f"{kind} paraphrases")
-        texts = np.array([case.instruction.text for case in cases])
-        wordings = [text for group in PARAPHRASES.values() for text in group]
+    def wordings(self, per_wording: int, kind: str) -> dict[str, Any]:
+        """Figures of kept-out instructions on contacts of a kind out of ``KINDS``."""
+        cases = choose_wordings(self._data, per_wording, clear=kind == "clear", seed=self._seed)
+        right = self._right(cases, f"{kind} kept-out instructions")
+        expects = np.array([case.expect for case in cases])
         return {
-            "wordings": len(set(texts.tolist())),
+            "wordings": len({case.contract.text for case in cases}),
             "cases": len(cases),
             "answers": counts(cases),
             "right": _fractions(right),
-            "naming_an_object": _fractions({name: mask[naming] for name, mask in right.items()}),
-            "naming_no_object": _fractions({name: mask[~naming] for name, mask in right.items()}),
-            "right_by_wording": _fractions(
-                {text: right["llm"][texts == text] for text in wordings}
-            ),
+            "right_by_expect": {
+                name: _fractions({str(e): mask[expects == e] for e in np.unique(expects)})
+                for name, mask in right.items()
+            },
         }
 
     def _right(self, cases: Sequence[Case], stage: str) -> dict[str, NDArray[np.bool_]]:
@@ -224,16 +242,34 @@ class _CaseEvaluation:
         return {name: np.array(values, dtype=bool) for name, values in right.items()}
 
 
-def _decided(policy: LlmPolicy, cloud: TactileCloud, instruction: str) -> str | None:
+def _decided(policy: LlmPolicy, cloud: TactileCloud, contract: Contract) -> str | None:
     """A primitive's name, ``NONE`` for success, None where the policy holds or refuses."""
     policy.start()  # each case is an episode of its own: no action is barred for the one before
     try:
-        decision = policy.follow(Observation(cloud=cloud), instruction)
+        decision = policy.decide(Observation(cloud=cloud), contract)
     except PolicyError:
         return None
     if decision.action is not None:
         return decision.action.value
     return NONE if decision.success else None
+
+
+def _named(talker: Talker, cloud: TactileCloud, prompt: str) -> str | None:
+    """The action that a reply names; ``NONE`` for none, None without either."""
+    points = encoder_input(cloud, talker.layout)
+    action = talker.reply(points, prompt, force_factor=cloud.force_scale.factor).action
+    return None if action is None else action.strip("<>")
+
+
+def _by_answer(
+    cases: Sequence[Case], right: Mapping[str, NDArray[np.bool_]]
+) -> dict[str, dict[str, float | None]]:
+    """By decider, the fractions of right cases by their answer."""
+    answers = np.array([case.answer for case in cases])
+    return {
+        name: _fractions({answer: mask[answers == answer] for answer in counts(cases)})
+        for name, mask in right.items()
+    }
 
 
 def _accuracy(predictions: Predictions, labels: Tensor, name: str) -> dict[str, float | None]:

@@ -47,13 +47,16 @@ def show(figures: Mapping[str, Any], console: Console) -> None:
     for name in ("held_out", "trained"):
         asked.add_row(name.replace("_", " "), *map(_percent, answers[name].values()))
     console.print(asked)
+    for kind, goals in figures["advice"].items():
+        _show_advice(f"{goals['cases']} drawn goals, {kind} contacts: % right", goals, console)
     for kind, pairs in figures["instruction_pairs"].items():
-        _show_pairs(kind, pairs, console)
+        title = f"{pairs['pairs']} instruction pairs, {kind} contacts: % right"
+        _show_advice(title, pairs, console)
+    for kind, wordings in figures["paraphrases"].items():
+        _show_wordings(kind, wordings, console)
     console.print(
         "rules: the teacher on the measured state; clear: noise does not decide the answer"
     )
-    for kind, paraphrases in figures["paraphrases"].items():
-        _show_paraphrases(kind, paraphrases, console)
     clip = figures["clip_retrieval"]
     console.print(
         f"CLIP retrieval among {clip['among']:.0f}: image to text "
@@ -62,22 +65,22 @@ def show(figures: Mapping[str, Any], console: Console) -> None:
     )
 
 
-def _show_pairs(kind: str, pairs: Mapping[str, Any], console: Console) -> None:
-    title = f"{pairs['pairs']} instruction pairs, {kind} contacts: % right"
-    answers = (f"{answer} ({count})" for answer, count in pairs["answers"].items())
-    table = _table(title, "", "right", "both right", *answers)
-    for name, right in pairs["right"].items():
-        by_answer = (pairs["right_by_answer"][name].get(answer) for answer in pairs["answers"])
-        table.add_row(name, *map(_percent, (right, pairs["both_right"][name], *by_answer)))
+def _show_advice(title: str, figures: Mapping[str, Any], console: Console) -> None:
+    both = figures.get("both_right")  # of pairs alone
+    answers = (f"{answer} ({count})" for answer, count in figures["answers"].items())
+    table = _table(title, "", "right", *(["both right"] if both else []), *answers)
+    for name, right in figures["right"].items():
+        by_answer = (figures["right_by_answer"][name].get(answer) for answer in figures["answers"])
+        firsts = [right] if both is None else [right, both[name]]
+        table.add_row(name, *map(_percent, (*firsts, *by_answer)))
     console.print(table)
 
 
-def _show_paraphrases(kind: str, figures: Mapping[str, Any], console: Console) -> None:
-    title = f"{figures['wordings']} paraphrases, {figures['cases']} {kind} contacts: % right"
-    table = _table(title, "", "right", "naming an object", "naming none")
-    for name in figures["right"]:
-        parts = (figures[part][name] for part in ("right", "naming_an_object", "naming_no_object"))
-        table.add_row(name, *map(_percent, parts))
+def _show_wordings(kind: str, figures: Mapping[str, Any], console: Console) -> None:
+    title = f"{figures['wordings']} kept-out instructions, {figures['cases']} {kind} contacts"
+    table = _table(f"{title}: % right", "", "right", *figures["right_by_expect"]["llm"])
+    for name, right in figures["right"].items():
+        table.add_row(name, *map(_percent, (right, *figures["right_by_expect"][name].values())))
     console.print(table)
 
 
@@ -90,12 +93,15 @@ def card_scores(figures: Mapping[str, Any]) -> Iterator[tuple[str, float | None]
         yield from ((f"median error, {name}, {error}", value) for error, value in errors.items())
     for slot, value in figures["answers"]["held_out"].items():
         yield f"answers to held-out wordings, {slot}", value
-    for kind in ("clear", "any"):
-        for name, value in figures["instruction_pairs"][kind]["right"].items():
-            yield f"instruction pairs, {kind} contacts, {name}", value
-        for part in ("right", "naming_an_object", "naming_no_object"):
-            value = figures["paraphrases"][kind][part]["llm"]
-            yield f"paraphrases, {kind} contacts, {part.replace('_', ' ')}", value
+    titles = {
+        "advice": "drawn goals",
+        "instruction_pairs": "instruction pairs",
+        "paraphrases": "kept-out instructions",
+    }
+    for key, title in titles.items():
+        for kind in ("clear", "any"):
+            for name, value in figures[key][kind]["right"].items():
+                yield f"{title}, {kind} contacts, {name}", value
     for name in ("image_to_text", "text_to_image"):
         yield f"CLIP retrieval, {name.replace('_', ' ')}", figures["clip_retrieval"][name]
 

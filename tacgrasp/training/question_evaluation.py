@@ -131,11 +131,11 @@ def evaluate_questions(
     try:
         contestants = baselines(asked)
         scored = {name: answer_all(asked, one) for name, one in contestants.items()}
-        own = _own_questions(scenes, seed)
+        own = own_questions(scenes, GRAMMAR_QUESTIONS, seed)
         scored["grammar"] = answer_all(own, contestants["grammar"])
         answers: list[ScoredAnswer] = []
         if talker is not None:
-            model = _model(talker, contacts, len(asked), report, with_context=with_context)
+            model = asked_model(talker, contacts, len(asked), report, with_context=with_context)
             answers = answer_all(asked, model)
             scored = {"model": answers, **scored}
     except ValueError as error:
@@ -149,19 +149,32 @@ def evaluate_questions(
     }, answers
 
 
-def _own_questions(scenes: Sequence[AskedScene], seed: int) -> list[AskedQuestion]:
-    rows = drawn_rows(scenes, GRAMMAR_QUESTIONS, seed)
-    return [AskedQuestion(row=row, contact=i, scene=scene) for i, (row, scene) in enumerate(rows)]
+def own_questions(scenes: Sequence[AskedScene], num: int, seed: int) -> list[AskedQuestion]:
+    """Questions of the grammar, each about one scene that it was drawn for."""
+    rows = drawn_rows(scenes, num, seed)
+    numbers = {id(scene): number for number, scene in enumerate(scenes)}
+    return [AskedQuestion(row=row, contact=numbers[id(scene)], scene=scene) for row, scene in rows]
 
 
-def _model(
+def asked_model(
     talker: Talker,
     contacts: Sequence[FeltContact],
     total: int,
     report: ProgressReport,
     *,
     with_context: bool,
+    stage: str = "questions",
 ) -> Callable[[AskedQuestion], str]:
+    """What asks the model.
+
+    Args:
+        talker: The model.
+        contacts: The contacts, by their numbers in what is asked.
+        total: Number of questions to come, for the progress.
+        report: Receives the progress.
+        with_context: Whether the model is told contract, mass and the exchange before.
+        stage: Name of the stage, for the progress.
+    """
     done = 0
 
     def reply(asked: AskedQuestion) -> str:
@@ -176,7 +189,7 @@ def _model(
             prompt = question_prompt(row.question, asked.scene, before)
         text = talker.reply(points, prompt).text
         done += 1
-        report("questions", done, total, {})
+        report(stage, done, total, {})
         return text
 
     return reply

@@ -25,8 +25,9 @@ class EvaluationRequest:
         blind: Folder of an instruction-blind copy (tacgrasp train llm --blind-of).
         captions: Number of contacts to describe.
         answers: Number of contacts to ask about.
+        goals: Number of contacts to advise on for a drawn force band.
         pairs: Number of instruction pairs.
-        per_wording: Number of contacts for each paraphrase.
+        per_wording: Number of contacts for each kept-out instruction.
         seed: Random seed of the choice of contacts, of the sensor noise and of the wordings.
         card: Write the scores into the model card too.
     """
@@ -37,13 +38,15 @@ class EvaluationRequest:
     blind: Path | None = None
     captions: int = 500
     answers: int = 150
+    goals: int = 300
     pairs: int = 200
-    per_wording: int = 8
+    per_wording: int = 1
     seed: int = 0
     card: bool = False
 
     def __post_init__(self) -> None:
-        if min(self.captions, self.answers, self.pairs, self.per_wording) < 1 or self.seed < 0:
+        numbers = (self.captions, self.answers, self.goals, self.pairs, self.per_wording)
+        if min(numbers) < 1 or self.seed < 0:
             raise UsageError("every number of eval must be at least 1, --seed at least 0")
 
 

@@ -22,7 +22,7 @@ from cltp.evaluation.scores import Predictions, median_errors, score_classes
 from cltp.tactile.states import CLASSES, MEASURABLE, NUMBERS, ContactState
 from cltp.train.text_targets import class_numbers
 from tacgrasp.benchmarks.robustness.contacts import Sampled, part
-from tacgrasp.lessons.answer_scoring import read_numbers
+from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.policy_factory import load_llm
 
 FORCE_METRIC = "force_error_percent"

@@ -21,7 +21,7 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, Depth, Shape
 from cltp.texts.captions import parse_caption
 from policies import PolicyError
-from tacgrasp.lessons.answer_scoring import read_numbers
+from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.playback.describe import CAPTION_REQUEST
 from tacgrasp.policy_factory import load_llm
 

@@ -3,8 +3,7 @@
 A grammar (``families``) makes wordings, each with its meaning. A meaning has a truth in every
 scene, from which ``answers`` words the answer and ``answer_scores`` judges one.
 
-Not here: the questions that the shipped weights learned (``tacgrasp.lessons.questions``), asking a
-model (``tacgrasp.training``).
+Not here: asking a model (``tacgrasp.training``, ``tacgrasp.playback``).
 
 May import: cltp.tactile, cltp.texts, policies, primitives, tacgrasp.base.
 """

@@ -53,8 +53,8 @@ TOLERANCES: Mapping[str, Tolerance] = {
 }
 """Tolerance of a number by a name in its truth; 2 % where none of these is in it.
 
-Source: single frames of an uncalibrated unit (``cltp.texts.tolerances``), and for the force
-``tacgrasp.lessons.answer_scoring``."""
+Source: single frames of an uncalibrated unit (``cltp.texts.tolerances``); of the force our choice:
+the depth scale of units, ±15 %, and drift allow no less."""
 
 EXACT = Tolerance(fraction=0.02)
 

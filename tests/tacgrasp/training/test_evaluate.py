@@ -1,4 +1,4 @@
-"""What evaluation asks and how it judges: pairs, paraphrases, answers, figures."""
+"""What evaluation asks and how it judges: goals, pairs, kept-out instructions, figures."""
 
 import json
 import math
@@ -10,26 +10,34 @@ import pytest
 from cltp.data.dataset import ContactDataset
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.states import ContactState, Side
+from cltp.tactile.states import ContactState
 from policies import Decision, Observation
+from policies.contract_steps import target_of
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives import Primitive
+from primitives.contract import Contract
 from tacgrasp.__main__ import main
-from tacgrasp.lessons.answer_scoring import is_right, read_numbers
+from tacgrasp.lessons import instruction_pairs
+from tacgrasp.lessons.captions import read_numbers
+from tacgrasp.lessons.dialogue.meaning import AnswerKind
+from tacgrasp.lessons.dialogue.question_file import read_questions
+from tacgrasp.lessons.dialogue.scene import band_contract
 from tacgrasp.lessons.exchanges import caption_exchange, numbers
 from tacgrasp.lessons.instruction_pairs import (
     MOVES,
     NONE,
     QUOTAS,
+    Wordings,
     answer_for,
     answer_of,
+    choose_goals,
     choose_pairs,
-    choose_paraphrases,
+    choose_wordings,
     counts,
     fraction,
+    kept_out,
 )
-from tacgrasp.lessons.instructions import LEVELS, task_goals
-from tacgrasp.lessons.questions import QUESTIONS, answer
+from tacgrasp.training import evaluate
 from tacgrasp.training.evaluate import _decided
 from tests.fakes.tiny_weights import make_data, make_weights, state
 
@@ -66,9 +74,9 @@ def test_the_two_instructions_of_a_pair_ask_for_different_answers_on_one_contact
     for one, other in pairs:
         assert one.index == other.index
         assert one.answer != other.answer
-        assert one.instruction.text != other.instruction.text
+        assert one.contract.text != other.contract.text or one.contract != other.contract
         for case in (one, other):
-            state, goal = data.state(case.index), case.instruction.goal
+            state, goal = data.state(case.index), target_of(case.contract)
             advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
             assert answer_of(advice) == case.answer
     assert choose_pairs(data, 20, clear=clear) == pairs
@@ -83,7 +91,7 @@ def test_pairs_keep_to_their_quotas_and_use_a_contact_once(data_dir: Path) -> No
 
 
 def test_an_answer_that_noise_decides_is_not_clear() -> None:
-    goal = task_goals()["strawberry"]
+    goal = target_of(band_contract(0.95, 1.9))
     middle = math.sqrt(goal.force_n.low * goal.force_n.high)
     centred = state(0.0, 0.0, 0.15, middle)
     at_the_limit = state(0.0, 0.0, 0.15, 0.99 * goal.force_n.high)
@@ -95,49 +103,30 @@ def test_an_answer_that_noise_decides_is_not_clear() -> None:
     assert answer_for(barely_off, goal, clear=True) is None
 
 
-def test_paraphrases_are_all_used_half_of_them_naming_an_object(data_dir: Path) -> None:
+def test_drawn_goals_ask_for_every_kind_of_answer(data_dir: Path) -> None:
     data = ContactDataset(data_dir)
-    cases = choose_paraphrases(data, 3, clear=False)
-    assert len(cases) == 32 * 3
-    assert sum(names for _, names in cases) == len(cases) / 2
-    for case, _ in cases:
-        answers = {answer_for(data.state(case.index), task_goals()[v], clear=False) for v in LEVELS}
-        assert len(answers) > 1
-    assert max(counts([case for case, _ in cases]).values()) < 0.6 * len(cases)
+    cases = choose_goals(data, 40, clear=False)
+    assert len(cases) == len({case.index for case in cases}) == 40
+    for case in cases:
+        goal = target_of(case.contract)
+        assert answer_for(data.state(case.index), goal, clear=False) == case.answer
+    assert {"increase_force", "decrease_force", NONE} <= set(counts(cases))
+    assert max(counts(cases).values()) < 0.7 * len(cases)
+    clear = choose_goals(data, 40, clear=True)
+    assert all(
+        answer_for(data.state(c.index), target_of(c.contract), clear=True) == c.answer
+        for c in clear
+    )
 
 
-@pytest.mark.parametrize("slot", QUESTIONS)
-@pytest.mark.parametrize("of", [state(1.0, -4.0, 0.95, 2.0), NOTHING])
-def test_the_answers_that_are_taught_are_judged_right(slot: str, of: ContactState) -> None:
-    assert is_right(slot, answer(slot, of), of)
-
-
-@pytest.mark.parametrize(
-    ("slot", "text"),
-    [
-        ("depth", "Pressed deep, 0.95 mm."),  # it is very deep
-        ("depth", "Pressed very deep or slight."),
-        ("position", "In bottom-left, x +1.0, y -4.0."),
-        ("shape", "A cuboid."),
-        ("shape", "I can't tell."),
-        ("force", "About 2.60 N."),
-        ("force", "Firmly."),
-        ("cut", "Cut left."),
-        ("cut", ""),
-        ("area", "Nothing touches the pad."),
-    ],
-)
-def test_wrong_answers_are_judged_wrong(slot: str, text: str) -> None:
-    assert not is_right(slot, text, state(1.0, -4.0, 0.95, 2.0))
-
-
-def test_cut_sides_are_judged_as_a_whole() -> None:
-    whole = state(1.0, -4.0, 0.95, 2.0)
-    values = {name: getattr(whole, name) for name in ContactState.__slots__}
-    cut = ContactState(**{**values, "cut": frozenset({Side.LEFT, Side.TOP})})
-    assert is_right("cut", "Cut left top.", cut)
-    assert not is_right("cut", "Cut left.", cut)
-    assert not is_right("cut", "Not cut.", cut)
+def test_every_kept_out_instruction_that_is_not_refused_is_used(data_dir: Path) -> None:
+    data = ContactDataset(data_dir)
+    cases = choose_wordings(data, 1, clear=False)
+    texts = {case.contract.text for case in cases}
+    assert len(texts) > 0.9 * len({each.text for each in kept_out().wordings})
+    assert "refuse" not in {case.expect for case in cases}
+    assert not any(case.contract.refused for case in cases)
+    assert max(counts(cases).values()) < 0.6 * len(cases)
 
 
 def test_the_numbers_of_a_description_are_read_back() -> None:
@@ -154,14 +143,23 @@ def test_nothing_has_no_share() -> None:
 
 
 def test_eval_prints_every_table_and_writes_json_and_card(
-    weights: Path, data_dir: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    weights: Path,
+    data_dir: Path,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    few = Wordings(kept_out().wordings[::200][:3])
+    monkeypatch.setattr(instruction_pairs, "kept_out", lambda: few)
+    questions = read_questions(None)[::60]
+    monkeypatch.setattr(evaluate, "read_questions", lambda path: questions)
     figures = tmp_path / "eval.json"
     argv = ["eval", "--weights", str(weights), "--data", str(data_dir), "--json", str(figures)]
     argv += ["--blind", str(weights), "--captions", "4", "--answers", "1", "--pairs", "4"]
-    assert main([*argv, "--per-wording", "1", "--card"]) == 0
+    assert main([*argv, "--goals", "3", "--card"]) == 0
     printed = capsys.readouterr()
-    for title in ("captions:", "numbers:", "answers:", "instruction pairs", "paraphrases", "CLIP"):
+    titles = ("captions:", "numbers:", "answers:", "drawn goals", "instruction pairs", "CLIP")
+    for title in (*titles, "kept-out instructions"):
         assert title in printed.out
     assert "captions 4/4" in printed.err  # progress, in plain lines where there is no terminal
     evaluation = json.loads(figures.read_text())
@@ -178,7 +176,11 @@ def test_eval_prints_every_table_and_writes_json_and_card(
         pairs = evaluation["instruction_pairs"][kind]
         assert set(pairs["right"]) == {"llm", "rules", "blind"}
         assert pairs["right"]["llm"] == 0.0  # it was never trained: it holds
-        assert evaluation["paraphrases"][kind]["cases"] == 32
+        assert evaluation["paraphrases"][kind]["cases"] == 3
+        assert evaluation["advice"][kind]["cases"] == 3
+        assert set(evaluation["advice"][kind]["right"]) == {"llm", "rules", "blind"}
+    for name in ("held_out", "trained"):
+        assert set(evaluation["answers"][name]) == {*(k.value for k in AnswerKind), "mean"}
     card = (weights / "README.md").read_text()
     assert card.startswith("# Tac3D-LLM, small\n\nfacts\n\n## Scores\n")
     assert "| captions, geometric baseline, depth | " in card
@@ -218,7 +220,7 @@ def test_no_case_remembers_the_one_before() -> None:
         def start(self) -> None:
             self.asked = 0
 
-        def follow(self, observation: Observation, instruction: str) -> Decision:
+        def decide(self, observation: Observation, contract: Contract) -> Decision:
             self.asked += 1
             text = f"<{Primitive.RESET}>"
             action = Primitive.RESET if self.asked == 1 else None
@@ -226,5 +228,5 @@ def test_no_case_remembers_the_one_before() -> None:
 
     policy = Remembering()
     cloud = cloud_from_heights(np.zeros((75, 100)), sensor_named("gelsight_mini"))
-    answers = [_decided(policy, cloud, "Pick it up.") for _ in range(3)]
+    answers = [_decided(policy, cloud, band_contract(1.0, 1.5)) for _ in range(3)]
     assert answers == [Primitive.RESET.value] * 3
