@@ -257,7 +257,7 @@ def _decided(policy: LlmPolicy, cloud: TactileCloud, contract: Contract) -> str 
 def _named(talker: Talker, cloud: TactileCloud, prompt: str) -> str | None:
     """The action that a reply names; ``NONE`` for none, None without either."""
     points = encoder_input(cloud, talker.layout)
-    action = talker.reply(points, prompt, force_factor=cloud.force_scale.factor).action
+    action = talker.reply(points, prompt, scale=cloud.force_scale).action
     return None if action is None else action.strip("<>")
 
 
