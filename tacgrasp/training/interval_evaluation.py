@@ -1,0 +1,228 @@
+"""``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold.
+
+On contacts that nothing was learned from: of seen objects, of unseen objects and gels, of a second
+simulator, and on a pad of other edges. Every unit has a force calibration with a drawn residual.
+Depth and force have trivial rivals beside them: the median of all contacts for each, with the
+interval that holds nine tenths of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from cltp.checkpoints.tac3d_llm import load_encoder
+from cltp.data.contact import Contact, Split
+from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler
+from cltp.encoder.encoder import TactileEncoder
+from cltp.encoder.heads import StateHeads
+from cltp.encoder.readings import Readings, readings_of
+from cltp.errors import TouchError
+from cltp.tactile.sensors import SensorSpec, sensor_named
+from cltp.tactile.states import NUMBERS
+from cltp.train.stage import ProgressReport, silent
+from sim.grasp.force_calibration import drawn_force_calibration
+from sim.independent.contacts import make_contact
+
+FIRST_SEED = 1_500_000
+"""First seed of the second simulator's contacts; those of ``bench other-sim`` are others."""
+
+OTHER_PAD = replace(sensor_named("gelsight_mini"), columns=300, rows=180, mm_per_px=0.08)
+"""A pad of 24 × 14.4 mm with a Mini's noise; none of the training has its edges."""
+
+LIGHT_N = 1.0
+"""Force below which errors of force are told in newtons."""
+
+BATCH = 64
+
+DEPTH, FORCE = NUMBERS.index("depth_mm"), NUMBERS.index("force_n")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Group:
+    """Contacts of one kind.
+
+    Attributes:
+        name: Name in tables.
+        readings: What the heads read, in newtons by each unit's calibration.
+        truth: Shape (N, 5), ``NUMBERS``.
+    """
+
+    name: str
+    readings: Readings
+    truth: NDArray[np.float64]
+
+
+def evaluate_intervals(
+    weights: Path, data: Path, *, num: int = 1000, seed: int = 0, report: ProgressReport = silent
+) -> dict[str, Any]:
+    """Figures of every group, for JSON.
+
+    Args:
+        weights: Folder of weights.
+        data: Data set of contacts with the splits of the set ``full``.
+        num: Most contacts of each group.
+        seed: Random seed of choice, noise and units.
+        report: Receives the progress.
+
+    Returns:
+        ``groups.<name>``: ``n``, medians ``depth_mm, place_mm, area_percent, force_percent,
+        light_force_n``, ``inside.<number>`` and ``width.<number>`` (median over that of the seen
+        objects), all of contacts that touch; ``trivial`` the same for the rival.
+
+    Raises:
+        TouchError: Weights or data can't be used.
+    """
+    encoder, heads = load_encoder(weights / "encoder")
+    reader = _Reader(encoder.eval(), heads.eval(), seed)
+    groups = {}
+    widths: NDArray[np.float64] | None = None
+    for number, group in enumerate(_groups(reader, data, num, seed)):
+        if widths is None:
+            widths = _widths(group)
+        groups[group.name] = _figures(group, widths)
+        report("groups", number + 1, number + 1, {})
+    return {"weights": str(weights), "data": str(data), "seed": seed, "groups": groups}
+
+
+@dataclass(frozen=True, slots=True)
+class _Reader:
+    encoder: TactileEncoder
+    heads: StateHeads
+    seed: int
+
+    def sampler(self, data: ContactDataset, noise: Augmentation) -> Sampler:
+        return Sampler(data, noise, seed=self.seed, layout=self.encoder.config.variant.layout)
+
+    @torch.inference_mode()
+    def read(self, points: NDArray[np.float32], sensor_name: str) -> Readings:
+        """Readings of clouds (B, N, 3), each of a unit of its own."""
+        scales = [
+            drawn_force_calibration(sensor_name, self.seed + place).scale
+            for place in range(len(points))
+        ]
+        output = self.heads(self.encoder(torch.from_numpy(points)).pooled)
+        factors, spreads = (
+            torch.tensor([getattr(scale, part) for scale in scales])
+            for part in ("factor", "spread")
+        )
+        return readings_of(output, factors, spreads)
+
+
+def _groups(reader: _Reader, folder: Path, num: int, seed: int) -> Iterator[Group]:
+    """The groups, seen objects first."""
+    splits = (
+        ("seen objects", Split.TEST, NOISY),
+        ("seen objects, no noise", Split.TEST, CLEAN),
+        ("unseen objects", Split.OBJECT, NOISY),
+        ("unseen gels", Split.PHYSICS, NOISY),
+    )
+    for name, split, noise in splits:
+        data = ContactDataset(folder, split=split)
+        if not len(data):
+            raise TouchError(
+                f"{folder} has no contacts of the split {split.value!r}; generate them: tacgrasp "
+                "data generate --set full"
+            )
+        chosen = np.random.default_rng([seed, 83]).permutation(len(data))[:num]
+        yield _group(name, reader, data, np.sort(chosen), noise)
+        if split is Split.PHYSICS:
+            thickness = data.column("gel_thickness_mm")[chosen]
+            for mm in np.unique(thickness):
+                own = np.sort(chosen[thickness == mm])
+                yield _group(f"gel of {mm:.1f} mm", reader, data, own, noise)
+    seeds = range(FIRST_SEED, FIRST_SEED + num // 4)
+    sampler = reader.sampler(ContactDataset(folder), NOISY)
+    for name, sensor in (("second simulator", sensor_named("gelsight_mini")), ("pad", OTHER_PAD)):
+        yield _made(name, reader, sampler, [make_contact(s, sensor) for s in seeds], sensor)
+
+
+def _group(
+    name: str, reader: _Reader, data: ContactDataset, chosen: NDArray[Any], noise: Augmentation
+) -> Group:
+    """The chosen contacts of a data set."""
+    sampler = reader.sampler(data, noise)
+    parts, truth = [], []
+    for step, first in enumerate(range(0, len(chosen), BATCH)):
+        batch = sampler.batch(chosen[first : first + BATCH], step)
+        parts.append(reader.read(batch.points, "gelsight_mini"))
+        truth += [[getattr(state, name) for name in NUMBERS] for state in batch.states]
+    return Group(name=name, readings=_joined(parts), truth=np.array(truth))
+
+
+def _made(
+    name: str,
+    reader: _Reader,
+    sampler: Sampler,
+    contacts: Sequence[Contact],
+    sensor: SensorSpec,
+) -> Group:
+    """Contacts that were made, with the noise of a GelSight Mini; their forces are another gel's."""
+    rng = np.random.default_rng([reader.seed, 84])
+    points = np.stack([sampler.cloud(each.height_mm, sensor, rng) for each in contacts])
+    parts = [
+        reader.read(points[first : first + BATCH], "gelsight_mini")
+        for first in range(0, len(points), BATCH)
+    ]
+    truth = np.array([[getattr(each.state, n) for n in NUMBERS] for each in contacts])
+    truth[:, FORCE] = np.nan
+    return Group(name=name, readings=_joined(parts), truth=truth)
+
+
+def _joined(parts: Sequence[Readings]) -> Readings:
+    words = tuple(torch.cat(each) for each in zip(*(part.words for part in parts), strict=True))
+    others = (torch.cat(each) for each in zip(*(part[1:] for part in parts), strict=True))
+    return Readings(words, *others)
+
+
+def _widths(group: Group) -> NDArray[np.float64]:
+    """Median width of each number's interval, shape (5,), of contacts that touch."""
+    touched = group.truth[:, DEPTH] > 0
+    width = (group.readings.high - group.readings.low).numpy()[touched]
+    return np.asarray(np.median(width, axis=0), dtype=np.float64)
+
+
+def _figures(group: Group, seen_widths: NDArray[np.float64]) -> dict[str, Any]:
+    touched = group.truth[:, DEPTH] > 0
+    truth = group.truth[touched]
+    low, high = (ends.numpy()[touched] for ends in (group.readings.low, group.readings.high))
+    errors = np.abs(group.readings.values.numpy()[touched] - truth)
+    inside = np.where(np.isfinite(truth), (low <= truth) & (truth <= high), np.nan)
+    least, most = np.nanquantile(truth, [0.05, 0.95], axis=0)
+    rivals = np.abs(np.nanmedian(truth, axis=0) - truth)
+    return {
+        "n": int(touched.sum()),
+        **_medians(errors, truth),
+        "inside": _named(100 * inside.mean(axis=0)),
+        "width": _named(_widths(group) / seen_widths),
+        "trivial": {**_medians(rivals, truth), "width": _named((most - least) / seen_widths)},
+    }
+
+
+def _medians(errors: NDArray[np.float64], truth: NDArray[np.float64]) -> dict[str, float | None]:
+    """Median errors: depth, place, area and force over their truth, small forces in newtons."""
+    x, y = (NUMBERS.index(name) for name in ("x_mm", "y_mm"))
+    area = NUMBERS.index("area_fraction")
+    light = truth[:, FORCE] < LIGHT_N
+    return {
+        "depth_mm": _median(errors[:, DEPTH]),
+        "place_mm": _median(np.hypot(errors[:, x], errors[:, y])),
+        "area_percent": _median(100 * errors[:, area] / truth[:, area]),
+        "force_percent": _median(100 * errors[:, FORCE] / truth[:, FORCE]),
+        "light_force_n": _median(errors[light, FORCE]),
+    }
+
+
+def _median(values: NDArray[np.float64]) -> float | None:
+    return float(np.median(values)) if len(values) and np.isfinite(values).all() else None
+
+
+def _named(values: NDArray[np.float64]) -> dict[str, float | None]:
+    return {n: float(v) if np.isfinite(v) else None for n, v in zip(NUMBERS, values, strict=True)}
