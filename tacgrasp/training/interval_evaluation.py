@@ -164,7 +164,7 @@ def _made(
     contacts: Sequence[Contact],
     sensor: SensorSpec,
 ) -> Group:
-    """Contacts that were made, with the noise of a GelSight Mini; their forces are another gel's."""
+    """Contacts that were made, with the noise of a Mini; their forces are another gel's."""
     rng = np.random.default_rng([reader.seed, 84])
     points = np.stack([sampler.cloud(each.height_mm, sensor, rng) for each in contacts])
     parts = [
@@ -195,8 +195,8 @@ def _figures(group: Group, seen_widths: NDArray[np.float64]) -> dict[str, Any]:
     low, high = (ends.numpy()[touched] for ends in (group.readings.low, group.readings.high))
     errors = np.abs(group.readings.values.numpy()[touched] - truth)
     inside = np.where(np.isfinite(truth), (low <= truth) & (truth <= high), np.nan)
-    least, most = np.nanquantile(truth, [0.05, 0.95], axis=0)
-    rivals = np.abs(np.nanmedian(truth, axis=0) - truth)
+    least, most = np.quantile(truth, [0.05, 0.95], axis=0)
+    rivals = np.abs(np.median(truth, axis=0) - truth)
     return {
         "n": int(touched.sum()),
         **_medians(errors, truth),
