@@ -1,9 +1,9 @@
 """Exchanges that teach the language model: captions, questions, and advice on goals.
 
-An instruction stands for a numeric goal, ``policies.teacher`` advises on a contact for that goal,
-and the reply is the D_t that the model learns. ``cltp.train`` receives texts and knows no goals.
+A goal is a force band with its limit, ``policies.teacher`` advises on a contact for that goal, and
+the reply is the D_t that the model learns. ``cltp.train`` receives texts and knows no goals.
 
-D_t consists of the contact in words and numbers, the force that the instruction asks for,
+D_t consists of the contact in words and numbers, the force that is asked for,
 ``Action:`` with one of eight tokens, and the reason, in this order. It is short, since every token
 costs time in the loop; the paper's caption is the reply to a request for a description. The action
 comes before the reason, so that the softmax of its token is the model's own confidence and not an
@@ -22,26 +22,18 @@ import numpy as np
 from cltp.tactile.states import ContactState
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
+from policies.contract_steps import target_of
 from policies.goal import Goal
+from policies.reply.text import percent, step_request
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
-from tacgrasp.lessons.instructions import draw_instruction, draw_instruction_near
-from tacgrasp.lessons.question_draws import question_exchange
-from tacgrasp.lessons.questions import CAPTION_REQUESTS, draw_question, percent
+from primitives.contract import Contract
+from tacgrasp.lessons.captions import CAPTION_REQUESTS
+from tacgrasp.lessons.question_draws import draw_contract, question_exchange
 
 ADVICE_PER_CONTACT = 3
 """Number of goals, and so of pieces of advice, for one contact. Our choice: the tactile tokens,
 which they share, cost the most."""
-
-GOAL_QUESTIONS = (
-    "What force is meant by: {}",
-    "Which force does this ask for? {}",
-    "In newtons, what does this mean? {}",
-    "How many newtons are wanted here? {}",
-)
-MEANINGS_PER_CONTACT = 2
-"""Number of instructions that are read for their force alone: more wordings in fewer tokens than
-with whole advice."""
 
 
 def numbers(state: ContactState) -> str:
@@ -50,7 +42,7 @@ def numbers(state: ContactState) -> str:
         return "0.00 mm, 0.00 N."
     cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
     return (
-        f"{state.depth_mm:.2f} mm, {state.force_n:.2f} N, {percent(state)} %, "
+        f"{state.depth_mm:.2f} mm, {state.force_n:.2f} N, {percent(state.area_fraction)} %, "
         f"x {state.x_mm:+.1f}, y {state.y_mm:+.1f}{cut}."
     )
 
@@ -63,7 +55,7 @@ def contact_text(state: ContactState) -> str:
     cut = f", cut {' '.join(sorted(state.cut))}" if state.cut else ""
     return (
         f"{nouns or 'object'}, {state.depth} {state.depth_mm:.2f} mm, {state.position} "
-        f"x {state.x_mm:+.1f} y {state.y_mm:+.1f}, {state.area} {percent(state)} %, "
+        f"x {state.x_mm:+.1f} y {state.y_mm:+.1f}, {state.area} {percent(state.area_fraction)} %, "
         f"{state.force_n:.2f} N{cut}."
     )
 
@@ -82,13 +74,6 @@ def advice_reply(state: ContactState, goal: Goal, reading: ContactState | None =
     return f"{contact} {goal_text(goal)} Action: {action}. {reason}"
 
 
-def meaning_exchange(rng: np.random.Generator) -> Exchange:
-    """A question about the force that an instruction means, and that force as in D_t."""
-    instruction = draw_instruction(rng)
-    question = GOAL_QUESTIONS[rng.integers(len(GOAL_QUESTIONS))]
-    return Exchange(prompt=question.format(instruction.text), reply=goal_text(instruction.goal))
-
-
 def caption_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
     """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
@@ -99,16 +84,11 @@ class TouchLessons:
     """All exchanges about a contact, as ``cltp.train.llm.Lessons``; deterministic in the generator.
 
     Args:
-        blind: Whether every instruction is replaced by ``BLIND``: the control, whose model can't
-            know the goal.
-        num_grammar_questions: Questions of the grammar (``tacgrasp.lessons.question_draws``) for
-            each contact; they take the place of the old ones. 0, as the shipped weights were
-            taught, leaves those.
+        blind: Whether every goal is replaced by ``BLIND``: the control, whose model can't know it.
     """
 
-    def __init__(self, *, blind: bool = False, num_grammar_questions: int = 0) -> None:
+    def __init__(self, *, blind: bool = False) -> None:
         self._blind = blind
-        self._num_grammar_questions = num_grammar_questions
 
     def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
         return [caption_exchange(reading, rng)]
@@ -116,28 +96,21 @@ class TouchLessons:
     def mixed(
         self, state: ContactState, reading: ContactState, rng: np.random.Generator
     ) -> Sequence[Exchange]:
-        """A caption or a question, advice for several goals, and meanings of instructions."""
+        """A caption or a question, and advice for several goals."""
         is_caption = rng.random() < 0.3
-        num = self._num_grammar_questions
-        questions = [question_exchange(state, reading, rng) for _ in range(num)]
-        if is_caption:
-            first = [caption_exchange(reading, rng), *questions]
-        else:
-            first = questions or [draw_question(reading, rng)]
-        instructions = [
-            draw_instruction_near(state, rng) if rng.random() < 0.6 else draw_instruction(rng)
-            for _ in range(ADVICE_PER_CONTACT)
+        first = caption_exchange(reading, rng) if is_caption else None
+        contracts = [draw_contract(state, rng) for _ in range(ADVICE_PER_CONTACT)]
+        return [
+            first or question_exchange(state, reading, rng),
+            *(self._advice(state, reading, contract) for contract in contracts),
         ]
-        exchanges = [
-            Exchange(
-                prompt=BLIND if self._blind else each.text,
-                reply=advice_reply(state, each.goal, reading),
-            )
-            for each in instructions
-        ]
-        if self._blind:
-            return [*first, *exchanges]
-        return [*first, *exchanges, *(meaning_exchange(rng) for _ in range(MEANINGS_PER_CONTACT))]
+
+    def _advice(self, state: ContactState, reading: ContactState, contract: Contract) -> Exchange:
+        terms = contract.terms
+        return Exchange(
+            prompt=BLIND if self._blind else step_request(terms.force_n, terms.limit_n),
+            reply=advice_reply(state, target_of(contract), reading),
+        )
 
 
 BLIND = "Do what is needed."

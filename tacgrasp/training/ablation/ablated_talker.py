@@ -15,7 +15,7 @@ from policies.reply.text import REQUEST
 from tacgrasp.training.ablation.touch_parts import TouchParts, mean_parts, touch_parts
 
 
-class Part(StrEnum):
+class InputPart(StrEnum):
     """A part of what the model gets."""
 
     TOKENS = "tokens"
@@ -37,7 +37,7 @@ class Change(StrEnum):
 class Ablation:
     """One part, changed."""
 
-    part: Part
+    part: InputPart
     change: Change
 
     @property
@@ -50,7 +50,7 @@ WHOLE = "whole"
 """Name of the condition without any change."""
 
 ABLATIONS: Mapping[str, Ablation] = {
-    each.name: each for each in (Ablation(part, change) for part in Part for change in Change)
+    each.name: each for each in (Ablation(part, change) for part in InputPart for change in Change)
 }
 """Every ablation by its name."""
 
@@ -119,10 +119,10 @@ class AblatedTalker:
     ) -> tuple[TouchParts, str]:
         other = self._other(points)
         is_swap = ablation.change is Change.SWAPPED
-        if ablation.part is Part.GOAL:
+        if ablation.part is InputPart.GOAL:
             return parts, other.prompt if is_swap else REQUEST
         new = other.parts if is_swap else self._mean
-        if ablation.part is Part.TOKENS:
+        if ablation.part is InputPart.TOKENS:
             return parts._replace(tokens=new.tokens), prompt
         return parts._replace(readings=new.readings), prompt
 

@@ -33,7 +33,7 @@ class Replier(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class AskedStep:
     """One contact under a goal.
 
     Attributes:
@@ -58,7 +58,7 @@ class Step:
         return None if word is None or not self.scene.state.in_contact else str(word)
 
 
-def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
+def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[AskedStep]:
     """Contacts, each under a goal near its force."""
     rng = np.random.default_rng([seed, 43])
     steps = []
@@ -66,7 +66,7 @@ def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
         contract = draw_contract(contact.scene.state, rng)
         terms = contract.terms
         steps.append(
-            Step(
+            AskedStep(
                 points=contact.points,
                 scene=replace(contact.scene, contract=contract),
                 prompt=step_request(terms.force_n, terms.limit_n),
@@ -75,7 +75,7 @@ def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
     return steps
 
 
-def score_replies(steps: Sequence[Step], replies: Sequence[Reply]) -> dict[str, Any]:
+def score_replies(steps: Sequence[AskedStep], replies: Sequence[Reply]) -> dict[str, Any]:
     """Figures of replies to steps, None where there is no such step.
 
     ``words``: by dimension, the fraction whose first word is the true one; ``named``: whose words
@@ -96,7 +96,7 @@ def score_replies(steps: Sequence[Step], replies: Sequence[Reply]) -> dict[str, 
     }
 
 
-def score_misreadings(talker: Talker, steps: Sequence[Step]) -> dict[str, Any]:
+def score_misreadings(talker: Talker, steps: Sequence[AskedStep]) -> dict[str, Any]:
     """Whether the model still says the true word where the head of its dimension misreads.
 
     In a fifth of the contacts, each under another dimension in turn, the head reads what it reads
@@ -116,8 +116,8 @@ def score_misreadings(talker: Talker, steps: Sequence[Step]) -> dict[str, Any]:
 
 
 def _misreadings(
-    steps: Sequence[Step], readings: Sequence[HeadsOutput]
-) -> Iterator[tuple[Step, str, Misreading, str]]:
+    steps: Sequence[AskedStep], readings: Sequence[HeadsOutput]
+) -> Iterator[tuple[AskedStep, str, Misreading, str]]:
     """Steps with the dimension that is misread, how, and the word that the head then reads."""
     dimensions = list(CLASSES)
     for at in range(0, len(steps), CORRUPTED_EVERY):
@@ -133,7 +133,7 @@ def _misreadings(
 
 
 def _first_said(
-    talker: Talker, step: Step, dimension: str, misreading: Misreading | None
+    talker: Talker, step: AskedStep, dimension: str, misreading: Misreading | None
 ) -> str | None:
     """The first word of a dimension that the model says of a step; None where it says none."""
     touch = touch_parts(talker.model, step.points, misreading=misreading).whole
@@ -142,7 +142,7 @@ def _first_said(
     return words[0] if words else None
 
 
-def _first_right(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) -> list[bool]:
+def _first_right(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
     return [
         said is not None and said.words.get(name, ("",))[0] == step.word(name)
         for step, said in pairs
@@ -150,7 +150,7 @@ def _first_right(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) ->
     ]
 
 
-def _named(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) -> list[bool]:
+def _named(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
     return [
         said is not None and step.word(name) in said.words.get(name, ())
         for step, said in pairs
