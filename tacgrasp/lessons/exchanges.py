@@ -30,21 +30,9 @@ from policies.reply.text import (
 )
 from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band
+from tacgrasp.lessons.captions import CAPTION_REQUESTS
 from tacgrasp.lessons.dialogue.families.family import word_lists
 from tacgrasp.lessons.question_draws import question_exchange
-
-CAPTION_REQUESTS: tuple[str, ...] = (
-    "Describe the contact.",
-    "What do you feel?",
-    "Describe what touches the pad.",
-    "Tell me about the contact.",
-    "What is touching the sensor?",
-    "Give a description of this touch.",
-    "What can you feel?",
-    "What is the contact like?",
-    "Say what you feel.",
-    "Describe this.",
-)
 
 CAPTIONS = 0.3
 """Fraction of contacts that are also captioned."""

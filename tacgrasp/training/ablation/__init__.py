@@ -2,6 +2,6 @@
 
 Not here: how good it is with all of it (``tacgrasp.training.evaluate``).
 
-May import: cltp, policies, primitives, sim.grasp, tacgrasp, tacgrasp.benchmarks.loop,
+May import: cltp, policies, sim.grasp, tacgrasp, tacgrasp.benchmarks.loop,
 tacgrasp.config, tacgrasp.lessons, tacgrasp.rig, tacgrasp.runtime, tacgrasp.training.
 """

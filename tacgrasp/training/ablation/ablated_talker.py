@@ -19,7 +19,7 @@ from policies.reply.text import REQUEST
 from tacgrasp.training.ablation.touch_parts import TouchParts, mean_tokens, touch_parts
 
 
-class Part(StrEnum):
+class InputPart(StrEnum):
     """A part of what the model gets."""
 
     TOKENS = "tokens"
@@ -43,7 +43,7 @@ class Change(StrEnum):
 class Ablation:
     """One part, changed."""
 
-    part: Part
+    part: InputPart
     change: Change
 
     @property
@@ -56,7 +56,7 @@ WHOLE = "whole"
 """Name of the condition without any change."""
 
 ABLATIONS: Mapping[str, Ablation] = {
-    each.name: each for each in (Ablation(part, change) for part in Part for change in Change)
+    each.name: each for each in (Ablation(part, change) for part in InputPart for change in Change)
 }
 """Every ablation by its name."""
 
@@ -107,11 +107,11 @@ class AblatedTalker:
         """Encode one contact; as ``Talker.feel``, with the part changed."""
         felt = self._talker.feel(points, scale)
         ablation = self._ablation
-        if ablation is None or ablation.part is Part.GOAL:
+        if ablation is None or ablation.part is InputPart.GOAL:
             return felt
         parts = touch_parts(self._talker.model, felt)
         other = self._other(points) if ablation.change is Change.SWAPPED else None
-        if ablation.part is Part.TOKENS:
+        if ablation.part is InputPart.TOKENS:
             parts = parts._replace(tokens=self._mean if other is None else other.parts.tokens)
         elif other is not None:
             parts = parts._replace(readings=other.parts.readings)
@@ -124,7 +124,7 @@ class AblatedTalker:
     ) -> Reply:
         """Ask about one contact that is felt; as ``Talker.reply_to``, with the goal changed."""
         ablation = self._ablation
-        if ablation is not None and ablation.part is Part.GOAL:
+        if ablation is not None and ablation.part is InputPart.GOAL:
             is_swap = ablation.change is Change.SWAPPED
             other = self._donors[int(self._rng.integers(len(self._donors)))]
             prompt, grammar = (other.prompt if is_swap else REQUEST), None

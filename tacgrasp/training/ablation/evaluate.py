@@ -19,8 +19,8 @@ from tacgrasp.training.ablation.ablated_talker import (
     Donor,
 )
 from tacgrasp.training.ablation.single_replies import (
+    AskedStep,
     Replier,
-    Step,
     draw_steps,
     score_misreadings,
     score_replies,
@@ -99,7 +99,7 @@ def ablate(
 
 def _replies(
     replier: Replier,
-    steps: Sequence[Step],
+    steps: Sequence[AskedStep],
     stage: str,
     report: ProgressReport,
     prompt: str | None = None,

@@ -39,7 +39,7 @@ class Replier(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Step:
+class AskedStep:
     """One contact under a goal.
 
     Attributes:
@@ -70,7 +70,7 @@ class Step:
         return None if word is None or not self.scene.state.in_contact else str(word)
 
 
-def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
+def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[AskedStep]:
     """Contacts, each under a goal near its force."""
     rng = np.random.default_rng([seed, 43])
     steps = []
@@ -78,7 +78,7 @@ def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
         contract = draw_contract(contact.scene.state, rng)
         terms = contract.terms
         steps.append(
-            Step(
+            AskedStep(
                 points=contact.points,
                 scene=replace(contact.scene, contract=contract),
                 prompt=step_request(terms.force_n, terms.limit_n),
@@ -87,7 +87,7 @@ def draw_steps(contacts: Sequence[FeltContact], seed: int) -> list[Step]:
     return steps
 
 
-def score_replies(steps: Sequence[Step], replies: Sequence[Reply]) -> dict[str, Any]:
+def score_replies(steps: Sequence[AskedStep], replies: Sequence[Reply]) -> dict[str, Any]:
     """Figures of replies to steps, None where there is no such step.
 
     ``words``: by dimension, the fraction whose first word is the true one; ``named``: whose words
@@ -108,7 +108,7 @@ def score_replies(steps: Sequence[Step], replies: Sequence[Reply]) -> dict[str, 
     }
 
 
-def score_misreadings(talker: Talker, steps: Sequence[Step]) -> dict[str, Any]:
+def score_misreadings(talker: Talker, steps: Sequence[AskedStep]) -> dict[str, Any]:
     """Whether the model still says the true word where the head of its dimension misreads.
 
     In a fifth of the contacts, each under another dimension in turn, the head reads what it reads
@@ -128,8 +128,8 @@ def score_misreadings(talker: Talker, steps: Sequence[Step]) -> dict[str, Any]:
 
 
 def _misreadings(
-    steps: Sequence[Step], readings: Sequence[Readings]
-) -> Iterator[tuple[Step, str, Misreading, str]]:
+    steps: Sequence[AskedStep], readings: Sequence[Readings]
+) -> Iterator[tuple[AskedStep, str, Misreading, str]]:
     """Steps with the dimension that is misread, how, and the word that the head then reads."""
     dimensions = list(CLASSES)
     for at in range(0, len(steps), CORRUPTED_EVERY):
@@ -145,7 +145,7 @@ def _misreadings(
 
 
 def _first_said(
-    talker: Talker, step: Step, dimension: str, misreading: Misreading | None
+    talker: Talker, step: AskedStep, dimension: str, misreading: Misreading | None
 ) -> str | None:
     """The first word of a dimension that the model says of a step; None where it says none."""
     touch = touch_parts(talker.model, talker.feel(step.points), misreading).whole
@@ -154,7 +154,7 @@ def _first_said(
     return words[0] if words else None
 
 
-def _first_right(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) -> list[bool]:
+def _first_right(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
     return [
         said is not None and said.words.get(name, ("",))[0] == step.word(name)
         for step, said in pairs
@@ -162,7 +162,7 @@ def _first_right(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) ->
     ]
 
 
-def _named(pairs: Sequence[tuple[Step, SaidContact | None]], name: str) -> list[bool]:
+def _named(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
     return [
         said is not None and step.word(name) in said.words.get(name, ())
         for step, said in pairs

@@ -13,7 +13,6 @@ from tacgrasp.lessons.dialogue.facts import NOTHING_TOUCHES
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, kind_of
 from tacgrasp.lessons.dialogue.plain_words import plain_words
-from tacgrasp.lessons.exchanges import TouchLessons
 from tacgrasp.lessons.question_draws import (
     KIND_WEIGHTS,
     draw_question,
@@ -24,7 +23,6 @@ from tacgrasp.lessons.question_draws import (
     question_samples,
     spelled,
 )
-from tacgrasp.lessons.questions import CAPTION_REQUESTS, QUESTIONS
 from tests.fakes.question_scenes import FREE, HELD, UNTOUCHED, contact, random_states
 
 STATES = random_states(50)
@@ -77,18 +75,6 @@ def test_numbers_are_those_of_the_reading_and_advice_that_of_the_truth():
     assert forces == {5.0}
     assert "held too lightly" in advice
     assert "within the goal" in advice or "pressed too firmly" in advice
-
-
-def test_lessons_take_questions_of_the_grammar_where_they_are_asked_to():
-    truth = contact()
-    old, new = TouchLessons(), TouchLessons(num_grammar_questions=4)
-    known = {w for group in QUESTIONS.values() for w in group} | set(CAPTION_REQUESTS)
-    for seed in range(12):
-        before = old.mixed(truth, truth, np.random.default_rng(seed))
-        after = new.mixed(truth, truth, np.random.default_rng(seed))
-        assert sum(each.prompt in known for each in before) == 1
-        asked_for_caption = before[0].prompt in CAPTION_REQUESTS
-        assert len(after) == len(before) + (4 if asked_for_caption else 3)
 
 
 def test_a_follow_up_brings_the_exchange_before_it():

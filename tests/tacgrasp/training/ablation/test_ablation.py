@@ -21,11 +21,11 @@ from tacgrasp.training.ablation.ablated_talker import (
     Ablation,
     Change,
     Donor,
-    Part,
+    InputPart,
 )
 from tacgrasp.training.ablation.evaluate import BLIND_COPY
 from tacgrasp.training.ablation.single_replies import (
-    Step,
+    AskedStep,
     draw_steps,
     score_misreadings,
     score_replies,
@@ -60,7 +60,7 @@ def talker(weights: Path) -> Talker:
 
 
 @pytest.fixture(scope="module")
-def steps() -> list[Step]:
+def steps() -> list[AskedStep]:
     rng = np.random.default_rng(0)
     contacts = [
         FeltContact(
@@ -73,7 +73,7 @@ def steps() -> list[Step]:
 
 
 @pytest.fixture(scope="module")
-def donors(talker: Talker, steps: list[Step]) -> list[Donor]:
+def donors(talker: Talker, steps: list[AskedStep]) -> list[Donor]:
     return [
         Donor(points=each.points, parts=touch_parts(talker.model, each.points), prompt=each.prompt)
         for each in steps
@@ -97,14 +97,14 @@ def reply_of(text: str) -> Reply:
     return Reply(text=text, ended=True, num_tokens=9, action=token, probabilities=(), stage_ms={})
 
 
-def right_text(step: Step) -> str:
+def right_text(step: AskedStep) -> str:
     advice = step.scene.advice
     assert advice is not None
     return f"{contact_text(step.scene.state)} {advice_text(advice)}"
 
 
 def test_both_parts_are_what_the_model_makes_of_a_contact(
-    talker: Talker, steps: list[Step]
+    talker: Talker, steps: list[AskedStep]
 ) -> None:
     parts = touch_parts(talker.model, steps[0].points, 1.3)
     with torch.inference_mode():
@@ -115,7 +115,7 @@ def test_both_parts_are_what_the_model_makes_of_a_contact(
     assert len(parts.readings) == talker.model.num_touch - len(parts.tokens)
 
 
-def test_embeddings_reply_as_their_points_do(talker: Talker, steps: list[Step]) -> None:
+def test_embeddings_reply_as_their_points_do(talker: Talker, steps: list[AskedStep]) -> None:
     ours = talker.reply(steps[0].points, REQUEST, max_tokens=12)
     parts = touch_parts(talker.model, steps[0].points)
     same = talker.reply_to(parts.whole, REQUEST, max_tokens=12)
@@ -125,7 +125,7 @@ def test_embeddings_reply_as_their_points_do(talker: Talker, steps: list[Step]) 
 
 @pytest.mark.parametrize("name", [None, *ABLATIONS])
 def test_an_ablation_changes_its_part_alone(
-    name: str | None, talker: Talker, steps: list[Step], donors: list[Donor]
+    name: str | None, talker: Talker, steps: list[AskedStep], donors: list[Donor]
 ) -> None:
     recording, own = Recording(talker), donors[3]
     ablation = ABLATIONS[name] if name is not None else None
@@ -134,9 +134,9 @@ def test_an_ablation_changes_its_part_alone(
     ((touch, prompt),) = recording.asked
     num = len(own.parts.tokens)
     part = ablation.part if ablation is not None else None
-    assert torch.equal(touch[:num], own.parts.tokens) is (part is not Part.TOKENS)
-    assert torch.equal(touch[num:], own.parts.readings) is (part is not Part.READINGS)
-    assert (prompt == own.prompt) is (part is not Part.GOAL)
+    assert torch.equal(touch[:num], own.parts.tokens) is (part is not InputPart.TOKENS)
+    assert torch.equal(touch[num:], own.parts.readings) is (part is not InputPart.READINGS)
+    assert (prompt == own.prompt) is (part is not InputPart.GOAL)
 
 
 def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
@@ -145,7 +145,7 @@ def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
     recording, own = Recording(talker), donors[0]
     without = AblatedTalker(
         recording,  # type: ignore[arg-type]
-        Ablation(Part.READINGS, Change.LEFT_OUT),
+        Ablation(InputPart.READINGS, Change.LEFT_OUT),
         donors,
     )
     without.reply(own.points, own.prompt)
@@ -155,7 +155,7 @@ def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
     pair = [donors[0], donors[1]]
     swapped = AblatedTalker(
         recording,  # type: ignore[arg-type]
-        Ablation(Part.GOAL, Change.SWAPPED),
+        Ablation(InputPart.GOAL, Change.SWAPPED),
         pair,
     )
     for _ in range(8):
@@ -165,7 +165,9 @@ def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
         AblatedTalker(talker, None, donors[:1])
 
 
-def test_a_misreading_changes_the_readings_and_no_token(talker: Talker, steps: list[Step]) -> None:
+def test_a_misreading_changes_the_readings_and_no_token(
+    talker: Talker, steps: list[AskedStep]
+) -> None:
     logits = torch.zeros(len(CLASSES["shape"])).index_fill(0, torch.tensor([7]), 20.0)
     misreading = Misreading(dimension="shape", logits=logits)
     before = touch_parts(talker.model, steps[0].points)
@@ -178,7 +180,7 @@ def test_a_misreading_changes_the_readings_and_no_token(talker: Talker, steps: l
     assert torch.allclose(before.readings, unchanged.readings, atol=1e-6)
 
 
-def test_true_replies_are_right_and_those_of_other_contacts_are_not(steps: list[Step]) -> None:
+def test_true_replies_are_right_and_those_of_other_contacts_are_not(steps: list[AskedStep]) -> None:
     texts = [right_text(step) for step in steps]
     right = score_replies(steps, [reply_of(text) for text in texts])
     assert set(right["words"].values()) == set(right["named"].values()) == {1.0}
@@ -191,7 +193,7 @@ def test_true_replies_are_right_and_those_of_other_contacts_are_not(steps: list[
     assert (nothing["actions"], nothing["read"]) == (0.0, 0.0)
 
 
-def test_a_rival_is_named_but_not_right(steps: list[Step]) -> None:
+def test_a_rival_is_named_but_not_right(steps: list[AskedStep]) -> None:
     replies = []
     for step in steps:
         state = step.scene.state
@@ -203,7 +205,9 @@ def test_a_rival_is_named_but_not_right(steps: list[Step]) -> None:
     assert figures["doubtful"] == 1.0
 
 
-def test_misreadings_count_what_is_still_said_rightly(talker: Talker, steps: list[Step]) -> None:
+def test_misreadings_count_what_is_still_said_rightly(
+    talker: Talker, steps: list[AskedStep]
+) -> None:
     by_prompt = {step.prompt: right_text(step) for step in steps}
     deaf = SimpleNamespace(
         model=talker.model, reply_to=lambda touch, prompt: reply_of(by_prompt[prompt])
