@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import copy
 import math
-import re
 import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -21,13 +20,13 @@ from cltp.encoder.reader import TouchReading, reading_of
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
-from cltp.texts.tokenizer import Words
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
 from policies.observation import Observation
 from policies.policy import Decision
 from policies.reply.grammar import step_grammar
+from policies.reply.question_check import check_question
 from policies.reply.text import (
     advice_text,
     contact_text,
@@ -49,17 +48,6 @@ ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
 A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
 1,000,000.
 """
-
-MAX_INSTRUCTION_WORDS = 120
-"""Longest instruction [words]. The model would read only the end of a longer one."""
-
-MIN_KNOWN_FRACTION = 0.5
-"""Smallest fraction of an instruction's words that the tokenizer must have as whole words. Our
-choice: hand-written English paraphrases have 0.8 and more, other languages below 0.3."""
-
-_SHORT_WORDS = frozenset(
-    "a i an as at be by do go in is it me my no of on or so to up us we".split(" ")  # noqa: SIM905
-)
 
 
 class SaidStep(NamedTuple):
@@ -117,6 +105,12 @@ class LlmPolicy:
     def start(self) -> None:
         self._moves = []
 
+    def through(self, talker: Talker) -> LlmPolicy:
+        """A policy that asks ``talker``, with a memory of its own."""
+        other = self.twin()
+        other._talker = talker
+        return other
+
     def twin(self) -> LlmPolicy:
         """A policy for another robot: the same model, and a memory of its own."""
         other = copy.copy(self)
@@ -137,12 +131,12 @@ class LlmPolicy:
             )
 
     def check(self, text: str) -> None:
-        """Refuse an instruction or question that the model can't understand.
+        """Refuse a question that the model can't read.
 
         Raises:
-            PolicyError: As for ``check_instruction``.
+            PolicyError: As for ``policies.reply.question_check.check_question``.
         """
-        check_instruction(text, self._words)
+        check_question(text, self._words)
 
     def decide(self, observation: Observation, contract: Contract) -> Decision:
         """Encode the cloud, generate D_t for the contract's target and read the action out of it.
@@ -273,42 +267,6 @@ def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:
     if (x, y) != (-back_x, -back_y):
         return frozenset()
     return frozenset(f"<{move}>" for move in moves[-2:])
-
-
-def check_instruction(text: str, words: Words | None) -> None:
-    """Refuse a text that the model can't understand.
-
-    Args:
-        text: Instruction or question as a person wrote it.
-        words: Tokenizer of the model; None for a stock checkpoint, which may know any language.
-
-    Raises:
-        PolicyError: The text is empty, too long, or has too few words that the tokenizer knows.
-    """
-    text_words = re.findall(r"[^\W\d_]+", text)
-    if not text_words:
-        raise PolicyError(
-            f"an instruction in words is needed, got {text[:40]!r}; say what to grasp"
-        )
-    if len(text_words) > MAX_INSTRUCTION_WORDS:
-        raise PolicyError(
-            f"the instruction has {len(text_words)} words, at most {MAX_INSTRUCTION_WORDS} are "
-            "read; shorten it"
-        )
-    if words is None:
-        return
-    num_known = sum(_is_known(word.lower(), words) for word in text_words)
-    if num_known < MIN_KNOWN_FRACTION * len(text_words):
-        raise PolicyError(
-            f"only {num_known} of {len(text_words)} words of {text[:60]!r} are known; say it in "
-            "plain English, for example 'Pick the strawberry gently.'"
-        )
-
-
-def _is_known(word: str, words: Words) -> bool:
-    if len(word) <= 2:
-        return word in _SHORT_WORDS  # pieces of longer words are tokens too
-    return words.has_token(word) or words.has_token(word.capitalize())
 
 
 def hold_reason(reply: Reply, extraction: Extraction, abstain_below: float) -> str:

@@ -1,7 +1,8 @@
 """D_t of the language model: what it is asked in a step, and the text that it may answer with.
 
-Not here: what to advise (``policies.teacher``), D_t of the rules in free words
-(``policies.speech``), reading an action out of a text (``policies.extraction``).
+Also which questions it is not asked. Not here: what to advise (``policies.teacher``), D_t of the
+rules in free words (``policies.speech``), reading an action out of any text
+(``policies.extraction``).
 
-May import: cltp.llm, cltp.tactile, cltp.texts, policies, primitives.
+May import: cltp.llm.constrained, cltp.tactile, cltp.texts, policies, primitives.
 """

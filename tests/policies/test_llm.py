@@ -25,7 +25,7 @@ from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
 from policies.errors import PolicyError
 from policies.extraction import extract
-from policies.llm import LlmPolicy, check_instruction, hold_reason, repeated_moves
+from policies.llm import LlmPolicy, hold_reason, repeated_moves
 from policies.reply.grammar import step_grammar
 from policies.reply.parse import parse_reply
 from primitives import Primitive
@@ -124,29 +124,6 @@ def test_an_untrained_model_is_held_and_never_acts_by_accident(untrained: Path) 
         "extract",
     }
     assert policy.decide(Observation(cloud=touch()), wide_contract()).text == decision.text
-
-
-@pytest.mark.parametrize(
-    ("instruction", "message"),
-    [
-        ("", "in words"),
-        ("  123 !!", "in words"),
-        ("strawberry " * 10_000, "shorten"),
-        ("Hebe die Erdbeere vorsichtig hoch, ohne sie zu zerdrücken.", "plain English"),
-        ("Soulève la fraise délicatement sans l'écraser.", "plain English"),
-        ("请轻轻地拿起草莓", "plain English"),
-    ],
-)
-def test_an_instruction_that_it_cannot_know_is_refused(
-    words: Words, instruction: str, message: str
-) -> None:
-    with pytest.raises(PolicyError, match=message):
-        check_instruction(instruction, words)
-
-
-def test_known_words_are_let_through(words: Words) -> None:
-    check_instruction("Hold the strawberry securely.", words)
-    check_instruction("Hebe die Erdbeere vorsichtig.", None)  # a stock model may know it
 
 
 def test_a_twin_shares_the_model_and_has_a_memory_of_its_own(untrained: Path) -> None:

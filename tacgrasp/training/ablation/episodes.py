@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from typing import Any, cast
 
 from cltp.llm.generation import Talker
@@ -22,22 +21,13 @@ FIRST_SEED = 500_000
 """First seed of the episodes; those of the strawberry benchmark are a million and more."""
 
 
-class _TalkingThrough(LlmPolicy):
-    """A policy with another talker in the place of its own."""
-
-    def __init__(self, policy: LlmPolicy, talker: AblatedTalker) -> None:
-        vars(self).update(vars(copy.copy(policy)))
-        self._talker = cast(Talker, talker)
-        self.start()
-
-
 def run_episode(policy: LlmPolicy, talker: AblatedTalker, seed: int) -> EpisodeResult:
     """One episode of a policy that talks through ``talker``."""
     config = load(TASK)[0].model_copy(update={"seed": seed, "on_failure": "hold"})
     rig = build(config.object, seed, sensor_name=config.sensor)
     entered = Contestant(
         rig=rig,
-        policy=_TalkingThrough(policy, talker),
+        policy=policy.through(cast(Talker, talker)),
         contract=contract_of(config),
         sense=GelSense(rig.sensor),
     )
