@@ -15,7 +15,7 @@ from tacgrasp.base.plugins import load_plugin, names_with, plugins
 from tacgrasp.config.schema import RunConfig
 
 if TYPE_CHECKING:
-    from policies.llm import LlmPolicy
+    from policies.llm.policy import LlmPolicy
 
 WEIGHTS_VARIABLE = "TACGRASP_WEIGHTS"
 
@@ -46,7 +46,7 @@ def load_llm(weights: Path | None = None) -> LlmPolicy:
     """
     import torch
 
-    from policies.llm import LlmPolicy
+    from policies.llm.policy import LlmPolicy
 
     torch.set_num_threads(LLM_THREADS)
     return LlmPolicy(weights or default_weights())

@@ -17,7 +17,7 @@ import torch
 
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import StateHeads
-from cltp.encoder.readings import WITHOUT_INTERVALS, Readings, readings_of
+from cltp.encoder.readings import WITHOUT_INTERVALS, HeadReadings, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
@@ -118,7 +118,7 @@ class TouchReader:
 
 
 def reading_of(
-    read: Readings, cloud: TactileCloud, *, commanded_force_n: float | None = None
+    read: HeadReadings, cloud: TactileCloud, *, commanded_force_n: float | None = None
 ) -> TouchReading:
     """The reading of one cloud.
 

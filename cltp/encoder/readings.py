@@ -1,4 +1,4 @@
-"""Readings of the state heads in probabilities and units, as everybody uses them.
+"""HeadReadings of the state heads in probabilities and units, as everybody uses them.
 
 The loop, ``tacgrasp describe`` and the language model are given the same readings. Not here: the
 words and warnings that follow from them (``cltp.encoder.reader``).
@@ -30,7 +30,7 @@ _AREA = NUMBERS.index("area_fraction")
 _SIGNED = [name in ("x_mm", "y_mm") for name in NUMBERS]
 
 
-class Readings(NamedTuple):
+class HeadReadings(NamedTuple):
     """What the heads read of a batch of contacts.
 
     Attributes:
@@ -48,20 +48,22 @@ class Readings(NamedTuple):
     low: Tensor
     high: Tensor
 
-    def at(self, row: int) -> Readings:
+    def at(self, row: int) -> HeadReadings:
         """The readings of one contact, as a batch of one."""
         part = slice(row, row + 1)
-        return Readings(tuple(w[part] for w in self.words), *(each[part] for each in self[1:]))
+        return HeadReadings(tuple(w[part] for w in self.words), *(each[part] for each in self[1:]))
 
-    def to(self, device: torch.device) -> Readings:
+    def to(self, device: torch.device) -> HeadReadings:
         """The readings on another device."""
-        return Readings(tuple(w.to(device) for w in self.words), *(x.to(device) for x in self[1:]))
+        return HeadReadings(
+            tuple(w.to(device) for w in self.words), *(x.to(device) for x in self[1:])
+        )
 
 
 def readings_of(
     output: HeadsOutput, factor: float | Tensor = 1.0, spread: float | Tensor = 0.0
-) -> Readings:
-    """Readings out of the heads' output.
+) -> HeadReadings:
+    """HeadReadings out of the heads' output.
 
     Args:
         output: Output of ``StateHeads`` for B contacts.
@@ -88,7 +90,7 @@ def readings_of(
         _clipped(torch.cat([ends[:, :_FORCE], own[:, None]], dim=1))
         for ends, own in ((values, force), (low, least), (high, most))
     )
-    return Readings(
+    return HeadReadings(
         words=tuple(scores.softmax(-1) for scores in output.logits),
         touching=output.touching.sigmoid(),
         cut=output.cut.sigmoid(),

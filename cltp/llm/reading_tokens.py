@@ -18,7 +18,7 @@ import torch.nn.functional as F
 from torch import Tensor, nn
 
 from cltp.encoder.heads import transformed
-from cltp.encoder.readings import Readings
+from cltp.encoder.readings import HeadReadings
 from cltp.tactile.states import CLASSES, NUMBERS, Side
 
 LAST_DIGIT = {"depth_mm": 0.01, "x_mm": 0.1, "y_mm": 0.1, "area_fraction": 0.001, "force_n": 0.01}
@@ -52,8 +52,8 @@ class ReadingTokens(nn.Module):
         self.register_buffer("unit", unit, persistent=False)
         self.register_buffer("periods", torch.tensor(PERIODS), persistent=False)
 
-    def forward(self, readings: Readings, given: Tensor | None = None) -> Tensor:
-        """Readings of B contacts to tokens (B, 6, D).
+    def forward(self, readings: HeadReadings, given: Tensor | None = None) -> Tensor:
+        """HeadReadings of B contacts to tokens (B, 6, D).
 
         Args:
             readings: The readings.
@@ -69,7 +69,7 @@ class ReadingTokens(nn.Module):
             tokens = torch.where(given[..., None], tokens, self.left_out.to(tokens.dtype))
         return self.out(F.gelu(tokens))
 
-    def features(self, readings: Readings) -> Tensor:
+    def features(self, readings: HeadReadings) -> Tensor:
         """Numbers and the ends of their intervals with sines and cosines of phases: (B, 5, 27)."""
         parts = []
         for numbers in (readings.values, readings.low, readings.high):

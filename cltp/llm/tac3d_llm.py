@@ -16,7 +16,7 @@ from torch import Tensor, nn
 
 from cltp.encoder.encoder import Encoded, TactileEncoder
 from cltp.encoder.heads import StateHeads
-from cltp.encoder.readings import Readings, readings_of
+from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.llm.causal_lm import Language
 from cltp.llm.reading_tokens import NUM_READINGS, ReadingTokens
 from cltp.tactile.point_layout import PointLayout
@@ -52,7 +52,9 @@ class Projector(nn.Module):
         )
         self.readings = ReadingTokens(lm_dim)
 
-    def forward(self, encoded: Encoded, readings: Readings, given: Tensor | None = None) -> Tensor:
+    def forward(
+        self, encoded: Encoded, readings: HeadReadings, given: Tensor | None = None
+    ) -> Tensor:
         """An encoded batch and its readings to embeddings (B, G + 1 + 4 + 6, D).
 
         ``given`` is as in ``ReadingTokens.forward``.
@@ -98,7 +100,7 @@ class Tac3dLlm(nn.Module):
         return self.projected(encoded, readings_of(self.heads(encoded.pooled)))
 
     def projected(
-        self, encoded: Encoded, readings: Readings, given: Tensor | None = None
+        self, encoded: Encoded, readings: HeadReadings, given: Tensor | None = None
     ) -> Tensor:
         """Embeddings of an encoded batch: shape (B, P, D).
 

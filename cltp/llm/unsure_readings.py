@@ -1,4 +1,4 @@
-"""Readings with errors and gaps, for learning: the language model is to trust its touch too.
+"""HeadReadings with errors and gaps, for learning: the language model is to trust its touch too.
 
 Heads that were always right would be all that a language model listens to. So some readings are
 left out, some have one error, some are another contact's, and those that stand for contacts without
@@ -14,7 +14,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from cltp.encoder.readings import Readings
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.reading_tokens import NUM_READINGS
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 
@@ -41,12 +41,12 @@ class ShownReadings(NamedTuple):
         meant: Shape (B,), the contact of the batch that is talked about.
     """
 
-    readings: Readings
+    readings: HeadReadings
     given: Tensor
     meant: Tensor
 
 
-def shown(readings: Readings, rng: np.random.Generator) -> ShownReadings:
+def shown(readings: HeadReadings, rng: np.random.Generator) -> ShownReadings:
     """Draw what is shown of the right readings of B contacts."""
     size = len(readings.values)
     draw = rng.random(size)
@@ -57,13 +57,15 @@ def shown(readings: Readings, rng: np.random.Generator) -> ShownReadings:
     source = torch.where(swapped, rows.roll(1), rows)
     is_other = swapped & torch.from_numpy(rng.random(size) < 0.5)
     meant = torch.where(is_other, source, rows)
-    result = Readings(tuple(w[source] for w in readings.words), *(r[source] for r in readings[1:]))
+    result = HeadReadings(
+        tuple(w[source] for w in readings.words), *(r[source] for r in readings[1:])
+    )
     for row in np.flatnonzero((draw >= LEFT_OUT) & (draw < LEFT_OUT + ONE_ERROR)):
         _spoil(result, int(row), int(rng.integers(len(CLASSES) + len(NUMBERS))), rng)
     return ShownReadings(result, given, meant)
 
 
-def _spoil(readings: Readings, row: int, head: int, rng: np.random.Generator) -> None:
+def _spoil(readings: HeadReadings, row: int, head: int, rng: np.random.Generator) -> None:
     """Put an error into one head's reading of a contact, in place."""
     if head < len(CLASSES):
         readings.words[head][row] = torch.from_numpy(_sure(readings.words[head].shape[1], rng))
@@ -92,8 +94,8 @@ def _sure(classes: int, rng: np.random.Generator, right: int | None = None) -> n
     return rest.astype(np.float32)
 
 
-def drawn_readings(states: Sequence[ContactState], rng: np.random.Generator) -> Readings:
-    """Readings such as good heads might give of contacts, around their true states."""
+def drawn_readings(states: Sequence[ContactState], rng: np.random.Generator) -> HeadReadings:
+    """HeadReadings such as good heads might give of contacts, around their true states."""
     words: list[list[np.ndarray]] = [[] for _ in CLASSES]
     for state in states:
         for column, (name, classes) in enumerate(CLASSES.items()):
@@ -106,7 +108,7 @@ def drawn_readings(states: Sequence[ContactState], rng: np.random.Generator) -> 
     low, high = np.log(INTERVALS)
     half = torch.from_numpy(np.exp(rng.uniform(low, high, (2, *values.shape))).astype(np.float32))
     sizes = values.abs().clamp(min=0.02)
-    return Readings(
+    return HeadReadings(
         words=tuple(torch.from_numpy(np.stack(column)) for column in words),
         touching=touching,
         cut=cut,
@@ -117,7 +119,7 @@ def drawn_readings(states: Sequence[ContactState], rng: np.random.Generator) -> 
 
 
 def told_numbers(
-    readings: Readings, row: int
+    readings: HeadReadings, row: int
 ) -> tuple[dict[str, float], dict[str, tuple[float, float]]]:
     """Numbers of one contact and the ends of their intervals, by name."""
     values = readings.values[row].tolist()

@@ -37,7 +37,7 @@ from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.encoder.encoder import Encoded
-from cltp.encoder.readings import Readings, readings_of
+from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import NUM_READINGS
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -244,7 +244,7 @@ class _Learner:
             yield _Sample(encoded, told, packed)
 
     @torch.no_grad()
-    def _felt(self, batch: Batch, factors: Tensor, spreads: Tensor) -> tuple[Encoded, Readings]:
+    def _felt(self, batch: Batch, factors: Tensor, spreads: Tensor) -> tuple[Encoded, HeadReadings]:
         """Encoding and readings of a batch; the readings on the CPU."""
         with self.run.workers.autocast():
             encoded = self.model.encoder(torch.from_numpy(batch.points).to(self.run.workers.device))
@@ -277,7 +277,7 @@ def _in_newtons(states: Sequence[ContactState], factors: Tensor) -> list[Contact
 
 
 def _felt(
-    state: ContactState, readings: Readings, row: int, rng: np.random.Generator
+    state: ContactState, readings: HeadReadings, row: int, rng: np.random.Generator
 ) -> ToldContact:
     """What is to be told of a contact: its words, the numbers that are read, drawn doubts."""
     if not state.in_contact:

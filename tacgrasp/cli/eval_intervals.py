@@ -53,8 +53,8 @@ def main(argv: Sequence[str]) -> None:
     writable(flags.json)
     contacts_in(flags.data, command="tacgrasp data generate --set full")
     from cltp.train.progress import Bar
+    from tacgrasp.benchmarks.transfer.intervals import evaluate_intervals
     from tacgrasp.policy_factory import default_weights
-    from tacgrasp.training.interval_evaluation import evaluate_intervals
 
     weights = flags.weights or default_weights()
     with Bar(line_s=10.0) as report:

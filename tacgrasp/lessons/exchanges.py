@@ -1,6 +1,6 @@
 """Exchanges that teach the language model: captions, questions of the grammar, and advice.
 
-Advice is D_t (``policies.reply``): a target stands in the request, ``policies.teacher`` advises on
+Advice is D_t (``policies.llm``): a target stands in the request, ``policies.teacher`` advises on
 the contact for it, and the reply is what the model learns. ``cltp.train`` receives texts and knows
 no targets. The paper's caption is the reply to a request for a description.
 
@@ -19,7 +19,7 @@ from cltp.tactile.states import ContactState
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from cltp.texts.told import ToldContact
-from policies.reply.text import (
+from policies.llm.text import (
     advice_text,
     contact_text,
     cut_text,

@@ -22,7 +22,7 @@ from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
 from cltp.texts.exchange_packing import Exchange
 from policies import PolicyError
-from policies.reply.text import NOTHING
+from policies.llm.text import NOTHING
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answer_values import answer_in
 from tacgrasp.lessons.dialogue.answers import Answer

@@ -18,7 +18,7 @@ from policies import Observation, PolicyError
 
 if TYPE_CHECKING:
     from cltp.encoder.reader import TouchReader
-    from policies.llm import LlmPolicy
+    from policies.llm.policy import LlmPolicy
     from primitives.contract import Contract
 
 CAPTION_REQUEST = "Describe the contact."

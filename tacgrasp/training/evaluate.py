@@ -40,7 +40,7 @@ from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, PolicyError
 from policies.contract_steps import target_of
-from policies.llm import LlmPolicy
+from policies.llm.policy import LlmPolicy
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives.contract import Contract
 from tacgrasp.lessons.captions import read_numbers

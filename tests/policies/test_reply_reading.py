@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from cltp.tactile.states import CLASSES, NO_CONTACT_STATE
-from policies.reply.reading import SaidContact, read_contact
-from policies.reply.text import NOTHING, contact_text, said_numbers
+from policies.llm.reading import SaidContact, read_contact
+from policies.llm.text import NOTHING, contact_text, said_numbers
 from tests.fakes.question_scenes import contact, random_states
 
 

@@ -28,15 +28,15 @@ from torch import Tensor
 
 from cltp.errors import TouchError
 from cltp.llm.constrained.grammar import (
-    Choice,
+    FixedText,
     Grammar,
-    Literal,
-    Number,
+    NumberText,
     Option,
     Part,
+    TextChoice,
     match,
 )
-from cltp.llm.constrained.tokens import Node, Tokens
+from cltp.llm.constrained.tokens import GrammarTokens, Node
 
 CLOSE = 1e-3
 """Distance of two logits, of two log-probabilities or of a probability from its threshold, below
@@ -47,7 +47,7 @@ DOUBT_BELOW = 0.6
 choice: four in ten are worth a word more."""
 
 AHEAD = 16
-"""Tokens of a draft that are fed along after the reply has left it. Our choice: on a CPU they cost
+"""GrammarTokens of a draft that are fed along after the reply has left it. Our choice: on a CPU they cost
 half a pass, and a draft that was wrong once is often wrong again soon."""
 
 
@@ -67,7 +67,7 @@ class Decoder(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Decision:
+class PartDecision:
     """What was decided about one part of a reply.
 
     Attributes:
@@ -97,14 +97,14 @@ class Constrained:
         ids: Its tokens, without the one that ends it.
         ended: False where the decoder's positions did not suffice: the text is cut off.
         decisions: What was decided, by the name of the part, in the reply's order.
-        passes: Number of forward passes.
-        close_calls: Number of passes among these that were spent on close decisions.
+        passes: NumberText of forward passes.
+        close_calls: NumberText of passes among these that were spent on close decisions.
     """
 
     text: str
     ids: list[int]
     ended: bool
-    decisions: dict[str, Decision]
+    decisions: dict[str, PartDecision]
     passes: int
     close_calls: int
 
@@ -201,7 +201,7 @@ def _plain(logits: Tensor) -> NDArray[np.float32]:
 class _Draft:
     """The tokens of an expected reply, and where each part begins in them."""
 
-    def __init__(self, text: str, grammar: Grammar, tokens: Tokens) -> None:
+    def __init__(self, text: str, grammar: Grammar, tokens: GrammarTokens) -> None:
         self._ids: list[int] = []
         self._begins: dict[str, int] = {}
         for segment in match(grammar, text)[0]:
@@ -222,10 +222,10 @@ class ConstrainedDecoder:
 
     Args:
         decoder: Runs the model.
-        tokens: Tokens of texts under the model's tokenizer.
+        tokens: GrammarTokens of texts under the model's tokenizer.
     """
 
-    def __init__(self, decoder: Decoder, tokens: Tokens) -> None:
+    def __init__(self, decoder: Decoder, tokens: GrammarTokens) -> None:
         self._decoder, self._tokens = decoder, tokens
 
     def decode(
@@ -281,7 +281,7 @@ class _Run:
     def __init__(
         self,
         rows: _Rows,
-        tokens: Tokens,
+        tokens: GrammarTokens,
         draft: _Draft,
         penalties: Mapping[str, float],
         doubt_below: Mapping[str, float],
@@ -290,18 +290,18 @@ class _Run:
         self.penalties, self.doubt_below = penalties, doubt_below
         self.said: list[int] = []
         self.texts: list[str] = []
-        self.decisions: dict[str, Decision] = {}
+        self.decisions: dict[str, PartDecision] = {}
         self._name, self._begin = "", 0
 
     def say(self, grammar: Grammar) -> None:
         pending: list[Part] = list(reversed(grammar))
         while pending:
             part = pending.pop()
-            if isinstance(part, Literal):
+            if isinstance(part, FixedText):
                 self._say_literal(part.text)
                 continue
             self._name, self._begin = part.name, len(self.said)
-            if isinstance(part, Number):
+            if isinstance(part, NumberText):
                 self._say_number(part)
                 self._say_literal(part.after)
             else:
@@ -311,7 +311,7 @@ class _Run:
         self.said += self.tokens.of(text)
         self.texts.append(text)
 
-    def _say_choice(self, part: Choice) -> Option:
+    def _say_choice(self, part: TextChoice) -> Option:
         """Decide between texts, and say the chosen one, and its rival where it is in doubt."""
         options = [o for o in part.options if self.penalties.get(o.value) != math.inf]
         if not options:
@@ -331,7 +331,7 @@ class _Run:
             index = self._descend(tuple(other.rival for other in others))
             rival = others[index].value
             self.texts.append(others[index].rival)
-        self.decisions[part.name] = Decision(
+        self.decisions[part.name] = PartDecision(
             name=part.name,
             chosen=chosen.value,
             probability=walk.mass,
@@ -385,7 +385,7 @@ class _Run:
             node = node.children[token]
         return node.ended
 
-    def _say_number(self, part: Number) -> None:
+    def _say_number(self, part: NumberText) -> None:
         """Decide a number digit by digit, and whether it is the low end of an interval."""
         node, second = self.tokens.number(part)
         end = self.tokens.of(part.after)[0] if part.after else None
@@ -410,7 +410,7 @@ class _Run:
             node = followers[token]
         value += part.texts[_index(node)]
         self.texts.append(f" {value}")
-        self.decisions[part.name] = Decision(
+        self.decisions[part.name] = PartDecision(
             name=part.name,
             chosen=value,
             probability=mass,

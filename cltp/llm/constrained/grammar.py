@@ -19,7 +19,7 @@ _UNSIGNED = re.compile(r"\d+(?:\.\d+)?")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Literal:
+class FixedText:
     """A text that is always said.
 
     Attributes:
@@ -48,7 +48,7 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Choice:
+class TextChoice:
     """One of several texts, none of which is the beginning of another.
 
     Attributes:
@@ -61,13 +61,13 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
-class Number:
+class NumberText:
     """A number as text, or an interval such as ' 0.25-0.41', with what stands behind it.
 
     Attributes:
         name: Name of the part.
         texts: Every number that may be said, as text, in ascending order.
-        after: Literal behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
+        after: FixedText behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
             empty where no number begins another one and there are no intervals.
         interval: Whether two ascending numbers may be said in its place.
     """
@@ -86,7 +86,7 @@ class Number:
         return self._order.get(text)
 
 
-Part: TypeAlias = Literal | Choice | Number
+Part: TypeAlias = FixedText | TextChoice | NumberText
 Grammar: TypeAlias = tuple[Part, ...]
 
 
@@ -134,10 +134,10 @@ def match(grammar: Grammar, text: str) -> tuple[list[Segment], bool]:
 
 def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     """Segments of a text from ``at`` on that a part allows, each with what must follow it."""
-    if isinstance(part, Literal):
+    if isinstance(part, FixedText):
         if text.startswith(part.text, at):
             yield Segment("", part.text), ()
-    elif isinstance(part, Number):
+    elif isinstance(part, NumberText):
         yield from _number_ways(part, text, at)
     else:
         for option in part.options:
@@ -152,7 +152,7 @@ def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
                     yield Segment(part.name, both, option.value, other.value), option.then
 
 
-def _number_ways(part: Number, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
+def _number_ways(part: NumberText, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     found = _NUMBER.match(text, at + 1) if text.startswith(" ", at) else None
     low = part.place(found[0]) if found else None
     if found is None or low is None:
@@ -165,4 +165,4 @@ def _number_ways(part: Number, text: str, at: int) -> Iterator[tuple[Segment, Gr
             return
         end = second.end()
     value = text[at + 1 : end]
-    yield Segment(part.name, text[at:end], value), (Literal(part.after),)
+    yield Segment(part.name, text[at:end], value), (FixedText(part.after),)

@@ -2,6 +2,6 @@
 
 Not here: how right models are (``tacgrasp.training``, ``tacgrasp.pretraining``).
 
-May import: cltp, policies, sim.gel, sim.gel.fine, sim.tcl3d, tacgrasp, tacgrasp.base,
-tacgrasp.benchmarks, tacgrasp.config, tacgrasp.episodes, tacgrasp.rig.
+May import: cltp, policies, policies.llm, primitives, sim.gel, sim.gel.fine, sim.tcl3d, tacgrasp,
+tacgrasp.base, tacgrasp.benchmarks, tacgrasp.config, tacgrasp.episodes, tacgrasp.rig.
 """

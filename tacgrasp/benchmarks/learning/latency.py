@@ -83,7 +83,7 @@ def _language_model(
     contract: Contract,
     stages_ms: dict[str, dict[str, float]],
 ) -> dict[str, Any]:
-    from policies.llm import LlmPolicy
+    from policies.llm.policy import LlmPolicy
     from tacgrasp.benchmarks.learning.llm_latency import language_report, start_to_first_action_s
 
     if not isinstance(policy, LlmPolicy):

@@ -30,8 +30,8 @@ from cltp.llm.flops import (
 from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
 from policies import Observation
-from policies.llm import LlmPolicy, SaidStep
-from policies.reply.text import step_request
+from policies.llm.policy import LlmPolicy, SaidStep
+from policies.llm.text import step_request
 from primitives.contract import Contract
 from tacgrasp.base.errors import UsageError
 from tacgrasp.benchmarks.figures import times_ms

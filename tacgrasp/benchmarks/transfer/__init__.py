@@ -3,6 +3,6 @@
 Not here: scores on the test splits of our own data sets (``tacgrasp.training``,
 ``tacgrasp.pretraining``).
 
-May import: cltp, sim.independent, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
+May import: cltp, sim.grasp, sim.independent, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
 tacgrasp.benchmarks.loop, tacgrasp.datasets.
 """

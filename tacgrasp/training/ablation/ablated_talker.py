@@ -15,7 +15,7 @@ from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import NOMINAL, Felt, Reply, Talker
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
-from policies.reply.text import REQUEST
+from policies.llm.text import REQUEST
 from tacgrasp.training.ablation.touch_parts import TouchParts, mean_tokens, touch_parts
 
 

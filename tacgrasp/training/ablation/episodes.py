@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any, cast
 
 from cltp.llm.generation import Talker
-from policies.llm import LlmPolicy
+from policies.llm.policy import LlmPolicy
 from sim.grasp.rig import build
 from tacgrasp.benchmarks.loop.contestants import Contestant
 from tacgrasp.benchmarks.loop.strawberry import EpisodeResult, run_entered, summary

@@ -8,7 +8,7 @@ from typing import Any
 
 from cltp.llm.generation import Reply
 from cltp.train.stage import ProgressReport, silent
-from policies.llm import LlmPolicy
+from policies.llm.policy import LlmPolicy
 from tacgrasp.lessons.exchanges import BLIND
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.training.ablation import episodes

@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 from torch import Tensor
 
-from cltp.encoder.readings import Readings
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.states import CLASSES
-from policies.reply.grammar import step_grammar
-from policies.reply.reading import SaidContact, read_contact
-from policies.reply.text import step_request
+from policies.llm.grammar import step_grammar
+from policies.llm.reading import SaidContact, read_contact
+from policies.llm.text import step_request
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.question_draws import draw_contract
 from tacgrasp.training.ablation.touch_parts import Misreading, touch_parts
@@ -128,7 +128,7 @@ def score_misreadings(talker: Talker, steps: Sequence[AskedStep]) -> dict[str, A
 
 
 def _misreadings(
-    steps: Sequence[AskedStep], readings: Sequence[Readings]
+    steps: Sequence[AskedStep], readings: Sequence[HeadReadings]
 ) -> Iterator[tuple[AskedStep, str, Misreading, str]]:
     """Steps with the dimension that is misread, how, and the word that the head then reads."""
     dimensions = list(CLASSES)

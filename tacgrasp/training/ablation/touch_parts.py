@@ -12,7 +12,7 @@ from typing import NamedTuple
 import torch
 from torch import Tensor
 
-from cltp.encoder.readings import Readings
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt
 from cltp.llm.reading_tokens import NUM_READINGS
 from cltp.llm.tac3d_llm import Tac3dLlm
@@ -48,7 +48,7 @@ class Misreading:
     dimension: str
     chances: Tensor
 
-    def of(self, readings: Readings) -> Readings:
+    def of(self, readings: HeadReadings) -> HeadReadings:
         """The readings of one contact, misread."""
         words = list(readings.words)
         words[list(CLASSES).index(self.dimension)] = self.chances[None]

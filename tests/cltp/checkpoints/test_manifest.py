@@ -13,7 +13,7 @@ from cltp.checkpoints.frozen import load_frozen
 from cltp.checkpoints.manifest import MANIFEST, WeightsError, check_manifest, write_manifest
 from cltp.checkpoints.tac3d_llm import load_clip, load_encoder, load_tac3d_llm
 from cltp.errors import TouchError
-from policies.llm import LlmPolicy
+from policies.llm.policy import LlmPolicy
 from tacgrasp.base.errors import UsageError
 from tacgrasp.policy_factory import shipped_weights
 from tacgrasp.training.train import write_manifests

@@ -25,8 +25,8 @@ from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.exchange_packing import NOT_LEARNED, Exchange, pack
 from cltp.texts.tokenizer import ACTIONS, Words
-from policies.reply.grammar import step_grammar
-from policies.reply.parse import parse_reply
+from policies.llm.grammar import step_grammar
+from policies.llm.parse import parse_reply
 from primitives.contract import Band
 
 TEXTS = [

@@ -11,8 +11,8 @@ from cltp.llm.generation import Talker
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.sensors import SENSORS
 from cltp.texts.tokenizer import ACTIONS, Words
-from policies.reply.grammar import caption_grammar, step_grammar
-from policies.reply.parse import parse_caption_reply, parse_reply
+from policies.llm.grammar import caption_grammar, step_grammar
+from policies.llm.parse import parse_caption_reply, parse_reply
 from primitives.contract import Band
 from tests.fakes.language import random_lm, random_text
 

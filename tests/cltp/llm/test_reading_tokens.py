@@ -5,7 +5,7 @@ import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import HeadsOutput, StateHeads, transformed
-from cltp.encoder.readings import Readings, readings_of
+from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.llm.causal_lm import Language, small_lm
 from cltp.llm.reading_tokens import LAST_DIGIT, NUM_READINGS, ReadingTokens
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -16,7 +16,7 @@ SPOKEN = torch.tensor([[0.47, -3.2, 1.9, 0.123, 1.58]])
 """Depth [mm], x [mm], y [mm], share, force [N]: whole last digits."""
 
 
-def read(numbers: torch.Tensor, margin: float = 0.1) -> Readings:
+def read(numbers: torch.Tensor, margin: float = 0.1) -> HeadReadings:
     batch = len(numbers)
     return readings_of(
         HeadsOutput(

@@ -19,7 +19,7 @@ from cltp.tactile.point_layout import EVEN
 from cltp.texts.tokenizer import ACTIONS, Words
 from cltp.train.stage import TrainingRun
 from policies import PolicyError
-from policies.llm import LlmPolicy
+from policies.llm.policy import LlmPolicy
 from tacgrasp import policy_factory
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError

@@ -12,8 +12,8 @@ import torch
 
 from cltp.llm.generation import Reply, Talker
 from cltp.tactile.states import CLASSES
-from policies.llm import LlmPolicy
-from policies.reply.text import REQUEST, advice_text, contact_text
+from policies.llm.policy import LlmPolicy
+from policies.llm.text import REQUEST, advice_text, contact_text
 from tacgrasp.__main__ import main
 from tacgrasp.training.ablation.ablated_talker import (
     ABLATIONS,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 from cltp.tactile.states import CLASSES, Side
 from cltp.texts.captions import alternatives
-from policies.reply.text import NOTHING, OR
+from policies.llm.text import NOTHING, OR
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

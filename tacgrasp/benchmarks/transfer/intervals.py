@@ -23,7 +23,7 @@ from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import StateHeads
-from cltp.encoder.readings import Readings, readings_of
+from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import NUMBERS
@@ -56,7 +56,7 @@ class Group:
     """
 
     name: str
-    readings: Readings
+    readings: HeadReadings
     truth: NDArray[np.float64]
 
 
@@ -102,8 +102,8 @@ class _Reader:
         return Sampler(data, noise, seed=self.seed, layout=self.encoder.config.variant.layout)
 
     @torch.inference_mode()
-    def read(self, points: NDArray[np.float32], sensor_name: str) -> Readings:
-        """Readings of clouds (B, N, 3), each of a unit of its own."""
+    def read(self, points: NDArray[np.float32], sensor_name: str) -> HeadReadings:
+        """HeadReadings of clouds (B, N, 3), each of a unit of its own."""
         scales = [
             drawn_force_calibration(sensor_name, self.seed + place).scale
             for place in range(len(points))
@@ -176,10 +176,10 @@ def _made(
     return Group(name=name, readings=_joined(parts), truth=truth)
 
 
-def _joined(parts: Sequence[Readings]) -> Readings:
+def _joined(parts: Sequence[HeadReadings]) -> HeadReadings:
     words = tuple(torch.cat(each) for each in zip(*(part.words for part in parts), strict=True))
     others = (torch.cat(each) for each in zip(*(part[1:] for part in parts), strict=True))
-    return Readings(words, *others)
+    return HeadReadings(words, *others)
 
 
 def _widths(group: Group) -> NDArray[np.float64]:

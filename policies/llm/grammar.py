@@ -1,10 +1,10 @@
 """The grammar of D_t in one step, and that of the reply to a request for a description.
 
-D_t is the contact, the target, the action and the reason, as ``policies.reply.text`` words them.
+D_t is the contact, the target, the action and the reason, as ``policies.llm.text`` words them.
 The target is the step's own. Numbers lie within the sensor's range, reasons belong to their action,
 and barred actions can't be named.
 
-Not here: reading such a text back (``policies.reply.parse``).
+Not here: reading such a text back (``policies.llm.parse``).
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from cltp.llm.constrained.grammar import Choice, Grammar, Literal, Number, Option, Part
+from cltp.llm.constrained.grammar import FixedText, Grammar, NumberText, Option, Part, TextChoice
 from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import CLASSES, Side
 from cltp.texts.captions import NO_CONTACT, with_article
 from policies.errors import PolicyError
-from policies.reply.text import (
+from policies.llm.text import (
     NOTHING,
     OR,
     advice_text,
@@ -104,7 +104,7 @@ def step_grammar(
         PolicyError: Every action is barred.
     """
     forbidden = frozenset(barred)
-    goal = Literal(f" {goal_text(force_n)} Action:")
+    goal = FixedText(f" {goal_text(force_n)} Action:")
     in_contact, without = (
         _advice(every, forbidden) for every in (ADVICE_IN_CONTACT, ADVICE_WITHOUT_CONTACT)
     )
@@ -116,7 +116,7 @@ def step_grammar(
     ]
     if without is not None:
         options.append(Option(NOTHING_TOUCHES, NOTHING, then=(goal, without)))
-    return (Choice(words.name, tuple(options)),)
+    return (TextChoice(words.name, tuple(options)),)
 
 
 @lru_cache(16)
@@ -131,23 +131,23 @@ def caption_grammar(sensor: SensorSpec | None, nouns: tuple[str, ...] = NOUNS) -
     first, more = _nouns(nouns, with_article)
     rest = (
         *more,
-        Literal(" object, pressed" if nouns else ", pressed"),
+        FixedText(" object, pressed" if nouns else ", pressed"),
         _word("depth"),
-        Literal(" in"),
+        FixedText(" in"),
         _word("position"),
-        Literal(" with"),
+        FixedText(" with"),
         _word("area"),
-        Literal(" contact area."),
-        Number("depth_mm", numbers.depth, " mm,"),
-        Number("force_n", numbers.force, " N,"),
-        Number("area_fraction", numbers.area, " %, x"),
-        Number("x_mm", numbers.x, ", y"),
-        Number("y_mm", numbers.y, ""),
+        FixedText(" contact area."),
+        NumberText("depth_mm", numbers.depth, " mm,"),
+        NumberText("force_n", numbers.force, " N,"),
+        NumberText("area_fraction", numbers.area, " %, x"),
+        NumberText("x_mm", numbers.x, ", y"),
+        NumberText("y_mm", numbers.y, ""),
         _cut(),
     )
     options = [Option(one.value, one.text, one.rival, rest) for one in first.options]
     options.append(Option(NOTHING_TOUCHES, f"{NO_CONTACT} 0.00 mm, 0.00 N."))
-    return (Choice(first.name, tuple(options)),)
+    return (TextChoice(first.name, tuple(options)),)
 
 
 class _Words(NamedTuple):
@@ -174,16 +174,16 @@ def _contact(ranges: Ranges, nouns: tuple[str, ...]) -> tuple[_Words, tuple[Part
     first, more = _nouns(nouns, str)
     return first, (
         *more,
-        Literal(","),
+        FixedText(","),
         _word("depth"),
-        Number("depth_mm", numbers.depth, " mm,", interval=True),
+        NumberText("depth_mm", numbers.depth, " mm,", interval=True),
         _word("position"),
-        Literal(" x"),
-        Number("x_mm", numbers.x, " y"),
-        Number("y_mm", numbers.y, ","),
+        FixedText(" x"),
+        NumberText("x_mm", numbers.x, " y"),
+        NumberText("y_mm", numbers.y, ","),
         _word("area"),
-        Number("area_fraction", numbers.area, " %,", interval=True),
-        Number("force_n", numbers.force, " N", interval=True),
+        NumberText("area_fraction", numbers.area, " %,", interval=True),
+        NumberText("force_n", numbers.force, " N", interval=True),
         _cut(),
     )
 
@@ -223,20 +223,20 @@ def _nouns(nouns: tuple[str, ...], begin: Callable[[str], str]) -> tuple[_Words,
     return _Words(nouns[0], first), tuple(_word(name) for name in nouns[1:])
 
 
-def _word(name: str) -> Choice:
+def _word(name: str) -> TextChoice:
     """A word of a dimension of the contact, or two."""
-    return Choice(name, tuple(Option(w, f" {w}", f"{OR}{w}") for w in CLASSES[name]))
+    return TextChoice(name, tuple(Option(w, f" {w}", f"{OR}{w}") for w in CLASSES[name]))
 
 
-def _cut() -> Choice:
+def _cut() -> TextChoice:
     """The sides that cut the contact off, and the full stop."""
     names = sorted(Side)
     subsets = [sides for count in range(len(names) + 1) for sides in combinations(names, count)]
-    return Choice(CUT, tuple(Option(" ".join(each), f"{cut_text(each)}.") for each in subsets))
+    return TextChoice(CUT, tuple(Option(" ".join(each), f"{cut_text(each)}.") for each in subsets))
 
 
 @lru_cache(64)
-def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> Choice | None:
+def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> TextChoice | None:
     """The action and its reason; None where all are barred."""
     reasons: dict[str, list[Option]] = {}
     for advice in every:
@@ -244,8 +244,8 @@ def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> Choice | None:
         text = advice_text(advice).removeprefix(f"Action: {token}.")
         reasons.setdefault(token, []).append(Option(advice.reason.name, text))
     options = tuple(
-        Option(token, f" {token}", then=(Literal("."), Choice(REASON, tuple(choices))))
+        Option(token, f" {token}", then=(FixedText("."), TextChoice(REASON, tuple(choices))))
         for token, choices in reasons.items()
         if token not in barred
     )
-    return Choice(ACTION, options) if options else None
+    return TextChoice(ACTION, options) if options else None

@@ -4,7 +4,7 @@ import pytest
 
 from cltp.texts.tokenizer import Words
 from policies import PolicyError
-from policies.reply.question_check import MAX_WORDS, check_question
+from policies.llm.question_check import MAX_WORDS, check_question
 
 
 @pytest.fixture(scope="module")

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import torch
 
-from cltp.encoder.readings import Readings
+from cltp.encoder.readings import HeadReadings
 from cltp.tactile.states import CLASSES
-from tacgrasp.training.interval_evaluation import Group, _figures, _widths
+from tacgrasp.benchmarks.transfer.intervals import Group, _figures, _widths
 
 
 def group(shift: float, margin: float, count: int = 400) -> Group:
@@ -16,7 +16,7 @@ def group(shift: float, margin: float, count: int = 400) -> Group:
     values = torch.tensor(truth * (1 + shift * rng.uniform(-1, 1, truth.shape)))
     return Group(
         name="drawn",
-        readings=Readings(
+        readings=HeadReadings(
             words=tuple(torch.zeros(count, len(names)) for names in CLASSES.values()),
             touching=torch.ones(count),
             cut=torch.zeros(count, 4),

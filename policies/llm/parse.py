@@ -1,4 +1,4 @@
-"""Reading replies in the grammar back: exactly what ``policies.reply.grammar`` allows, no more.
+"""Reading replies in the grammar back: exactly what ``policies.llm.grammar`` allows, no more.
 
 Not here: reading an action out of any text (``policies.extraction``).
 """
@@ -13,7 +13,7 @@ from cltp.llm.constrained.grammar import Grammar, Segment, match
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import DIMENSIONS, NUMBERS, Side
 from policies.errors import PolicyError
-from policies.reply.grammar import (
+from policies.llm.grammar import (
     ACTION,
     ALL_NOUNS,
     CUT,

@@ -8,7 +8,7 @@ import pytest
 import torch
 from numpy.typing import NDArray
 
-import policies.llm
+import policies.llm.policy
 from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
 from cltp.encoder.encoder import PRESETS, TactileEncoder
@@ -25,9 +25,9 @@ from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
 from policies.errors import PolicyError
 from policies.extraction import extract
-from policies.llm import LlmPolicy, hold_reason, repeated_moves
-from policies.reply.grammar import step_grammar
-from policies.reply.parse import parse_reply
+from policies.llm.grammar import step_grammar
+from policies.llm.parse import parse_reply
+from policies.llm.policy import LlmPolicy, hold_reason, repeated_moves
 from primitives import Primitive
 from primitives.contract import Band
 from primitives.sense import Interval
@@ -198,10 +198,10 @@ def test_what_can_t_be_trusted_is_not_acted_on(
     monkeypatch.setattr(
         policy.talker, "reply_to", lambda *_, **__: reply("Action: <reset>.", "<reset>")
     )
-    reading = policies.llm.reading_of
+    reading = policies.llm.policy.reading_of
     for flags, action in (((), Primitive.RESET), ((Flag.NOISE, Flag.FORCE), None)):
         monkeypatch.setattr(
-            policies.llm,
+            policies.llm.policy,
             "reading_of",
             lambda *a, flags=flags, **k: replace(reading(*a, **k), flags=flags),
         )
@@ -229,7 +229,7 @@ def test_what_is_clearly_felt_bars_the_decisions_against_it(
         asked.append(set(excluded))
         return step_grammar(None, Band(low=0.95, high=1.9), excluded)
 
-    monkeypatch.setattr(policies.llm, "step_grammar", record)
+    monkeypatch.setattr(policies.llm.policy, "step_grammar", record)
     felt = None if felt_n is None else Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
     policy.decide(Observation(cloud=touch(), felt_force_n=felt), contract(0.95, 1.9, 2.4))
     assert asked[0] == barred

@@ -1,6 +1,6 @@
 """The policy of the paper: Tac3D-LLM generates D_t from a cloud, and the action is read out of D_t.
 
-The model is asked for the step's target and answers in the grammar of D_t (``policies.reply``). A
+The model is asked for the step's target and answers in the grammar of D_t (``policies.llm``). A
 draft of the reply, from what the heads read and the teacher's advice on it, saves time and changes
 nothing. A step leads to no action where what is felt can't be trusted (``cltp.encoder.reader``), or
 where the model has too low a confidence.
@@ -23,17 +23,17 @@ from cltp.tactile.encoder_input import encoder_input
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
-from policies.observation import Observation
-from policies.policy import Decision
-from policies.reply.grammar import step_grammar
-from policies.reply.question_check import check_question
-from policies.reply.text import (
+from policies.llm.grammar import step_grammar
+from policies.llm.question_check import check_question
+from policies.llm.text import (
     advice_text,
     contact_text,
     goal_text,
     said_numbers,
     step_request,
 )
+from policies.observation import Observation
+from policies.policy import Decision
 from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
@@ -134,7 +134,7 @@ class LlmPolicy:
         """Refuse a question that the model can't read.
 
         Raises:
-            PolicyError: As for ``policies.reply.question_check.check_question``.
+            PolicyError: As for ``policies.llm.question_check.check_question``.
         """
         check_question(text, self._words)
 
@@ -164,7 +164,7 @@ class LlmPolicy:
             force_n: The target [N].
             limit_n: Force that is never exceeded [N].
             barred: Tokens of actions that what is felt refutes; the most probable other is taken.
-            request: What the model is asked; ``policies.reply.text.step_request`` when not given.
+            request: What the model is asked; ``policies.llm.text.step_request`` when not given.
         """
         said = self.say(observation, force_n, limit_n, barred, request)
         replied = self._clock()
