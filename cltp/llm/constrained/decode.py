@@ -47,7 +47,7 @@ DOUBT_BELOW = 0.6
 choice: four in ten are worth a word more."""
 
 AHEAD = 16
-"""GrammarTokens of a draft that are fed along after the reply has left it. Our choice: on a CPU they cost
+"""Tokens of a draft that are fed along after the reply has left it. Our choice: on a CPU they cost
 half a pass, and a draft that was wrong once is often wrong again soon."""
 
 
@@ -222,7 +222,7 @@ class ConstrainedDecoder:
 
     Args:
         decoder: Runs the model.
-        tokens: GrammarTokens of texts under the model's tokenizer.
+        tokens: Tokens of texts under the model's tokenizer.
     """
 
     def __init__(self, decoder: Decoder, tokens: GrammarTokens) -> None:

@@ -67,7 +67,7 @@ class NumberText:
     Attributes:
         name: Name of the part.
         texts: Every number that may be said, as text, in ascending order.
-        after: FixedText behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
+        after: Text behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
             empty where no number begins another one and there are no intervals.
         interval: Whether two ascending numbers may be said in its place.
     """

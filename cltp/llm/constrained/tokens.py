@@ -46,7 +46,7 @@ class Node:
 
 
 class GrammarTokens:
-    """GrammarTokens of texts, kept.
+    """Tokens of texts, kept.
 
     Args:
         encode: Gives the tokens of a text.
