@@ -3,5 +3,5 @@
 Not here: training (``cltp.train``), the texts that it learns (``cltp.texts``, ``tacgrasp.lessons``)
 and decisions made of its replies (``policies``).
 
-May import: cltp, cltp.encoder, cltp.tactile, cltp.texts.
+May import: cltp, cltp.encoder, cltp.llm.constrained, cltp.tactile, cltp.texts.
 """

@@ -22,9 +22,9 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.llm.causal_lm import CUE, Language
-from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, Decision
+from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, SlotDecision
 from cltp.llm.constrained.grammar import Grammar
-from cltp.llm.constrained.tokens import Tokens
+from cltp.llm.constrained.tokens import TextTokens
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.tactile.point_layout import PointLayout
@@ -64,7 +64,7 @@ class Reply:
     action: str | None
     probabilities: tuple[float, ...]
     stage_ms: dict[str, float]
-    slots: Mapping[str, Decision] = field(default_factory=dict)
+    slots: Mapping[str, SlotDecision] = field(default_factory=dict)
     passes: int = 0
     close_calls: int = 0
     token_probabilities: tuple[float, ...] = ()
@@ -89,7 +89,7 @@ class Talker:
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
         self._constrained = ConstrainedDecoder(
-            self._fast or _Run(model.language), Tokens(model.language.encode)
+            self._fast or _Run(model.language), TextTokens(model.language.encode)
         )
 
     @property
@@ -181,7 +181,7 @@ class _Generated(NamedTuple):
     passes: int
     token_probabilities: Sequence[float] = ()
     text: str = ""
-    slots: Mapping[str, Decision] = {}
+    slots: Mapping[str, SlotDecision] = {}
     close_calls: int = 0
 
 
@@ -199,7 +199,7 @@ def _generated(reply: Constrained) -> _Generated:
     )
 
 
-def _of_eight(action: Decision) -> list[float]:
+def _of_eight(action: SlotDecision) -> list[float]:
     """Probabilities of the eight; actions that share one share it equally."""
     probabilities = dict.fromkeys(ACTIONS, 0.0)
     for names, probability in action.probabilities.items():

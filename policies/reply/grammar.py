@@ -16,7 +16,7 @@ from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from cltp.llm.constrained.grammar import Choice, Grammar, Literal, Number, Option, Part
+from cltp.llm.constrained.grammar import Grammar, NumberRange, Option, Part, TextChoice, Verbatim
 from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import CLASSES, Side
 from cltp.texts.captions import NO_CONTACT, with_article
@@ -104,7 +104,7 @@ def step_grammar(
         PolicyError: Every action is barred.
     """
     forbidden = frozenset(barred)
-    goal = Literal(f" {goal_text(force_n)} Action:")
+    goal = Verbatim(f" {goal_text(force_n)} Action:")
     in_contact, without = (
         _advice(every, forbidden) for every in (ADVICE_IN_CONTACT, ADVICE_WITHOUT_CONTACT)
     )
@@ -116,7 +116,7 @@ def step_grammar(
     ]
     if without is not None:
         options.append(Option(NOTHING_TOUCHES, NOTHING, then=(goal, without)))
-    return (Choice(words.name, tuple(options)),)
+    return (TextChoice(words.name, tuple(options)),)
 
 
 @lru_cache(16)
@@ -131,23 +131,23 @@ def caption_grammar(sensor: SensorSpec | None, nouns: tuple[str, ...] = NOUNS) -
     first, more = _nouns(nouns, with_article)
     rest = (
         *more,
-        Literal(" object, pressed" if nouns else ", pressed"),
+        Verbatim(" object, pressed" if nouns else ", pressed"),
         _word("depth"),
-        Literal(" in"),
+        Verbatim(" in"),
         _word("position"),
-        Literal(" with"),
+        Verbatim(" with"),
         _word("area"),
-        Literal(" contact area."),
-        Number("depth_mm", numbers.depth, " mm,"),
-        Number("force_n", numbers.force, " N,"),
-        Number("area_fraction", numbers.area, " %, x"),
-        Number("x_mm", numbers.x, ", y"),
-        Number("y_mm", numbers.y, ""),
+        Verbatim(" contact area."),
+        NumberRange("depth_mm", numbers.depth, " mm,"),
+        NumberRange("force_n", numbers.force, " N,"),
+        NumberRange("area_fraction", numbers.area, " %, x"),
+        NumberRange("x_mm", numbers.x, ", y"),
+        NumberRange("y_mm", numbers.y, ""),
         _cut(),
     )
     options = [Option(one.value, one.text, one.rival, rest) for one in first.options]
     options.append(Option(NOTHING_TOUCHES, f"{NO_CONTACT} 0.00 mm, 0.00 N."))
-    return (Choice(first.name, tuple(options)),)
+    return (TextChoice(first.name, tuple(options)),)
 
 
 class _Words(NamedTuple):
@@ -174,16 +174,16 @@ def _contact(ranges: Ranges, nouns: tuple[str, ...]) -> tuple[_Words, tuple[Part
     first, more = _nouns(nouns, str)
     return first, (
         *more,
-        Literal(","),
+        Verbatim(","),
         _word("depth"),
-        Number("depth_mm", numbers.depth, " mm,", interval=True),
+        NumberRange("depth_mm", numbers.depth, " mm,", interval=True),
         _word("position"),
-        Literal(" x"),
-        Number("x_mm", numbers.x, " y"),
-        Number("y_mm", numbers.y, ","),
+        Verbatim(" x"),
+        NumberRange("x_mm", numbers.x, " y"),
+        NumberRange("y_mm", numbers.y, ","),
         _word("area"),
-        Number("area_fraction", numbers.area, " %,", interval=True),
-        Number("force_n", numbers.force, " N", interval=True),
+        NumberRange("area_fraction", numbers.area, " %,", interval=True),
+        NumberRange("force_n", numbers.force, " N", interval=True),
         _cut(),
     )
 
@@ -223,20 +223,20 @@ def _nouns(nouns: tuple[str, ...], begin: Callable[[str], str]) -> tuple[_Words,
     return _Words(nouns[0], first), tuple(_word(name) for name in nouns[1:])
 
 
-def _word(name: str) -> Choice:
+def _word(name: str) -> TextChoice:
     """A word of a dimension of the contact, or two."""
-    return Choice(name, tuple(Option(w, f" {w}", f"{OR}{w}") for w in CLASSES[name]))
+    return TextChoice(name, tuple(Option(w, f" {w}", f"{OR}{w}") for w in CLASSES[name]))
 
 
-def _cut() -> Choice:
+def _cut() -> TextChoice:
     """The sides that cut the contact off, and the full stop."""
     names = sorted(Side)
     subsets = [sides for count in range(len(names) + 1) for sides in combinations(names, count)]
-    return Choice(CUT, tuple(Option(" ".join(each), f"{cut_text(each)}.") for each in subsets))
+    return TextChoice(CUT, tuple(Option(" ".join(each), f"{cut_text(each)}.") for each in subsets))
 
 
 @lru_cache(64)
-def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> Choice | None:
+def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> TextChoice | None:
     """The action and its reason; None where all are barred."""
     reasons: dict[str, list[Option]] = {}
     for advice in every:
@@ -244,8 +244,8 @@ def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> Choice | None:
         text = advice_text(advice).removeprefix(f"Action: {token}.")
         reasons.setdefault(token, []).append(Option(advice.reason.name, text))
     options = tuple(
-        Option(token, f" {token}", then=(Literal("."), Choice(REASON, tuple(choices))))
+        Option(token, f" {token}", then=(Verbatim("."), TextChoice(REASON, tuple(choices))))
         for token, choices in reasons.items()
         if token not in barred
     )
-    return Choice(ACTION, options) if options else None
+    return TextChoice(ACTION, options) if options else None

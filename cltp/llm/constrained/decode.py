@@ -28,15 +28,15 @@ from torch import Tensor
 
 from cltp.errors import TouchError
 from cltp.llm.constrained.grammar import (
-    Choice,
     Grammar,
-    Literal,
-    Number,
+    NumberRange,
     Option,
     Part,
+    TextChoice,
+    Verbatim,
     match,
 )
-from cltp.llm.constrained.tokens import Node, Tokens
+from cltp.llm.constrained.tokens import Node, TextTokens
 
 CLOSE = 1e-3
 """Distance of two logits, of two log-probabilities or of a probability from its threshold, below
@@ -67,7 +67,7 @@ class Decoder(Protocol):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Decision:
+class SlotDecision:
     """What was decided about one part of a reply.
 
     Attributes:
@@ -104,7 +104,7 @@ class Constrained:
     text: str
     ids: list[int]
     ended: bool
-    decisions: dict[str, Decision]
+    decisions: dict[str, SlotDecision]
     passes: int
     close_calls: int
 
@@ -201,7 +201,7 @@ def _plain(logits: Tensor) -> NDArray[np.float32]:
 class _Draft:
     """The tokens of an expected reply, and where each part begins in them."""
 
-    def __init__(self, text: str, grammar: Grammar, tokens: Tokens) -> None:
+    def __init__(self, text: str, grammar: Grammar, tokens: TextTokens) -> None:
         self._ids: list[int] = []
         self._begins: dict[str, int] = {}
         for segment in match(grammar, text)[0]:
@@ -225,7 +225,7 @@ class ConstrainedDecoder:
         tokens: Tokens of texts under the model's tokenizer.
     """
 
-    def __init__(self, decoder: Decoder, tokens: Tokens) -> None:
+    def __init__(self, decoder: Decoder, tokens: TextTokens) -> None:
         self._decoder, self._tokens = decoder, tokens
 
     def decode(
@@ -281,7 +281,7 @@ class _Run:
     def __init__(
         self,
         rows: _Rows,
-        tokens: Tokens,
+        tokens: TextTokens,
         draft: _Draft,
         penalties: Mapping[str, float],
         doubt_below: Mapping[str, float],
@@ -290,18 +290,18 @@ class _Run:
         self.penalties, self.doubt_below = penalties, doubt_below
         self.said: list[int] = []
         self.texts: list[str] = []
-        self.decisions: dict[str, Decision] = {}
+        self.decisions: dict[str, SlotDecision] = {}
         self._name, self._begin = "", 0
 
     def say(self, grammar: Grammar) -> None:
         pending: list[Part] = list(reversed(grammar))
         while pending:
             part = pending.pop()
-            if isinstance(part, Literal):
+            if isinstance(part, Verbatim):
                 self._say_literal(part.text)
                 continue
             self._name, self._begin = part.name, len(self.said)
-            if isinstance(part, Number):
+            if isinstance(part, NumberRange):
                 self._say_number(part)
                 self._say_literal(part.after)
             else:
@@ -311,7 +311,7 @@ class _Run:
         self.said += self.tokens.of(text)
         self.texts.append(text)
 
-    def _say_choice(self, part: Choice) -> Option:
+    def _say_choice(self, part: TextChoice) -> Option:
         """Decide between texts, and say the chosen one, and its rival where it is in doubt."""
         options = [o for o in part.options if self.penalties.get(o.value) != math.inf]
         if not options:
@@ -331,7 +331,7 @@ class _Run:
             index = self._descend(tuple(other.rival for other in others))
             rival = others[index].value
             self.texts.append(others[index].rival)
-        self.decisions[part.name] = Decision(
+        self.decisions[part.name] = SlotDecision(
             name=part.name,
             chosen=chosen.value,
             probability=walk.mass,
@@ -385,7 +385,7 @@ class _Run:
             node = node.children[token]
         return node.ended
 
-    def _say_number(self, part: Number) -> None:
+    def _say_number(self, part: NumberRange) -> None:
         """Decide a number digit by digit, and whether it is the low end of an interval."""
         node, second = self.tokens.number(part)
         end = self.tokens.of(part.after)[0] if part.after else None
@@ -410,7 +410,7 @@ class _Run:
             node = followers[token]
         value += part.texts[_index(node)]
         self.texts.append(f" {value}")
-        self.decisions[part.name] = Decision(
+        self.decisions[part.name] = SlotDecision(
             name=part.name,
             chosen=value,
             probability=mass,

@@ -19,7 +19,7 @@ _UNSIGNED = re.compile(r"\d+(?:\.\d+)?")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Literal:
+class Verbatim:
     """A text that is always said.
 
     Attributes:
@@ -48,7 +48,7 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Choice:
+class TextChoice:
     """One of several texts, none of which is the beginning of another.
 
     Attributes:
@@ -61,7 +61,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
-class Number:
+class NumberRange:
     """A number as text, or an interval such as ' 0.25-0.41', with what stands behind it.
 
     Attributes:
@@ -86,7 +86,7 @@ class Number:
         return self._order.get(text)
 
 
-Part: TypeAlias = Literal | Choice | Number
+Part: TypeAlias = Verbatim | TextChoice | NumberRange
 Grammar: TypeAlias = tuple[Part, ...]
 
 
@@ -134,10 +134,10 @@ def match(grammar: Grammar, text: str) -> tuple[list[Segment], bool]:
 
 def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     """Segments of a text from ``at`` on that a part allows, each with what must follow it."""
-    if isinstance(part, Literal):
+    if isinstance(part, Verbatim):
         if text.startswith(part.text, at):
             yield Segment("", part.text), ()
-    elif isinstance(part, Number):
+    elif isinstance(part, NumberRange):
         yield from _number_ways(part, text, at)
     else:
         for option in part.options:
@@ -152,7 +152,7 @@ def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
                     yield Segment(part.name, both, option.value, other.value), option.then
 
 
-def _number_ways(part: Number, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
+def _number_ways(part: NumberRange, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     found = _NUMBER.match(text, at + 1) if text.startswith(" ", at) else None
     low = part.place(found[0]) if found else None
     if found is None or low is None:
@@ -165,4 +165,4 @@ def _number_ways(part: Number, text: str, at: int) -> Iterator[tuple[Segment, Gr
             return
         end = second.end()
     value = text[at + 1 : end]
-    yield Segment(part.name, text[at:end], value), (Literal(part.after),)
+    yield Segment(part.name, text[at:end], value), (Verbatim(part.after),)

@@ -8,7 +8,7 @@ from functools import lru_cache
 from weakref import WeakKeyDictionary
 
 from cltp.errors import TouchError
-from cltp.llm.constrained.grammar import Number
+from cltp.llm.constrained.grammar import NumberRange
 
 MAX_TEXTS = 4096
 """Texts whose tokens are kept: far more than a grammar has; goals come and go."""
@@ -45,7 +45,7 @@ class Node:
         node.ended = index
 
 
-class Tokens:
+class TextTokens:
     """Tokens of texts, kept.
 
     Args:
@@ -56,7 +56,7 @@ class Tokens:
         self._encode = encode
         self.of = lru_cache(MAX_TEXTS)(lambda text: tuple(encode(text)))
         self.trie = lru_cache(MAX_TEXTS)(self._trie)
-        self._numbers: WeakKeyDictionary[Number, tuple[Node, Node]] = WeakKeyDictionary()
+        self._numbers: WeakKeyDictionary[NumberRange, tuple[Node, Node]] = WeakKeyDictionary()
 
     def _trie(self, texts: tuple[str, ...]) -> Node:
         """A trie of the texts of a choice.
@@ -75,7 +75,7 @@ class Tokens:
             pending += node.children.values()
         return root
 
-    def number(self, part: Number) -> tuple[Node, Node]:
+    def number(self, part: NumberRange) -> tuple[Node, Node]:
         """Tries of a number's texts after a space, and after '-' as the end of an interval."""
         if part not in self._numbers:
             first, second = Node(), Node()

@@ -10,7 +10,7 @@ import torch
 
 from cltp.llm.constrained.decode import ConstrainedDecoder
 from cltp.llm.constrained.grammar import match
-from cltp.llm.constrained.tokens import Tokens
+from cltp.llm.constrained.tokens import TextTokens
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import (
     Area,
@@ -147,7 +147,7 @@ def test_random_texts_of_the_grammar_read_back_and_have_the_tokens_of_their_part
     sensor: str, words: Words
 ) -> None:
     rng = random.Random(sensor)
-    tokens = Tokens(words.encode)
+    tokens = TextTokens(words.encode)
     for nouns, _ in itertools.product(ALL_NOUNS, range(40)):
         grammar = step_grammar(SENSORS[sensor], BAND, nouns=nouns)
         text = random_text(grammar, rng)
@@ -227,7 +227,7 @@ def test_random_changes_of_a_character_are_refused_or_say_something_else() -> No
 
 
 def test_ten_thousand_replies_by_chance_all_keep_the_grammar(words: Words) -> None:
-    tokens = Tokens(words.encode)
+    tokens = TextTokens(words.encode)
     named, barred_named, doubts, intervals = set(), set(), 0, 0
     for seed in range(5000):
         sensor = list(SENSORS.values())[seed % 4]
@@ -273,7 +273,7 @@ def test_where_reset_is_barred_it_can_not_say_that_nothing_touches(words: Words)
     def logits(said: tuple[int, ...]) -> torch.Tensor:
         return torch.nn.functional.one_hot(torch.tensor(nothing), len(words)).float() * 9
 
-    decoder = ConstrainedDecoder(FakeDecoder(logits), Tokens(words.encode))
+    decoder = ConstrainedDecoder(FakeDecoder(logits), TextTokens(words.encode))
     assert decoder.decode(torch.zeros(1, 1), step_grammar(MINI, BAND)).text == (
         f"Nothing touches. {goal_text(BAND)} Action: <reset>. The object was missed."
     )
@@ -284,7 +284,7 @@ def test_where_reset_is_barred_it_can_not_say_that_nothing_touches(words: Words)
 
 
 def test_a_step_is_compiled_in_no_time(words: Words) -> None:
-    tokens = Tokens(words.encode)
+    tokens = TextTokens(words.encode)
     decoder = ConstrainedDecoder(FakeDecoder(random_logits_of(words, 0)), tokens)
     begin = time.process_time()
     decoder.decode(torch.zeros(1, 1), step_grammar(MINI, BAND))
