@@ -25,9 +25,9 @@ from torch import Tensor
 from cltp.encoder.encoder import Encoded
 from cltp.encoder.readings import HeadReadings, readings_of
 from cltp.llm.causal_lm import CUE, Language
-from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, PartDecision
+from cltp.llm.constrained.decode import Constrained, ConstrainedDecoder, SlotDecision
 from cltp.llm.constrained.grammar import Grammar
-from cltp.llm.constrained.tokens import GrammarTokens
+from cltp.llm.constrained.tokens import TextTokens
 from cltp.llm.fast_decode import FastDecoder, greedy
 from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.tactile.force_scale import ForceScale
@@ -68,7 +68,7 @@ class Reply:
     action: str | None
     probabilities: tuple[float, ...]
     stage_ms: dict[str, float]
-    slots: Mapping[str, PartDecision] = field(default_factory=dict)
+    slots: Mapping[str, SlotDecision] = field(default_factory=dict)
     passes: int = 0
     close_calls: int = 0
     token_probabilities: tuple[float, ...] = ()
@@ -114,7 +114,7 @@ class Talker:
         self._clock = clock
         self._fast = FastDecoder(model.language.lm) if model.language.words else None
         self._constrained = ConstrainedDecoder(
-            self._fast or _Run(model.language), GrammarTokens(model.language.encode)
+            self._fast or _Run(model.language), TextTokens(model.language.encode)
         )
 
     @property
@@ -239,7 +239,7 @@ class _Generated(NamedTuple):
     passes: int
     token_probabilities: Sequence[float] = ()
     text: str = ""
-    slots: Mapping[str, PartDecision] = {}
+    slots: Mapping[str, SlotDecision] = {}
     close_calls: int = 0
 
 
@@ -257,7 +257,7 @@ def _generated(reply: Constrained) -> _Generated:
     )
 
 
-def _of_eight(action: PartDecision) -> list[float]:
+def _of_eight(action: SlotDecision) -> list[float]:
     """Probabilities of the eight; actions that share one share it equally."""
     probabilities = dict.fromkeys(ACTIONS, 0.0)
     for names, probability in action.probabilities.items():

@@ -16,7 +16,7 @@ from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from cltp.llm.constrained.grammar import FixedText, Grammar, NumberText, Option, Part, TextChoice
+from cltp.llm.constrained.grammar import Grammar, NumberRange, Option, Part, TextChoice, Verbatim
 from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import CLASSES, Side
 from cltp.texts.captions import NO_CONTACT, with_article
@@ -104,7 +104,7 @@ def step_grammar(
         PolicyError: Every action is barred.
     """
     forbidden = frozenset(barred)
-    goal = FixedText(f" {goal_text(force_n)} Action:")
+    goal = Verbatim(f" {goal_text(force_n)} Action:")
     in_contact, without = (
         _advice(every, forbidden) for every in (ADVICE_IN_CONTACT, ADVICE_WITHOUT_CONTACT)
     )
@@ -131,18 +131,18 @@ def caption_grammar(sensor: SensorSpec | None, nouns: tuple[str, ...] = NOUNS) -
     first, more = _nouns(nouns, with_article)
     rest = (
         *more,
-        FixedText(" object, pressed" if nouns else ", pressed"),
+        Verbatim(" object, pressed" if nouns else ", pressed"),
         _word("depth"),
-        FixedText(" in"),
+        Verbatim(" in"),
         _word("position"),
-        FixedText(" with"),
+        Verbatim(" with"),
         _word("area"),
-        FixedText(" contact area."),
-        NumberText("depth_mm", numbers.depth, " mm,"),
-        NumberText("force_n", numbers.force, " N,"),
-        NumberText("area_fraction", numbers.area, " %, x"),
-        NumberText("x_mm", numbers.x, ", y"),
-        NumberText("y_mm", numbers.y, ""),
+        Verbatim(" contact area."),
+        NumberRange("depth_mm", numbers.depth, " mm,"),
+        NumberRange("force_n", numbers.force, " N,"),
+        NumberRange("area_fraction", numbers.area, " %, x"),
+        NumberRange("x_mm", numbers.x, ", y"),
+        NumberRange("y_mm", numbers.y, ""),
         _cut(),
     )
     options = [Option(one.value, one.text, one.rival, rest) for one in first.options]
@@ -174,16 +174,16 @@ def _contact(ranges: Ranges, nouns: tuple[str, ...]) -> tuple[_Words, tuple[Part
     first, more = _nouns(nouns, str)
     return first, (
         *more,
-        FixedText(","),
+        Verbatim(","),
         _word("depth"),
-        NumberText("depth_mm", numbers.depth, " mm,", interval=True),
+        NumberRange("depth_mm", numbers.depth, " mm,", interval=True),
         _word("position"),
-        FixedText(" x"),
-        NumberText("x_mm", numbers.x, " y"),
-        NumberText("y_mm", numbers.y, ","),
+        Verbatim(" x"),
+        NumberRange("x_mm", numbers.x, " y"),
+        NumberRange("y_mm", numbers.y, ","),
         _word("area"),
-        NumberText("area_fraction", numbers.area, " %,", interval=True),
-        NumberText("force_n", numbers.force, " N", interval=True),
+        NumberRange("area_fraction", numbers.area, " %,", interval=True),
+        NumberRange("force_n", numbers.force, " N", interval=True),
         _cut(),
     )
 
@@ -244,7 +244,7 @@ def _advice(every: tuple[Advice, ...], barred: frozenset[str]) -> TextChoice | N
         text = advice_text(advice).removeprefix(f"Action: {token}.")
         reasons.setdefault(token, []).append(Option(advice.reason.name, text))
     options = tuple(
-        Option(token, f" {token}", then=(FixedText("."), TextChoice(REASON, tuple(choices))))
+        Option(token, f" {token}", then=(Verbatim("."), TextChoice(REASON, tuple(choices))))
         for token, choices in reasons.items()
         if token not in barred
     )

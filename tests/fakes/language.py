@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import torch
 
-from cltp.llm.constrained.grammar import FixedText, Grammar, NumberText
+from cltp.llm.constrained.grammar import Grammar, NumberRange, Verbatim
 from cltp.llm.stored_lm import StoredConfig, StoredLm, _shapes
 
 
@@ -18,9 +18,9 @@ def random_text(grammar: Grammar, rng: random.Random) -> str:
     text = ""
     while pending:
         part = pending.pop()
-        if isinstance(part, FixedText):
+        if isinstance(part, Verbatim):
             text += part.text
-        elif isinstance(part, NumberText):
+        elif isinstance(part, NumberRange):
             text += f" {_number(part, rng)}{part.after}"
         else:
             option = rng.choice(part.options)
@@ -32,7 +32,7 @@ def random_text(grammar: Grammar, rng: random.Random) -> str:
     return text
 
 
-def _number(part: NumberText, rng: random.Random) -> str:
+def _number(part: NumberRange, rng: random.Random) -> str:
     low = rng.randrange(len(part.texts))
     if part.interval and low + 1 < len(part.texts) and rng.random() < 0.5:
         return f"{part.texts[low]}-{part.texts[rng.randrange(low + 1, len(part.texts))]}"

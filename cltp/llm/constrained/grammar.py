@@ -19,7 +19,7 @@ _UNSIGNED = re.compile(r"\d+(?:\.\d+)?")
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class FixedText:
+class Verbatim:
     """A text that is always said.
 
     Attributes:
@@ -61,13 +61,13 @@ class TextChoice:
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
-class NumberText:
+class NumberRange:
     """A number as text, or an interval such as ' 0.25-0.41', with what stands behind it.
 
     Attributes:
         name: Name of the part.
         texts: Every number that may be said, as text, in ascending order.
-        after: Text behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
+        after: Literal behind it, such as ' mm'; it begins with neither a digit nor '-'. It may be
             empty where no number begins another one and there are no intervals.
         interval: Whether two ascending numbers may be said in its place.
     """
@@ -86,7 +86,7 @@ class NumberText:
         return self._order.get(text)
 
 
-Part: TypeAlias = FixedText | TextChoice | NumberText
+Part: TypeAlias = Verbatim | TextChoice | NumberRange
 Grammar: TypeAlias = tuple[Part, ...]
 
 
@@ -134,10 +134,10 @@ def match(grammar: Grammar, text: str) -> tuple[list[Segment], bool]:
 
 def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     """Segments of a text from ``at`` on that a part allows, each with what must follow it."""
-    if isinstance(part, FixedText):
+    if isinstance(part, Verbatim):
         if text.startswith(part.text, at):
             yield Segment("", part.text), ()
-    elif isinstance(part, NumberText):
+    elif isinstance(part, NumberRange):
         yield from _number_ways(part, text, at)
     else:
         for option in part.options:
@@ -152,7 +152,7 @@ def _ways(part: Part, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
                     yield Segment(part.name, both, option.value, other.value), option.then
 
 
-def _number_ways(part: NumberText, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
+def _number_ways(part: NumberRange, text: str, at: int) -> Iterator[tuple[Segment, Grammar]]:
     found = _NUMBER.match(text, at + 1) if text.startswith(" ", at) else None
     low = part.place(found[0]) if found else None
     if found is None or low is None:
@@ -165,4 +165,4 @@ def _number_ways(part: NumberText, text: str, at: int) -> Iterator[tuple[Segment
             return
         end = second.end()
     value = text[at + 1 : end]
-    yield Segment(part.name, text[at:end], value), (FixedText(part.after),)
+    yield Segment(part.name, text[at:end], value), (Verbatim(part.after),)

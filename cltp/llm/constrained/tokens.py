@@ -8,7 +8,7 @@ from functools import lru_cache
 from weakref import WeakKeyDictionary
 
 from cltp.errors import TouchError
-from cltp.llm.constrained.grammar import NumberText
+from cltp.llm.constrained.grammar import NumberRange
 
 MAX_TEXTS = 4096
 """Texts whose tokens are kept: far more than a grammar has; goals come and go."""
@@ -45,7 +45,7 @@ class Node:
         node.ended = index
 
 
-class GrammarTokens:
+class TextTokens:
     """Tokens of texts, kept.
 
     Args:
@@ -56,7 +56,7 @@ class GrammarTokens:
         self._encode = encode
         self.of = lru_cache(MAX_TEXTS)(lambda text: tuple(encode(text)))
         self.trie = lru_cache(MAX_TEXTS)(self._trie)
-        self._numbers: WeakKeyDictionary[NumberText, tuple[Node, Node]] = WeakKeyDictionary()
+        self._numbers: WeakKeyDictionary[NumberRange, tuple[Node, Node]] = WeakKeyDictionary()
 
     def _trie(self, texts: tuple[str, ...]) -> Node:
         """A trie of the texts of a choice.
@@ -75,16 +75,31 @@ class GrammarTokens:
             pending += node.children.values()
         return root
 
-    def number(self, part: NumberText) -> tuple[Node, Node]:
+    def number(self, part: NumberRange) -> tuple[Node, Node]:
         """Tries of a number's texts after a space, and after '-' as the end of an interval."""
         if part not in self._numbers:
-            first, second = Node(), Node()
+            first = Node()
             for index, text in enumerate(part.texts):
                 first.add(index, self._pieces(f" {text}"))
-                if part.interval:
-                    second.add(index, self._pieces(f"-{text}"))
-            self._numbers[part] = first, second
+            self._numbers[part] = first, self._behind_dash(first) if part.interval else Node()
         return self._numbers[part]
+
+    def _behind_dash(self, first: Node) -> Node:
+        """The same numbers after '-': other tokens up to the first digit, the same ones beyond."""
+        second = Node()
+        for digit in "0123456789":
+            below: Node | None = first
+            for token in self.of(f" {digit}"):
+                below = below.children.get(token) if below is not None else None
+            if below is None:
+                continue
+            *path, last = self.of(f"-{digit}")
+            node = second
+            for token in path:
+                node = node.children.setdefault(token, Node())
+                node.most = max(node.most, below.most)
+            node.children[last] = below
+        return second
 
     def _pieces(self, number: str) -> list[int]:
         return [token for piece in _PIECE.findall(number) for token in self.of(piece)]

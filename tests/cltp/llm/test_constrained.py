@@ -8,8 +8,8 @@ import torch
 
 from cltp.errors import TouchError
 from cltp.llm.constrained.decode import CLOSE, Constrained, ConstrainedDecoder
-from cltp.llm.constrained.grammar import FixedText, NumberText, Option, TextChoice, match
-from cltp.llm.constrained.tokens import GrammarTokens
+from cltp.llm.constrained.grammar import NumberRange, Option, TextChoice, Verbatim, match
+from cltp.llm.constrained.tokens import TextTokens
 from cltp.llm.fast_decode import FastDecoder
 from cltp.texts.tokenizer import ACTIONS, Words
 from tests.fakes.language import (
@@ -30,15 +30,15 @@ DEPTH = words_of("depth", ("slight", "deep", "very deep"))
 PLACE = words_of("place", PLACES)
 HUNDREDTHS = tuple(f"{i / 100:.2f}" for i in range(121))
 PERCENTS = tuple([f"{i / 10:.1f}" for i in range(100)] + [str(i) for i in range(10, 101)])
-ACT = TextChoice("action", tuple(Option(a, f" {a}", then=(FixedText(" is it."),)) for a in ACTIONS))
+ACT = TextChoice("action", tuple(Option(a, f" {a}", then=(Verbatim(" is it."),)) for a in ACTIONS))
 GRAMMAR = (
-    FixedText("It is"),
+    Verbatim("It is"),
     DEPTH,
-    NumberText("depth_mm", HUNDREDTHS, " mm,", interval=True),
+    NumberRange("depth_mm", HUNDREDTHS, " mm,", interval=True),
     PLACE,
-    NumberText("x_mm", ("-1.0", "-0.5", "+0.0", "+0.5", "+1.0"), ","),
-    NumberText("area", PERCENTS, " %.", interval=True),
-    FixedText(" Action:"),
+    NumberRange("x_mm", ("-1.0", "-0.5", "+0.0", "+0.5", "+1.0"), ","),
+    NumberRange("area", PERCENTS, " %.", interval=True),
+    Verbatim(" Action:"),
     ACT,
 )
 
@@ -51,7 +51,7 @@ def words() -> Words:
 
 def decoder_of(words: Words, logits) -> tuple[FakeDecoder, ConstrainedDecoder]:
     fake = FakeDecoder(logits)
-    return fake, ConstrainedDecoder(fake, GrammarTokens(words.encode))
+    return fake, ConstrainedDecoder(fake, TextTokens(words.encode))
 
 
 INPUTS = torch.zeros(7, 4)
@@ -59,10 +59,10 @@ INPUTS = torch.zeros(7, 4)
 
 def test_what_is_forced_costs_no_pass(words: Words) -> None:
     fake, decoder = decoder_of(words, random_logits(len(words), 0))
-    reply = decoder.decode(INPUTS, (FixedText("It is deep."),))
+    reply = decoder.decode(INPUTS, (Verbatim("It is deep."),))
     assert (reply.text, reply.passes, fake.passes) == ("It is deep.", 0, 0)
     only = TextChoice("depth", DEPTH.options[:1])
-    reply = decoder.decode(INPUTS, (FixedText("It is"), only, FixedText(", in"), PLACE))
+    reply = decoder.decode(INPUTS, (Verbatim("It is"), only, Verbatim(", in"), PLACE))
     assert fake.passes == reply.passes <= 3  # two decisions, and perhaps that of a rival
     assert reply.decisions["depth"].probability == 1.0
 
@@ -81,7 +81,7 @@ def test_a_word_is_chosen_by_softmax_over_its_slot_alone(words: Words) -> None:
     other = words.encode(" Action")[0]
     script = {prefix(words, "It is"): {slight: 1.0, deep: 3.0, very: 0.5, other: 50.0}}
     _, decoder = decoder_of(words, scripted_logits(len(words), script))
-    decision = decoder.decode(INPUTS, (FixedText("It is"), DEPTH)).decisions["depth"]
+    decision = decoder.decode(INPUTS, (Verbatim("It is"), DEPTH)).decisions["depth"]
     expected = softmax(1.0, 3.0, 0.5)
     assert decision.chosen == "deep"
     assert decision.rival == ""
@@ -96,7 +96,7 @@ def test_a_word_in_doubt_is_said_with_its_rival(words: Words, below: float, text
     slight, deep, very = (words.encode(f" {w}")[0] for w in ("slight", "deep", "very"))
     row = {slight: math.log(30), deep: math.log(55), very: math.log(15)}
     _, decoder = decoder_of(words, scripted_logits(len(words), {prefix(words, "It is"): row}))
-    grammar = (FixedText("It is"), DEPTH, FixedText("."))
+    grammar = (Verbatim("It is"), DEPTH, Verbatim("."))
     reply = decoder.decode(INPUTS, grammar, doubt_below={"depth": below})
     assert reply.text == f"It is {text}."
     assert reply.decisions["depth"].probability == pytest.approx(0.55)
@@ -128,11 +128,11 @@ def test_the_model_never_decides_itself_to_name_a_rival(words: Words) -> None:
     table = torch.zeros(len(words))
     table[either], table[deep] = 50.0, 9.0
     _, decoder = decoder_of(words, lambda _: table)
-    assert decoder.decode(INPUTS, (FixedText("It is"), DEPTH, FixedText("."))).text == "It is deep."
+    assert decoder.decode(INPUTS, (Verbatim("It is"), DEPTH, Verbatim("."))).text == "It is deep."
 
 
 def test_the_model_decides_itself_on_an_interval(words: Words) -> None:
-    number = NumberText("depth_mm", HUNDREDTHS, " mm", interval=True)
+    number = NumberRange("depth_mm", HUNDREDTHS, " mm", interval=True)
     low = prefix(words, "It is 0.45")
     dash, unit = words.encode("-0")[0], words.encode(" mm")[0]
     digits = [words.encode(f" 0.4{n}")[2] for n in range(10)]
@@ -141,7 +141,7 @@ def test_the_model_decides_itself_on_an_interval(words: Words) -> None:
              prefix(words, "It is"): {words.encode(" 0")[0]: 9.0}}  # fmt: skip
     for chance in (dash, unit):
         _, decoder = decoder_of(words, scripted_logits(len(words), start | {low: {chance: 9.0}}))
-        reply = decoder.decode(INPUTS, (FixedText("It is"), number))
+        reply = decoder.decode(INPUTS, (Verbatim("It is"), number))
         if chance == unit:
             assert reply.text == "It is 0.45 mm"
         else:
@@ -151,7 +151,7 @@ def test_the_model_decides_itself_on_an_interval(words: Words) -> None:
 
 
 def test_nothing_but_the_number_is_possible_at_the_top_of_its_range(words: Words) -> None:
-    number = NumberText("depth_mm", ("0.11", "0.12"), " mm", interval=True)
+    number = NumberRange("depth_mm", ("0.11", "0.12"), " mm", interval=True)
     dash = words.encode("-0")[0]
     row = torch.zeros(len(words))
     row[dash], row[words.encode(" 0.12")[2]] = 50.0, 9.0
@@ -166,7 +166,7 @@ def test_action_probabilities_are_those_of_an_independent_computation(words: Wor
         logits = random_logits(len(words), seed)
         _, decoder = decoder_of(words, logits)
         penalties = {ACTIONS[seed % 8]: math.inf, ACTIONS[(seed + 3) % 8]: math.log(3)}
-        reply = decoder.decode(INPUTS, (FixedText("Action:"), ACT), penalties=penalties)
+        reply = decoder.decode(INPUTS, (Verbatim("Action:"), ACT), penalties=penalties)
         row = logits(prefix(words, "Action:")).double()
         row[words.actions[seed % 8]] = -math.inf
         row[words.actions[(seed + 3) % 8]] -= math.log(3)
@@ -227,9 +227,7 @@ def test_after_a_wrong_word_the_rest_of_a_draft_still_saves_passes(words: Words)
 
 @pytest.mark.parametrize("seed", range(12))
 def test_no_draft_changes_what_a_model_says(words: Words, seed: int) -> None:
-    decoder = ConstrainedDecoder(
-        FastDecoder(random_lm(len(words), seed)), GrammarTokens(words.encode)
-    )
+    decoder = ConstrainedDecoder(FastDecoder(random_lm(len(words), seed)), TextTokens(words.encode))
     inputs = torch.randn(30, 48, generator=torch.Generator().manual_seed(seed))
     plain = decoder.decode(inputs, GRAMMAR)
     rng = random.Random(seed)
@@ -259,8 +257,8 @@ def test_close_decisions_are_taken_from_a_pass_of_their_own(words: Words) -> Non
 
     table = torch.zeros(len(words))
     table[[slight, deep]] = 9.0
-    grammar = (FixedText("It is"), DEPTH, FixedText("."), PLACE)
-    decoder = ConstrainedDecoder(Rounding(lambda _: table), GrammarTokens(words.encode))
+    grammar = (Verbatim("It is"), DEPTH, Verbatim("."), PLACE)
+    decoder = ConstrainedDecoder(Rounding(lambda _: table), TextTokens(words.encode))
     plain = decoder.decode(INPUTS, grammar, doubt_below={"depth": 0.1})
     drafted = decoder.decode(
         INPUTS, grammar, draft="It is slight. top-left", doubt_below={"depth": 0.1}
@@ -303,7 +301,7 @@ def test_a_pass_over_many_tokens_gives_the_logits_of_single_ones() -> None:
 
 
 def test_random_texts_are_split_into_parts_of_the_same_tokens(words: Words) -> None:
-    tokens = GrammarTokens(words.encode)
+    tokens = TextTokens(words.encode)
     rng = random.Random(2)
     for _, cut in itertools.product(range(50), (None, 20)):
         text = random_text(GRAMMAR, rng)[:cut]
