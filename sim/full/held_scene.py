@@ -9,10 +9,11 @@ import numpy as np
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.states import Shape, Texture
 from sim.full.requests import FullRequest
-from sim.full.scene import Naming, PressScene
+from sim.full.scene import PressScene
 from sim.grasp.bodies import Body, Range, draw_body
 from sim.grasp.turned_pad import turned
 from sim.tcl3d.contact_geometry import Mask, ShapeLabel, border_fraction
+from sim.tcl3d.labelled_press import Naming
 from sim.tcl3d.poses import position_within
 from sim.tcl3d.series import grid_over
 

@@ -26,7 +26,7 @@ from sim.full.solid_scene import solid_scene
 from sim.gel.bounded_press import press_no_deeper
 from sim.gel.force_factor import force_factor
 from sim.gel.layer import ElasticLayer, GelMaterial, Press
-from sim.tcl3d.labels import TEXTURE, in_contact, label, uncertain_labels
+from sim.tcl3d.labelled_press import label_press
 from sim.tcl3d.series import grid_over
 
 CONTACTS = 120_000
@@ -89,7 +89,16 @@ def _made(request: FullRequest, device: torch.device | str = "cpu") -> list[Cont
         scene = solid_scene(request, rng, device)
     else:
         scene = drawn_scene(request, rng)
-    return _labelled(request, scene, _pressed(request, scene, device))
+    return label_press(
+        _pressed(request, scene, device),
+        scene.name,
+        object_name=request.choice.name,
+        sensor=request.sensor,
+        gel=request.gel,
+        split=request.split,
+        seed=request.seed,
+        series=request.number,
+    )
 
 
 @torch.inference_mode()
@@ -108,45 +117,6 @@ def _pressed(request: FullRequest, scene: PressScene, device: torch.device | str
     if not scene.by_force:
         return layer.press_to_depth(gaps, loads, tol=_TOLERANCE)
     return press_no_deeper(layer, gaps, loads, deepest_mm=DEEPEST_BY_FORCE_MM, tol=_TOLERANCE)
-
-
-def _labelled(request: FullRequest, scene: PressScene, press: Press) -> list[Contact]:
-    pitch_mm = request.sensor.width_mm / scene.gap_mm.shape[1]
-    pressure = press.pressure_kpa.cpu()
-    closed = in_contact(pressure, pitch_mm)
-    contacts = []
-    for i in range(len(scene.loads)):
-        height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
-        naming = scene.name(load > 0, closed[i], float(height_mm.max()))
-        state = label(
-            height_mm=height_mm,
-            pressure_kpa=load,
-            touching=closed[i],
-            force_n=float(press.force_n[i]),
-            sensor=request.sensor,
-            shape=naming.shape.shape,
-            texture=naming.texture,
-        )
-        unsure = uncertain_labels(state, request.sensor)
-        unsure |= set() if naming.shape.sure else {"shape"}
-        unsure |= set() if naming.is_texture_sure else {TEXTURE}
-        contacts.append(
-            Contact(
-                height_mm=height_mm,
-                sensor=request.sensor,
-                state=state,
-                object=request.choice.name,
-                series=request.number,
-                split=request.split,
-                gel=Gel(**asdict(request.gel)),
-                seed=request.seed,
-                unsure=frozenset(unsure),
-                approach_mm=float(press.depth_mm[i]),
-                peak_kpa=float(load.max()),
-                force_factor=force_factor(request.gel, request.sensor.name),
-            )
-        )
-    return contacts
 
 
 def _untouched(request: FullRequest) -> Contact:
