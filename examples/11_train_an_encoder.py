@@ -2,7 +2,7 @@
 
     python examples/11_train_an_encoder.py [contacts] [steps]
 
-The defaults only show the way: 24000 contacts and 2200 steps make weights that are worth something
+The defaults only show the way: 120000 contacts and 8000 steps make weights that are worth something
 (make weights). Each command can be interrupted and goes on when it is given again.
 """
 
@@ -25,9 +25,7 @@ steps = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 few = ["--steps", steps, "--batch-size", 8, "--threads", 1]
 data, out = Path("contacts"), Path("trained")
 
-tacgrasp(
-    "data", "generate", "--set", "starter", "--contacts", contacts, "--out", data, "--workers", 1
-)
+tacgrasp("data", "generate", "--set", "full", "--contacts", contacts, "--out", data, "--workers", 1)
 tacgrasp("data", "stats", data)
 tacgrasp("train", "clip", "--data", data, "--out", out, *few)
 tacgrasp("train", "cltp", "--data", data, "--out", out, *few, "--preset", "tiny")

@@ -180,7 +180,7 @@ def test_an_import_loads_neither_torch_nor_open3d_nor_a_device_sdk(statement):
 
 
 FOR_TESTS_ALONE = "sim.independent"
-LEARNING = ("cltp.train", "tacgrasp.training", "tacgrasp.datasets", "sim.starter", "sim.tcl3d")
+LEARNING = ("cltp.train", "tacgrasp.training", "tacgrasp.datasets", "sim.full", "sim.tcl3d")
 
 
 def reached(graph, folder):

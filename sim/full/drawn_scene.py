@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,11 +16,12 @@ from sim.full.drawn.surface import Draws, Surface
 from sim.full.labels import LEAST_POINTS, DrawnContact, name_drawn, name_skin
 from sim.full.objects import DRAW_OF, Origin
 from sim.full.requests import FullRequest, PressKind
-from sim.full.scene import Naming, PressScene, gentle, pad_grid
+from sim.full.scene import PressScene, gentle, pad_grid
 from sim.full.skins import DrawnSkin, draw_skin
 from sim.gel.gap import NO_BODY_MM
 from sim.objects.skins import fade
 from sim.tcl3d.contact_geometry import Mask, border_fraction
+from sim.tcl3d.labelled_press import NameContact, Naming
 from sim.tcl3d.poses import position_within
 
 _OBJECTS, _POSES = 8, 6  # tries: objects, and poses of each
@@ -76,9 +76,7 @@ def drawn_scene(request: FullRequest, rng: np.random.Generator) -> PressScene:
     )
 
 
-def _namer(
-    placed: _Placed, bare: FloatArray, skin: DrawnSkin, pitch_mm: float
-) -> Callable[[Mask, Mask, float], Naming]:
+def _namer(placed: _Placed, bare: FloatArray, skin: DrawnSkin, pitch_mm: float) -> NameContact:
     element_mm2 = _element_mm2(placed.surface)
 
     def name(touching: Mask, closed: Mask, depth_mm: float) -> Naming:

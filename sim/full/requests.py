@@ -16,7 +16,6 @@ from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import DEPTH_LIMITS_MM
 from sim.full.objects import Choice, Origin, is_held_out, object_of
 from sim.gel.layer import GelMaterial, gel_of
-from sim.starter.contacts import GELS as MINI_GELS
 from sim.tcl3d.series import OTHER_GELS
 
 LOADS = 2
@@ -24,6 +23,19 @@ LOADS = 2
 
 SENSORS = {"gelsight_mini": 0.70, "gelsight_r15": 0.10, "digit": 0.10, "gelstereo": 0.10}
 """Fractions of the series on each sensor. Our choice: the Mini is what the rigs have."""
+
+
+MINI_GELS = (
+    gel_of("gelsight_mini"),
+    GelMaterial(thickness_mm=3.2, young_mpa=0.59, poisson=0.480),
+    GelMaterial(thickness_mm=3.4, young_mpa=0.254, poisson=0.490),
+    GelMaterial(thickness_mm=3.6, young_mpa=0.50, poisson=0.495),
+    GelMaterial(thickness_mm=3.8, young_mpa=0.34, poisson=0.470),
+    GelMaterial(thickness_mm=4.0, young_mpa=0.423, poisson=0.490),
+    GelMaterial(thickness_mm=4.2, young_mpa=0.30, poisson=0.480),
+)
+"""Gels of a GelSight Mini's units, which differ: Young's modulus over 0.6-1.4 of nominal, thickness
+over 3.2-4.2 mm, nu 0.47-0.495 (assumed ranges)."""
 
 
 def _units(name: str) -> tuple[GelMaterial, ...]:

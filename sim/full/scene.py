@@ -2,29 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import Texture
-from sim.tcl3d.contact_geometry import Mask, ShapeLabel
+from sim.tcl3d.labelled_press import NameContact
 from sim.tcl3d.series import grid_over
 
 GENTLE_MM, GENTLE_FRACTION, NEAR_MM = 0.6, 0.22, 0.25
 """Largest depth where more than this fraction of the pad's surface is nearer than ``NEAR_MM``: a
 deeper press of a large face would take more force than any gripper has. As in ``sim.tcl3d``."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Naming:
-    """Shape and texture of a contact, and whether each is certain."""
-
-    shape: ShapeLabel
-    texture: Texture
-    is_texture_sure: bool
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,15 +25,14 @@ class PressScene:
         loads: Rising depths [mm] of a rigid body, forces [N] of a soft one.
         modulus_mpa: Plane-strain modulus of a soft body [MPa]; None for a rigid one.
         by_force: Whether the loads are forces.
-        name: Names a contact by its points under pressure, the same with fine gaps closed, and its
-            depth [mm].
+        name: Names a contact.
     """
 
     gap_mm: FloatArray
     loads: tuple[float, ...]
     modulus_mpa: float | None = None
     by_force: bool = False
-    name: Callable[[Mask, Mask, float], Naming]
+    name: NameContact
 
 
 def pad_grid(sensor: SensorSpec) -> tuple[FloatArray, FloatArray]:

@@ -9,12 +9,13 @@ Not here: files and worker processes (``tacgrasp.datasets``), noise (``cltp.tact
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
+from dataclasses import asdict, replace
 
 import numpy as np
 import torch
 
 from cltp.data.contact import Contact, Gel
+from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import NO_CONTACT_STATE
 from sim.full.drawn_scene import drawn_scene
 from sim.full.held_scene import held_scene
@@ -24,13 +25,17 @@ from sim.full.scene import PressScene
 from sim.full.solid_scene import solid_scene
 from sim.gel.bounded_press import press_no_deeper
 from sim.gel.force_factor import force_factor
-from sim.gel.layer import ElasticLayer, Press
-from sim.starter.contacts import DEEPEST_MM
-from sim.tcl3d.labels import TEXTURE, in_contact, label, uncertain_labels
+from sim.gel.layer import ElasticLayer, GelMaterial, Press
+from sim.tcl3d.labelled_press import label_press
 from sim.tcl3d.series import grid_over
 
 CONTACTS = 120_000
 """Contacts of the set. Our choice, because FG-CLTP has 100,000."""
+
+DEEPEST_BY_FORCE_MM = 2.4
+"""Largest depth of a press by force; deeper ones are repeated with less force. A narrow part of a
+peg at the pad's edge, bearing all of the force, would sink deeper than the gel is thick. Our
+choice: two thirds of the thickness, beyond which linear elasticity does not hold."""
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm, as they are stored
 
@@ -48,8 +53,33 @@ def make_series(seed: int, number: int, device: torch.device | str = "cpu") -> l
         number: Number of the series, from 0.
         device: Torch device on which rays are cast and contacts are solved.
     """
-    request = full_request(seed, number)
-    rng = np.random.default_rng([seed, number, 1])
+    return _made(full_request(seed, number), device)
+
+
+def press_on_gel(gel: GelMaterial, sensor: SensorSpec, *, seed: int, num: int) -> list[Contact]:
+    """Press the objects of a seed's series on one gel; untouched frames are left out.
+
+    What is pressed, where, and how deep or hard depends on seed and sensor alone, so that gels can
+    be compared on the same presses.
+
+    Args:
+        gel: The gel of every contact.
+        sensor: The sensor of every contact.
+        seed: Random seed. From ``sim.grasp.rig.BENCHMARK_SEED`` on it is that of no data set.
+        num: Number of contacts.
+    """
+    contacts: list[Contact] = []
+    number = 0
+    while len(contacts) < num:
+        request = replace(full_request(seed, number), gel=gel, sensor=sensor)
+        if request.choice.origin is not Origin.NOTHING:
+            contacts += _made(request)
+        number += 1
+    return contacts[:num]
+
+
+def _made(request: FullRequest, device: torch.device | str = "cpu") -> list[Contact]:
+    rng = np.random.default_rng([request.seed, request.number, 1])
     origin = request.choice.origin
     if origin is Origin.NOTHING:
         return [_untouched(request) for _ in range(LOADS)]
@@ -59,7 +89,16 @@ def make_series(seed: int, number: int, device: torch.device | str = "cpu") -> l
         scene = solid_scene(request, rng, device)
     else:
         scene = drawn_scene(request, rng)
-    return _labelled(request, scene, _pressed(request, scene, device))
+    return label_press(
+        _pressed(request, scene, device),
+        scene.name,
+        object_name=request.choice.name,
+        sensor=request.sensor,
+        gel=request.gel,
+        split=request.split,
+        seed=request.seed,
+        series=request.number,
+    )
 
 
 @torch.inference_mode()
@@ -77,46 +116,7 @@ def _pressed(request: FullRequest, scene: PressScene, device: torch.device | str
     gaps, loads = gaps.to(device), torch.tensor(scene.loads, device=device)
     if not scene.by_force:
         return layer.press_to_depth(gaps, loads, tol=_TOLERANCE)
-    return press_no_deeper(layer, gaps, loads, deepest_mm=DEEPEST_MM, tol=_TOLERANCE)
-
-
-def _labelled(request: FullRequest, scene: PressScene, press: Press) -> list[Contact]:
-    pitch_mm = request.sensor.width_mm / scene.gap_mm.shape[1]
-    pressure = press.pressure_kpa.cpu()
-    closed = in_contact(pressure, pitch_mm)
-    contacts = []
-    for i in range(len(scene.loads)):
-        height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
-        naming = scene.name(load > 0, closed[i], float(height_mm.max()))
-        state = label(
-            height_mm=height_mm,
-            pressure_kpa=load,
-            touching=closed[i],
-            force_n=float(press.force_n[i]),
-            sensor=request.sensor,
-            shape=naming.shape.shape,
-            texture=naming.texture,
-        )
-        unsure = uncertain_labels(state, request.sensor)
-        unsure |= set() if naming.shape.sure else {"shape"}
-        unsure |= set() if naming.is_texture_sure else {TEXTURE}
-        contacts.append(
-            Contact(
-                height_mm=height_mm,
-                sensor=request.sensor,
-                state=state,
-                object=request.choice.name,
-                series=request.number,
-                split=request.split,
-                gel=Gel(**asdict(request.gel)),
-                seed=request.seed,
-                unsure=frozenset(unsure),
-                approach_mm=float(press.depth_mm[i]),
-                peak_kpa=float(load.max()),
-                force_factor=force_factor(request.gel, request.sensor.name),
-            )
-        )
-    return contacts
+    return press_no_deeper(layer, gaps, loads, deepest_mm=DEEPEST_BY_FORCE_MM, tol=_TOLERANCE)
 
 
 def _untouched(request: FullRequest) -> Contact:

@@ -13,7 +13,7 @@ from cltp.tactile.states import Shape, Texture
 from sim.full.drawn.surface import Draws
 from sim.full.labels import name_skin
 from sim.full.requests import FullRequest
-from sim.full.scene import Naming, PressScene, gentle, pad_grid
+from sim.full.scene import PressScene, gentle, pad_grid
 from sim.full.skins import DrawnSkin, draw_skin
 from sim.gel.gap import NO_BODY_MM
 from sim.objects.catalogue import object_named
@@ -24,6 +24,7 @@ from sim.objects.ray_casting import cast_pad_rays
 from sim.objects.skins import SMOOTH, bumpy, fade, ridged, rough, woven
 from sim.objects.solids import Cut, Solid
 from sim.tcl3d.contact_geometry import ContactGeometry, Mask, covered_fraction
+from sim.tcl3d.labelled_press import Naming
 from sim.tcl3d.poses import draw_pose
 from sim.tcl3d.shape_labels import name_shape
 

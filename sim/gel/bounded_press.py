@@ -6,7 +6,7 @@ import torch
 from torch import Tensor
 
 from sim.gel.contact_solver import chosen
-from sim.gel.layer import ElasticLayer, Press, StartPressure
+from sim.gel.layer import ElasticLayer, Press
 
 _TRIES = 4
 
@@ -17,7 +17,6 @@ def press_no_deeper(
     force_n: Tensor,
     *,
     deepest_mm: float,
-    start: StartPressure = None,
     tol: float,
 ) -> Press:
     """Press bodies with given forces, with less where one would sink deeper.
@@ -30,10 +29,9 @@ def press_no_deeper(
         gap_mm: Shape (B, H, W), gaps of the bodies [mm].
         force_n: Shape (B,), normal forces [N].
         deepest_mm: Largest indentation [mm].
-        start: As in ``ElasticLayer.press_to_force``.
         tol: Tolerance of the solver.
     """
-    press = layer.press_to_force(gap_mm, force_n, start=start, tol=tol)
+    press = layer.press_to_force(gap_mm, force_n, tol=tol)
     for _ in range(_TRIES):
         excess = press.height_mm.amax((1, 2)) / deepest_mm
         if not bool((excess > 1).any()):

@@ -7,7 +7,7 @@ Computation is in mm, N and MPa (N/mm²); results give pressure in kPa. Surfaces
 frame, positive into the gel; the gel that rises around a contact is negative.
 
 Not here: friction (``sim.gel.shear``), the pressing bodies (``sim.grasp.bodies``,
-``sim.starter.shapes``), sensor noise and point clouds (``cltp.tactile``).
+``sim.full.drawn``), sensor noise and point clouds (``cltp.tactile``).
 """
 
 from __future__ import annotations

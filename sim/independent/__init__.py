@@ -5,7 +5,7 @@ other outlines, its noise has bands and blind spots. What reads these contacts a
 it learned from has learned contacts, and not a generator. Labels follow the definitions of
 ``sim.tcl3d.labels``.
 
-Not here: contacts to learn from (``sim.starter``, ``sim.tcl3d``). Nothing that trains, and nothing
+Not here: contacts to learn from (``sim.full``, ``sim.tcl3d``). Nothing that trains, and nothing
 that makes data for training, may import this folder; a test holds it.
 
 May import: cltp.data, cltp.tactile, sim.gel, sim.tcl3d.

@@ -1,4 +1,4 @@
-"""Bodies of the 19 shapes as height functions, parametrised otherwise than ``sim.starter``.
+"""Bodies of the 19 shapes as height functions, parametrised otherwise than ``sim.full``.
 
 Not here: what of a body touches, and whether its label then holds (``sim.independent.contacts``).
 """

@@ -1,6 +1,7 @@
 """Signed distances [mm] in the plane, negative inside: polygons, superellipses, polylines, moons.
 
-Not here: the outlines of the starter set (``sim.starter.outlines``), which are others on purpose.
+Not here: the outlines of contacts to learn from (``sim.full.drawn.outlines``), which are others on
+purpose.
 """
 
 from __future__ import annotations

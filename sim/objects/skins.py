@@ -4,7 +4,7 @@ The limits of each texture are those of the notes, beside each class of
 ``cltp.tactile.states.Texture``. A relief lies in the pad's plane and turns with the object. It
 fades where the surface is steep, since a finger feels no grain on a flank.
 
-Not here: textures drawn for every press (``sim.starter.shapes``).
+Not here: skins drawn for every series (``sim.full.skins``).
 """
 
 from __future__ import annotations
@@ -94,15 +94,15 @@ def relief_of(
     if skin.texture is Texture.SMOOTH:
         return np.zeros(np.shape(x_mm))
     if skin.texture is Texture.ROUGH:
-        return skin.height_mm * grain(x_mm.shape, sensor, skin.pitch_mm, rng)
+        return skin.height_mm * _grain(x_mm.shape, sensor, skin.pitch_mm, rng)
     cos, sin = math.cos(axis_rad), math.sin(axis_rad)
     u = x_mm * cos + y_mm * sin + start[0]
     v = y_mm * cos - x_mm * sin + start[1]
     if skin.texture is Texture.RIDGED:
-        return skin.height_mm * valley(u, skin.pitch_mm)
+        return skin.height_mm * _valley(u, skin.pitch_mm)
     if skin.texture is Texture.WOVEN:
-        return skin.height_mm * np.minimum(valley(u, skin.pitch_mm), valley(v, skin.pitch_mm))
-    return skin.height_mm * caps(u, v, skin.pitch_mm, 0.44 * skin.pitch_mm)  # nearly touching
+        return skin.height_mm * np.minimum(_valley(u, skin.pitch_mm), _valley(v, skin.pitch_mm))
+    return skin.height_mm * _caps(u, v, skin.pitch_mm, 0.44 * skin.pitch_mm)  # nearly touching
 
 
 def fade(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
@@ -111,12 +111,12 @@ def fade(relief_mm: FloatArray, slope: FloatArray) -> FloatArray:
     return relief_mm * ((last - slope) / (last - first)).clip(0, 1)
 
 
-def valley(along: FloatArray, pitch: float) -> FloatArray:
+def _valley(along: FloatArray, pitch: float) -> FloatArray:
     """Profile of ridges: 0 on them, 1 between them."""
     return np.asarray(np.sin(math.pi * along / pitch) ** 2)
 
 
-def caps(u: FloatArray, v: FloatArray, pitch: float, radius: float) -> FloatArray:
+def _caps(u: FloatArray, v: FloatArray, pitch: float, radius: float) -> FloatArray:
     """Spherical caps on a hexagonal lattice: 0 at their tops, 1 from ``radius`` on."""
     row = pitch * math.sqrt(3)
     squared = np.minimum(
@@ -128,7 +128,7 @@ def caps(u: FloatArray, v: FloatArray, pitch: float, radius: float) -> FloatArra
     return np.asarray((squared / radius**2).clip(max=1))
 
 
-def grain(
+def _grain(
     shape: tuple[int, ...], sensor: SensorSpec, length_mm: float, rng: np.random.Generator
 ) -> FloatArray:
     """Rough relief of standard deviation 1, mean 0, with a correlation length.

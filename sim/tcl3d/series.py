@@ -11,16 +11,15 @@ noise (``cltp.tactile.sensor_noise``).
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 import torch
 
-from cltp.data.contact import Contact, Gel, Split
+from cltp.data.contact import Contact, Split
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import DEPTH_LIMITS_MM
-from sim.gel.force_factor import force_factor
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, GelMaterial, Press, gel_of
 from sim.objects.catalogue import CATALOGUE, SMALL, UNSEEN
@@ -28,8 +27,9 @@ from sim.objects.catalogue_large import LARGE
 from sim.objects.object import SolidObject
 from sim.objects.ray_casting import PadView, cast_pad_rays
 from sim.objects.skins import SMOOTH, fade, relief_of
-from sim.tcl3d.contact_geometry import ContactGeometry
-from sim.tcl3d.labels import TEXTURE, in_contact, label, name_texture, uncertain_labels
+from sim.tcl3d.contact_geometry import ContactGeometry, Mask
+from sim.tcl3d.labelled_press import Naming, label_press
+from sim.tcl3d.labels import name_texture
 from sim.tcl3d.poses import PressPose, draw_pose
 from sim.tcl3d.shape_labels import name_shape
 
@@ -212,7 +212,7 @@ def make_series(
         press = layer.press_to_depth(
             gaps.to(device), torch.tensor(approach, device=device), tol=_TOLERANCE
         )
-    return label_presses(seed, request, scene, approach, press)
+    return label_scene(seed, request, scene, press)
 
 
 @torch.inference_mode()
@@ -300,54 +300,29 @@ def _scene(
     return Scene(view=view, cells=cells, relief_mm=relief)
 
 
-def label_presses(
-    seed: int, request: SeriesRequest, scene: Scene, approach: list[float], press: Press
-) -> list[Contact]:
+def label_scene(seed: int, request: SeriesRequest, scene: Scene, press: Press) -> list[Contact]:
     """Contacts of a series that has been pressed, with their labels."""
-    pitch = request.sensor.width_mm / scene.cells.shape[1]
-    pressure = press.pressure_kpa.cpu()
-    closed = in_contact(pressure, pitch)
-    gel = Gel(**asdict(request.gel))
-    contacts = []
-    for i, approach_mm in enumerate(approach):
-        height_mm, load = press.height_mm[i].cpu().numpy(), pressure[i].numpy()
+
+    def name(touching: Mask, closed: Mask, depth_mm: float) -> Naming:
         geometry = ContactGeometry(
             gap_mm=scene.view.gap_mm,
             cells=scene.cells,
             cell_table=request.obj.cells,
-            touching=load > 0,
-            closed=closed[i],
-            depth_mm=float(height_mm.max()),
-            pitch_mm=pitch,
+            touching=touching,
+            closed=closed,
+            depth_mm=depth_mm,
+            pitch_mm=request.sensor.width_mm / scene.cells.shape[1],
         )
-        shape = name_shape(geometry)
         texture, is_texture_sure = name_texture(request.obj, geometry, scene.relief_mm)
-        state = label(
-            height_mm=height_mm,
-            pressure_kpa=load,
-            touching=closed[i],
-            force_n=float(press.force_n[i]),
-            sensor=request.sensor,
-            shape=shape.shape,
-            texture=texture,
-        )
-        unsure = uncertain_labels(state, request.sensor)
-        unsure |= {"shape"} if not shape.sure else set()
-        unsure |= {TEXTURE} if not is_texture_sure else set()
-        contacts.append(
-            Contact(
-                height_mm=height_mm,
-                sensor=request.sensor,
-                state=state,
-                object=request.obj.name,
-                series=request.number,
-                split=request.split,
-                gel=gel,
-                seed=seed,
-                unsure=frozenset(unsure),
-                approach_mm=approach_mm,
-                peak_kpa=float(load.max()),
-                force_factor=force_factor(request.gel, request.sensor.name),
-            )
-        )
-    return contacts
+        return Naming(shape=name_shape(geometry), texture=texture, is_texture_sure=is_texture_sure)
+
+    return label_press(
+        press,
+        name,
+        object_name=request.obj.name,
+        sensor=request.sensor,
+        gel=request.gel,
+        split=request.split,
+        seed=seed,
+        series=request.number,
+    )

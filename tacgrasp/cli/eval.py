@@ -24,7 +24,7 @@ def main(argv: Sequence[str]) -> int:
         return 0
     request = parse(EvaluationRequest, argv, prog="tacgrasp eval")
     json_path = writable(request.json)
-    contacts_in(request.data, command="tacgrasp data generate --set starter --contacts 24000")
+    contacts_in(request.data, command="tacgrasp data generate --set full")
     import json
 
     from cltp.train.progress import Bar

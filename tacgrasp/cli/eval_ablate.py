@@ -45,7 +45,7 @@ def main(argv: Sequence[str]) -> None:
     flags = parse(AblateFlags, argv, prog="tacgrasp eval ablate")
     writable(flags.json)
     if flags.data is not None:
-        contacts_in(flags.data, command="tacgrasp data generate --set starter --contacts 24000")
+        contacts_in(flags.data, command="tacgrasp data generate --set full")
     from cltp.train.progress import Bar
     from tacgrasp.policy_factory import default_weights
     from tacgrasp.training.ablation.evaluate import ablate

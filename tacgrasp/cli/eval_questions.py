@@ -61,7 +61,7 @@ def main(argv: Sequence[str]) -> None:
     flags = parse(QuestionFlags, argv, prog="tacgrasp eval questions")
     writable(flags.json)
     if flags.data is not None:
-        contacts_in(flags.data, command="tacgrasp data generate --set starter --contacts 24000")
+        contacts_in(flags.data, command="tacgrasp data generate --set full")
     from tacgrasp.lessons.dialogue.question_file import read_questions
 
     rows = read_questions(flags.file)

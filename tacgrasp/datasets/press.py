@@ -23,8 +23,8 @@ from sim.gel.fine.fine import FineLayer
 from sim.gel.gap import NO_BODY_MM
 from sim.gel.layer import ElasticLayer, Press, gel_of
 from sim.objects.catalogue import object_named
+from sim.objects.probes import ProbeShape
 from sim.objects.ray_casting import cast_pad_rays
-from sim.starter.probes import ProbeShape
 from sim.tcl3d.contact_geometry import ContactGeometry
 from sim.tcl3d.labels import in_contact, label
 from sim.tcl3d.poses import draw_pose

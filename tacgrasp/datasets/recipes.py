@@ -2,9 +2,7 @@
 
 - ``full``: 259 objects drawn anew for every series, 120,000 contacts, four sensors
   (``sim.full.series``);
-- ``paper``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``);
-- ``starter``: 19 indenters and four bodies at a gripper's forces, 24,000 contacts
-  (``sim.starter.contacts``).
+- ``paper``: 117 objects, 50,860 contacts and two further domains (``sim.tcl3d.series``).
 
 Not here: workers and files (``tacgrasp.datasets.generate``).
 """
@@ -12,7 +10,6 @@ Not here: workers and files (``tacgrasp.datasets.generate``).
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +19,6 @@ import torch
 
 from cltp.data.contact import Contact
 from cltp.data.dataset_writer import PackedShard, packed_shard
-from cltp.tactile.sensors import sensor_named
 from sim.full.requests import LOADS
 from sim.full.series import CONTACTS as FULL_CONTACTS
 from sim.full.series import make_series as make_full_series
@@ -30,22 +26,18 @@ from sim.full.series import num_series
 from sim.grasp.rig import BENCHMARK_SEED
 from sim.objects.catalogue import CATALOGUE
 from sim.objects.mesh_objects import meshes_in, object_from_mesh
-from sim.starter.contacts import GROUP_CONTACTS, make_group
 from sim.tcl3d.series import ALL_CONTACTS, make_series, mesh_numbers, num_loads, series_numbers
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.torch_device import usable_device
 from tacgrasp.datasets.requests import GenerateRequest
 
-SETS = ("full", "paper", "starter")
+SETS = ("full", "paper")
 FORMER_NAMES = {"tcl3d": "paper"}
 """Sets by the names that they had before."""
 
-STARTER_CONTACTS = 24_000
-
-STARTER_MAKER, TCL3D_MAKER, FULL_MAKER = "2", "tcl3d 1", "full 1"
+TCL3D_MAKER, FULL_MAKER = "tcl3d 1", "full 1"
 """Versions of the recipes; raised when the same seed gives other contacts."""
 
-SHARD_GROUPS = 5
 SHARD_SERIES = 50
 FULL_SHARD_SERIES = 100
 
@@ -68,38 +60,6 @@ class DatasetRecipe(Protocol):
     def make(self, shard: int) -> list[Contact]:
         """The contacts of one shard; they depend on the recipe and the number alone."""
         ...
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StarterRecipe:
-    """The set ``starter``."""
-
-    contacts: int
-    seed: int
-    sensor_name: str
-
-    def about(self) -> dict[str, str]:
-        return {
-            "made_by": "tacgrasp data generate",
-            "maker": STARTER_MAKER,
-            "seed": str(self.seed),
-            "contacts": str(self.contacts),
-            "sensor": self.sensor_name,
-        }
-
-    def card_command(self) -> None:
-        return None
-
-    def shard_sizes(self) -> list[int]:
-        size = SHARD_GROUPS * GROUP_CONTACTS
-        return [min(size, self.contacts - first) for first in range(0, self.contacts, size)]
-
-    def make(self, shard: int) -> list[Contact]:
-        count = self.shard_sizes()[shard]
-        first = shard * SHARD_GROUPS
-        groups = range(first, first + math.ceil(count / GROUP_CONTACTS))
-        sensor = sensor_named(self.sensor_name)
-        return [c for group in groups for c in make_group(self.seed, group, sensor)][:count]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,7 +162,7 @@ def recipe(request: GenerateRequest) -> DatasetRecipe:
     Raises:
         UsageError: An unknown set, a value that does not fit the set, or a device that
             can't be used here.
-        TouchError: An unknown sensor, or a mesh that can't be used.
+        TouchError: A mesh that can't be used.
     """
     contacts, seed, meshes = request.contacts, request.seed, request.meshes
     name = FORMER_NAMES.get(request.set, request.set)
@@ -213,19 +173,8 @@ def recipe(request: GenerateRequest) -> DatasetRecipe:
             f"expected at least 1 contact and a seed from 0 to {BENCHMARK_SEED - 1} "
             f"(larger ones are for benchmarks), got {contacts} contacts, seed {seed}"
         )
-    sensor_named(request.sensor)
     if name != "paper" and meshes is not None:
         raise UsageError("--meshes belongs to --set paper")
-    if name == "starter":
-        if request.device != "cpu":
-            raise UsageError("--device belongs to --set full and paper")
-        return StarterRecipe(
-            contacts=contacts or STARTER_CONTACTS, seed=seed, sensor_name=request.sensor
-        )
-    if request.sensor != "gelsight_mini":
-        raise UsageError(
-            f"--sensor {request.sensor} belongs to --set starter: {name} has its own sensors"
-        )
     usable_device(request.device)
     if name == "full":
         return FullRecipe(

@@ -21,10 +21,8 @@ class GenerateRequest:
     Attributes:
         out: Folder of the data set; created when missing.
         set: full: the most varied contacts, on four sensors, to train on. paper: the paper's 117
-            objects, for its tables. starter: part of what the shipped weights were trained on; it
-            goes when they are trained anew.
-        contacts: Number of contacts. Default: all, which is 120000 for full, 52425 for paper and
-            24000 for starter.
+            objects, for its tables.
+        contacts: Number of contacts. Default: all, which is 120000 for full and 52425 for paper.
         seed: Random seed of the whole set, below 1000000. Larger seeds belong to the benchmarks.
         shard: Part i of n as i/n, to share the work among machines. Afterwards copy the files of
             all parts into one folder and run the command once more without --shard.
@@ -32,8 +30,7 @@ class GenerateRequest:
         on: Address of the scheduler of a dask.distributed cluster, such as tcp://10.0.0.1:8786,
             whose workers make the shards instead; this process writes them (extra: scale).
         meshes: Folder of meshes (PLY, OBJ, STL; mm) to press as well (paper only).
-        device: Device for the computation: cpu or cuda (full and paper only).
-        sensor: Sensor whose gel is pressed (starter only).
+        device: Device for the computation: cpu or cuda.
     """
 
     out: Path
@@ -45,7 +42,6 @@ class GenerateRequest:
     on: str | None = None
     meshes: Path | None = None
     device: str = "cpu"
-    sensor: str = "gelsight_mini"
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,13 @@ import numpy as np
 from cltp.data.dataset import GEL_COLUMNS, ContactDataset
 from cltp.errors import TouchError
 from sim.gel.layer import GEL_MATERIALS
-from tacgrasp.datasets.recipes import FULL_MAKER, STARTER_MAKER, TCL3D_MAKER
+from tacgrasp.datasets.recipes import FULL_MAKER, TCL3D_MAKER
 
 GENERATED = "tacgrasp data generate"
-MAKERS = {"full": FULL_MAKER, "tcl3d": TCL3D_MAKER, "starter": STARTER_MAKER}
+MAKERS = {"full": FULL_MAKER, "tcl3d": TCL3D_MAKER}
+FORMER_SET = "starter"
+"""A set that this program no longer makes. Its files name no set."""
+
 ENOUGH = 500
 """Contacts on a sensor from which its nominal gel must be among them."""
 
@@ -30,12 +33,15 @@ def check_trainable(data: ContactDataset) -> None:
     about = data.about
     if about.get("made_by") != GENERATED:
         return
-    name = about.get("set", "starter")
+    name = about.get("set", FORMER_SET)
     maker, again = about.get("maker"), f"tacgrasp data generate --set full --out {data.folder}-full"
-    if maker != MAKERS.get(name):
+    if name not in MAKERS or maker != MAKERS[name]:
+        today = (
+            f"this program has {MAKERS[name]!r}" if name in MAKERS else "which is no longer made"
+        )
         raise TouchError(
-            f"{data.folder} was made by the recipe {maker!r} of the set {name}, this program has "
-            f"{MAKERS.get(name)!r}; it can be looked into, but not learned from: {again}"
+            f"{data.folder} was made by the recipe {maker!r} of the set {name}, {today}; "
+            f"it can be looked into, but not learned from: {again}"
         )
     for sensor, found in _other_gels(data).items():
         gel = GEL_MATERIALS[sensor]

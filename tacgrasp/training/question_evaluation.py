@@ -27,7 +27,9 @@ from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import sensor_named
 from cltp.texts.exchange_packing import Exchange
 from cltp.train.stage import ProgressReport, silent
-from sim.starter.contacts import make_group
+from sim.full.series import press_on_gel
+from sim.gel.layer import gel_of
+from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.question_file import QuestionRow
 from tacgrasp.lessons.dialogue.scene import AskedScene
@@ -42,8 +44,8 @@ from tacgrasp.lessons.question_scores import (
     figures_by_family,
 )
 
-MADE_SEED = 900_007
-"""Seed of the contacts that are made where none are given; no data set was made from it."""
+MADE_SEED = BENCHMARK_SEED + 7
+"""Seed of the contacts that are made where none are given; no data set can have it."""
 
 GRAMMAR_QUESTIONS = 500
 """Number of the grammar's own questions that its answers are scored on."""
@@ -68,7 +70,7 @@ def felt_contacts(
     """Contacts of a data set's test split, or made ones.
 
     Args:
-        folder: The data set; None makes a group of the starter set.
+        folder: The data set; None presses objects of the set ``full``.
         num: How many.
         seed: Random seed of choice, noise, contracts and masses.
         layout: Layout of the points that the model takes.
@@ -88,14 +90,10 @@ def felt_contacts(
 
 
 def _made(work: Path, num: int) -> ContactDataset:
-    spec = sensor_named("gelsight_mini")
+    sensor = sensor_named("gelsight_mini")
     with DatasetWriter(work / "made") as writer:
-        written = group = 0
-        while written < num:
-            for contact in make_group(MADE_SEED, group, spec):
-                writer.add(contact)
-                written += 1
-            group += 1
+        for contact in press_on_gel(gel_of(sensor.name), sensor, seed=MADE_SEED, num=num):
+            writer.add(contact)
     return ContactDataset(work / "made")
 
 

@@ -114,7 +114,7 @@ def make(
             times.append(time.process_time())
             press = solve(request, scene, approach, device)
             times.append(time.process_time())
-            labelled = tcl3d.label_presses(SEED, request, scene, approach, press)
+            labelled = tcl3d.label_scene(SEED, request, scene, press)
             times.append(time.process_time())
             for contact in labelled:
                 caption(contact.state)

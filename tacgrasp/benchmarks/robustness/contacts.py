@@ -5,7 +5,7 @@ conditions are compared on pairs; an error of level 0 draws nothing, and what is
 differs.
 
 Contacts of another gel are pressed anew: the same objects at the same forces or depths, from a seed
-that no training uses. What is read from their heights is multiplied by the factor of the gel's
+that no data set can have. What is read from their heights is multiplied by the factor of the gel's
 force calibration, without the scatter that a real one has.
 """
 
@@ -29,17 +29,18 @@ from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState
+from sim.full.series import press_on_gel
 from sim.gel.layer import GelMaterial, gel_of
 from sim.grasp.force_calibration import drawn_force_calibration
-from sim.starter.contacts import GROUP_CONTACTS, make_group
+from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.benchmarks.robustness.conditions import GEL_NUISANCES, SENSOR, Condition
 from tacgrasp.benchmarks.robustness.exact_observer import observed_state
 
 SEED = 0
 """Seed of the choice of contacts and of their noise."""
 
-PRESSED_SEED = 900_001
-"""Seed of the contacts that are pressed for the gels; those of data sets are small numbers."""
+PRESSED_SEED = BENCHMARK_SEED + 1
+"""Seed of the contacts that are pressed for the gels; no data set can have it."""
 
 QUARTER_TURN = Placement(turn_rad=np.pi / 2)
 
@@ -102,12 +103,10 @@ class ContactSource:
 
 
 def _press(target: Path, gel: GelMaterial, count: int) -> None:
-    """Press at least ``count`` contacts."""
-    sensor = sensor_named(SENSOR)
+    """Press ``count`` contacts."""
     with DatasetWriter(target) as writer:
-        for group in range(-(-count // GROUP_CONTACTS)):
-            for contact in make_group(PRESSED_SEED, group, sensor, gel):
-                writer.add(contact)
+        for contact in press_on_gel(gel, sensor_named(SENSOR), seed=PRESSED_SEED, num=count):
+            writer.add(contact)
 
 
 def layout_of(weights: Path) -> PointLayout:

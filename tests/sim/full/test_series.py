@@ -1,15 +1,19 @@
 """Series of the set: the same from the same seed, truly labelled, with nothing and held bodies."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from cltp.data.contact import Contact
 from cltp.tactile.measure import cut_sides
+from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import CUT_MM, Shape, area_word, depth_word, position_word
+from sim.full.held_scene import FORCE_N
 from sim.full.objects import Origin
 from sim.full.requests import LOADS, full_request
-from sim.full.series import make_series, num_series
-from sim.starter.series import BODY_FORCE_N
+from sim.full.series import make_series, num_series, press_on_gel
+from sim.gel.layer import gel_of
 
 
 def first(origin):
@@ -72,7 +76,7 @@ def test_nothing_is_an_untouched_frame_without_words():
 
 def test_a_held_body_is_pressed_with_the_forces_of_a_grasp():
     number = first(Origin.HELD)
-    limits = BODY_FORCE_N[full_request(0, number).choice.kind]
+    limits = FORCE_N[full_request(0, number).choice.kind]
     for contact in make_series(0, number):
         assert limits.low <= contact.state.force_n * 1.001
         assert contact.state.force_n <= limits.high * 1.001
@@ -90,3 +94,25 @@ def test_a_cut_contact_names_the_side_that_cuts_it(contacts):
 
 def test_an_odd_number_of_contacts_needs_one_series_more():
     assert (num_series(4), num_series(5)) == (2, 3)
+
+
+def test_another_gel_is_pressed_by_the_same_objects_as_deep_or_hard():
+    mini, nominal = sensor_named("gelsight_mini"), gel_of("gelsight_mini")
+    softer = replace(nominal, young_mpa=0.6 * nominal.young_mpa)
+    pairs = list(
+        zip(*(press_on_gel(gel, mini, seed=1, num=25) for gel in (nominal, softer)), strict=True)
+    )
+    assert len(pairs) == 25
+    for firm, soft in pairs:
+        assert firm.sensor == soft.sensor == mini
+        assert (firm.gel.young_mpa, soft.gel.young_mpa) == (nominal.young_mpa, softer.young_mpa)
+        assert (firm.object, firm.series) == (soft.object, soft.series)
+        assert firm.state.in_contact
+        if firm.object.startswith("held"):
+            assert soft.state.force_n == pytest.approx(firm.state.force_n, rel=1e-3)
+            assert soft.state.depth_mm > firm.state.depth_mm
+        else:
+            assert soft.approach_mm == firm.approach_mm
+            assert soft.state.force_n < firm.state.force_n
+    assert any(firm.object.startswith("held") for firm, _ in pairs)
+    assert len({firm.object for firm, _ in pairs}) > 10

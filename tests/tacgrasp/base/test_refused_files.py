@@ -53,9 +53,7 @@ COMMANDS = {
     "data sheet": (["data", "sheet", "{made}/data", "--out", "{out}"]),
     "episodes plot": (["episodes", "plot", "{made}/e.mcap", "--out", "{out}.png"]),
     "bench latency": (["bench", "latency", "--ticks", "1", "--json", "{out}.json"]),
-    "data generate": (
-        ["data", "generate", "--set", "starter", "--contacts", "2", "--out", "{out}"]
-    ),
+    "data generate": (["data", "generate", "--set", "full", "--contacts", "2", "--out", "{out}"]),
 }
 
 

@@ -104,7 +104,7 @@ def test_without_a_command_the_usage_is_printed_and_it_is_wrong_use() -> None:
         (["bench", "latency", "--json", "no/where.json"], "--json no/where.json can't be written"),
         (["bench", "strawberry", "--episodes", "0"], "--episodes must be at least 1"),
         (["bench", "gel", "--jsn", "x"], "did you mean --json"),
-        (["eval", "--data", "nowhere"], "make them: tacgrasp data generate --set starter"),
+        (["eval", "--data", "nowhere"], "make them: tacgrasp data generate --set full"),
         (["eval", "zero-shot", "--data", "nowhere"], "make them: tacgrasp data generate --out"),
         (["run", "--weights", "nowhere"], "train them with `tacgrasp train all`"),
         (["why", "no.mcap"], "no.mcap does not exist"),

@@ -9,7 +9,6 @@ import sys
 import time
 from pathlib import Path
 
-import pyarrow.parquet as pq
 import pytest
 from rich.console import Console
 
@@ -26,11 +25,11 @@ from tests.paths import ROOT
 
 @pytest.fixture(autouse=True)
 def small_shards(monkeypatch):
-    monkeypatch.setattr(recipes, "SHARD_GROUPS", 1)
+    monkeypatch.setattr(recipes, "FULL_SHARD_SERIES", 2)
 
 
-def generate(out, contacts=90, seed=7, **options):
-    values = {"out": out, "set": "starter", "contacts": contacts, "seed": seed, **options}
+def generate(out, contacts=10, seed=7, **options):
+    values = {"out": out, "set": "full", "contacts": contacts, "seed": seed, **options}
     made.generate(GenerateRequest(**values), console=Console(file=io.StringIO()))
 
 
@@ -42,14 +41,14 @@ def files(folder):
 def undisturbed(tmp_path_factory):
     folder = tmp_path_factory.mktemp("undisturbed") / "data"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(recipes, "SHARD_GROUPS", 1)
+        patch.setattr(recipes, "FULL_SHARD_SERIES", 2)
         generate(folder, workers=1)
     return folder
 
 
 def test_as_many_contacts_are_made_as_were_asked_for(undisturbed):
     data = ContactDataset(undisturbed)
-    assert len(data) == 90
+    assert len(data) == 10
     assert made.is_complete(undisturbed)
     assert data.about["seed"] == "7"
     assert data.column("series").tolist() == sorted(data.column("series"))
@@ -67,7 +66,9 @@ def test_what_is_missing_is_made_again_with_the_same_bytes(undisturbed, tmp_path
 
 
 def test_a_complete_data_set_is_left_as_it_is(undisturbed, monkeypatch):
-    monkeypatch.setattr(recipes, "make_group", lambda *_: pytest.fail("nothing is to be made"))
+    monkeypatch.setattr(
+        recipes, "make_full_series", lambda *_: pytest.fail("nothing is to be made")
+    )
     before = files(undisturbed)
     generate(undisturbed, workers=1)
     assert files(undisturbed) == before
@@ -86,7 +87,7 @@ def test_killed_twice_it_goes_on_and_leaves_no_worker_behind(tmp_path, monkeypat
     monkeypatch.undo()
     out, whole = tmp_path / "killed", tmp_path / "whole"
     command = [sys.executable, "-m", "tacgrasp", "data", "generate", "--contacts", "850"]
-    command += ["--set", "starter", "--seed", "7", "--workers", "2", "--out"]
+    command += ["--set", "full", "--seed", "7", "--workers", "2", "--out"]
     for shards in (1, 3):
         with subprocess.Popen([*command, out], cwd=ROOT, stderr=subprocess.DEVNULL) as run:
             until = time.monotonic() + 120
@@ -123,8 +124,8 @@ def _is_zombie(pid):
 def test_a_folder_of_another_command_is_refused_and_names_the_difference(undisturbed):
     with pytest.raises(UsageError, match=r"seed '7' instead of '8'"):
         generate(undisturbed, seed=8)
-    with pytest.raises(UsageError, match=r"contacts '90' instead of '91'"):
-        generate(undisturbed, contacts=91)
+    with pytest.raises(UsageError, match=r"contacts '10' instead of '11'"):
+        generate(undisturbed, contacts=11)
 
 
 @pytest.mark.parametrize(
@@ -136,14 +137,8 @@ def test_impossible_values_are_refused_before_anything_is_made(wrong, tmp_path):
     assert not (tmp_path / "data").exists()
 
 
-def test_an_unknown_sensor_is_refused(tmp_path):
-    with pytest.raises(TouchError, match="unknown sensor 'eye'"):
-        generate(tmp_path / "data", sensor="eye")
-    assert not (tmp_path / "data").exists()
-
-
 def test_a_started_data_set_without_shards_is_not_complete(tmp_path):
-    made._open(tmp_path / "data", {"contacts": "9", "seed": "0", "sensor": "gelsight_mini"})
+    made._open(tmp_path / "data", {"contacts": "9", "seed": "0", "set": "full"})
     assert not made.is_complete(tmp_path / "data")
     with pytest.raises(TouchError, match="no data set"):
         made.is_complete(tmp_path)
@@ -188,35 +183,21 @@ def test_parts_from_several_machines_give_the_same_bytes(
     assert files(joined) == files(whole_tcl3d)
 
 
-def full(out, contacts=10, seed=5, **options):
-    generate(out, contacts, seed, set="full", **options)
-
-
-@pytest.fixture(scope="module")
-def whole_full(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("full") / "data"
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(recipes, "FULL_SHARD_SERIES", 2)
-        full(folder, workers=1)
-    return folder
-
-
-def test_the_full_set_in_parts_has_the_same_bytes(whole_full, tmp_path, monkeypatch):
-    monkeypatch.setattr(recipes, "FULL_SHARD_SERIES", 2)
+def test_the_full_set_in_parts_has_the_same_bytes(undisturbed, tmp_path):
     joined = tmp_path / "joined"
     for part in ("2/2", "1/2"):
-        full(joined, shard=part, workers=1)
-    assert files(joined) == files(whole_full)
+        generate(joined, shard=part, workers=1)
+    assert files(joined) == files(undisturbed)
     assert len(ContactDataset(joined)) == 10
 
 
-def test_the_full_set_is_whole_and_says_what_it_is(whole_full):
-    about = ContactDataset(whole_full).about
+def test_the_full_set_is_whole_and_says_what_it_is(undisturbed):
+    about = ContactDataset(undisturbed).about
     assert (about["set"], about["maker"]) == ("full", recipes.FULL_MAKER)
-    assert [problem for _, problem in problems(whole_full) if problem is not None] == []
+    assert [problem for _, problem in problems(undisturbed) if problem is not None] == []
     assert (
-        "`tacgrasp data generate --set full --seed 5 --contacts 10`"
-        in (whole_full / "README.md").read_text()
+        "`tacgrasp data generate --set full --seed 7 --contacts 10`"
+        in (undisturbed / "README.md").read_text()
     )
 
 
@@ -237,13 +218,6 @@ def test_a_card_says_what_is_in_the_folder(whole_tcl3d):
     assert data.contact(0).approach_mm > 0
 
 
-def test_the_starter_set_has_no_column_that_it_did_not_have(undisturbed):
-    stored = pq.read_schema(undisturbed / "shard-s00000-00000.parquet")
-    assert "unsure" not in stored.names
-    assert ContactDataset(undisturbed).contact(0).unsure is None
-    assert ContactDataset(undisturbed).contact(0).peak_kpa is None
-
-
 @pytest.mark.parametrize("wrong", ["0/2", "3/2", "1/0", "1", "a/b", "-1/2"])
 def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
     with pytest.raises(UsageError, match="--shard expects i/n"):
@@ -254,12 +228,9 @@ def test_a_part_that_does_not_exist_is_refused(wrong, tmp_path):
 @pytest.mark.parametrize(
     ("wrong", "message"),
     [
-        ({"set": "tcl4d"}, "--set expects full, paper, starter, got 'tcl4d'"),
-        ({"set": "paper", "sensor": "digit"}, "belongs to --set starter"),
-        ({"set": "full", "sensor": "digit"}, "full has its own sensors"),
-        ({"set": "starter", "meshes": Path("x")}, "belongs to --set paper"),
+        ({"set": "tcl4d"}, "--set expects full, paper, got 'tcl4d'"),
+        ({"set": "starter"}, "--set expects full, paper, got 'starter'"),
         ({"set": "full", "meshes": Path("x")}, "belongs to --set paper"),
-        ({"set": "starter", "device": "cuda"}, "belongs to --set full and paper"),
         ({"set": "full", "on": "nowhere:1"}, "no scheduler answers|not installed"),
         ({"set": "tcl3d", "device": "abacus"}, "abacus can't be used: .*; cpu always can"),
         ({"set": "tcl3d", "device": "cuda:99"}, "cuda:99 can't be used: .*; cpu always can"),

@@ -20,6 +20,8 @@ from tacgrasp.datasets.trainable import GENERATED, check_trainable
 
 MINI = sensor_named("gelsight_mini")
 GEL = gel_of("gelsight_mini")
+FORMER = {"made_by": GENERATED, "maker": "2", "sensor": "gelsight_mini"}
+"""What files of the set ``starter`` say of themselves."""
 
 
 def stored(folder, gel=GEL, **about):
@@ -59,6 +61,14 @@ def test_a_set_of_an_older_recipe_is_refused_with_what_to_do(tmp_path):
         check_trainable(data)
 
 
+def test_a_set_that_is_no_longer_made_is_refused_with_what_to_do(tmp_path):
+    data = stored(tmp_path / "old", **FORMER)
+    with pytest.raises(TouchError, match=r"starter, which is no longer made.*generate --set full"):
+        check_trainable(data)
+    with pytest.raises(TouchError, match=r"recipe None of the set starter"):
+        check_trainable(stored(tmp_path / "older", made_by=GENERATED))
+
+
 def test_a_set_of_other_gels_is_refused_and_both_gels_are_named(tmp_path):
     soft = replace(GEL, young_mpa=0.145)
     data = stored(tmp_path / "soft", soft, made_by=GENERATED, set="tcl3d", maker=TCL3D_MAKER)
@@ -66,9 +76,10 @@ def test_a_set_of_other_gels_is_refused_and_both_gels_are_named(tmp_path):
         check_trainable(data)
 
 
-def test_training_on_an_older_set_is_one_line_and_looking_into_it_works(tmp_path, capsys):
+@pytest.mark.parametrize("about", [{**FORMER, "set": "full", "maker": "full 0"}, FORMER])
+def test_training_on_an_older_set_is_one_line_and_looking_into_it_works(about, tmp_path, capsys):
     folder = tmp_path / "old"
-    stored(folder, made_by=GENERATED, set="full", maker="full 0")
+    stored(folder, **about)
     command = ["train", "cltp", "--data", str(folder), "--out", str(tmp_path / "out")]
     assert main(command) != 0
     shown = capsys.readouterr().err.strip()

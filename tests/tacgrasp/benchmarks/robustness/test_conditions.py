@@ -100,7 +100,10 @@ def test_pressed_contacts_of_another_gel_are_the_same_objects(source):
     soft, nominal, firm = (source.sampled(*job) for job in conditions)
     shapes = [[state.shape for state in each.batch.states] for each in (soft, nominal, firm)]
     assert shapes[0] == shapes[1] == shapes[2]
-    depths = [[s.depth_mm for s in each.batch.states] for each in (soft, nominal, firm)]
-    bodies = np.abs(np.array(depths[0]) - depths[2]) > 0.01  # pressed by force, not by depth
-    assert bodies.any()
-    assert (np.array(depths[0])[bodies] > np.array(depths[2])[bodies]).mean() > 0.9
+    depths, forces = (
+        np.array([[getattr(state, name) for state in each.batch.states] for each in (soft, firm)])
+        for name in ("depth_mm", "force_n")
+    )
+    bodies = np.abs(depths[0] - depths[1]) > 0.01  # pressed by force, not by depth
+    assert (depths[0][bodies] > depths[1][bodies]).all()
+    assert (forces[0][~bodies] < forces[1][~bodies]).all()

@@ -1,7 +1,6 @@
 """Rigid probes by kind and size [mm]: ``ball:9.5``, ``flat:4``, ``cylinder:6``.
 
-Not here: drawn indenters (``sim.starter.shapes``), the catalogue of objects, pressing
-(``sim.gel.layer``).
+Not here: the catalogue of objects (``sim.objects.catalogue``), pressing (``sim.gel.layer``).
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cltp.tactile.states import Shape
-from sim.starter.probes import ProbeShape
+from sim.objects.probes import ProbeShape
 
 
 def test_a_ball_lies_behind_its_tip_as_a_sphere():
