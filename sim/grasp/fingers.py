@@ -266,10 +266,7 @@ class FlatFingers:
             acceleration_m_s2: Acceleration of the fingers along the pad's (x, y).
         """
         friction = self._friction_of(patch)
-        half_mass = self.body.mass_kg / 2
-        load = friction.push.copy()
-        for axis in (0, 1):
-            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
+        load = self.load_on(patch, acceleration_m_s2)
         margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
             near = _neighbours(motion, spread)
@@ -278,21 +275,31 @@ class FlatFingers:
         speed = friction.patch_speed(motion)
         return Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
 
-    def push_on(self, patch: Patch) -> FloatArray:
-        """Outward push of a patch's slanted pressure on the body.
+    def load_on(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> FloatArray:
+        """Load of one patch: half of weight and inertia, and the push of slanted pressure.
+
+        Arguments are those of ``resistance``.
 
         Returns:
-            Shape (3,) [N]: force along x and y, and moment about the centre of mass over
-            ``LENGTH_MM``.
+            Shape (3,) [N]: force on the body along x and y, and moment about its centre of mass
+            over ``LENGTH_MM``.
         """
-        _, x, y, push_x, push_y = self._loaded_blocks(patch)
-        return _resultant(x, y, push_x, push_y)
+        half_mass = self.body.mass_kg / 2
+        load = self.push_on(patch)
+        for axis in (0, 1):
+            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
+        return load
+
+    def push_on(self, patch: Patch) -> FloatArray:
+        """Outward push of a patch's slanted pressure on the body, as ``load_on`` gives it."""
+        return self._friction_of(patch).push.copy()
 
     def _friction_of(self, patch: Patch) -> _Friction:
         """Dissipation of a patch in every motion; cached for the last patch."""
         if self._friction is None or self._friction.patch is not patch:
             force, x, y, push_x, push_y = self._loaded_blocks(patch)
-            push = _resultant(x, y, push_x, push_y)
+            moment = float((x * push_y - y * push_x).sum()) / LENGTH_MM
+            push = np.array([push_x.sum(), push_y.sum(), moment])
             friction = _Friction(patch=patch, force=force, x=x, y=y, push=push)
             friction.dissipated = self.body.friction * friction.slide(_MOTIONS)
             self._friction = friction
@@ -327,14 +334,6 @@ class FlatFingers:
         gyration = self.body.gyration_mm / LENGTH_MM
         fraction = motion[0] ** 2 + motion[1] ** 2 + (gyration * motion[2]) ** 2
         return float(self.body.mass_kg / 2 * fraction)
-
-
-def _resultant(
-    x_mm: FloatArray, y_mm: FloatArray, force_x: FloatArray, force_y: FloatArray
-) -> FloatArray:
-    """Force [N], and moment about the origin over ``LENGTH_MM`` [N]. Shape (3,)."""
-    moment = float((x_mm * force_y - y_mm * force_x).sum()) / LENGTH_MM
-    return np.array([force_x.sum(), force_y.sum(), moment])
 
 
 def _in_blocks(field_: FloatArray) -> FloatArray:

@@ -27,6 +27,7 @@ from sim.gel.shear.coarse import LOOP_ITERATIONS, LOOP_TOL
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.sensed import shear_field
 from sim.grasp.fingers import GRAVITY_M_S2, LENGTH_MM, FlatFingers
+from sim.grasp.pad_shear import grid_axes, slides
 from sim.grasp.world import DROPPED_MM
 
 _LEAST_N = 0.05
@@ -36,10 +37,6 @@ between, pressures are interpolated, which keeps their sum. Our choice: a contac
 8 % from one to the next."""
 
 _FOLLOW_MM = 0.5  # the pressure follows a sliding body in such steps, as those of ``Grasp.load``
-
-SLIDING_STICK = 0.02
-"""Stick fraction up to which all of a contact slides. Our choice: what the solver's tolerance
-leaves."""
 
 _LOAD_TOL = 0.02  # of the friction: what a step may leave to the next
 _EVALUATIONS = 5
@@ -107,7 +104,7 @@ class Holding:
         shear: The contact's memory at the start; None is a grip without any load yet.
 
     Raises:
-        ValueError: The force is not positive and finite.
+        ValueError: The force is not positive and finite, or the pads don't reach the body.
 
     Example:
         >>> holding = Holding(fingers, 1.0)
@@ -123,6 +120,8 @@ class Holding:
         shear: Shear | None = None,
     ) -> None:
         _check_force(force_n)
+        if not fingers.reaches(offset_mm):
+            raise ValueError(f"nothing is held at {offset_mm} mm: the body is beside the pad")
         self._fingers, self._layer = fingers, fingers.shear.shear_layer
         self._offset_mm = self._pressed_mm = np.array(offset_mm, dtype=np.float64)
         self._ladder: dict[int, _Pressed] = {}
@@ -189,7 +188,7 @@ class Holding:
         inertia = self._inertia() / dt_s**2
         momentum_n = inertia * self._velocity_mm_s * dt_s
         motion_mm, best_mm, shear = np.zeros(3), np.zeros(3), before
-        if _slides(before) and normal_n > self._normal_n:  # it may stick again
+        if slides(before) and normal_n > self._normal_n:  # it may stick again
             self._stiffness = self._sticking
         self._normal_n = normal_n
         carried_n = _carried(before, axes)
@@ -220,7 +219,7 @@ class Holding:
     def _slide(self, before: Shear, motion: FloatArray) -> None:
         """Count the slip of a step in which nothing sticks, and let the pressure follow."""
         after = self._shear
-        if not _slides(after):
+        if not slides(after):
             return
         move = torch.as_tensor(motion, dtype=after.held_mm.dtype)
         carried_mm = move[:2, None, None] + move[2] * self._layer.displacement_of_turn
@@ -265,14 +264,7 @@ class Holding:
         return self._fingers.shear.coarse(torch.as_tensor(grid, dtype=torch.float32)[None])
 
     def _axes(self) -> FloatArray:
-        """Motion of the grid per motion of the centre of mass, (3, 3).
-
-        The latter is (x, y [mm], turn × ``LENGTH_MM``); its loads, the transpose of this times
-        those about the grid's centre, all are forces [N].
-        """
-        x, y = self._offset_mm + np.array(self._fingers.body.com_mm)
-        turn = 1.0 / LENGTH_MM
-        return np.array([[1.0, 0.0, y * turn], [0.0, 1.0, -x * turn], [0.0, 0.0, turn]])
+        return grid_axes(self._offset_mm + np.array(self._fingers.body.com_mm))
 
     def _inertia(self) -> FloatArray:
         """Half of the body's inertia along its three motions, (3,) [N s²/mm]."""
@@ -290,10 +282,6 @@ class Holding:
             columns.append((_carried(moved, axes) - _carried(self._shear, axes)) / 1e-4)
         stiffness = np.stack(columns, axis=1)
         return np.asarray((stiffness + stiffness.T) / 2)
-
-
-def _slides(shear: Shear) -> bool:
-    return float(shear.stick_fraction) <= SLIDING_STICK
 
 
 def _force_at(step: int) -> float:
