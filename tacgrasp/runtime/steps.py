@@ -290,6 +290,7 @@ class Steps:
             contract=self._new_contract,
             need=self._need,
             camera_jpeg=None if step.observation.frame is None else jpeg_of(step.observation.frame),
+            shear=step.observation.shear,
         )
         self._notes, self._new_contract, self._need = [], None, None
         self._recorder.write_step(record)
