@@ -1,10 +1,11 @@
-"""What a policy is given in a step: one cloud, and what the gripper knows."""
+"""What a policy is given in a step: one cloud, its shear, and what the gripper knows."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from cltp.tactile.cloud import TactileCloud
+from cltp.tactile.shear.field import ShearField
 from primitives.sense import Interval
 
 
@@ -19,6 +20,7 @@ class Observation:
         width_m: Opening of the gripper [m]; None where it is not known.
         commanded_force_n: Force last commanded [N], 0 when open; None where it is not known.
         felt_force_n: Force that the contact suggests [N]; None without contact or reading.
+        shear: Displacements along the gel, of the same frame; None where the sensor gives none.
         t_s: Time since the episode began [s].
     """
 
@@ -27,4 +29,5 @@ class Observation:
     width_m: float | None = None
     commanded_force_n: float | None = None
     felt_force_n: Interval | None = None
+    shear: ShearField | None = None
     t_s: float = 0.0

@@ -72,6 +72,7 @@ MINI_SPREAD = NoiseSpread(
 SPREADS: dict[str, NoiseSpread] = {
     "gelsight_mini": MINI_SPREAD,
     # Not measured; the same maker and the same reconstruction.
+    "gelsight_mini_markers": MINI_SPREAD,
     "gelsight_r15": MINI_SPREAD,
     # Not measured. Our assumption: like the GelSight Mini, which is photometric too, but less well
     # calibrated, and its curved gel is out of sight within up to 1 mm of the border.
@@ -91,6 +92,16 @@ SPREADS: dict[str, NoiseSpread] = {
         gain_log_ratio=0.0,
         marker_mm=0.004,
         marker_loss=0.03,
+    ),
+    # Assumed, of no array in particular: scale and tilt as of a calibrated camera, noise of some
+    # counts [µm], and no gradients that would have gains.
+    "taxels": NoiseSpread(
+        depth_scale=0.15,
+        tilt=0.001,
+        drift_mm=0.02,
+        drift_length_mm=(5.0, 12.0),
+        fine_mm=0.010,
+        gain_log_ratio=0.0,
     ),
 }
 """By the names of ``cltp.tactile.sensors.SENSORS``."""

@@ -32,6 +32,9 @@ class SensorSpec:
         max_depth_mm: Indentation at which the scaled z is 1 [mm].
         markers: Rows and columns of tracked markers, each in the middle of one of as many equal
             cells of the sensing area; None where the sensor sees its whole surface.
+        shear_grid: Rows and columns of the points at which it measures displacement along the
+            surface too, in equal cells likewise; None where it measures none.
+        frame_hz: Frames that it gives in a second [Hz].
 
     Raises:
         TouchError: A number that no sensor has.
@@ -44,14 +47,17 @@ class SensorSpec:
     gel_mm: float
     max_depth_mm: float
     markers: tuple[int, int] | None = None
+    shear_grid: tuple[int, int] | None = None
+    frame_hz: float = 25.0
 
     def __post_init__(self) -> None:
-        counts = (self.columns, self.rows, *(self.markers or ()))
-        lengths_mm = (self.mm_per_px, self.gel_mm, self.max_depth_mm)
-        if not (all(1 <= n <= MAX_PX for n in counts) and all(0 < x < 1e3 for x in lengths_mm)):
+        counts = (self.columns, self.rows, *(self.markers or ()), *(self.shear_grid or ()))
+        numbers = (self.mm_per_px, self.gel_mm, self.max_depth_mm, self.frame_hz)
+        if not (all(1 <= n <= MAX_PX for n in counts) and all(0 < x < 1e3 for x in numbers)):
             raise TouchError(
                 f"no sensor has {self.columns} × {self.rows} px, {self.mm_per_px} mm/px, a gel of "
-                f"{self.gel_mm} mm, {self.max_depth_mm} mm deep at most, markers {self.markers}"
+                f"{self.gel_mm} mm, {self.max_depth_mm} mm deep at most, markers {self.markers}, "
+                f"shear at {self.shear_grid}, {self.frame_hz} Hz"
             )
 
     @property
@@ -77,12 +83,17 @@ class SensorSpec:
 # github.com/Zhang-Chaofan); that the points are 23 × 23 in equal cells, and the gel's thickness,
 # are assumed. Rows, columns and mm_per_px are those of the grid that we simulate it on. GelSight
 # R1.5: 320×240 px and 0.081 mm/px (gsrobotics, its 3D view); gel thickness not published, assumed
-# like the Mini's.
+# like the Mini's. GelSight Mini with the marker gel: 7 × 9 markers (trackers that build on
+# gsrobotics count them so); that they lie in equal cells is assumed. Taxels: an array of our own
+# (docs/taxels.md) that sends displacements at 12 × 12 points, 100 times a second, from a gel like
+# the Mini's: assumed. Frame rates of the others: 25 Hz, that of a GelSight Mini.
 _TABLE: tuple[tuple[Any, ...], ...] = (
-    ("gelsight_mini", 320, 240, 0.0634, 3.4, 1.5, None),
-    ("gelsight_r15", 320, 240, 0.081, 3.4, 1.5, None),
-    ("digit", 320, 240, 0.0405, 3.4, 1.5, None),
-    ("gelstereo", 240, 240, 0.1092, 4.0, 1.5, (23, 23)),
+    ("gelsight_mini", 320, 240, 0.0634, 3.4, 1.5, None, None, 25.0),
+    ("gelsight_mini_markers", 320, 240, 0.0634, 3.4, 1.5, None, (7, 9), 25.0),
+    ("gelsight_r15", 320, 240, 0.081, 3.4, 1.5, None, None, 25.0),
+    ("digit", 320, 240, 0.0405, 3.4, 1.5, None, None, 25.0),
+    ("gelstereo", 240, 240, 0.1092, 4.0, 1.5, (23, 23), None, 25.0),
+    ("taxels", 320, 240, 0.0634, 3.4, 1.5, (12, 12), (12, 12), 100.0),
 )
 _FIELDS = [field.name for field in fields(SensorSpec)]
 SENSORS = {row[0]: SensorSpec(**dict(zip(_FIELDS, row, strict=True))) for row in _TABLE}

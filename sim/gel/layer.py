@@ -32,13 +32,16 @@ _DEEPEST_GUESS_MM = 1e3  # upper bound of the depth from which the first guess i
 # Young's modulus [MPa] and Poisson's ratio. GelSight Mini: fitted, with the thickness, to two
 # forces and a profile of real presses (``tacgrasp bench gel``): forces within 5.2 %, profile
 # 0.0071 mm. The profile alone would choose h 3.6 mm and nu 0.495 (0.0067 mm) and miss the forces
-# by 7 %. DIGIT and GelSight R1.5: not published, assumed alike. GelStereo: as in TacFlex by its
-# makers (github.com/Zhang-Chaofan/TacFlex). The thickness is that of ``cltp.tactile.sensors``.
+# by 7 %. The marker gel, DIGIT, GelSight R1.5 and taxels: assumed alike. GelStereo: as in TacFlex
+# by its makers (github.com/Zhang-Chaofan/TacFlex). The thickness is that of
+# ``cltp.tactile.sensors``.
 _ELASTICITY = {
     "gelsight_mini": (0.423, 0.47),
+    "gelsight_mini_markers": (0.423, 0.47),
     "gelsight_r15": (0.423, 0.47),
     "digit": (0.423, 0.47),
     "gelstereo": (0.25, 0.47),
+    "taxels": (0.423, 0.47),
 }
 
 GEL_MATERIALS: dict[str, GelMaterial] = {

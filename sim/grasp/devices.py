@@ -15,10 +15,12 @@ from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import Stamp, TactileCloud, cloud_of_pixels
+from cltp.tactile.cloud import Stamp, TactileCloud, cloud_of_pixels, grid_axes_mm, heights_at
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensor_noise import NoiseUnit, SlowDrift, smooth_field
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.shear.field import ShearField
+from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import GripperState, Pose
 from primitives.errors import LimitError, RobotError
 from sim.grasp.bodies import Range
@@ -42,9 +44,6 @@ GRIP_S = 0.6
 
 ADJUST_S = 0.03
 """Time to change the force of a closed grip [s]."""
-
-FRAME_S = 0.04
-"""Period of the simulated sensor's frames [s]."""
 
 REFERENCE_FRAMES = 5
 CONTACT_ERROR = Range(low=0.007, high=0.05, log=True)
@@ -215,6 +214,7 @@ class SimSensor(_Device):
     not, a reconstruction error that scales with the contact, and fine noise and missing points, new
     in every frame.
     ``take_reference`` takes the drift of the moment away.
+    A sensor of shear reads the field of the same frames, with errors of its own generator.
     """
 
     _name, _error = "sensor", TouchError
@@ -229,7 +229,10 @@ class SimSensor(_Device):
         *,
         drift_level: float = 1.0,
         force_scale: ForceScale = UNCALIBRATED,
+        shear_unit: ShearUnit | None = None,
     ) -> None:
+        self._shear_unit, self._shear_rng = shear_unit, np.random.default_rng([seed, 9])
+        self._last_shear: ShearField | None = None
         self._force_scale = force_scale
         self._grasp, self._clock, self._spec, self._seed = grasp, clock, spec, seed
         self._noise = replace(noise, drift_mm=0.0)
@@ -276,15 +279,36 @@ class SimSensor(_Device):
         """Mean of the next frames of the present gel, shape (ROWS, COLUMNS) [mm]."""
         surface_mm, total = self.surface_mm(), np.zeros((ROWS, COLUMNS), np.float32)
         for _ in range(count):
-            self._clock.advance(FRAME_S)
+            self._clock.advance(1.0 / self._spec.frame_hz)
             total += self.frame_mm(surface_mm, self._clock.simulated_s)
         return total / np.float32(count)
 
     def read(self, frames: int = 1) -> TactileCloud:
         self._check_connected()
         heights_mm = self._mean_of(frames) - self._reference
-        cloud = cloud_of_pixels(
-            heights_mm, self._spec, stamp=self._clock.stamp(), force_scale=self._force_scale
-        )
+        stamp = self._clock.stamp()
+        if self._spec.markers is not None:
+            heights_mm = _at_cells(heights_mm, self._spec, *self._spec.markers)
+        cloud = cloud_of_pixels(heights_mm, self._spec, stamp=stamp, force_scale=self._force_scale)
+        self._last_shear = self._shear(stamp, frames)
         points = self._noise.received(cloud.points_mm, self._frame_rng)
         return cloud if points is cloud.points_mm else replace(cloud, points_mm=points)
+
+    def last_shear(self) -> ShearField | None:
+        """The shear field of the frames that the last cloud came from; None without any."""
+        return self._last_shear
+
+    def _shear(self, stamp: Stamp, frames: int) -> ShearField | None:
+        if self._shear_unit is None or self._grasp.shear is None:
+            return None
+        field = self._grasp.shear.field(stamp)
+        return self._shear_unit.apply(field, self._shear_rng, frames=frames)
+
+
+def _at_cells(
+    height_mm: NDArray[np.float32], spec: SensorSpec, rows: int, columns: int
+) -> NDArray[np.float32]:
+    """Heights in the middle of equal cells, (rows, columns) [mm]."""
+    x, y = np.meshgrid(*grid_axes_mm(spec, rows, columns))
+    heights = heights_at(height_mm.astype(np.float64), x.ravel(), y.ravel(), spec)
+    return heights.reshape(rows, columns).astype(np.float32)

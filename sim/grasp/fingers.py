@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import torch
@@ -24,6 +25,7 @@ import torch
 from cltp.tactile.cloud import FloatArray, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec
 from sim.gel.layer import ElasticLayer, GelMaterial
+from sim.gel.shear.coarse import CoarseShear
 from sim.grasp.bodies import Body
 
 GRAVITY_M_S2 = 9.81
@@ -39,7 +41,9 @@ pad, where the pressure of linear elasticity is unbounded and would depend on th
 """
 
 _TOLERANCE = 1e-3  # of the solver: heights within about 1 µm of the converged ones
-_LENGTH_MM = 5.0  # turns a rotation into a displacement when motions are sampled
+LENGTH_MM = 5.0
+"""Turns a rotation into a displacement, and a moment into a force."""
+
 _BLOCK = 2
 
 
@@ -128,7 +132,7 @@ class _Friction:
         return float(np.sqrt(square @ self.force / self.force.sum()))
 
     def _squared_speed(self, motions: FloatArray) -> FloatArray:
-        spin = motions[:, 2:] / _LENGTH_MM
+        spin = motions[:, 2:] / LENGTH_MM
         return np.asarray(
             (motions[:, :1] - spin * self.y) ** 2 + (motions[:, 1:2] + spin * self.x) ** 2
         )
@@ -170,6 +174,16 @@ class FlatFingers:
         self._disc = _disc(BRUISE_RADIUS_MM / self._pitch_mm)
         self._bruise_kpa: float | None = None
         self._friction: _Friction | None = None
+
+    @cached_property
+    def shear(self) -> CoarseShear:
+        """Friction of gel and body with memory, point by point; made when first asked for."""
+        flesh = None
+        if math.isfinite(self.body.young_mpa):
+            flesh = GelMaterial(
+                thickness_mm=math.inf, young_mpa=self.body.young_mpa, poisson=self.body.poisson
+            )
+        return CoarseShear(self._layer, friction=self.body.friction, body=flesh)
 
     @property
     def bruise_kpa(self) -> float:
@@ -252,10 +266,7 @@ class FlatFingers:
             acceleration_m_s2: Acceleration of the fingers along the pad's (x, y).
         """
         friction = self._friction_of(patch)
-        half_mass = self.body.mass_kg / 2
-        load = friction.push.copy()
-        for axis in (0, 1):
-            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
+        load = self.load_on(patch, acceleration_m_s2)
         margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
             near = _neighbours(motion, spread)
@@ -264,11 +275,30 @@ class FlatFingers:
         speed = friction.patch_speed(motion)
         return Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
 
+    def load_on(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> FloatArray:
+        """Load of one patch: half of weight and inertia, and the push of slanted pressure.
+
+        Arguments are those of ``resistance``.
+
+        Returns:
+            Shape (3,) [N]: force on the body along x and y, and moment about its centre of mass
+            over ``LENGTH_MM``.
+        """
+        half_mass = self.body.mass_kg / 2
+        load = self.push_on(patch)
+        for axis in (0, 1):
+            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
+        return load
+
+    def push_on(self, patch: Patch) -> FloatArray:
+        """Outward push of a patch's slanted pressure on the body, as ``load_on`` gives it."""
+        return self._friction_of(patch).push.copy()
+
     def _friction_of(self, patch: Patch) -> _Friction:
         """Dissipation of a patch in every motion; cached for the last patch."""
         if self._friction is None or self._friction.patch is not patch:
             force, x, y, push_x, push_y = self._loaded_blocks(patch)
-            moment = float((x * push_y - y * push_x).sum()) / _LENGTH_MM
+            moment = float((x * push_y - y * push_x).sum()) / LENGTH_MM
             push = np.array([push_x.sum(), push_y.sum(), moment])
             friction = _Friction(patch=patch, force=force, x=x, y=y, push=push)
             friction.dissipated = self.body.friction * friction.slide(_MOTIONS)
@@ -301,7 +331,7 @@ class FlatFingers:
 
     def inertia_kg(self, motion: FloatArray) -> float:
         """Half of the body's mass as seen along a unit motion (one patch carries half) [kg]."""
-        gyration = self.body.gyration_mm / _LENGTH_MM
+        gyration = self.body.gyration_mm / LENGTH_MM
         fraction = motion[0] ** 2 + motion[1] ** 2 + (gyration * motion[2]) ** 2
         return float(self.body.mass_kg / 2 * fraction)
 

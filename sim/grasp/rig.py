@@ -13,6 +13,7 @@ from cltp.sensing.force_calibration import ForceCalibration
 from cltp.tactile.noise_levels import NoiseLevels
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.gel.layer import GelMaterial, gel_of
@@ -29,6 +30,7 @@ from sim.grasp.devices import (
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.force_calibration import SCATTER, drawn_force_calibration
 from sim.grasp.mesh_bodies import ScannedObject, body_from_mesh
+from sim.grasp.pad_shear import PadShear
 from sim.grasp.turned_pad import (
     TURNED_PAD_X_IN_TCP,
     TURNED_PAD_Y_IN_TCP,
@@ -202,7 +204,9 @@ def build(
     up = TURNED_UP if is_turned else UPRIGHT_UP
     body = turned(body) if is_turned else body
     fingers = FlatFingers(body, sensor, gel or gel_of(sensor_name), up)
-    grasp = Grasp(fingers=fingers, body_xy_mm=offset)
+    measures_shear = sensor.shear_grid is not None
+    pad_shear = PadShear(fingers) if measures_shear else None
+    grasp = Grasp(fingers=fingers, body_xy_mm=offset, shear=pad_shear)
     clock = SimClock()
     clock.attach(grasp)
     levels = NoiseLevels.of(noise_level)
@@ -210,6 +214,10 @@ def build(
         part = FINE_PART.quantile(np.random.default_rng([seed, 7]).random())
         levels = replace(levels, fine=part * levels.fine)
     noise = NoiseUnit.draw(sensor_rng, levels)
+    shear_unit = None
+    if measures_shear:
+        shear_rng, level = np.random.default_rng([seed, 8]), NoiseLevels.of(noise_level).fine
+        shear_unit = ShearUnit.draw(shear_rng, sensor, level)
     calibration = drawn_force_calibration(
         sensor_name, seed, gel=gel, scatter=0.0 if levels == NoiseLevels.of(0) else SCATTER
     )
@@ -226,6 +234,7 @@ def build(
             seed,
             drift_level=levels.drift,
             force_scale=calibration.scale,
+            shear_unit=shear_unit,
         ),
         clock=clock,
         grasp=grasp,

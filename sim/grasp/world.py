@@ -11,6 +11,7 @@ import math
 from dataclasses import dataclass, field
 
 from sim.grasp.fingers import FlatFingers, Patch, Resistance
+from sim.grasp.pad_shear import PadShear
 
 SLIPPED_MM = 1.0
 DROPPED_MM = 12.0
@@ -42,6 +43,7 @@ class Grasp:
         grips: Number of times that the fingers closed or changed their force.
         contacts: Number of commands that changed the contact with the gel.
         peak_force_n, peak_kpa: Largest true force and pressure so far.
+        shear: Shear of the camera's pad; None follows none, which costs nothing.
     """
 
     fingers: FlatFingers
@@ -57,6 +59,7 @@ class Grasp:
     contacts: int = 0
     peak_force_n: float = 0.0
     peak_kpa: float = 0.0
+    shear: PadShear | None = None
     _speed: float = field(default=0.0, repr=False)
     _lifted_mm: float = field(default=0.0, repr=False)
 
@@ -79,9 +82,11 @@ class Grasp:
         self.grips += 1
         self.contacts += 1
         if self.dropped or not self.fingers.reaches(self.offset_mm):
-            self.patch = None
+            self._let_go()
             return
         self.patch = self.fingers.press(self.offset_mm, force_n)
+        if self.shear is not None:
+            self.shear.press(self.patch)
         self.peak_force_n = max(self.peak_force_n, force_n)
         self.peak_kpa = max(self.peak_kpa, self.patch.peak_kpa)
         if self.patch.peak_kpa > max(before, self.fingers.bruise_kpa):
@@ -96,9 +101,14 @@ class Grasp:
         """Open the fingers; a lifted body falls."""
         if self.patch is not None and self._lifted_mm > 1.0:
             self.dropped = True
-        self.patch = None
+        self._let_go()
         self.contacts += 1
         self._speed = 0.0
+
+    def _let_go(self) -> None:
+        self.patch = None
+        if self.shear is not None:
+            self.shear.clear()
 
     def move(self, by_mm: tuple[float, float], speed_m_s: float, acceleration_m_s2: float) -> float:
         """Move the fingers on a straight line with a trapezoidal speed; returns its duration [s].
@@ -134,6 +144,10 @@ class Grasp:
         while remaining_s > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
             resistance = self.fingers.resistance(self.patch, acceleration_m_s2)
             if resistance.margin >= 1 and self._speed <= 0:
+                if self.shear is not None:
+                    self.shear.carry(
+                        self.patch, self.fingers.load_on(self.patch, acceleration_m_s2)
+                    )
                 return
             gain = resistance.excess_n / self.fingers.inertia_kg(resistance.motion)
             step = min(remaining_s, self._time_to_slide(gain, 0.5e-3 / resistance.patch_speed))
@@ -155,10 +169,13 @@ class Grasp:
         self.slip_mm += slide_mm * resistance.patch_speed
         x, y = resistance.motion[0] * slide_mm, resistance.motion[1] * slide_mm
         self.body_xy_mm = (self.body_xy_mm[0] + x, self.body_xy_mm[1] + y)
+        if self.shear is not None and self.patch is not None:
+            self.shear.slide(self.patch, resistance.motion * slide_mm)
         self.slid_mm += math.hypot(x, y)
         is_lost = self.slid_mm > DROPPED_MM or not self.fingers.reaches(self.offset_mm)
         if is_lost or self.patch is None:
-            self.dropped, self.patch = True, None
+            self.dropped = True
+            self._let_go()
         elif math.dist(self.patch.offset_mm, self.offset_mm) > 0.05:
             self.patch = self.fingers.press(self.offset_mm, self.patch.force_n)
 

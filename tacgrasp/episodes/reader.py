@@ -113,6 +113,7 @@ def _episode(messages: dict[int, dict[str, bytes]], scan: Scan) -> Episode:
 def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
     state: StepState = _parse(Topic.STATE, group)
     decision, action = _parse(Topic.DECISION, group), _parse(Topic.ACTION, group)
+    shear = _parse(Topic.SHEAR, group)
     return StepRecord(
         **state.shared(),
         cloud=decode_cloud(
@@ -122,6 +123,7 @@ def _step(group: Mapping[str, bytes], sensor: SensorSpec) -> StepRecord:
         executed=None if action is None else action.executed,
         step_ms=state.tick_ms,
         camera_jpeg=decode_image(group[ViewTopic.CAMERA]) if ViewTopic.CAMERA in group else None,
+        shear=None if shear is None else shear.field(sensor),
     )
 
 

@@ -7,6 +7,8 @@ record within the episode:
     /episode      EpisodeHeader                 first message
     /touch/cloud  foxglove.PointCloud           the cloud that was read; x, y, z float32 [m],
                                                 frame 'gel', and steps to float32 [mm], exactly
+    /touch/shear  ShearMessage                  the shear field of the same frames, if the sensor
+                                                measures any
     /decision     DecisionMessage               the policy's decision, if it was asked for one
     /action       ActionMessage                 the action as requested, sent and reached, if any
     /state        StepState                     clocks, phase and robot of every record, and each
@@ -30,12 +32,14 @@ from typing import Any
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.shear.field import ShearField
 from policies.policy import Decision
 from primitives.contract import Band, Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed, PadAxes
 from primitives.sense import Interval
 from tacgrasp.episodes.command_log import Command
+from tacgrasp.episodes.touch_message import ShearMessage
 
 FORMAT = "tacgrasp-episode/2"
 FORMATS = ("tacgrasp-episode/1", FORMAT)
@@ -67,6 +71,7 @@ class Topic(StrEnum):
 
     EPISODE = "/episode"
     CLOUD = "/touch/cloud"
+    SHEAR = "/touch/shear"
     DECISION = "/decision"
     ACTION = "/action"
     STATE = "/state"
@@ -179,6 +184,7 @@ class StepRecord(StepFields):
         executed: The executed action; None when nothing was executed.
         step_ms: Duration of the step up to the writing of this record [ms].
         camera_jpeg: The camera's frame behind the cloud, as a JPEG file; None without a camera.
+        shear: The shear field of the same frames; None where the sensor gives none.
     """
 
     cloud: TactileCloud
@@ -186,6 +192,7 @@ class StepRecord(StepFields):
     executed: Executed | None
     step_ms: float
     camera_jpeg: bytes | None = None
+    shear: ShearField | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -265,6 +272,7 @@ class EpisodeEnd:
 
 JSON_MESSAGES: Mapping[Topic, tuple[str, type]] = {
     Topic.EPISODE: ("EpisodeHeader", EpisodeHeader),
+    Topic.SHEAR: ("ShearMessage", ShearMessage),
     Topic.DECISION: ("DecisionMessage", DecisionMessage),
     Topic.ACTION: ("ActionMessage", ActionMessage),
     Topic.STATE: ("TickState", StepState),

@@ -3,9 +3,13 @@
 Viewers count in metres, a cloud in float32 millimetres. A point has x, y, z in float32 metres, and
 rx, ry, rz in int8: by how many steps of float32 a thousand times the metres miss the millimetres.
 Format 1 had float32 millimetres alone, and is still read.
+
+Shear fields are JSON, of the same exactness.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from foxglove_schemas_protobuf.PackedElementField_pb2 import PackedElementField
@@ -16,6 +20,7 @@ from numpy.typing import NDArray
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.shear.field import ShearField
 
 FRAME_ID = "gel"
 _METRES = np.dtype([(name, "<f4") for name in "xyz"] + [(f"r{name}", "i1") for name in "xyz"])
@@ -99,3 +104,53 @@ def _layout(kind: np.dtype[np.void]) -> list[tuple[str, int, int]]:
 def _millimetres(metres: NDArray[np.float32]) -> NDArray[np.float32]:
     with np.errstate(over="ignore", invalid="ignore"):  # such points are refused by the cloud
         return (metres.astype(np.float64) * 1000).astype(np.float32)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ShearMessage:
+    """A shear field as it lies in the file.
+
+    Attributes:
+        index: Number of the step.
+        stamp: Start of the step, on both clocks [s].
+        captured: Time of capture of the field, None where it had no clock [s].
+        positions_mm: x and y of the points, point by point [mm, gel frame].
+        displacement_mm: x, y and z of their displacements, z into the gel, point by point [mm].
+        force_n: x, y and z of the forces on them, likewise [N]; None where the sensor gives none.
+    """
+
+    index: int
+    stamp: Stamp
+    captured: Stamp | None
+    positions_mm: NDArray[np.float64]
+    displacement_mm: NDArray[np.float64]
+    force_n: NDArray[np.float64] | None = None
+
+    @classmethod
+    def of(cls, field: ShearField, *, index: int, stamp: Stamp) -> ShearMessage:
+        """The message of a step's field."""
+        return cls(
+            index=index,
+            stamp=stamp,
+            captured=field.stamp,
+            positions_mm=field.positions_mm.ravel().astype(np.float64),
+            displacement_mm=field.displacement_mm.ravel().astype(np.float64),
+            force_n=None if field.force_n is None else field.force_n.ravel().astype(np.float64),
+        )
+
+    def field(self, sensor: SensorSpec) -> ShearField:
+        """The field, measured by the sensor of the episode.
+
+        Raises:
+            ValueError: The numbers are not those of whole points.
+            TouchError: They are no field of this sensor.
+        """
+        return ShearField(
+            positions_mm=self.positions_mm.reshape(-1, 2).astype(np.float32),
+            displacement_mm=self.displacement_mm.reshape(-1, 3).astype(np.float32),
+            force_n=None
+            if self.force_n is None
+            else self.force_n.reshape(-1, 3).astype(np.float32),
+            sensor=sensor,
+            stamp=self.captured,
+        )

@@ -41,7 +41,7 @@ from tacgrasp.episodes.record import (
     StepState,
     Topic,
 )
-from tacgrasp.episodes.touch_message import encode_cloud, wall_ns
+from tacgrasp.episodes.touch_message import ShearMessage, encode_cloud, wall_ns
 from tacgrasp.episodes.view_messages import SCHEMAS, end_messages, step_messages
 
 log = logging.getLogger(__name__)
@@ -115,6 +115,8 @@ class EpisodeWriter:
         """
         common: dict[str, Any] = {"index": record.index, "stamp": record.stamp}
         messages: dict[str, bytes] = {Topic.CLOUD: encode_cloud(record.cloud, record.stamp)}
+        if record.shear is not None:
+            messages[Topic.SHEAR] = self._json(ShearMessage.of(record.shear, **common))
         if record.decision is not None:
             decision = DecisionMessage(**common, decision=record.decision)
             messages[Topic.DECISION] = self._json(decision)

@@ -122,6 +122,7 @@ def _observation(step: StepRecord) -> Observation:
         width_m=gripper.width_m,
         commanded_force_n=gripper.force_n,
         felt_force_n=step.felt_force_n,
+        shear=step.shear,
     )
 
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol, runtime_checkable
 from cltp.sensing.frames import Frame
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.sensors import SensorSpec
+from cltp.tactile.shear.field import ShearField
 from primitives.devices import Arm, Gripper, Pose
 from tacgrasp.episodes.command_log import Command
 
@@ -79,6 +80,17 @@ class CameraSensor(Protocol):
 
     def last_frame(self) -> Frame | None:
         """The frame that the last cloud came from, shape (H, W, 3), RGB; None before the first."""
+
+
+@runtime_checkable
+class ShearSensor(Protocol):
+    """A tactile sensor that can measure displacements along its gel."""
+
+    def last_shear(self) -> ShearField | None:
+        """The shear field of the frames that the last cloud came from, as that after a reference.
+
+        None where the unit measures none, and before the first cloud.
+        """
 
 
 class Clock(Protocol):

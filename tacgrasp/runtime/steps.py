@@ -15,6 +15,7 @@ from cltp import TouchError
 from cltp.sensing.frames import Frame, jpeg_of
 from cltp.tactile.cloud import Stamp, TactileCloud
 from cltp.tactile.measure import contact_state
+from cltp.tactile.shear.field import ShearField
 from policies import Decision, Observation, PolicyError
 from policies.contract_steps import Aim, beyond, softened
 from primitives import Primitive
@@ -25,7 +26,7 @@ from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, Need, StepPhase, StepRecord
 from tacgrasp.rig.gel_sense import GelSense
-from tacgrasp.rig.protocols import CameraSensor, Rig
+from tacgrasp.rig.protocols import CameraSensor, Rig, ShearSensor
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
 
 
@@ -60,6 +61,7 @@ class Readings:
         in_contact: Whether something touches the gel, by test; None where none was possible.
         felt_force_n: Force that the contact suggests [N]; None without contact or test.
         frame: The camera's frame behind the cloud; None without a camera.
+        shear: Shear field of the same frames as the cloud; None where the sensor gives none.
     """
 
     cloud: TactileCloud
@@ -70,6 +72,7 @@ class Readings:
     in_contact: bool | None = None
     felt_force_n: Interval | None = None
     frame: Frame | None = None
+    shear: ShearField | None = None
 
     def for_policy(self, t_s: float) -> Observation:
         """What a policy is given of it, ``t_s`` seconds after the start of the episode."""
@@ -79,6 +82,7 @@ class Readings:
             width_m=self.gripper.width_m,
             commanded_force_n=self.gripper.force_n,
             felt_force_n=self.felt_force_n,
+            shear=self.shear,
             t_s=t_s,
         )
 
@@ -128,6 +132,7 @@ def read_observation(rig: Rig, sense: GelSense | None = None) -> Readings:
         in_contact=None if sense is None else sense.in_contact(cloud),
         felt_force_n=None if sense is None else sense.felt_force(cloud),
         frame=rig.sensor.last_frame() if isinstance(rig.sensor, CameraSensor) else None,
+        shear=rig.sensor.last_shear() if isinstance(rig.sensor, ShearSensor) else None,
     )
 
 
@@ -285,6 +290,7 @@ class Steps:
             contract=self._new_contract,
             need=self._need,
             camera_jpeg=None if step.observation.frame is None else jpeg_of(step.observation.frame),
+            shear=step.observation.shear,
         )
         self._notes, self._new_contract, self._need = [], None, None
         self._recorder.write_step(record)

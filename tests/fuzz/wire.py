@@ -103,11 +103,13 @@ def _taxel_case(rng: Random) -> bytes:
     for i in range(rng.randrange(1, 4)):
         shape = rng.choice(((8, 8), (3, 40), (1, 1), (20, 30)))
         counts = np.frombuffer(rng.randbytes(2 * shape[0] * shape[1]), "<i2").reshape(shape)
+        along = np.frombuffer(rng.randbytes(4 * counts.size), "<i2").reshape(*shape, 2)
         frame = TaxelFrame(
             sequence=(rng.choice((0, 7, 2**32 - 2)) + i) % 2**32,
             mark=rng.choice((0, 1, 2**32 - 1)),
             clock_us=rng.choice((0, 5, 2**64 - 1)),
             counts_um=counts.astype(np.int16),
+            along_um=rng.choice((None, along.astype(np.int16))),
         )
         frames += [encode_frame(frame), encode_mark(rng.randrange(1, 2**32))]
     return bytes([rng.randrange(256)]) + mutated(rng, frames)
@@ -122,6 +124,7 @@ def _read_taxels(data: bytes) -> object:
                 mark = packet.mark
             elif numbers.is_new(packet.sequence):
                 new += int(np.isfinite(packet.height_mm).all())
+                new += 0 if packet.along_mm is None else int(np.isfinite(packet.along_mm).all())
     answer = TaxelFrame(sequence=1, mark=mark, clock_us=0, counts_um=np.zeros((8, 8), np.int16))
     return encode_frame(answer), new, parser.counts
 

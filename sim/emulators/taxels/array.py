@@ -15,6 +15,7 @@ import tempfile
 import threading
 import time
 import tty
+from collections.abc import Callable
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Protocol
@@ -64,6 +65,7 @@ class TaxelEmulator:
         source: HeightSource,
         *,
         link: Path,
+        along_mm: Callable[[], NDArray[np.float32]] | None = None,
         rate_hz: float = 30.0,
         seed: int = 0,
     ) -> None:
@@ -71,6 +73,8 @@ class TaxelEmulator:
 
         Args:
             source: The gel.
+            along_mm: Displacements along the gel now, shape (rows, columns, 2) [mm, gel frame],
+                called after the heights; None sends packets of version 1, without them.
             link: Free path for the symbolic link to the pty.
             rate_hz: Frames per second.
             seed: Random seed of the garbage bytes.
@@ -83,6 +87,7 @@ class TaxelEmulator:
             raise ValueError(f"an array sends 1 to 200 frames a second, got {rate_hz}")
         self.port = str(link)
         self._link, self._source, self._rate_hz = link, source, rate_hz
+        self._along_mm = along_mm
         self._rng = np.random.default_rng(seed)
         self._faults: dict[str, int] = {}
         self._injected_s: float | None = None
@@ -194,15 +199,22 @@ class TaxelEmulator:
         clock_us = int(time.monotonic() * 1e6)
         mark = self._mark  # before the capture: the frame is newer than the mark
         counts = counts_of(self._source.height_mm())
+        along = None if self._along_mm is None else counts_of(self._along_mm())
         if "garbage" in self._faults:
             return self._rng.bytes(counts.size)
-        if "black" in self._faults:
-            counts = np.zeros_like(counts)
-        elif "saturated" in self._faults:
-            counts = np.full_like(counts, _SATURATED)
+        if "black" in self._faults or "saturated" in self._faults:
+            level = 0 if "black" in self._faults else _SATURATED
+            counts = np.full_like(counts, level)
+            along = None if along is None else np.full_like(along, level)
         self._sequence = (self._sequence + 1) % 2**32
         packet = encode_frame(
-            TaxelFrame(sequence=self._sequence, mark=mark, clock_us=clock_us, counts_um=counts)
+            TaxelFrame(
+                sequence=self._sequence,
+                mark=mark,
+                clock_us=clock_us,
+                counts_um=counts,
+                along_um=along,
+            )
         )
         if self._take("torn"):
             return packet[: len(packet) // 2]
@@ -253,5 +265,7 @@ def run(options: TaxelOptions) -> None:
     with tempfile.TemporaryDirectory(prefix="taxels-") as folder:
         ball = PressedBall(options.rows, options.columns, options.seed)
         link = Path(folder) / "taxel-array"
-        with closing(TaxelEmulator(ball, link=link, rate_hz=options.rate_hz)) as array:
+        along_mm = ball.along_mm if options.shear else None
+        emulator = TaxelEmulator(ball, link=link, along_mm=along_mm, rate_hz=options.rate_hz)
+        with closing(emulator) as array:
             serve({"taxels": array}, {"serial_port": array.port})

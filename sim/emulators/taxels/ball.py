@@ -33,6 +33,16 @@ class PressedBall:
         self._ball_mm = np.sqrt(np.clip(3.0**2 - r_mm**2, 0, None)) - 3.0
         self._rng, self._clock, self._began = np.random.default_rng(seed), clock, clock()
 
+    def along_mm(self) -> NDArray[np.float32]:
+        """Displacements along the gel, (rows, columns, 2) [mm], with 5 µm of noise.
+
+        The gel follows sideways where it is pressed, to and fro by a tenth of its depth.
+        """
+        phase = 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S
+        depth = np.clip(self._ball_mm + 0.6 + 0.3 * np.sin(phase), 0, None)
+        along = np.stack([0.1 * np.cos(phase) * depth, np.zeros_like(depth)], axis=2)
+        return (along + self._rng.normal(0, 0.005, along.shape)).astype(np.float32)
+
     def height_mm(self) -> NDArray[np.float32]:
         """Heights [mm]: 0.3 to 0.9 mm deep, with 5 µm of noise."""
         phase = 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S

@@ -19,12 +19,14 @@ class TaxelOptions:
         columns: columns of the grid
         rate_hz: frames per second
         seed: random seed of the height noise
+        shear: send displacements along the gel too, in packets of version 2
     """
 
     rows: int = 60
     columns: int = 80
     rate_hz: float = 30.0
     seed: int = 0
+    shear: bool = False
 
     def __post_init__(self) -> None:
         given = f"{self.rows} and {self.columns}"

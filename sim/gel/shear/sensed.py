@@ -18,7 +18,7 @@ from cltp.tactile.shear.field import ShearField
 from sim.gel.shear.layer import Shear, ShearLayer
 
 TAXELS = (12, 12)
-"""Rows and columns of points of a sensor that has no markers. Our choice."""
+"""Rows and columns of points of a sensor that measures no shear. Our choice."""
 
 
 def surface_mm(layer: ShearLayer, shear: Shear, height_mm: Tensor) -> Tensor:
@@ -52,14 +52,15 @@ def shear_field(
         shear: One contact.
         height_mm: Its surface under pressure alone, (1, H, W) [mm].
         sensor: The sensor.
-        grid: Rows and columns of points; None are the sensor's markers, or ``TAXELS`` without any.
+        grid: Rows and columns of points; None are those of the sensor, or ``TAXELS`` where it
+            measures no shear.
         stamp: Time of capture.
 
     Raises:
         ValueError: More contacts than one, or a grid that does not cover the sensing area.
         TouchError: A displacement or force that no sensor has.
     """
-    rows, columns = grid or sensor.markers or TAXELS
+    rows, columns = grid or sensor.shear_grid or sensor.markers or TAXELS
     given = layer.layer
     extent = given.rows * given.pitch_mm, given.columns * given.pitch_mm
     area = sensor.height_mm, sensor.width_mm

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
 from primitives.errors import RobotError
@@ -103,7 +105,20 @@ def _read_findings(array: TaxelArray, settings: TaxelSettings) -> list[Finding]:
             f"{counts.garbage_bytes} bytes of garbage",
             "shorten the cable, or lower the baud rate",
         ),
+        _shear_finding(array),
     ]
+
+
+def _shear_finding(array: TaxelArray) -> Finding:
+    """What the array measures along its gel; it must, where its sensor is one that does."""
+    field, expected = array.last_shear(), array.spec.shear_grid
+    if field is not None:
+        largest_um = 1e3 * float(np.abs(field.displacement_mm[:, :2]).max())
+        text = f"{len(field.positions_mm)} points, displaced by {largest_um:.0f} µm at most"
+    else:
+        text = "none: the array sends heights alone, packets of version 1"
+    advice = "load firmware that sends version 2, or name another sensor"
+    return _finding("shear", expected is None or field is not None, text, advice)
 
 
 _finding = partial(finding, "sensor")

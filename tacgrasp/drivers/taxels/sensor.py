@@ -1,4 +1,4 @@
-"""An open serial taxel array: packets of heights in, clouds out.
+"""An open serial taxel array: packets of displacements in, clouds and shear fields out.
 
 The array streams. A read sends a mark and waits for the first frame that repeats the mark: the
 capture of that frame began after the call, whatever the clocks. Older, damaged and repeated frames
@@ -19,8 +19,9 @@ import numpy as np
 
 from cltp.errors import TouchError
 from cltp.sensing.taxel_packets import (
+    DISPLACEMENTS,
+    HEIGHTS,
     UM_LIMIT,
-    VERSION,
     PacketParser,
     SequenceCount,
     TaxelFrame,
@@ -30,10 +31,12 @@ from cltp.sensing.touch_files import ASPECT_TOLERANCE
 from cltp.tactile.cloud import FloatArray, Stamp, TactileCloud, cloud_of_pixels
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec, sensor_named
+from cltp.tactile.shear.field import ShearField
 from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
 from tacgrasp.drivers.scheduling import request_priority
 from tacgrasp.drivers.stamps import real_stamp
+from tacgrasp.drivers.taxels.displacements import displacement_mm, shear_of
 from tacgrasp.drivers.taxels.intervals import FrameIntervals
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 
@@ -88,7 +91,7 @@ class TaxelArray:
 
     A read raises ``TouchError`` when the array is unplugged or disconnected, no frame was captured
     after the call within the time-out, the frame shows no gel, or it has another grid than the
-    reference. Heights are relative to the last reference, if there was one.
+    reference. Displacements are relative to the last reference, if there was one.
 
     Args:
         port: Open and claimed port; closed by the array.
@@ -113,6 +116,7 @@ class TaxelArray:
         self._sending = threading.Lock()
         self._mark = 0
         self._reference_mm: FloatArray | None = None
+        self._last_shear: ShearField | None = None
         self._opened_s = time.monotonic()
         self._thread = threading.Thread(target=self._capture, name="taxel array", daemon=True)
         self._thread.start()
@@ -143,30 +147,45 @@ class TaxelArray:
         first = self._latest.wait_for(lambda _: True, self._settings.connect_timeout_s)
         if first is None:
             raise self._no_frame_error(self._settings.connect_timeout_s)
-        rows, columns = first.frame.counts_um.shape
-        aspect = columns / rows / (self._spec.columns / self._spec.rows)
-        if min(rows, columns) < 8 or abs(aspect - 1) > ASPECT_TOLERANCE:
-            raise TouchError(
-                f"{self._name} sends {rows} × {columns} taxels, which doesn't fit the sensing area "
-                f"of {self._spec.name} ({self._spec.rows} × {self._spec.columns} px, or the same "
-                "aspect; at least 8 × 8); name the right sensor or port"
-            )
+        self._check_grid(*first.frame.counts_um.shape)
         with self._sending:  # far from any mark of another program that is still on the line
             self._mark = (first.frame.mark + _MARK_GAP) % 2**32
 
+    def _check_grid(self, rows: int, columns: int) -> None:
+        spec = self._spec
+        expected = f"the sensing area of {spec.name} ({spec.rows} × {spec.columns} px, or the same "
+        expected += "aspect; at least 8 × 8)"
+        aspect = columns / rows / (spec.columns / spec.rows)
+        fits = min(rows, columns) >= 8 and abs(aspect - 1) <= ASPECT_TOLERANCE
+        if spec.markers is not None:
+            fits, expected = (rows, columns) == spec.markers, f"the taxels of {spec.name}"
+            expected += f" ({spec.markers[0]} × {spec.markers[1]})"
+        if not fits:
+            raise TouchError(
+                f"{self._name} sends {rows} × {columns} taxels, which doesn't fit {expected}; name "
+                "the right sensor or port"
+            )
+
     def read(self, frames: int = 1) -> TactileCloud:
-        fresh, mean_mm = self._mean_of(frames)
-        heights_mm, reference_mm = mean_mm, self._reference_mm
+        fresh, moved_mm = self._mean_of(frames)
+        reference_mm = self._reference_mm
         if reference_mm is not None:
-            if heights_mm.shape != reference_mm.shape:
+            if moved_mm.shape != reference_mm.shape:
                 raise TouchError(
-                    f"{self._name} sends a grid of {heights_mm.shape} taxels, its reference has "
-                    f"{reference_mm.shape}: was it exchanged? Connect it again"
+                    f"{self._name} sends a grid of {moved_mm.shape} taxels and numbers, its "
+                    f"reference has {reference_mm.shape}: was it exchanged? Connect it again"
                 )
-            heights_mm = (heights_mm - reference_mm).astype(np.float32)
-        return cloud_of_pixels(
+            moved_mm = moved_mm - reference_mm
+        heights_mm = moved_mm[:, :, 0].astype(np.float32)
+        cloud = cloud_of_pixels(
             heights_mm, self._spec, stamp=fresh.stamp, force_scale=self._force_scale
         )
+        self._last_shear = shear_of(moved_mm, self._spec, fresh.stamp)
+        return cloud
+
+    def last_shear(self) -> ShearField | None:
+        """The shear field of the frames that the last cloud came from; None in version 1."""
+        return self._last_shear
 
     def take_reference(self) -> None:
         """Subtract the mean of ``REFERENCE_FRAMES`` fresh frames from all later ones.
@@ -177,16 +196,16 @@ class TaxelArray:
         _, self._reference_mm = self._mean_of(REFERENCE_FRAMES)
 
     def _mean_of(self, count: int) -> tuple[_StampedFrame, FloatArray]:
-        """The last of some fresh frames, and the mean of their heights [mm].
+        """The last of some fresh frames, and the mean of their displacements, z first [mm].
 
         Raises:
             TouchError: As ``read``.
         """
         frames = [self._fresh_frame() for _ in range(count)]
-        heights_mm = [frame.frame.height_mm for frame in frames]
-        if len({each.shape for each in heights_mm}) > 1:
-            raise TouchError(f"{self._name} sends grids of different sizes: connect it again")
-        return frames[-1], np.mean(heights_mm, axis=0, dtype=np.float64)
+        moved_mm = [displacement_mm(frame.frame) for frame in frames]
+        if len({each.shape for each in moved_mm}) > 1:
+            raise TouchError(f"{self._name} sends frames of different sizes: connect it again")
+        return frames[-1], np.mean(moved_mm, axis=0, dtype=np.float64)
 
     def check_alive(self) -> str:
         newest, stale_s = self._latest.newest(), self._intervals.stale_s
@@ -272,8 +291,8 @@ class TaxelArray:
             )
         elif self._parser.counts.foreign:
             problem = (
-                f"its packets are of another version or kind; expected version {VERSION}: load the "
-                "firmware that fits docs/taxels.md"
+                "its packets are of another version or kind; expected version "
+                f"{HEIGHTS} or {DISPLACEMENTS}: load the firmware that fits docs/taxels.md"
             )
         elif counts.garbage_bytes:
             problem = (
@@ -314,7 +333,10 @@ def _problem(frame: TaxelFrame) -> str:
             f"all taxels read {int(counts[0, 0])} µm; expected a gel, whose noise alone is some "
             "µm: the sensing element is dead or dark, check its light and supply"
         )
-    saturated = float((np.abs(counts.astype(np.int32)) > UM_LIMIT).mean())
+    at_end = np.abs(counts.astype(np.int32)) > UM_LIMIT
+    if frame.along_um is not None:
+        at_end |= (np.abs(frame.along_um.astype(np.int32)) > UM_LIMIT).any(axis=2)
+    saturated = float(at_end.mean())
     if saturated > SATURATED_FRACTION:
         return f"{saturated:.0%} of the taxels are at the end of their range: check its supply"
     return ""

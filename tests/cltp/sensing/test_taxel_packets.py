@@ -21,15 +21,24 @@ from cltp.sensing.taxel_packets import (
     counts_of,
     encode_frame,
     encode_mark,
+    frame_bytes,
 )
 
 U32 = st.integers(0, 2**32 - 1)
 GRIDS = st.tuples(st.integers(1, 9), st.integers(1, 9)).flatmap(
     lambda shape: arrays(np.int16, shape)
 )
-FRAMES = st.builds(
-    TaxelFrame, sequence=U32, mark=U32, clock_us=st.integers(0, 2**64 - 1), counts_um=GRIDS
+NUMBERS = {"sequence": U32, "mark": U32, "clock_us": st.integers(0, 2**64 - 1)}
+HEIGHT_FRAMES = st.builds(TaxelFrame, counts_um=GRIDS, **NUMBERS)
+SHEAR_FRAMES = GRIDS.flatmap(
+    lambda counts: st.builds(
+        TaxelFrame,
+        counts_um=st.just(counts),
+        along_um=arrays(np.int16, (*counts.shape, 2)),
+        **NUMBERS,
+    )
 )
+FRAMES = HEIGHT_FRAMES | SHEAR_FRAMES
 
 
 def frame(sequence=1, value=100, shape=(8, 10)):
@@ -39,9 +48,12 @@ def frame(sequence=1, value=100, shape=(8, 10)):
 
 
 def same(a, b):
-    return (a.sequence, a.mark, a.clock_us) == (b.sequence, b.mark, b.clock_us) and (
-        np.array_equal(a.counts_um, b.counts_um)
-    )
+    is_same = (a.sequence, a.mark, a.clock_us) == (b.sequence, b.mark, b.clock_us)
+    if a.along_um is None or b.along_um is None:
+        is_same &= a.along_um is b.along_um
+    else:
+        is_same &= np.array_equal(a.along_um, b.along_um)
+    return is_same and np.array_equal(a.counts_um, b.counts_um)
 
 
 def pieces(data, cuts):
@@ -119,6 +131,37 @@ def test_a_frame_is_laid_out_as_documented():
     assert packet[34:] == zlib.crc32(packet[30:34]).to_bytes(4, "little")
 
 
+def test_a_frame_of_displacements_is_laid_out_as_documented():
+    counts, along = np.array([[3, -6]], np.int16), np.array([[[1, 2], [-4, -5]]], np.int16)
+    packet = encode_frame(
+        TaxelFrame(sequence=1, mark=0, clock_us=0, counts_um=counts, along_um=along)
+    )
+    assert packet[4:6] == bytes([2, 1])
+    assert np.frombuffer(packet[30:42], "<i2").tolist() == [1, 2, 3, -4, -5, -6]
+    assert packet[42:] == zlib.crc32(packet[30:42]).to_bytes(4, "little")
+
+
+def test_a_hundred_frames_of_twelve_by_twelve_displacements_fit_the_line():
+    counts = np.zeros((12, 12), np.int16)
+    one = TaxelFrame(
+        sequence=1, mark=0, clock_us=0, counts_um=counts, along_um=np.zeros((12, 12, 2), np.int16)
+    )
+    size = len(encode_frame(one))
+    assert size == frame_bytes(12, 12, with_shear=True) == 898
+    assert 10 * 100 * size <= 921_600  # start bit, 8 bits, stop bit
+    assert len(encode_frame(frame())) == frame_bytes(8, 10, with_shear=False)
+
+
+def test_a_version_that_nobody_knows_is_foreign():
+    for version in (0, 3):
+        packet = bytearray(encode_frame(frame(5)))
+        packet[4] = version
+        packet[26:30] = zlib.crc32(packet[:26]).to_bytes(4, "little")
+        parser = PacketParser()
+        assert [f.sequence for f in parser.feed(bytes(packet) + encode_frame(frame(9)))] == [9]
+        assert parser.counts.foreign == 1
+
+
 def test_marks_go_the_other_way():
     parser = PacketParser()
     assert parser.feed(b"noise" + encode_mark(7) + encode_mark(2**32 - 1)) == [
@@ -155,6 +198,15 @@ def test_a_frame_that_is_no_grid_is_refused():
     ):
         with pytest.raises(TouchError, match="taxel frame"):
             TaxelFrame(sequence=0, mark=0, clock_us=0, counts_um=counts)
+    for along in (np.zeros((2, 2), np.int16), np.zeros((2, 2, 2), np.int32)):
+        with pytest.raises(TouchError, match="along the gel"):
+            TaxelFrame(
+                sequence=0,
+                mark=0,
+                clock_us=0,
+                counts_um=np.zeros((2, 2), np.int16),
+                along_um=along,
+            )
     with pytest.raises(TouchError, match="32 bits"):
         TaxelFrame(sequence=2**32, mark=0, clock_us=0, counts_um=np.zeros((2, 2), np.int16))
 

@@ -253,14 +253,14 @@ def test_another_version_of_the_packets_is_named(tmp_path):
     packet = bytearray(
         encode_frame(TaxelFrame(sequence=1, mark=0, clock_us=0, counts_um=np.ones((8, 8), "i2")))
     )
-    packet[4] = 2
+    packet[4] = 3
     packet[26:30] = crc32(packet[:26]).to_bytes(4, "little")
     master, slave = os.openpty()
     tty.setraw(slave)
     writer = threading.Timer(0.2, lambda: os.write(master, bytes(packet)))
     writer.start()
     settings = TaxelSettings(port=os.ttyname(slave), connect_timeout_s=1.0)
-    with pytest.raises(TouchError, match="expected version 1"):
+    with pytest.raises(TouchError, match="expected version 1 or 2"):
         connect_taxels(settings)
     writer.join()
     os.close(master), os.close(slave)
@@ -279,7 +279,7 @@ def test_marks_that_another_program_left_do_not_make_an_old_frame_fresh(settings
 def test_a_check_tells_latency_and_line(emulator, settings):
     findings = check(settings)
     assert [(one.name, one.ok) for one in findings] == [
-        ("connection", True), ("fresh frame", True), ("line", True),
+        ("connection", True), ("fresh frame", True), ("line", True), ("shear", True),
     ]  # fmt: skip
     assert "ms" in findings[1].detail and "0 damaged" in findings[2].detail
     emulator.inject("black")
