@@ -31,6 +31,9 @@ FIT_CONTACTS = 500
 FIT_STEPS, FIT_RATE = 300, 0.01
 """How long and how fast they are fitted."""
 
+USUAL = 0.998
+"""Fraction of contacts whose measured depth does not contradict the one that is read."""
+
 IGNORED = -1
 
 
@@ -113,6 +116,7 @@ class StateHeads(nn.Module):
     """
 
     widening: Tensor | None
+    contradiction: Tensor | None
 
     def __init__(self, pooled_dim: int, hidden_dim: int = 256, *, intervals: bool = True) -> None:
         super().__init__()
@@ -122,6 +126,8 @@ class StateHeads(nn.Module):
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
         self.out = nn.Linear(hidden_dim, sum(self.sizes))
         self.register_buffer("widening", torch.ones(count) if intervals else None)
+        anything = torch.tensor([-1e3, 1e3])  # until they are calibrated, nothing contradicts
+        self.register_buffer("contradiction", anything if intervals else None)
 
     @property
     def has_intervals(self) -> bool:
@@ -183,6 +189,25 @@ class StateHeads(nn.Module):
         rank = min(1.0, COVERAGE * (1 + 1 / len(needed)))
         self.widening.copy_(needed.quantile(rank, dim=0))
 
+    @torch.no_grad()
+    def calibrate_contradiction(self, pooled: Tensor, labels: Targets, measured_mm: Tensor) -> None:
+        """Set how far a measured depth may lie outside the interval of the one that is read.
+
+        Args:
+            pooled: As for ``calibrate``, which comes before.
+            labels: As for ``calibrate``.
+            measured_mm: Depths that were measured directly, shape (N,) [mm].
+        """
+        touched = labels.touching > 0
+        if self.contradiction is None or int(touched.sum()) < LEAST_CONTACTS:
+            return
+        output = self(pooled[touched])
+        assert output.margins is not None  # as there are intervals
+        depth, below, above = _ends(output.numbers[:, 0], output.margins[:, 0])
+        away = outside(measured_mm[touched], depth, below, above)
+        tail = (1 - USUAL) / 2
+        self.contradiction.copy_(away.quantile(torch.tensor([tail, 1 - tail])))
+
     def losses(self, pooled: Tensor, labels: Targets) -> dict[str, Tensor]:
         """Named terms, each a mean over the batch."""
         logits, numbers, touching, cut, margins = self(pooled)
@@ -199,6 +224,21 @@ class StateHeads(nn.Module):
             beyond = _pinball(labels.numbers - numbers.detach(), margins)
             terms["margins"] = (beyond * labels.touching[:, None]).sum(1).mean()
         return terms
+
+
+def _ends(depth: Tensor, margins: Tensor) -> tuple[Tensor, Tensor, Tensor]:
+    """A transformed depth (B,) and its margins (B, 2) as depth, low and high end [mm]."""
+    numbers = torch.zeros(3, len(depth), len(NUMBERS), dtype=depth.dtype, device=depth.device)
+    numbers[..., 0] = torch.stack([depth, depth - margins[:, 0], depth + margins[:, 1]])
+    mm = restored(numbers)[..., 0]
+    return mm[0], mm[1].clamp(min=0), mm[2]
+
+
+def outside(measured: Tensor, value: Tensor, low: Tensor, high: Tensor) -> Tensor:
+    """How far measured numbers lie from values, in widths of the interval on their side."""
+    is_above = measured > value
+    width = torch.where(is_above, high - value, value - low).clamp(min=1e-6)
+    return (measured - value) / width
 
 
 def _pinball(errors: Tensor, margins: Tensor) -> Tensor:

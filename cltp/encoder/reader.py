@@ -14,14 +14,16 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+from torch import Tensor
 
 from cltp.encoder.encoder import TactileEncoder
-from cltp.encoder.heads import StateHeads
+from cltp.encoder.heads import StateHeads, outside
 from cltp.encoder.readings import WITHOUT_INTERVALS, HeadReadings, readings_of
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensor_noise import MINI_SPREAD
@@ -49,6 +51,7 @@ class Flag(StrEnum):
     NOISE = "noise"  # the cloud has more fine noise than any that was learned from
     UNSURE = "unsure"  # depth or place is too uncertain to tell anything
     RANGE = "range"  # a number lies beyond what a gel can show
+    CONTRADICTION = "contradiction"  # the depth that is measured directly is another one
     FORCE = "force"  # the force is impossible for the one that is commanded
 
 
@@ -114,17 +117,23 @@ class TouchReader:
         points = encoder_input(cloud, self._encoder.config.variant.layout)
         output = self._heads(self._encoder(torch.from_numpy(points)[None]).pooled)
         scale = cloud.force_scale
-        return reading_of(readings_of(output, scale.factor, scale.spread), cloud)
+        read = readings_of(output, scale.factor, scale.spread)
+        return reading_of(read, cloud, self._heads.contradiction)
 
 
 def reading_of(
-    read: HeadReadings, cloud: TactileCloud, *, commanded_force_n: float | None = None
+    read: HeadReadings,
+    cloud: TactileCloud,
+    contradiction: Tensor | None = None,
+    *,
+    commanded_force_n: float | None = None,
 ) -> TouchReading:
     """The reading of one cloud.
 
     Args:
         read: What the heads read of it, a batch of one.
         cloud: The cloud.
+        contradiction: ``StateHeads.contradiction``; None leaves the depth unchecked.
         commanded_force_n: Force that the gripper was told to grip with [N]; None where none is
             known.
     """
@@ -145,6 +154,12 @@ def reading_of(
             cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
         )
     flags = list(_flags(numbers, cloud))
+    if state.in_contact and contradiction is not None:
+        low, high = contradiction.tolist()
+        measured = torch.tensor(contact_state(cloud, in_contact=True).depth_mm)
+        depth = (torch.tensor(end) for end in numbers["depth_mm"])
+        if not low <= float(outside(measured, *depth)) <= high:
+            flags.append(Flag.CONTRADICTION)
     if state.in_contact and _is_impossible(numbers["force_n"], state, commanded_force_n):
         flags.append(Flag.FORCE)
     return TouchReading(

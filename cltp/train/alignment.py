@@ -24,6 +24,7 @@ from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads, Targets, targets
 from cltp.encoder.losses import CltpLoss
 from cltp.errors import TouchError
+from cltp.tactile.measure import contact_state
 from cltp.train.clip_feature_cache import FrozenFeatures
 from cltp.train.finite_check import check_batch
 from cltp.train.prefetch import prefetched
@@ -202,13 +203,18 @@ def calibrate_heads(
     sampler = Sampler(data, augmentation, seed=run.seed + 1, layout=encoder.config.variant.layout)
     chosen = np.random.default_rng([run.seed, 71]).permutation(held_out)[:CALIBRATION_CONTACTS]
     encoder.eval(), heads.eval()
-    pooled, labels = [], []
+    pooled, labels, measured_mm = [], [], []
     with torch.no_grad():
         for step, first in enumerate(range(0, CALIBRATION_VIEWS * len(chosen), 64)):
             drawn = chosen[np.arange(first, first + 64) % len(chosen)]
             batch = sampler.batch(drawn, step)
             pooled.append(encoder(torch.from_numpy(batch.points)).pooled)
             labels.append(targets(batch.states))
-    heads.calibrate(
-        torch.cat(pooled), Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True)))
+            clouds = (batch.cloud(row) for row in range(len(drawn)))
+            measured_mm += [contact_state(each, in_contact=True).depth_mm for each in clouds]
+    read, true = (
+        torch.cat(pooled),
+        Targets(*(torch.cat(parts) for parts in zip(*labels, strict=True))),
     )
+    heads.calibrate(read, true)
+    heads.calibrate_contradiction(read, true, torch.tensor(measured_mm))

@@ -198,7 +198,8 @@ class LlmPolicy:
         felt = self._talker.feel(points, cloud.force_scale)
         read_from = self._clock()
         commanded_n = observation.commanded_force_n
-        reading = reading_of(felt.readings, cloud, commanded_force_n=commanded_n)
+        contradiction = self._talker.model.heads.contradiction
+        reading = reading_of(felt.readings, cloud, contradiction, commanded_force_n=commanded_n)
         draft = drafted(reading, force_n)
         excluded = (*repeated_moves(self._moves), *barred)
         grammar = step_grammar(cloud.sensor, force_n, excluded)

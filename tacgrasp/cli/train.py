@@ -107,8 +107,8 @@ class TrainMethodFlags(PretrainingFlags):
     Several processes: accelerate launch --num-processes N -m tacgrasp train ...
 
     Attributes:
-        preset: Name of the encoder; by default small_graded for cltp, small_image for tvl and
-            unitouch, which take frames, and small for the others.
+        preset: Name of the encoder; by default grid for cltp, small_image for tvl and unitouch,
+            which take frames, and small for the others.
     """
 
     preset: str | None = None

@@ -125,9 +125,10 @@ class AblatedTalker:
         """Ask about one contact that is felt; as ``Talker.reply_to``, with the goal changed."""
         ablation = self._ablation
         if ablation is not None and ablation.part is InputPart.GOAL:
+            others = [each.prompt for each in self._donors if each.prompt != prompt]
             is_swap = ablation.change is Change.SWAPPED
-            other = self._donors[int(self._rng.integers(len(self._donors)))]
-            prompt, grammar = (other.prompt if is_swap else REQUEST), None
+            other = others[int(self._rng.integers(len(others)))] if is_swap else REQUEST
+            prompt, grammar = other, None
         return self._talker.reply_to(touch, prompt, grammar=grammar, **options)
 
     def _other(self, points: NDArray[np.float32]) -> Donor:

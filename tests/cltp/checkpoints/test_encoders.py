@@ -49,8 +49,8 @@ def test_every_preset_belongs_to_one_variant() -> None:
 
 def test_the_shipped_encoder_is_the_preset_that_it_was_trained_with() -> None:
     folder = ROOT / "policies" / "weights" / "encoder"
-    assert load_encoder(folder)[0].config == PRESETS["small_graded"]
-    assert load_frozen(folder).sha256.startswith("2c4cae73c6513b1d")
+    assert load_encoder(folder)[0].config == PRESETS["grid"]
+    assert load_frozen(folder).sha256.startswith("e0f7095283c3c21c")
 
 
 def test_weights_from_before_grades_are_read(tmp_path: Path) -> None:

@@ -99,7 +99,7 @@ def test_cltp_is_one_trainer_on_one_data_set_whichever_flags_are_present(
     changed = [
         arguments["recipe"] != CltpRecipe(),
         arguments["schedule"] != CLTP_SCHEDULE,
-        arguments["config"] != methods.PRESETS["small_graded"],
+        arguments["config"] != methods.PRESETS["grid"],
         arguments["also"] != (),
         run.seed != 0,
     ]

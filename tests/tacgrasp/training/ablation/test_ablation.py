@@ -10,10 +10,15 @@ import numpy as np
 import pytest
 import torch
 
+from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply, Talker
+from cltp.llm.reading_tokens import NUM_READINGS
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.states import CLASSES
+from policies.llm.grammar import step_grammar
 from policies.llm.policy import LlmPolicy
 from policies.llm.text import REQUEST, advice_text, contact_text
+from primitives.contract import Band
 from tacgrasp.__main__ import main
 from tacgrasp.training.ablation.ablated_talker import (
     ABLATIONS,
@@ -30,15 +35,12 @@ from tacgrasp.training.ablation.single_replies import (
     score_misreadings,
     score_replies,
 )
-from tacgrasp.training.ablation.touch_parts import (
-    Misreading,
-    mean_parts,
-    read_heads,
-    touch_parts,
-)
+from tacgrasp.training.ablation.touch_parts import Misreading, mean_tokens, touch_parts
 from tacgrasp.training.question_evaluation import FeltContact
 from tests.fakes.question_scenes import HELD, random_states
 from tests.fakes.tiny_weights import make_data, make_weights
+
+BAND = Band(low=0.4, high=0.6)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -75,7 +77,11 @@ def steps() -> list[AskedStep]:
 @pytest.fixture(scope="module")
 def donors(talker: Talker, steps: list[AskedStep]) -> list[Donor]:
     return [
-        Donor(points=each.points, parts=touch_parts(talker.model, each.points), prompt=each.prompt)
+        Donor(
+            points=each.points,
+            parts=touch_parts(talker.model, talker.feel(each.points)),
+            prompt=each.prompt,
+        )
         for each in steps
     ]
 
@@ -84,12 +90,18 @@ class Recording:
     """A talker that remembers what it is asked to reply to."""
 
     def __init__(self, talker: Talker) -> None:
-        self.model, self.layout = talker.model, talker.layout
-        self.asked: list[tuple[torch.Tensor, str]] = []
+        self.model, self.layout, self.feel = talker.model, talker.layout, talker.feel
+        self.asked: list[tuple[torch.Tensor, str, Grammar | None]] = []
 
-    def reply_to(self, touch: torch.Tensor, prompt: str, **_: object) -> Reply:
-        self.asked.append((touch, prompt))
+    def reply_to(
+        self, touch: torch.Tensor, prompt: str, *, grammar: Grammar | None = None
+    ) -> Reply:
+        self.asked.append((touch, prompt, grammar))
         return reply_of("")
+
+
+def asked(ablated: AblatedTalker, own: Donor) -> None:
+    ablated.reply_to(ablated.feel(own.points).touch, own.prompt, grammar=step_grammar(None, BAND))
 
 
 def reply_of(text: str) -> Reply:
@@ -106,18 +118,16 @@ def right_text(step: AskedStep) -> str:
 def test_both_parts_are_what_the_model_makes_of_a_contact(
     talker: Talker, steps: list[AskedStep]
 ) -> None:
-    parts = touch_parts(talker.model, steps[0].points, 1.3)
-    with torch.inference_mode():
-        encoded = talker.model.encoder(torch.from_numpy(steps[0].points)[None])
-        touch = talker.model.projected(encoded, 1.3)[0]
-    assert torch.equal(parts.whole, touch)
-    assert len(parts.tokens) == talker.model.encoder.config.num_groups + 1
-    assert len(parts.readings) == talker.model.num_touch - len(parts.tokens)
+    felt = talker.feel(steps[0].points, ForceScale(factor=1.3, spread=0.1, source="unit"))
+    parts = touch_parts(talker.model, felt)
+    assert torch.equal(parts.whole, felt.touch)
+    assert len(parts.readings) == NUM_READINGS
+    assert len(parts.tokens) == talker.model.num_touch - NUM_READINGS
 
 
 def test_embeddings_reply_as_their_points_do(talker: Talker, steps: list[AskedStep]) -> None:
     ours = talker.reply(steps[0].points, REQUEST, max_tokens=12)
-    parts = touch_parts(talker.model, steps[0].points)
+    parts = touch_parts(talker.model, talker.feel(steps[0].points))
     same = talker.reply_to(parts.whole, REQUEST, max_tokens=12)
     assert (ours.text, ours.action) == (same.text, same.action)
     assert list(ours.stage_ms) == ["encode", "project", "prefill", "generate"]
@@ -130,37 +140,37 @@ def test_an_ablation_changes_its_part_alone(
     recording, own = Recording(talker), donors[3]
     ablation = ABLATIONS[name] if name is not None else None
     ablated = AblatedTalker(recording, ablation, donors)  # type: ignore[arg-type]
-    ablated.reply(own.points, own.prompt)
-    ((touch, prompt),) = recording.asked
+    asked(ablated, own)
+    ((touch, prompt, grammar),) = recording.asked
     num = len(own.parts.tokens)
     part = ablation.part if ablation is not None else None
     assert torch.equal(touch[:num], own.parts.tokens) is (part is not InputPart.TOKENS)
     assert torch.equal(touch[num:], own.parts.readings) is (part is not InputPart.READINGS)
     assert (prompt == own.prompt) is (part is not InputPart.GOAL)
+    assert (grammar is None) is (part is InputPart.GOAL)  # it would tell the goal
 
 
-def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
+def test_what_is_left_out_tells_nothing_and_what_is_swapped_is_never_the_own(
     talker: Talker, donors: list[Donor]
 ) -> None:
-    recording, own = Recording(talker), donors[0]
-    without = AblatedTalker(
-        recording,  # type: ignore[arg-type]
-        Ablation(InputPart.READINGS, Change.LEFT_OUT),
-        donors,
-    )
-    without.reply(own.points, own.prompt)
-    num = len(own.parts.tokens)
-    mean = mean_parts([each.parts for each in donors])
-    assert torch.equal(recording.asked[0][0][num:], mean.readings)
-    pair = [donors[0], donors[1]]
-    swapped = AblatedTalker(
-        recording,  # type: ignore[arg-type]
-        Ablation(InputPart.GOAL, Change.SWAPPED),
-        pair,
-    )
+    recording = Recording(talker)
+
+    def ablated(part: InputPart, change: Change, among: list[Donor]) -> AblatedTalker:
+        return AblatedTalker(recording, Ablation(part, change), among)  # type: ignore[arg-type]
+
+    without = ablated(InputPart.READINGS, Change.LEFT_OUT, donors)
+    for own in donors[:2]:
+        asked(without, own)
+    one, other = (touch[-NUM_READINGS:] for touch, _, _ in recording.asked)
+    assert torch.equal(one, other)
+    asked(ablated(InputPart.TOKENS, Change.LEFT_OUT, donors), donors[0])
+    mean = mean_tokens([each.parts for each in donors])
+    assert torch.equal(recording.asked[-1][0][:-NUM_READINGS], mean)
+    recording.asked.clear()
+    swapped = ablated(InputPart.GOAL, Change.SWAPPED, [donors[0], donors[1]])
     for _ in range(8):
-        swapped.reply(own.points, own.prompt)
-    assert {prompt for _, prompt in recording.asked[1:]} == {donors[1].prompt}
+        asked(swapped, donors[0])
+    assert {prompt for _, prompt, _ in recording.asked} == {donors[1].prompt}
     with pytest.raises(ValueError, match="two contacts at least"):
         AblatedTalker(talker, None, donors[:1])
 
@@ -168,15 +178,14 @@ def test_what_is_left_out_is_the_mean_and_what_is_swapped_is_never_the_own(
 def test_a_misreading_changes_the_readings_and_no_token(
     talker: Talker, steps: list[AskedStep]
 ) -> None:
-    logits = torch.zeros(len(CLASSES["shape"])).index_fill(0, torch.tensor([7]), 20.0)
-    misreading = Misreading(dimension="shape", logits=logits)
-    before = touch_parts(talker.model, steps[0].points)
-    after = touch_parts(talker.model, steps[0].points, misreading=misreading)
+    felt = talker.feel(steps[0].points)
+    chances = torch.zeros(len(CLASSES["shape"])).index_fill(0, torch.tensor([7]), 1.0)
+    before = touch_parts(talker.model, felt)
+    after = touch_parts(talker.model, felt, Misreading(dimension="shape", chances=chances))
     assert torch.equal(before.tokens, after.tokens)
     assert not torch.allclose(before.readings[0], after.readings[0])
-    own = read_heads(talker.model, steps[0].points).logits[list(CLASSES).index("shape")][0]
-    same = Misreading(dimension="shape", logits=own)
-    unchanged = touch_parts(talker.model, steps[0].points, misreading=same)
+    own = felt.readings.words[list(CLASSES).index("shape")][0]
+    unchanged = touch_parts(talker.model, felt, Misreading(dimension="shape", chances=own))
     assert torch.allclose(before.readings, unchanged.readings, atol=1e-6)
 
 
@@ -210,7 +219,9 @@ def test_misreadings_count_what_is_still_said_rightly(
 ) -> None:
     by_prompt = {step.prompt: right_text(step) for step in steps}
     deaf = SimpleNamespace(
-        model=talker.model, reply_to=lambda touch, prompt: reply_of(by_prompt[prompt])
+        model=talker.model,
+        feel=talker.feel,
+        reply_to=lambda touch, prompt, grammar: reply_of(by_prompt[prompt]),
     )
     figures = score_misreadings(deaf, steps)  # type: ignore[arg-type]
     assert 1 <= figures["contacts"] <= 2  # a fifth of ten
@@ -233,8 +244,9 @@ def test_eval_ablate_prints_and_writes_every_condition(
     assert list(results["episodes"]) == ["whole", *ABLATIONS]
     for name in results["replies"]:
         assert name in printed
-    assert results["replies"]["whole"]["read"] == 0.0  # it was never trained
-    assert results["episodes"]["whole"]["ends"] == {"no_action": 1}
+    assert results["replies"]["whole"]["read"] == 1.0  # the grammar allows nothing else
+    assert results["replies"][BLIND_COPY]["read"] == 0.0  # it was never trained
+    assert sum(results["episodes"]["whole"]["ends"].values()) == 1
 
 
 @pytest.mark.parametrize(
