@@ -149,13 +149,21 @@ class Talker:
         *,
         scale: ForceScale = NOMINAL,
         grammar: Grammar | None = None,
+        draft: str = "",
+        doubt_below: Mapping[str, float] | None = None,
         max_tokens: int = MAX_TOKENS,
         penalties: Mapping[str, float] | None = None,
     ) -> Reply:
         """Ask about one contact: ``feel`` and ``reply_to``, whose arguments it takes."""
         felt = self.feel(points, scale)
         reply = self.reply_to(
-            felt.touch, prompt, grammar=grammar, max_tokens=max_tokens, penalties=penalties
+            felt.touch,
+            prompt,
+            grammar=grammar,
+            draft=draft,
+            doubt_below=doubt_below,
+            max_tokens=max_tokens,
+            penalties=penalties,
         )
         return replace(reply, stage_ms={**felt.stage_ms, **reply.stage_ms})
 

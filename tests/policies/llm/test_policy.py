@@ -1,3 +1,4 @@
+import contextlib
 import re
 from collections.abc import Iterable
 from dataclasses import replace
@@ -181,7 +182,8 @@ def test_the_model_is_told_newtons_by_the_scale_of_the_cloud_s_unit(
     monkeypatch.setattr(policy.talker, "feel", noted)
     cloud = replace(touch(), force_scale=ForceScale(factor=1.7, spread=0.05, source="unit a"))
     policy.decide(Observation(cloud=cloud), wide_contract())
-    policy.ask(cloud, "Please hold the egg securely.")
+    with contextlib.suppress(PolicyError):  # untrained, its answer may not end
+        policy.ask(cloud, "How deep is it?")
     assert scales == [(1.7, 0.05)] * 2
 
 
