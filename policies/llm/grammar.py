@@ -10,7 +10,7 @@ Not here: reading such a text back (``policies.llm.parse``).
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import combinations
@@ -46,6 +46,9 @@ ALL_NOUNS = (NOUNS, ("shape",), ("texture",), ())
 
 NOTHING_TOUCHES = "nothing"
 """Value of the first choice where nothing touches."""
+
+SURE: Mapping[str, float] = dict.fromkeys(CLASSES, 0.0)
+"""Thresholds of doubt that no word falls below."""
 
 ACTION, REASON, CUT = "action", "reason", "cut"
 """Names of the choices that are no word or number of a contact."""

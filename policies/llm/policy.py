@@ -15,6 +15,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
 from cltp.encoder.reader import TouchReading, reading_of
 from cltp.llm.generation import Felt, Reply, Talker
@@ -23,9 +26,10 @@ from cltp.tactile.encoder_input import encoder_input
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
-from policies.llm.grammar import step_grammar
+from policies.llm.grammar import SURE, caption_grammar, step_grammar
 from policies.llm.question_check import check_question
 from policies.llm.text import (
+    CAPTION_REQUEST,
     advice_text,
     contact_text,
     goal_text,
@@ -219,6 +223,22 @@ class LlmPolicy:
         }
         return SaidStep(felt, reading, reply, stages)
 
+    def describe(self, cloud: TactileCloud, *, doubt: bool = True) -> str:
+        """The model's caption of a contact, with its numbers.
+
+        Args:
+            cloud: The contact.
+            doubt: Whether a word that is in doubt is said with its rival.
+        """
+        reply = self._talker.reply(
+            encoder_input(cloud, self._talker.layout),
+            CAPTION_REQUEST,
+            scale=cloud.force_scale,
+            grammar=caption_grammar(cloud.sensor),
+            doubt_below=None if doubt else SURE,
+        )
+        return reply.text
+
     def ask(self, cloud: TactileCloud, question: str) -> str:
         """The model's answer to a question about a contact.
 
@@ -235,6 +255,22 @@ class LlmPolicy:
                 "ask otherwise, or train the model longer"
             )
         return reply.text
+
+
+class CaptionSpeaker:
+    """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
+
+    Args:
+        talker: The model.
+    """
+
+    def __init__(self, talker: Talker) -> None:
+        self._talker = talker
+
+    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
+        """Describe one contact, points of shape (N, 3) scaled."""
+        grammar = caption_grammar(None)
+        return self._talker.reply(points, prompt, grammar=grammar, doubt_below=SURE)
 
 
 def drafted(reading: TouchReading, force_n: Band) -> str:

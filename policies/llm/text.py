@@ -21,6 +21,8 @@ NOTHING = "Nothing touches."
 
 REQUEST = "What next?"
 
+CAPTION_REQUEST = "Describe the contact."
+
 OR = " or "
 """Between a word and its rival."""
 

@@ -14,15 +14,12 @@ from cltp.tactile.contact_test import touches_alone
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import DIMENSIONS, NUMBERS
 from cltp.texts.captions import caption
-from policies import Observation, PolicyError
+from policies import Observation
 
 if TYPE_CHECKING:
     from cltp.encoder.reader import TouchReader
     from policies.llm.policy import LlmPolicy
     from primitives.contract import Contract
-
-CAPTION_REQUEST = "Describe the contact."
-
 
 NO_CONTACT = "nothing touches the gel"
 
@@ -135,10 +132,7 @@ def describe_by_model(cloud: TactileCloud, model: LlmPolicy, contract: Contract)
     Raises:
         LimitError: The contract is refused.
     """
-    try:
-        description = model.ask(cloud, CAPTION_REQUEST)
-    except PolicyError as error:
-        description = f"nothing: {error}"
+    description = model.describe(cloud)
     decision = model.decide(Observation(cloud=cloud), contract)
     if decision.action is not None:
         advice = f"{decision.action} (confidence {decision.confidence:.2f})"

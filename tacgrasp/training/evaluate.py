@@ -40,7 +40,7 @@ from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, PolicyError
 from policies.contract_steps import target_of
-from policies.llm.policy import LlmPolicy
+from policies.llm.policy import CaptionSpeaker, LlmPolicy
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives.contract import Contract
 from tacgrasp.lessons.captions import read_numbers
@@ -98,7 +98,7 @@ def evaluate(
     encoded = encode_batches(frozen(encoder), described)
     predictions = {
         "llm": predict_by_captions(
-            _ReportedTalker(policy.talker, "captions", len(encoded), report),
+            _ReportedSpeaker(policy.talker, len(encoded), report),
             described,
             read_numbers,
         ),
@@ -127,15 +127,17 @@ def evaluate(
     }
 
 
-class _ReportedTalker:
-    def __init__(self, talker: Talker, stage: str, total: int, report: ProgressReport) -> None:
-        self._talker, self._stage, self._total, self._report = talker, stage, total, report
-        self._done = 0
+class _ReportedSpeaker(CaptionSpeaker):
+    """Captions, with the progress."""
+
+    def __init__(self, talker: Talker, total: int, report: ProgressReport) -> None:
+        super().__init__(talker)
+        self._total, self._report, self._done = total, report, 0
 
     def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
-        reply = self._talker.reply(points, prompt)
+        reply = super().reply(points, prompt)
         self._done += 1
-        self._report(self._stage, self._done, self._total, {})
+        self._report("captions", self._done, self._total, {})
         return reply
 
 

@@ -21,6 +21,7 @@ from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import Predictions, median_errors, score_classes
 from cltp.tactile.states import CLASSES, MEASURABLE, NUMBERS, ContactState
 from cltp.train.text_targets import class_numbers
+from policies.llm.policy import CaptionSpeaker
 from tacgrasp.benchmarks.robustness.contacts import Sampled, part
 from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.policy_factory import load_llm
@@ -43,8 +44,8 @@ def heads_reader(weights: Path) -> Reader:
 @lru_cache(maxsize=1)
 def caption_reader(weights: Path) -> Reader:
     """What the captions of the language model say."""
-    talker = load_llm(weights).talker
-    return lambda batch: predict_by_captions(talker, [batch], read_numbers)
+    speaker = CaptionSpeaker(load_llm(weights).talker)
+    return lambda batch: predict_by_captions(speaker, [batch], read_numbers)
 
 
 READERS: Mapping[str, Callable[[Path], Reader]] = {

@@ -20,9 +20,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, Depth, Shape
 from cltp.texts.captions import parse_caption
-from policies import PolicyError
 from tacgrasp.lessons.captions import read_numbers
-from tacgrasp.playback.describe import CAPTION_REQUEST
 from tacgrasp.policy_factory import load_llm
 
 
@@ -75,10 +73,7 @@ def make_reader(
         state = contact_state(cloud)
         x_mm = (press.column - (sensor.columns - 1) / 2) * sensor.mm_per_px
         y_mm = ((sensor.rows - 1) / 2 - press.row) * sensor.mm_per_px
-        try:
-            text = model.ask(cloud, CAPTION_REQUEST)
-        except PolicyError as error:
-            text = f"nothing: {error}"
+        text = model.describe(cloud, doubt=False)
         shape, depth = _caption_words(text)
         numbers = read_numbers(text)
         points = encoder_input(cloud, encoder.config.variant.layout)

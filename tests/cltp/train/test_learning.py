@@ -44,6 +44,7 @@ from cltp.tactile.states import ContactState, Position, Side
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from cltp.texts.tokenizer import Words
+from cltp.texts.told import ToldContact
 from cltp.train.alignment import train_cltp
 from cltp.train.clip import train_clip
 from cltp.train.llm import train_llm, train_words
@@ -67,16 +68,14 @@ def run_in(folder: Path, seed: int = 0) -> TrainingRun:
 class FakeLessons:
     """Lessons for tests: the caption, and an action that the prompt and the depth decide."""
 
-    def captions(self, reading: ContactState, rng: np.random.Generator) -> Sequence[Exchange]:
-        return [Exchange(prompt="Describe the contact.", reply=caption(reading))]
+    def captions(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="Describe the contact.", reply=caption(felt.state))]
 
-    def mixed(
-        self, state: ContactState, reading: ContactState, rng: np.random.Generator
-    ) -> Sequence[Exchange]:
-        hard = "<decrease_force>" if state.depth_mm > 0.3 else "<none>"
-        soft = "<none>" if state.depth_mm > 0.3 else "<increase_force>"
+    def mixed(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
+        hard = "<decrease_force>" if felt.state.depth_mm > 0.3 else "<none>"
+        soft = "<none>" if felt.state.depth_mm > 0.3 else "<increase_force>"
         return [
-            *self.captions(reading, rng),
+            *self.captions(felt, rng),
             Exchange(prompt="Hold it gently.", reply=f"Action: {hard}."),
             Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
         ]

@@ -64,17 +64,15 @@ def test_exchanges_follow_from_the_seed():
     assert first != other
 
 
-def test_numbers_are_those_of_the_reading_and_advice_that_of_the_truth():
-    truth, reading = contact(force_n=0.3), contact(force_n=5.0, depth_mm=0.44)
+def test_numbers_and_advice_are_those_of_what_is_told():
+    told = contact(force_n=5.0, depth_mm=0.44)
     forces, advice = set(), set()
     for seed in range(600):
-        exchange = question_exchange(truth, reading, np.random.default_rng(seed))
-        numbers = read_answer(exchange.reply).numbers
-        forces |= {n.value for n in numbers if n.dimension == "force" and n.value in (0.3, 5.0)}
-        advice |= set(read_answer(exchange.reply).words("reason"))
-    assert forces == {5.0}
-    assert "held too lightly" in advice
-    assert "within the goal" in advice or "pressed too firmly" in advice
+        reply = read_answer(question_exchange(told, np.random.default_rng(seed)).reply)
+        forces |= {n.value for n in reply.numbers if n.dimension == "force" and n.value > 4.9}
+        advice |= set(reply.words("reason"))
+    assert 5.0 in forces
+    assert {"held too lightly", "within the goal"} & advice
 
 
 def test_a_follow_up_brings_the_exchange_before_it():

@@ -11,6 +11,7 @@ from cltp.data.dataset import ContactDataset
 from cltp.tactile.cloud import cloud_from_heights
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import ContactState
+from cltp.texts.told import ToldContact
 from policies import Decision, Observation
 from policies.contract_steps import target_of
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
@@ -130,8 +131,8 @@ def test_every_kept_out_instruction_that_is_not_refused_is_used(data_dir: Path) 
 
 
 def test_the_numbers_of_a_description_are_read_back() -> None:
-    of = state(1.0, -4.0, 0.95, 2.0)
-    text = caption_exchange(of, np.random.default_rng(0)).reply
+    told = ToldContact(state=state(1.0, -4.0, 0.95, 2.0))
+    text = caption_exchange(told, np.random.default_rng(0)).reply
     assert read_numbers(text) == pytest.approx([0.95, 1.0, -4.0, 0.12, 2.0])
     assert read_numbers(numbers(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
     assert read_numbers("a smooth sphere object") is None
