@@ -13,6 +13,8 @@ import numpy as np
 from cltp.sensing.touch_files import read_cloud
 from cltp.tactile.cloud import cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import sensor_named
+from tacgrasp.config.layers import load
+from tacgrasp.config.terms import contract_of
 from tacgrasp.playback.describe import describe, describe_by_model, is_touched
 from tacgrasp.policy_factory import load_llm
 
@@ -32,5 +34,6 @@ cloud = read_cloud(path, SENSOR)
 for line in describe(cloud):
     print(line)
 if is_touched(cloud):
-    for line in describe_by_model(cloud, load_llm(), "Pick the strawberry gently."):
+    contract = contract_of(*load("strawberry"))  # the task's instruction, as a force band
+    for line in describe_by_model(cloud, load_llm(), contract):
         print(line)

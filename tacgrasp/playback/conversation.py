@@ -103,9 +103,11 @@ class Conversation:
         mass_g: float | None = None,
     ) -> None:
         self._told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
-        points = encoder_input(cloud, answerer.layout)
-        self._touch = answerer.feel(points, cloud.force_scale).touch
-        self._answerer, self._is_touched = answerer, is_touched(cloud)
+        self._answerer = answerer
+        self._touch: Tensor | None = None
+        if is_touched(cloud):
+            points = encoder_input(cloud, answerer.layout)
+            self._touch = answerer.feel(points, cloud.force_scale).touch
         self._before: Exchange | None = None
 
     def ask(self, question: str) -> Spoken:
@@ -114,7 +116,7 @@ class Conversation:
         Raises:
             PolicyError: The answer does not end.
         """
-        if not self._is_touched:
+        if self._touch is None:
             return Spoken(answer=answer_in(NOTHING), confidence=None)
         before = self._before
         if before is not None and not is_follow_up(question, before.prompt):

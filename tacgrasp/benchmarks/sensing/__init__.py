@@ -2,7 +2,6 @@
 
 Not here: scores of learned models on data sets (``tacgrasp.training``).
 
-May import: cltp, policies, sim.gel, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
-tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.playback,
-tacgrasp.rig.
+May import: cltp, sim.gel, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
+tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.rig.
 """

@@ -13,6 +13,7 @@ from torch import Tensor
 
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import NOMINAL, Felt, Reply, Talker
+from cltp.llm.tac3d_llm import Tac3dLlm
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import PointLayout
 from policies.llm.text import REQUEST
@@ -102,6 +103,11 @@ class AblatedTalker:
     def layout(self) -> PointLayout:
         """How the points lie that it takes."""
         return self._talker.layout
+
+    @property
+    def model(self) -> Tac3dLlm:
+        """The model itself."""
+        return self._talker.model
 
     def feel(self, points: NDArray[np.float32], scale: ForceScale = NOMINAL) -> Felt:
         """Encode one contact; as ``Talker.feel``, with the part changed."""

@@ -8,8 +8,10 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import torch
 
 from cltp.llm.generation import Reply
+from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.point_layout import EVEN
 from policies import PolicyError
 from tacgrasp import policy_factory
@@ -25,8 +27,11 @@ class Answering:
     def __init__(self, text: str = "The depth is 0.50 mm.", *, ended: bool = True) -> None:
         self.text, self.ended, self.prompts = text, ended, list[str]()
 
-    def reply(self, points: np.ndarray, prompt: str, *, force_factor: float = 1.0) -> Reply:
+    def feel(self, points: np.ndarray, scale: ForceScale) -> SimpleNamespace:
         assert points.shape == (1024, 3)
+        return SimpleNamespace(touch=torch.zeros(3, 4))
+
+    def reply_to(self, touch: torch.Tensor, prompt: str) -> Reply:
         self.prompts.append(prompt)
         return Reply(
             text=self.text,
