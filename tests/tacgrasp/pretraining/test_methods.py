@@ -376,7 +376,7 @@ def test_encoders_of_other_data_are_refused(
         (["eval", "probe", "--methods", "tvl", "--checkpoint", "/no"], "is no directory"),
         (
             ["eval", "dance"],
-            "expects one of instructions, questions, zero-shot, probe, retrieval, report",
+            "expects one of ablate, instructions, intervals, questions, zero-shot, probe, retrieval, report",
         ),
     ],
 )
@@ -449,7 +449,4 @@ def test_failures_are_named_with_their_share(tmp_path: Path) -> None:
     counts[triangle][triangle], counts[triangle][peak], counts[peak][peak] = 3, 1, 5
     save(tmp_path, fake_result(confusion={"shape": counts}))
     page = report(tmp_path, tmp_path)[0].read_text()
-    assert (
-        "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | small_graded | triangle as peak (1) |"
-        in page
-    )
+    assert "| probe, contact | 25 / 0 | – / – | 50.0 | 88.9 | grid | triangle as peak (1) |" in page
