@@ -26,8 +26,8 @@ from cltp.tactile.shear.field import ShearField
 from sim.gel.shear.coarse import LOOP_ITERATIONS, LOOP_TOL
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.sensed import shear_field
-from sim.grasp.fingers import GRAVITY_M_S2, LENGTH_MM, FlatFingers
-from sim.grasp.pad_shear import grid_axes, slides
+from sim.grasp.fingers import GRAVITY_M_S2, FlatFingers
+from sim.grasp.pad_shear import coarse, grid_axes, slides
 from sim.grasp.world import DROPPED_MM
 
 _LEAST_N = 0.05
@@ -250,8 +250,8 @@ class Holding:
             offset_mm = (float(self._pressed_mm[0]), float(self._pressed_mm[1]))
             patch = self._fingers.press(offset_mm, _force_at(step))
             self._ladder[step] = _Pressed(
-                pressure_kpa=self._coarse(patch.pressure_kpa),
-                height_mm=self._coarse(patch.height_mm),
+                pressure_kpa=coarse(self._fingers, patch.pressure_kpa),
+                height_mm=coarse(self._fingers, patch.height_mm),
                 push_n=self._fingers.push_on(patch),
             )
         return self._ladder[step]
@@ -260,16 +260,12 @@ class Holding:
         empty = self._layer.at_rest().pressure_kpa
         return _Pressed(pressure_kpa=empty, height_mm=empty, push_n=np.zeros(3))
 
-    def _coarse(self, grid: FloatArray) -> Tensor:
-        return self._fingers.shear.coarse(torch.as_tensor(grid, dtype=torch.float32)[None])
-
     def _axes(self) -> FloatArray:
-        return grid_axes(self._offset_mm + np.array(self._fingers.body.com_mm))
+        return grid_axes(self._fingers, self._offset_mm)
 
     def _inertia(self) -> FloatArray:
         """Half of the body's inertia along its three motions, (3,) [N s²/mm]."""
-        gyration = self._fingers.body.gyration_mm / LENGTH_MM
-        return 5e-4 * self._fingers.body.mass_kg * np.array([1.0, 1.0, gyration**2])
+        return 1e-3 * np.array([self._fingers.inertia_kg(motion) for motion in np.eye(3)])
 
     def _first_stiffness(self) -> FloatArray:
         """Stiffness of the sticking contact, (3, 3) [N/mm], measured by small motions."""

@@ -37,7 +37,12 @@ def slides(shear: Shear) -> bool:
     return float(shear.stick_fraction) <= SLIDING_STICK
 
 
-def grid_axes(com_mm: FloatArray) -> FloatArray:
+def coarse(fingers: FlatFingers, grid: FloatArray) -> Tensor:
+    """A grid (H, W) of the pressure's elements on those of friction, (1, H, W), float32."""
+    return fingers.shear.coarse(torch.as_tensor(grid, dtype=torch.float32)[None])
+
+
+def grid_axes(fingers: FlatFingers, offset_mm: FloatArray | tuple[float, float]) -> FloatArray:
     """Motion of a pad's grid per motion of the body's centre of mass, (3, 3).
 
     The latter is (x, y [mm], turn × ``LENGTH_MM``), the former as ``ShearLayer.step`` takes it. The
@@ -45,8 +50,10 @@ def grid_axes(com_mm: FloatArray) -> FloatArray:
     moment over ``LENGTH_MM``) [N].
 
     Args:
-        com_mm: Shape (2,), centre of mass on the pad [mm, gel frame].
+        fingers: The body.
+        offset_mm: Shape (2,), its origin on the pad [mm, gel frame].
     """
+    com_mm = np.array(offset_mm) + np.array(fingers.body.com_mm)
     turn = 1.0 / LENGTH_MM
     return np.array([[1.0, 0.0, com_mm[1] * turn], [0.0, 1.0, -com_mm[0] * turn], [0.0, 0.0, turn]])
 
@@ -79,7 +86,7 @@ class PadShear:
         """The body came to rest under a load, as ``FlatFingers.load_on`` gives it."""
         if patch is self._patch and self._load is not None and (load_n == self._load).all():
             return
-        axes = self._axes(patch)
+        axes = grid_axes(self._fingers, patch.offset_mm)
         load = torch.as_tensor(np.linalg.solve(axes.T, load_n))[None]
         carried = carry(
             self._layer, self.shear, self._pressure(patch), load, load_tol=_LOAD_TOL, tol=_TOL
@@ -94,7 +101,7 @@ class PadShear:
         length_mm = float(np.linalg.norm(motion_mm))
         if length_mm == 0:
             return
-        before, motion = self.shear, self._axes(patch) @ motion_mm
+        before, motion = self.shear, grid_axes(self._fingers, patch.offset_mm) @ motion_mm
         for reach_mm in _REACHES_MM:
             self.shear = before
             self._step(patch, motion * max(1.0, reach_mm / length_mm))
@@ -107,7 +114,7 @@ class PadShear:
         if self.shear is None or self._patch is None:
             rest = layer.at_rest()
             return shear_field(layer, rest, rest.pressure_kpa, sensor, stamp=stamp)
-        height_mm = self._coarse(self._patch.height_mm)
+        height_mm = coarse(self._fingers, self._patch.height_mm)
         return shear_field(layer, self.shear, height_mm, sensor, stamp=stamp)
 
     def _step(self, patch: Patch, motion: FloatArray) -> None:
@@ -115,11 +122,5 @@ class PadShear:
         self.shear = self._layer.step(self.shear, self._pressure(patch), move, tol=_TOL)
         self._patch, self._load = patch, None
 
-    def _axes(self, patch: Patch) -> FloatArray:
-        return grid_axes(np.array(patch.offset_mm) + np.array(self._fingers.body.com_mm))
-
     def _pressure(self, patch: Patch) -> Tensor:
-        return self._coarse(patch.pressure_kpa)
-
-    def _coarse(self, grid: FloatArray) -> Tensor:
-        return self._fingers.shear.coarse(torch.as_tensor(grid, dtype=torch.float32)[None])
+        return coarse(self._fingers, patch.pressure_kpa)

@@ -38,13 +38,20 @@ class PressedBall:
 
         The gel follows sideways where it is pressed, to and fro by a tenth of its depth.
         """
-        phase = 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S
-        depth = np.clip(self._ball_mm + 0.6 + 0.3 * np.sin(phase), 0, None)
+        phase = self._phase()
+        depth = self._depth_mm(phase)
         along = np.stack([0.1 * np.cos(phase) * depth, np.zeros_like(depth)], axis=2)
-        return (along + self._rng.normal(0, 0.005, along.shape)).astype(np.float32)
+        return self._noisy(along)
 
     def height_mm(self) -> NDArray[np.float32]:
         """Heights [mm]: 0.3 to 0.9 mm deep, with 5 µm of noise."""
-        phase = 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S
-        clean = np.clip(self._ball_mm + 0.6 + 0.3 * np.sin(phase), 0, None)
-        return (clean + self._rng.normal(0, 0.005, clean.shape)).astype(np.float32)
+        return self._noisy(self._depth_mm(self._phase()))
+
+    def _phase(self) -> float:
+        return 2 * np.pi * (self._clock() - self._began) / self.PERIOD_S
+
+    def _depth_mm(self, phase: float) -> NDArray[np.float64]:
+        return np.clip(self._ball_mm + 0.6 + 0.3 * np.sin(phase), 0, None)
+
+    def _noisy(self, clean_mm: NDArray[np.float64]) -> NDArray[np.float32]:
+        return (clean_mm + self._rng.normal(0, 0.005, clean_mm.shape)).astype(np.float32)

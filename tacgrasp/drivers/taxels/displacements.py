@@ -14,14 +14,13 @@ from cltp.tactile.shear.field import ShearField
 
 
 def displacement_mm(frame: TaxelFrame) -> FloatArray:
-    """Displacements of a frame, (rows, columns, 3) [mm, gel frame]: z first, then x and y.
+    """Displacements of a frame, (rows, columns, 3) [mm, gel frame]: x, y and z.
 
-    Of a frame of heights alone, (rows, columns, 1).
+    Of a frame of heights alone, (rows, columns, 1): z.
     """
-    parts = [frame.height_mm[:, :, None]]
-    if frame.along_mm is not None:
-        parts.append(frame.along_mm)
-    return np.concatenate(parts, axis=2).astype(np.float64)
+    height, along = frame.height_mm[:, :, None], frame.along_mm
+    moved = height if along is None else np.concatenate([along, height], axis=2)
+    return moved.astype(np.float64)
 
 
 def shear_of(moved_mm: FloatArray, sensor: SensorSpec, stamp: Stamp) -> ShearField | None:
@@ -36,7 +35,7 @@ def shear_of(moved_mm: FloatArray, sensor: SensorSpec, stamp: Stamp) -> ShearFie
     x, y = np.meshgrid(*grid_axes_mm(sensor, rows, columns))
     return ShearField(
         positions_mm=np.stack([x.ravel(), y.ravel()], axis=1).astype(np.float32),
-        displacement_mm=moved_mm[:, :, [1, 2, 0]].reshape(-1, 3).astype(np.float32),
+        displacement_mm=moved_mm.reshape(-1, 3).astype(np.float32),
         sensor=sensor,
         stamp=stamp,
     )

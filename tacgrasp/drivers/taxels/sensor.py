@@ -176,7 +176,7 @@ class TaxelArray:
                     f"reference has {reference_mm.shape}: was it exchanged? Connect it again"
                 )
             moved_mm = moved_mm - reference_mm
-        heights_mm = moved_mm[:, :, 0].astype(np.float32)
+        heights_mm = moved_mm[:, :, -1].astype(np.float32)
         cloud = cloud_of_pixels(
             heights_mm, self._spec, stamp=fresh.stamp, force_scale=self._force_scale
         )
@@ -196,7 +196,7 @@ class TaxelArray:
         _, self._reference_mm = self._mean_of(REFERENCE_FRAMES)
 
     def _mean_of(self, count: int) -> tuple[_StampedFrame, FloatArray]:
-        """The last of some fresh frames, and the mean of their displacements, z first [mm].
+        """The last of some fresh frames, and the mean of their displacements [mm].
 
         Raises:
             TouchError: As ``read``.
