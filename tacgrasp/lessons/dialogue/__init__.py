@@ -5,5 +5,5 @@ scene, from which ``answers`` words the answer and ``answer_scores`` judges one.
 
 Not here: asking a model (``tacgrasp.training``, ``tacgrasp.playback``).
 
-May import: cltp.tactile, cltp.texts, policies, primitives, tacgrasp.base.
+May import: cltp.llm.constrained, cltp.tactile, cltp.texts, policies, primitives, tacgrasp.base.
 """

@@ -58,12 +58,17 @@ class Check:
         shows: Facts that the answer names, by their names in ``FACTS``.
         needed_n: Expression of the force that is needed [N]; '' where none is.
         length: How long the answer is to be.
+        test: The condition in the words of a query; '' where none has it
+            (``tacgrasp.lessons.dialogue.conditions.check_of``).
+        denied: Whether the question asks if the test is not so.
     """
 
     condition: str
     shows: tuple[str, ...]
     needed_n: str = ""
     length: Length = Length.FREE
+    test: str = ""
+    denied: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -138,6 +143,14 @@ FACTS: Mapping[str, str] = {
     "x": "x_mm",
     "y": "y_mm",
     "distance": "hypot(x_mm, y_mm)",
+    "offset_x": "abs(x_mm)",
+    "offset_y": "abs(y_mm)",
+    "mass": "mass_g",
+    "limit": "limit_n",
+    "band_low": "band_low_n",
+    "band_high": "band_high_n",
+    "headroom": "limit_n - force_n",
+    "holds": "holds_g",
     "shape": "shape",
     "texture": "texture",
     "depth_word": "depth",

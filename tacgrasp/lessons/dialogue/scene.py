@@ -86,6 +86,7 @@ class AskedScene:
             "x_mm": state.x_mm,
             "y_mm": state.y_mm,
             "area_percent": 100 * state.area_fraction,
+            "area_mm2": state.area_fraction * self.sensor.area_mm2,
             "force_n": force_n,
             "shape": _word(state.shape),
             "texture": _word(state.texture),

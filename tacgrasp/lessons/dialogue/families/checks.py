@@ -6,20 +6,27 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.family import Bindings, Numbers, QuestionFamily, length_of
 from tacgrasp.lessons.dialogue.families.phrases import check_pattern, denied_pattern
 from tacgrasp.lessons.dialogue.families.thresholds import (
     COMPARISONS,
     UNDENIED,
     UNITS,
-    condition_of,
     one_threshold,
+    test_of,
 )
 from tacgrasp.lessons.dialogue.meaning import Check
 from tacgrasp.lessons.dialogue.pattern import Slots
 from tacgrasp.lessons.dialogue.scene import AskedScene
 
-DEPTH, FORCE, AREA, DISTANCE = "depth_mm", "force_n", "area_percent", "hypot(x_mm, y_mm)"
+_TRUTHS: Mapping[str, tuple[str, str]] = {
+    "depth": ("depth_mm", "mm"),
+    "force": ("force_n", "N"),
+    "area": ("area_percent", "%"),
+    "distance": ("hypot(x_mm, y_mm)", "mm"),
+}
+"""Expression of each quantity that is compared, and its unit."""
 
 
 def _units(*symbols: str) -> dict[str, str]:
@@ -39,18 +46,14 @@ def _slots(units: Mapping[str, str], fixed: Mapping[str, str]) -> Slots:
     }
 
 
-def _build(truth: str, shows: str, *, denied: bool) -> Callable[[Bindings, Numbers], Check]:
+def _build(quantity: str, unit: str, *, denied: bool) -> Callable[[Bindings, Numbers], Check]:
     def build(bindings: Bindings, numbers: Numbers) -> Check:
         named = dict(bindings)
         for word in ("between", "deeper", "shallower"):
             if word in bindings:
                 named["comparison"] = bindings[word]
-        condition = condition_of(truth, named, numbers)
-        return Check(
-            condition=f"not ({condition})" if denied else condition,
-            shows=(shows,),
-            length=length_of(bindings),
-        )
+        test = test_of(quantity, unit, named, numbers)
+        return check_of(test, denied=denied, length=length_of(bindings))
 
     return build
 
@@ -123,12 +126,13 @@ _DISTANCE_PREDICATE = (
 
 
 def _compare(
-    name: str, truth: str, shows: str, pattern: str, slots: Slots, *, denied: bool = False
+    name: str, quantity: str, pattern: str, slots: Slots, *, denied: bool = False
 ) -> QuestionFamily:
+    truth, unit = _TRUTHS[quantity]
     return QuestionFamily(
         name=name,
         pattern=pattern,
-        build=_build(truth, shows, denied=denied),
+        build=_build(quantity, unit, denied=denied),
         slots=slots,
         choose=_chooser(truth),
     )
@@ -150,7 +154,6 @@ def _chooser(
 FAMILIES: tuple[QuestionFamily, ...] = (
     _compare(
         "depth_above",
-        DEPTH,
         "depth",
         check_pattern(
             _DEPTH_SUBJECT,
@@ -163,14 +166,12 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "deeper_than",
-        DEPTH,
         "depth",
         check_pattern(_DEEP_SUBJECT, _DEEP),
         _DEPTH_SLOTS,
     ),
     _compare(
         "force_above",
-        FORCE,
         "force",
         check_pattern(
             _FORCE_SUBJECT,
@@ -185,7 +186,6 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "area_above",
-        AREA,
         "area",
         check_pattern(
             _AREA_SUBJECT,
@@ -198,7 +198,6 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "distance_above",
-        DISTANCE,
         "distance",
         check_pattern(
             _DISTANCE_SUBJECT,
@@ -210,7 +209,6 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "not_deep",
-        DEPTH,
         "depth",
         denied_pattern(f"{_DEPTH_SUBJECT}", _COMPARED),
         {**_DEPTH_SLOTS, "comparison": UNDENIED},
@@ -218,7 +216,6 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "not_force",
-        FORCE,
         "force",
         denied_pattern(_FORCE_SUBJECT, _COMPARED),
         {**_FORCE_SLOTS, "comparison": UNDENIED},
@@ -226,7 +223,6 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _compare(
         "not_area",
-        AREA,
         "area",
         denied_pattern(_AREA_SUBJECT, _COMPARED),
         {**_AREA_SLOTS, "comparison": UNDENIED},

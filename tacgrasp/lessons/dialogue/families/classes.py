@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from cltp.tactile.states import CLASSES
+from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.family import (
     Bindings,
     Numbers,
@@ -56,14 +57,10 @@ def _which(name: str, *, is_open: bool) -> Callable[[Bindings, Numbers], Which]:
     return lambda bindings, _: Which(name=name, is_open=is_open, length=length_of(bindings))
 
 
-def _checked(name: str, shows: str, *, denied: bool) -> Callable[[Bindings, Numbers], Check]:
-    sign = "!=" if denied else "=="
-
-    def build(bindings: Bindings, _: Numbers) -> Check:
-        condition = f"{name} {sign} '{bindings[name]}'"
-        return Check(condition=condition, shows=(shows,), length=length_of(bindings))
-
-    return build
+def _checked(name: str, *, denied: bool) -> Callable[[Bindings, Numbers], Check]:
+    return lambda bindings, _: check_of(
+        f"{name} {bindings[name]}", denied=denied, length=length_of(bindings)
+    )
 
 
 def _steered(name: str, *, denied: bool) -> Steerer:
@@ -89,7 +86,6 @@ def _open(name: str, subject: str, direct: str, indirect: str, noun: str) -> Que
 
 def _checks(
     name: str,
-    shows: str,
     words: dict[str, str],
     subject: str,
     predicate: str,
@@ -100,7 +96,7 @@ def _checks(
     return QuestionFamily(
         name=f"not_{name}_is" if denied else f"{name}_is",
         pattern=pattern(subject, predicate),
-        build=_checked(name, shows, denied=denied),
+        build=_checked(name, denied=denied),
         slots={name: words},
         steer=_steered(name, denied=denied),
     )
@@ -191,29 +187,22 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "the (position|place|location|whereabouts) [of ({touch}|{body})]|the contact position|"
         "the part of the pad that is touched",
     ),
-    _checks("shape", "shape", SHAPES, _OBJECT, "{shape}|like {shape}|shaped like {shape}"),
-    _checks("texture", "texture", TEXTURES, _SURFACE, "{texture}|rather {texture}"),
-    _checks(
-        "depth", "depth_word", DEPTHS, "the (press|depth|indentation|contact)|the dent", "{depth}"
-    ),
-    _checks(
-        "area", "area_word", AREAS, "the (contact area|area|footprint|contact|patch)", "{area}"
-    ),
-    _checks("position", "position", PLACES, _PLACED, "{position}"),
-    _checks("shape", "shape", SHAPES, _OBJECT, "{shape}|shaped like {shape}", denied=True),
-    _checks("texture", "texture", TEXTURES, _SURFACE, "{texture}", denied=True),
+    _checks("shape", SHAPES, _OBJECT, "{shape}|like {shape}|shaped like {shape}"),
+    _checks("texture", TEXTURES, _SURFACE, "{texture}|rather {texture}"),
+    _checks("depth", DEPTHS, "the (press|depth|indentation|contact)|the dent", "{depth}"),
+    _checks("area", AREAS, "the (contact area|area|footprint|contact|patch)", "{area}"),
+    _checks("position", PLACES, _PLACED, "{position}"),
+    _checks("shape", SHAPES, _OBJECT, "{shape}|shaped like {shape}", denied=True),
+    _checks("texture", TEXTURES, _SURFACE, "{texture}", denied=True),
     _checks(
         "depth",
-        "depth_word",
         DEPTHS,
         "the (press|depth|indentation|contact|dent)",
         "{depth}",
         denied=True,
     ),
-    _checks(
-        "area", "area_word", AREAS, "the (contact area|area|footprint|patch)", "{area}", denied=True
-    ),
-    _checks("position", "position", PLACES, _PLACED, "{position}", denied=True),
+    _checks("area", AREAS, "the (contact area|area|footprint|patch)", "{area}", denied=True),
+    _checks("position", PLACES, _PLACED, "{position}", denied=True),
     _offered("shape", SHAPES, _OBJECT),
     _offered("texture", TEXTURES, _SURFACE),
 )

@@ -9,25 +9,12 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.families.family import Bindings, Numbers, QuestionFamily, length_of
 from tacgrasp.lessons.dialogue.families.goals import DEPTH_QUESTIONS
 from tacgrasp.lessons.dialogue.families.phrases import check_pattern
 from tacgrasp.lessons.dialogue.meaning import Amount, Check, Description, Several, Which
 from tacgrasp.lessons.dialogue.scene import AskedScene
-
-CONDITIONS = {
-    "touched": ("contact", "contact"),
-    "empty": ("not contact", "contact"),
-    "cut": ("cut", "cut"),
-    "whole": ("not cut", "cut"),
-    "left": ("x_mm < 0", "x"),
-    "right": ("x_mm > 0", "x"),
-    "top": ("y_mm > 0", "y"),
-    "bottom": ("y_mm < 0", "y"),
-    "wider": ("abs(x_mm) > abs(y_mm)", "x"),
-    "higher": ("abs(y_mm) > abs(x_mm)", "y"),
-}
-"""Conditions of checks with the fact that the answer names."""
 
 PARTS: Mapping[str, Amount | Which] = {
     "depth": Amount(quantity="depth", unit="mm"),
@@ -61,8 +48,7 @@ _QUESTIONS = {
 def _condition(*slots: str) -> Callable[[Bindings, Numbers], Check]:
     def build(bindings: Bindings, _: Numbers) -> Check:
         name = next(bindings[slot] for slot in slots if slot in bindings)
-        condition, shows = CONDITIONS[name]
-        return Check(condition=condition, shows=(shows,), length=length_of(bindings))
+        return check_of(name, length=length_of(bindings))
 
     return build
 

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 import numpy as np
 
+from tacgrasp.lessons.dialogue.conditions import GIVEN, check_of, number_text
 from tacgrasp.lessons.dialogue.families.family import (
     Bindings,
     Numbers,
@@ -17,11 +18,9 @@ from tacgrasp.lessons.dialogue.families.phrases import (
     check_pattern,
     denied_pattern,
 )
-from tacgrasp.lessons.dialogue.families.thresholds import number_text
 from tacgrasp.lessons.dialogue.meaning import Check, Which, Why
-from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G, AskedScene
+from tacgrasp.lessons.dialogue.scene import AskedScene
 
-IN_BAND = "band_low_n <= force_n <= band_high_n"
 SAFE_QUESTIONS = (
     "Is it safe to lift?",
     "Can we lift it?",
@@ -33,14 +32,6 @@ DEPTH_QUESTIONS = ("How deep is it?", "What is the depth?", "How far is it press
 
 _BAND = "(the band|the force band|the wanted range|the goal|the contract|the target range)"
 _GRIP = "the (grip|force|grip force|squeeze|hold) [on {body}]"
-_CONDITIONS = {
-    "within": IN_BAND,
-    "below": "force_n < band_low_n",
-    "above": "force_n > band_high_n",
-    "enough": "force_n >= band_low_n",
-    "over": "force_n > limit_n",
-    "under": "force_n <= limit_n",
-}
 
 
 def _conditional(
@@ -50,34 +41,19 @@ def _conditional(
 
     def build(bindings: Bindings, _: Numbers) -> Check:
         name = next((bindings[slot] for slot in slots if slot in bindings), default)
-        condition = _CONDITIONS[name]
-        return Check(
-            condition=f"not ({condition})" if denied else condition,
-            shows=("force" if name in ("over", "under") else "force_band",),
-            length=length_of(bindings),
-        )
+        return check_of(f"force {name}", denied=denied, length=length_of(bindings))
 
     return build
 
 
-def _fixed(condition: str, *shows: str, needed_n: str = "") -> Callable[[Bindings, Numbers], Check]:
-    return lambda bindings, _: Check(
-        condition=condition, shows=shows, needed_n=needed_n, length=length_of(bindings)
-    )
+def _safe(*, denied: bool) -> Callable[[Bindings, Numbers], Check]:
+    return lambda bindings, _: check_of("force within", denied=denied, length=length_of(bindings))
 
 
 def _slipping(bindings: Bindings, numbers: Numbers) -> Check:
-    factor = 1000 if bindings.get("unit") == "kg" else 1
-    mass = number_text(numbers["m"] * factor) if "m" in numbers else "mass_g"
-    needed = f"{HOLDING_N_PER_G} * {mass}"
+    mass = f"{number_text(numbers['m'])} {bindings['unit']}" if "m" in numbers else GIVEN
     fate = next(bindings[slot] for slot in ("fall", "keep", "firm") if slot in bindings)
-    sign = "<" if fate == "slips" else ">="
-    return Check(
-        condition=f"force_n {sign} {needed}",
-        shows=("force",),
-        needed_n=needed,
-        length=length_of(bindings),
-    )
+    return check_of(f"{fate} {mass}", length=length_of(bindings))
 
 
 def _choose_mass(
@@ -189,12 +165,12 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "are we (ready|fine|clear) to lift [{thing}]|would lifting [{thing}] be safe|"
             "is lifting [{thing}] safe|is {thing} (held|gripped) well enough to lift [it]",
         ),
-        build=_fixed(IN_BAND, "force_band"),
+        build=_safe(denied=False),
     ),
     QuestionFamily(
         name="not_safe",
         pattern=denied_pattern("it", "safe (to lift|for lifting|to raise|to pick up) [{thing}]"),
-        build=_fixed(f"not ({IN_BAND})", "force_band"),
+        build=_safe(denied=True),
     ),
     QuestionFamily(
         name="slip",

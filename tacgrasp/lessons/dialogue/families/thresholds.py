@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from tacgrasp.lessons.dialogue.conditions import number_text
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families.family import Bindings, Numbers
 from tacgrasp.lessons.dialogue.quantities import GRAVITY_N_PER_G
@@ -51,13 +52,11 @@ class Scale:
     """How thresholds of a quantity are written in a unit.
 
     Attributes:
-        factor: Expression of the quantity's unit for one of this unit, as text.
-        size: The same as a number.
+        size: One of this unit in the quantity's own.
         step: Step of the numbers, in this unit.
         low, high: Range of numbers where the scene has no value, in this unit.
     """
 
-    factor: str
     size: float
     step: float
     low: float
@@ -66,19 +65,19 @@ class Scale:
 
 SCALES: Mapping[str, Mapping[str, Scale]] = {
     "depth_mm": {
-        "mm": Scale(factor="", size=1.0, step=0.01, low=0.05, high=1.2),
-        "µm": Scale(factor=" / 1000", size=1e-3, step=10, low=50, high=1200),
+        "mm": Scale(size=1.0, step=0.01, low=0.05, high=1.2),
+        "µm": Scale(size=1e-3, step=10, low=50, high=1200),
     },
     "force_n": {
-        "N": Scale(factor="", size=1.0, step=0.05, low=0.1, high=8.0),
-        "mN": Scale(factor=" / 1000", size=1e-3, step=50, low=100, high=8000),
-        "g": Scale(factor=" * 0.00981", size=GRAVITY_N_PER_G, step=5, low=10, high=800),
+        "N": Scale(size=1.0, step=0.05, low=0.1, high=8.0),
+        "mN": Scale(size=1e-3, step=50, low=100, high=8000),
+        "g": Scale(size=GRAVITY_N_PER_G, step=5, low=10, high=800),
     },
     "area_percent": {
-        "%": Scale(factor="", size=1.0, step=1, low=2, high=50),
-        "mm²": Scale(factor=" * 0.32409", size=0.32409, step=1, low=5, high=150),
+        "%": Scale(size=1.0, step=1, low=2, high=50),
+        "mm²": Scale(size=0.32409, step=1, low=5, high=150),
     },
-    "hypot(x_mm, y_mm)": {"mm": Scale(factor="", size=1.0, step=0.5, low=0.5, high=9.0)},
+    "hypot(x_mm, y_mm)": {"mm": Scale(size=1.0, step=0.5, low=0.5, high=9.0)},
 }
 """Scales by expression and unit. mm² are those of a GelSight Mini, whose 1 % is 3.09 mm²."""
 
@@ -106,19 +105,20 @@ def one_threshold(
     return choose
 
 
-def condition_of(truth: str, bindings: Bindings, numbers: Numbers) -> str:
-    """The comparison of an expression that a wording makes."""
-    unit = bindings.get("unit")
-    factor = SCALES[truth][unit].factor if unit is not None else ""
-    threshold = bindings.get("fixed") or f"{number_text(numbers['t'])}{factor}"
+def test_of(quantity: str, unit: str, bindings: Bindings, numbers: Numbers) -> str:
+    """The comparison that a wording makes, in the words of a query.
+
+    Args:
+        quantity: What is compared.
+        unit: Unit of a number that is fixed in the wording, as 'half a newton' is.
+        bindings: Values of the wording's slots.
+        numbers: Its numbers.
+    """
+    unit = bindings.get("unit", unit)
+    first = bindings.get("fixed") or number_text(numbers["t"])
     if bindings["comparison"] == "between":
-        return f"{threshold} <= {truth} <= {number_text(numbers['u'])}{factor}"
-    return f"{truth} {bindings['comparison']} {threshold}"
-
-
-def number_text(number: float) -> str:
-    """A number with as few digits as it needs."""
-    return f"{number:.6g}"
+        return f"{quantity} {first} - {number_text(numbers['u'])} {unit}"
+    return f"{quantity} {bindings['comparison']} {first} {unit}"
 
 
 def _stepped(number: float, step: float) -> float:

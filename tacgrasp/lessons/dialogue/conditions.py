@@ -1,0 +1,153 @@
+"""Conditions that a yes or a no tells, by their words in a query.
+
+    depth > 300 µm      force 1 - 2 N       offset_x <= 2 mm
+    shape ring          depth >= deep       force within        left
+    slips 30 g          stays given
+
+Not here: wordings (``tacgrasp.lessons.dialogue.families``), queries
+(``tacgrasp.lessons.dialogue.query``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from cltp.tactile.states import CLASSES
+from tacgrasp.lessons.dialogue.meaning import Check, Length
+from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
+
+IN_BAND = "band_low_n <= force_n <= band_high_n"
+
+STATES: Mapping[str, tuple[str, str]] = {
+    "touched": ("contact", "contact"),
+    "empty": ("not contact", "contact"),
+    "cut": ("cut", "cut"),
+    "whole": ("not cut", "cut"),
+    "left": ("x_mm < 0", "x"),
+    "right": ("x_mm > 0", "x"),
+    "top": ("y_mm > 0", "y"),
+    "bottom": ("y_mm < 0", "y"),
+    "wider": ("abs(x_mm) > abs(y_mm)", "x"),
+    "higher": ("abs(y_mm) > abs(x_mm)", "y"),
+    "force within": (IN_BAND, "force_band"),
+    "force below": ("force_n < band_low_n", "force_band"),
+    "force above": ("force_n > band_high_n", "force_band"),
+    "force enough": ("force_n >= band_low_n", "force_band"),
+    "force over": ("force_n > limit_n", "force"),
+    "force under": ("force_n <= limit_n", "force"),
+}
+"""Expression of each state, and the fact that an answer names."""
+
+MEASURED: Mapping[str, Mapping[str, tuple[str, str]]] = {
+    "depth": {"mm": ("depth_mm", ""), "µm": ("depth_mm", " / 1000"), "cm": ("depth_mm", " * 10")},
+    "force": {
+        "N": ("force_n", ""),
+        "mN": ("force_n", " / 1000"),
+        "g": ("force_n", " * 0.00981"),
+    },
+    "area": {"%": ("area_percent", ""), "mm²": ("area_mm2", "")},
+    "distance": {"mm": ("hypot(x_mm, y_mm)", "")},
+    "x": {"mm": ("x_mm", "")},
+    "y": {"mm": ("y_mm", "")},
+    "offset_x": {"mm": ("abs(x_mm)", "")},
+    "offset_y": {"mm": ("abs(y_mm)", "")},
+    "mass": {"g": ("mass_g", ""), "kg": ("mass_g", " * 1000")},
+    "limit": {"N": ("limit_n", "")},
+    "band_low": {"N": ("band_low_n", "")},
+    "band_high": {"N": ("band_high_n", "")},
+    "headroom": {"N": ("limit_n - force_n", "")},
+    "holds": {"g": ("holds_g", ""), "kg": ("holds_g", " * 1000")},
+}
+"""What is compared with a number: expression and factor of the number, by quantity and unit."""
+
+SIGNS = (">", "<", ">=", "<=")
+
+ORDERED: Mapping[str, Sequence[str]] = {"depth": CLASSES["depth"], "area": CLASSES["area"]}
+"""Words that have an order: 'depth >= deep'."""
+
+FATES: Mapping[str, str] = {"slips": "<", "stays": ">="}
+"""Sign of the force against the one that is needed."""
+
+GIVEN = "given"
+"""Stands for the mass that somebody told."""
+
+MASS_UNITS: Mapping[str, float] = {"g": 1.0, "kg": 1000.0}
+
+WORD_FACTS = {
+    name: {"depth": "depth_word", "area": "area_word"}.get(name, name) for name in CLASSES
+}
+"""Fact of each dimension's word."""
+
+_COMPARED = re.compile(r"(\w+) (>=|<=|>|<) (\S+) (\S+)")
+_RANKED = re.compile(r"(depth|area) (>=|<=|>|<) ([a-z ]+)")
+_BETWEEN = re.compile(r"(\w+) (\S+) - (\S+) (\S+)")
+_FATE = re.compile(rf"({'|'.join(FATES)}) (?:{GIVEN}|(\S+) (\S+))")
+
+
+def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -> Check:
+    """The meaning of a question for yes or no.
+
+    Args:
+        test: The condition, in the words above.
+        denied: Whether the question asks if it is not so.
+        length: How long the answer is to be.
+
+    Raises:
+        ValueError: There is no such condition.
+    """
+    needed_n = ""
+    name, _, word = test.partition(" ")
+    if test in STATES:
+        condition, shows = STATES[test]
+    elif word in CLASSES.get(name, ()):
+        condition, shows = f"{name} {'!=' if denied else '=='} '{word}'", WORD_FACTS[name]
+    elif fate := _FATE.fullmatch(test):
+        needed_n = f"{HOLDING_N_PER_G} * {_mass(fate[2], fate[3])}"
+        condition, shows = f"force_n {FATES[fate[1]]} {needed_n}", "force"
+    elif (ranked := _RANKED.fullmatch(test)) and ranked[3] in ORDERED[ranked[1]]:
+        condition, shows = f"{ranked[1]} {ranked[2]} '{ranked[3]}'", WORD_FACTS[ranked[1]]
+    elif compared := _COMPARED.fullmatch(test):
+        name, sign, number, unit = compared.groups()
+        expression, factor = _measured(name, unit)
+        condition, shows = f"{expression} {sign} {_plain(number)}{factor}", name
+    elif between := _BETWEEN.fullmatch(test):
+        name, low, high, unit = between.groups()
+        expression, factor = _measured(name, unit)
+        condition = f"{_plain(low)}{factor} <= {expression} <= {_plain(high)}{factor}"
+        shows = name
+    else:
+        raise ValueError(f"there is no condition {test!r}")
+    if denied and word not in CLASSES.get(name, ()):
+        condition = f"not ({condition})"
+    return Check(
+        test=test,
+        denied=denied,
+        condition=condition,
+        shows=(shows,),
+        needed_n=needed_n,
+        length=length,
+    )
+
+
+def number_text(number: float) -> str:
+    """A number with as few digits as it needs."""
+    return f"{number:.6g}"
+
+
+def _mass(number: str | None, unit: str | None) -> str:
+    if number is None or unit is None:
+        return "mass_g"
+    if unit not in MASS_UNITS:
+        raise ValueError(f"there is no mass in {unit}")
+    return number_text(float(number) * MASS_UNITS[unit])
+
+
+def _measured(name: str, unit: str) -> tuple[str, str]:
+    if unit not in MEASURED.get(name, {}):
+        raise ValueError(f"there is no {name} in {unit}")
+    return MEASURED[name][unit]
+
+
+def _plain(number: str) -> str:
+    return number_text(float(number))

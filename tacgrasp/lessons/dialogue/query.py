@@ -1,0 +1,297 @@
+"""Queries: the meaning of a question in a small formal language, which the language model writes.
+
+    amount depth µm.                    a number in a unit
+    word shape.                         a word; 'choice shape' where some were offered
+    check depth > #1 µm.                yes or no (``tacgrasp.lessons.dialogue.conditions``)
+    check not force within.             denied
+    amount depth mm; word shape.        several at once
+    why step.                           the reason of the advice; 'why both' with the advice,
+                                        'why force' the force behind an answer
+    describe.
+    unknown price.                      touch can't know it
+    other.                              it is not about touch
+
+A query ends with '.', ' in a word.' or ' in a sentence.'. It has no digits of the question: ``#1``
+is the question's first number. So no number is ever copied wrongly, and all queries of one part
+are few enough to be listed (``query_grammar``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
+from itertools import pairwise
+from typing import NamedTuple
+
+from cltp.llm.constrained.grammar import Grammar, Option, TextChoice
+from cltp.tactile.states import CLASSES
+from policies.instructions.numerals import in_digits
+from tacgrasp.lessons.dialogue.conditions import (
+    FATES,
+    GIVEN,
+    MASS_UNITS,
+    MEASURED,
+    ORDERED,
+    SIGNS,
+    STATES,
+    check_of,
+    number_text,
+)
+from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
+    Check,
+    Description,
+    Length,
+    Meaning,
+    OffTopic,
+    Several,
+    Unknowable,
+    Which,
+    Why,
+)
+from tacgrasp.lessons.dialogue.plain_words import plain_text
+
+MOST_NUMBERS = 4
+"""Most numbers of a question that a query can name."""
+
+AMOUNTS: Mapping[str, tuple[str, ...]] = {
+    "depth": ("mm", "µm", "cm"),
+    "x": ("mm",),
+    "y": ("mm",),
+    "distance": ("mm",),
+    "offset_x": ("mm",),
+    "offset_y": ("mm",),
+    "area": ("%", "mm²"),
+    "force": ("N", "mN", "g"),
+    "band_low": ("N",),
+    "band_high": ("N",),
+    "limit": ("N",),
+    "headroom": ("N",),
+    "mass": ("g", "kg"),
+    "holds": ("g", "kg"),
+}
+"""Units that a quantity can be asked for in."""
+
+WORDS = (*CLASSES, "force_band", "action", "side_x", "side_y", "worse_axis", "wholeness")
+"""Names of a scene whose value is a word that can be asked for."""
+
+SUBJECTS: Mapping[str, str] = {
+    "color": "its color",
+    "temperature": "its temperature",
+    "name": "its name",
+    "price": "its price",
+    "smell": "its smell",
+    "taste": "its taste",
+    "sound": "its sound",
+    "origin": "where it comes from",
+    "inside": "what is inside it",
+    "sight": "what can only be seen",
+}
+"""What touch can't know, as answers name it."""
+
+_REASONS: Mapping[str, Why] = {
+    "step": Why(),
+    "both": Why(with_action=True),
+    "force": Why(shows=("force_band",)),
+}
+_LENGTHS = {Length.FREE: "", Length.WORD: " in a word", Length.SENTENCE: " in a sentence"}
+_ORDINALS = ("first", "second", "third")
+_SHARES = {
+    "half": 50, "one half": 50, "a half": 50, "third": 33.3, "a third": 33.3, "one third": 33.3,
+    "two thirds": 66.7, "a quarter": 25, "one quarter": 25, "three quarters": 75, "a fifth": 20,
+    "one fifth": 20, "a tenth": 10, "one tenth": 10,
+}  # fmt: skip
+_SHARE = re.compile(
+    rf"\b({'|'.join(sorted(_SHARES, key=len, reverse=True))})\b"
+    r"(?= (?:of )?(?:the|this|our|its|my|that) (?:\w+ )?"
+    r"(?:pad|gel|sensor|surface|fingertip|skin)\b)"
+)
+_SINGLE = re.compile(r"\b(?:an?|one)(?: single)? (?=(?:milli|micro|mm\b))")
+_MM = re.compile(r"\bmm\b(?!²|\^)")
+_NUMBER = re.compile(r"(?<= )\d\S*")
+_REFERENCE = re.compile(r"#(\d)")
+
+
+class AskedText(NamedTuple):
+    """A question as the language model reads it.
+
+    Attributes:
+        words: Its plain words, with '#' for each number.
+        numbers: Its numbers, in their order.
+    """
+
+    words: str
+    numbers: tuple[float, ...]
+
+
+def asked_text(question: str, before: str = "") -> AskedText:
+    """A question in plain words, behind the one before it where that is needed.
+
+    Numbers in words are numbers too: 'half a newton', 'a third of the pad'.
+    """
+    lowered = question.lower()
+    lowered = _SHARE.sub(lambda match: f"{_SHARES[match[1]]} percent", lowered)
+    lowered = _MM.sub("millimetre", lowered)
+    plain = plain_text(_SINGLE.sub("1 ", in_digits(lowered)))
+    words = " ".join(plain.words)
+    if before:
+        words = f"{asked_text(before).words} ? {words}"
+    return AskedText(words, tuple(plain.numbers[place] for place in sorted(plain.numbers)))
+
+
+def query_of(meaning: Meaning, numbers: Sequence[float] = ()) -> str:
+    """The query of a meaning.
+
+    Args:
+        meaning: What is asked.
+        numbers: Numbers of the question, of which the query names those that it needs.
+
+    Raises:
+        ValueError: No query has this meaning, or a number of it is not in the question.
+    """
+    parts = meaning.parts if isinstance(meaning, Several) else (meaning,)
+    length = getattr(meaning, "length", Length.FREE)
+    query = "; ".join(_part(part, numbers) for part in parts)
+    return f"{query}{_LENGTHS[length]}."
+
+
+def read_query(query: str, numbers: Sequence[float] = ()) -> Meaning | None:
+    """The meaning of a query; None where it names a number that the question does not have.
+
+    Raises:
+        ValueError: It is no query.
+    """
+    length = Length.FREE
+    for each, ending in _LENGTHS.items():
+        if ending and query.endswith(f"{ending}."):
+            length, query = each, query.removesuffix(f"{ending}.") + "."
+    if not query.endswith("."):
+        raise ValueError(f"a query ends with a full stop, got {query!r}")
+    texts = query[:-1].split("; ")
+    if any(int(number) > len(numbers) for number in _REFERENCE.findall(query)):
+        return None
+    if len(texts) == 1:
+        return _meaning(texts[0], numbers, length)
+    parts = []
+    for text in texts:
+        part = _meaning(text, numbers, Length.FREE)
+        if not isinstance(part, Amount | Check | Which):
+            raise ValueError(f"{text!r} is not asked together with others")
+        parts.append(part)
+    return Several(parts=tuple(parts))
+
+
+@lru_cache(maxsize=8)
+def query_grammar(num_numbers: int) -> Grammar:
+    """Every query about a question with so many numbers."""
+    joinable = list(_joinable(min(num_numbers, MOST_NUMBERS)))
+    more: TextChoice | None = None
+    for name in reversed(_ORDINALS[1:]):
+        ends = [Option(f"{text}.", f" {text}.") for text in joinable]
+        if more is not None:
+            ends += [Option(f"{text};", f" {text};", then=(more,)) for text in joinable]
+        more = TextChoice(name, tuple(ends))
+    options = [option for text in (*joinable, *_alone()) for option in _endings(text)]
+    if more is not None:
+        options += [Option(f"{text};", f"{text};", then=(more,)) for text in joinable]
+    return (TextChoice(_ORDINALS[0], tuple(options)),)
+
+
+def _endings(text: str) -> Iterator[Option]:
+    for ending in _LENGTHS.values():
+        yield Option(f"{text}{ending}.", f"{text}{ending}.")
+
+
+def _joinable(num_numbers: int) -> Iterator[str]:
+    """Parts that can be asked together with others."""
+    for quantity, units in AMOUNTS.items():
+        yield from (f"amount {quantity} {unit}" for unit in units)
+    yield from (f"{how} {name}" for how in ("word", "choice") for name in WORDS)
+    for denial in ("", "not "):
+        yield from (f"check {denial}{state}" for state in STATES)
+        yield from (f"check {denial}{name} {w}" for name, words in CLASSES.items() for w in words)
+        yield from (
+            f"check {denial}{name} {sign} {w}"
+            for name, words in ORDERED.items()
+            for sign in SIGNS
+            for w in words
+        )
+        yield from (f"check {denial}{test}" for test in _numbered(num_numbers))
+    yield from (f"check {fate} {GIVEN}" for fate in FATES)
+
+
+def _numbered(num_numbers: int) -> Iterator[str]:
+    """Conditions with numbers of the question."""
+    references = [f"#{number}" for number in range(1, num_numbers + 1)]
+    for quantity, units in MEASURED.items():
+        for unit in units:
+            for one in references:
+                yield from (f"{quantity} {sign} {one} {unit}" for sign in SIGNS)
+            for low, high in pairwise(references):
+                yield f"{quantity} {low} - {high} {unit}"
+    for one in references:
+        yield from (f"{fate} {one} {unit}" for fate in FATES for unit in MASS_UNITS)
+
+
+def _alone() -> Iterator[str]:
+    yield from (f"why {reason}" for reason in _REASONS)
+    yield from (f"unknown {subject}" for subject in SUBJECTS)
+    yield from ("describe", "other")
+
+
+def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
+    match meaning:
+        case Amount(quantity=quantity, unit=unit) if unit in AMOUNTS.get(quantity, ()):
+            return f"amount {quantity} {unit}"
+        case Which(name=name, is_open=is_open) if name in WORDS:
+            return f"{'word' if is_open else 'choice'} {name}"
+        case Check(test=test, denied=denied) if test:
+            return f"check {'not ' if denied else ''}{_referred(test, numbers)}"
+        case Why():
+            return f"why {next(name for name, why in _REASONS.items() if why == meaning)}"
+        case Description():
+            return "describe"
+        case Unknowable(subject=subject):
+            names = {said: name for name, said in SUBJECTS.items()}
+            if subject in names:
+                return f"unknown {names[subject]}"
+        case OffTopic():
+            return "other"
+    raise ValueError(f"no query has the meaning {meaning}")
+
+
+def _referred(test: str, numbers: Sequence[float]) -> str:
+    """A condition with the places of its numbers in the question."""
+
+    def place(match: re.Match[str]) -> str:
+        value = float(match[0])
+        for number, candidate in enumerate(numbers[:MOST_NUMBERS], start=1):
+            if abs(candidate - value) <= 1e-6 * abs(value):
+                return f"#{number}"
+        raise ValueError(f"{value:g} is none of the question's numbers {list(numbers)}")
+
+    return _NUMBER.sub(place, test)
+
+
+def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
+    kind, _, rest = text.partition(" ")
+    words = rest.split()
+    match kind:
+        case "amount" if len(words) == 2 and words[1] in AMOUNTS.get(words[0], ()):
+            return Amount(quantity=words[0], unit=words[1], length=length)
+        case "word" | "choice" if rest in WORDS:
+            return Which(name=rest, is_open=kind == "word", length=length)
+        case "check":
+            test = _REFERENCE.sub(lambda m: number_text(numbers[int(m[1]) - 1]), rest)
+            is_denied = test.startswith("not ")
+            return check_of(test.removeprefix("not "), denied=is_denied, length=length)
+        case "why" if rest in _REASONS:
+            return _REASONS[rest]
+        case "unknown" if rest in SUBJECTS:
+            return Unknowable(subject=SUBJECTS[rest], length=length)
+        case "describe" if not rest:
+            return Description(length=length)
+        case "other" if not rest:
+            return OffTopic()
+    raise ValueError(f"{text!r} is no query")
