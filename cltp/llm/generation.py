@@ -122,6 +122,11 @@ class Talker:
         """How the points lie that it takes."""
         return self.model.layout
 
+    @property
+    def width(self) -> int:
+        """Width of its embeddings."""
+        return self._language.dim
+
     @torch.inference_mode()
     def feel(self, points: NDArray[np.float32], scale: ForceScale = NOMINAL) -> Felt:
         """Encode one contact, once for all that is asked about it.
@@ -182,7 +187,7 @@ class Talker:
         """Ask about one contact that is felt already.
 
         Args:
-            touch: Shape (P, D), touch embeddings as ``feel`` gives them.
+            touch: Shape (P, D), touch embeddings as ``feel`` gives them; (0, D) for none.
             prompt: A person's question, or the request of a step.
             grammar: What may be said; None for anything.
             draft: With a grammar, a whole expected reply. It saves time, and changes nothing else.

@@ -1,10 +1,10 @@
 """Stages 'text', 'projector' and 'joint' of Tac3D-LLM (paper, section 5.3, after LLaVA).
 
-text: the language model learns how contacts are described, which questions are asked and which
-    advice follows, behind readings alone that are drawn around the truth.
+text: the language model learns how contacts are described and which advice follows, behind readings
+    alone that are drawn around the truth; and, without any touch, what a question asks for.
 projector: encoder and language model are frozen; the MLP between them learns by captioning, which
     is all that the paper does.
-joint: projector and language model learn captions, questions and advice together; the encoder
+joint: projector and language model learn captions, advice and questions together; the encoder
     stays as CLTP left it. Some readings are left out or wrong (``cltp.llm.unsure_readings``), so
     that the touch tokens are listened to.
 
@@ -73,19 +73,32 @@ IN_DOUBT = 0.2
 BEFORE_TOUCH = ("text", "encoder")
 """The stage that goes on behind another encoder: it does not use any."""
 
+QUESTIONS = {"text": 256, "joint": 128}
+"""Questions in each step of a stage, besides its contacts."""
+
+QUESTION_ROW = 8
+"""Questions in one sequence: more would leave more of its attention unused."""
+
+QUESTIONS_PER_CONTACT = 12
+"""Questions beside each contact from which the tokenizer learns."""
+
 ACTION_WEIGHT = 4.0
 """Weight of the one token that moves the robot, beside about sixty that describe."""
 
 
 class Lessons(Protocol):
-    """The exchanges that a language model learns about a contact."""
+    """The exchanges that a language model learns."""
 
     def captions(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         """Descriptions of a contact, in one or more wordings."""
         ...
 
     def mixed(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
-        """Captions, questions and advice on a contact; ``rng`` draws wordings."""
+        """Captions and advice on a contact; ``rng`` draws wordings."""
+        ...
+
+    def questions(self, num: int, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Questions about no contact, with what they ask for; none where ``num`` is too few."""
         ...
 
 
@@ -119,7 +132,8 @@ def train_words(
     learned = list(texts)
     for index in rng.integers(len(data), size=num_contacts):
         felt = ToldContact(state=data.state(int(index)))
-        for exchange in (*lessons.mixed(felt, rng), *lessons.captions(felt, rng)):
+        about = (*lessons.mixed(felt, rng), *lessons.captions(felt, rng))
+        for exchange in (*about, *lessons.questions(QUESTIONS_PER_CONTACT, rng)):
             learned += [exchange.prompt, exchange.reply]
     return Words.train(learned, size, whole)
 
@@ -192,6 +206,7 @@ class _Sample(NamedTuple):
     encoded: Encoded | None
     shown: ShownReadings
     packed: Packed
+    questions: Packed | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -208,7 +223,7 @@ class _Learner:
         model, device = self.model, self.run.workers.device
 
         def losses(step: int) -> dict[str, Tensor]:
-            encoded, shown, packed = next(samples)
+            encoded, shown, packed, questions = next(samples)
             packed = Packed(*(part.to(device) for part in packed))
             readings, given = shown.readings.to(device), shown.given.to(device)
             with self.run.workers.autocast():
@@ -216,7 +231,11 @@ class _Learner:
                     touch = model.projector.readings(readings, given)
                 else:
                     touch = model.projected(encoded, readings, given)
-                return model.loss(touch, packed)
+                terms = model.loss(touch, packed)
+                if questions is not None:
+                    asked = Packed(*(part.to(device) for part in questions))
+                    terms["questions"] = model.loss(None, asked)["language"]
+                return terms
 
         stage.train(losses)
 
@@ -241,7 +260,12 @@ class _Learner:
             teach = self.lessons.captions if stage.name == "projector" else self.lessons.mixed
             exchanges = [teach(each, rng) for each in felt]
             packed = pack(self.words, exchanges, num_touch, action_weight=ACTION_WEIGHT)
-            yield _Sample(encoded, told, packed)
+            yield _Sample(encoded, told, packed, self._questions(stage.name, rng))
+
+    def _questions(self, stage: str, rng: np.random.Generator) -> Packed | None:
+        asked = self.lessons.questions(QUESTIONS.get(stage, 0), rng)
+        rows = [asked[at : at + QUESTION_ROW] for at in range(0, len(asked), QUESTION_ROW)]
+        return pack(self.words, rows, 0) if rows else None
 
     @torch.no_grad()
     def _felt(self, batch: Batch, factors: Tensor, spreads: Tensor) -> tuple[Encoded, HeadReadings]:

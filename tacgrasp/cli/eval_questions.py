@@ -34,7 +34,6 @@ class QuestionFlags:
         per_question: Number of contacts that each question is asked about.
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
         model: Ask the model; --no-model prints the trivial answers and the upper bounds alone.
-        context: Tell the model contract, mass and the exchange before.
         seed: Random seed of contacts, noise, contracts and masses.
         json: JSON file for the figures and the answers.
         wrong: Print the model's wrong answers.
@@ -46,7 +45,6 @@ class QuestionFlags:
     per_question: int = 4
     weights: Path | None = None
     model: bool = True
-    context: bool = True
     seed: int = 0
     json: Path | None = None
     wrong: bool = False
@@ -79,7 +77,6 @@ def main(argv: Sequence[str]) -> None:
             contacts,
             talker,
             per_question=flags.per_question,
-            with_context=flags.context,
             seed=flags.seed,
             report=report,
         )

@@ -1,4 +1,4 @@
-"""Exchanges that teach the language model: captions, questions of the grammar, and advice.
+"""Exchanges that teach the language model: captions, advice, and the queries of questions.
 
 Advice is D_t (``policies.llm``): a target stands in the request, ``policies.teacher`` advises on
 the contact for it, and the reply is what the model learns. ``cltp.train`` receives texts and knows
@@ -32,7 +32,7 @@ from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band
 from tacgrasp.lessons.captions import CAPTION_REQUESTS
 from tacgrasp.lessons.dialogue.families.family import word_lists
-from tacgrasp.lessons.question_draws import question_exchange
+from tacgrasp.lessons.question_draws import query_exchange
 
 CAPTIONS = 0.3
 """Fraction of contacts that are also captioned."""
@@ -105,21 +105,22 @@ class TouchLessons:
     Args:
         blind: Whether every target is replaced by ``BLIND``: the control, whose model can't know
             it.
-        num_questions: Questions of the grammar for each contact.
         num_advice: Targets, and so pieces of advice, for each contact. The touch tokens, which they
             share, cost the most.
     """
 
-    def __init__(self, *, blind: bool = False, num_questions: int = 4, num_advice: int = 2) -> None:
-        self._blind = blind
-        self._num_questions, self._num_advice = num_questions, num_advice
+    def __init__(self, *, blind: bool = False, num_advice: int = 4) -> None:
+        self._blind, self._num_advice = blind, num_advice
 
     def captions(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
         return [caption_exchange(felt, rng)]
 
     def mixed(self, felt: ToldContact, rng: np.random.Generator) -> Sequence[Exchange]:
-        """A caption for some, questions, and advice for several targets."""
+        """A caption for some, and advice for several targets."""
         captions = [caption_exchange(felt, rng)] if rng.random() < CAPTIONS else []
-        questions = [question_exchange(felt.state, rng) for _ in range(self._num_questions)]
         advice = [advice_exchange(felt, rng, blind=self._blind) for _ in range(self._num_advice)]
-        return [*captions, *questions, *advice]
+        return [*captions, *advice]
+
+    def questions(self, num: int, rng: np.random.Generator) -> Sequence[Exchange]:
+        """Questions in plain words, and their queries."""
+        return [query_exchange(rng) for _ in range(num)]

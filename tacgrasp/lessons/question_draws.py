@@ -1,4 +1,4 @@
-"""Questions drawn from the grammar for a contact, with their true answers, for training and tests.
+"""Questions drawn from the grammar: with their queries for training, about a contact for tests.
 
 Balanced over the kinds of answers, over the families of a kind, and between yes and no: thresholds
 are drawn around the values of the contact, and words are its own or others, half and half.
@@ -7,7 +7,7 @@ are drawn around the values of the contact, and words are its own or others, hal
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -17,7 +17,7 @@ from cltp.tactile.states import ContactState
 from cltp.texts.exchange_packing import Exchange
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import answer
-from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES, understand
+from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
 from tacgrasp.lessons.dialogue.meaning import (
     AnswerKind,
@@ -29,6 +29,7 @@ from tacgrasp.lessons.dialogue.meaning import (
 )
 from tacgrasp.lessons.dialogue.pattern import draw
 from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
+from tacgrasp.lessons.dialogue.query import asked_text, query_of
 from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 
@@ -44,6 +45,15 @@ KIND_WEIGHTS: Mapping[AnswerKind, float] = {
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
+
+DROPPED, MISSPELLED = 0.15, 0.1
+"""Fractions of learned questions without some of ``FILLERS``, and with a misspelled word."""
+
+FILLERS = frozenset(("a", "an", "the", "this", "that", "please", "now", "right", "it", "of", "on"))
+"""Words whose absence changes no question."""
+
+LEAST_MISSPELLED = 4
+"""Letters of the longest word that is never misspelled: another word would come of it."""
 
 SPOILED = 0.12
 """Fraction of questions with contractions left out, or common misspellings."""
@@ -111,7 +121,7 @@ def draw_question(
         text, meaning = _wording(family, scene, rng, family.steer(scene, wants_yes, rng))
         if not isinstance(meaning, Check) or any(values[n] is None for n in names_of(meaning)):
             break
-        if answer(meaning, scene, rng).value == wants_yes:
+        if answer(meaning, scene).value == wants_yes:
             break
     before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
     return DrawnQuestion(
@@ -191,53 +201,36 @@ def _felt_or_usual(state: ContactState) -> float:
     return state.force_n if state.in_contact and state.force_n > 0 else 1.0
 
 
-def question_prompt(question: str, scene: AskedScene, before: Exchange | None = None) -> str:
-    """A question with what the model is told beside the contact.
+def query_exchange(rng: np.random.Generator) -> Exchange:
+    """A question about no contact in plain words, and its query, to be learned.
 
-    Args:
-        question: The question.
-        scene: Its contract and mass are named where there are any.
-        before: The exchange before it.
+    Some words are left out or misspelled: the question stays the same.
     """
-    facts = []
-    if scene.contract is not None:
-        terms = scene.contract.terms
-        facts.append(f"Goal {terms.force_n.low:.2f} - {terms.force_n.high:.2f} N")
-        facts.append(f"limit {terms.limit_n:.2f} N")
-    if scene.mass_g is not None:
-        facts.append(f"mass {scene.mass_g:.0f} g")
-    told = f"{', '.join(facts)}. " if facts else ""
-    earlier = f"{before.prompt} {before.reply} " if before is not None else ""
-    return f"{told}{earlier}{question}"
+    kinds = list(KIND_WEIGHTS)
+    kind = kinds[int(rng.choice(len(kinds), p=list(KIND_WEIGHTS.values())))]
+    families = families_by_kind()[kind]
+    family = families[int(rng.integers(len(families)))]
+    scene = AskedScene()
+    text, meaning = _wording(family, scene, rng, family.steer(scene, True, rng))
+    before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
+    asked = asked_text(text, before)
+    return Exchange(prompt=slipped(asked.words, rng), reply=query_of(meaning, asked.numbers))
 
 
-def question_exchange(state: ContactState, rng: np.random.Generator) -> Exchange:
-    """One question about a contact with its answer, to be learned.
-
-    Args:
-        state: The true words, and the numbers as they are read.
-        rng: Draws contract, mass, question and wordings.
-    """
-    scene = draw_scene(state, rng)
-    question = draw_question(scene, rng)
-    before = None
-    if question.before:
-        earlier = understand(question.before)
-        if earlier is None:
-            raise ValueError(f"no family has the question {question.before!r}")
-        before = Exchange(prompt=question.before, reply=answer(earlier, scene, rng).text)
-    return Exchange(
-        prompt=question_prompt(question.text, scene, before),
-        reply=answer(question.meaning, scene, rng).text,
-    )
-
-
-def question_samples(states: Sequence[ContactState], seed: int) -> Iterator[Exchange]:
-    """Endless exchanges about some contacts, deterministic in the seed."""
-    rng = np.random.default_rng(seed)
-    while True:
-        state = states[int(rng.integers(len(states)))]
-        yield question_exchange(state, rng)
+def slipped(words: str, rng: np.random.Generator) -> str:
+    """Plain words, perhaps without some that mean nothing, perhaps with one misspelled."""
+    kept = words.split()
+    if rng.random() < DROPPED:
+        kept = [word for word in kept if word not in FILLERS or rng.random() < 0.5] or kept
+    if rng.random() < MISSPELLED:
+        place = int(rng.integers(len(kept)))
+        word = kept[place]
+        if len(word) > LEAST_MISSPELLED:
+            at = int(rng.integers(1, len(word) - 1))
+            slips = (word[:at] + word[at + 1 :], word[:at] + word[at] + word[at:])
+            swap = word[:at] + word[at + 1] + word[at] + word[at + 2 :]
+            kept[place] = (*slips, swap)[int(rng.integers(3))]
+    return " ".join(kept)
 
 
 def drawn_rows(

@@ -154,7 +154,7 @@ def grammar_answer(asked: AskedQuestion) -> str | None:
     meaning = understand(asked.row.question, before=asked.row.before)
     if meaning is None:
         return None
-    return answer(meaning, asked.scene, np.random.default_rng(asked.contact)).text
+    return answer(meaning, asked.scene).text
 
 
 def _most_frequent(asked: Sequence[AskedQuestion]) -> Mapping[str, str]:

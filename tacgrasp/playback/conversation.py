@@ -1,34 +1,25 @@
-"""Questions about one contact, one after another, answered by the language model.
+"""Questions about one contact, one after another: the model feels it once, and reads each question.
 
 Not here: the lines of a terminal (``tacgrasp.cli.ask``).
 """
 
 from __future__ import annotations
 
-import math
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any, Protocol
+from dataclasses import dataclass, replace
+from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-from torch import Tensor
-
-from cltp.llm.generation import Felt, Reply
+from cltp.encoder.reader import Flag, reading_of
+from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
-from cltp.tactile.force_scale import ForceScale
-from cltp.tactile.point_layout import PointLayout
-from cltp.texts.exchange_packing import Exchange
-from policies import PolicyError
-from policies.llm.text import NOTHING
+from cltp.tactile.states import NO_CONTACT_STATE
+from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
-from tacgrasp.lessons.dialogue.answer_values import answer_in
 from tacgrasp.lessons.dialogue.answers import Answer
 from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.question_draws import question_prompt
+from tacgrasp.lessons.understanding import answered, understood
 from tacgrasp.playback.describe import is_touched
 
 FOLLOW_UP_WORDS = 5
@@ -38,38 +29,25 @@ after the one before. Our choice."""
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
 
-class Answerer(Protocol):
-    """What answers; ``cltp.llm.generation.Talker`` is one."""
-
-    @property
-    def layout(self) -> PointLayout:
-        """How the points lie that it takes."""
-        ...
-
-    def feel(self, points: NDArray[np.float32], scale: ForceScale) -> Felt:
-        """Encode one contact."""
-        ...
-
-    def reply_to(self, touch: Tensor, prompt: str) -> Reply:
-        """Answer about one contact that is felt."""
-        ...
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Spoken:
-    """The model's answer to a question.
+    """The answer to a question.
 
     Attributes:
-        answer: Its text, and what is read out of it.
-        confidence: Geometric mean of the probabilities of its tokens; None where they are not
-            known, as for the answer of the contact test. It is not calibrated.
+        answer: The answer.
+        confidence: Probability that the question is understood, and that the words of the contact
+            which it needs are right.
+        query: What the model took the question for; '' where it came to nothing.
+        flags: Why what is felt is not to be trusted; empty where it may be.
     """
 
     answer: Answer
-    confidence: float | None
+    confidence: float
+    query: str
+    flags: tuple[Flag, ...] = ()
 
     def json(self) -> dict[str, Any]:
-        """The answer for programs; a number in mm, N, percent, mm² or g."""
+        """The answer for programs."""
         return {
             "answer": self.answer.text,
             "kind": self.answer.kind.value,
@@ -77,60 +55,55 @@ class Spoken:
             "unit": self.answer.unit or None,
             "confidence": self.confidence,
             "decidable": self.answer.decidable,
+            "query": self.query,
+            "flags": [flag.value for flag in self.flags],
         }
 
 
 class Conversation:
-    """Asks about one contact; a follow-up is put with the exchange before it.
+    """Asks about one contact; a follow-up is put with the question before it.
 
     Args:
         cloud: The contact.
-        answerer: The model.
-        contract: What the model is told of the contract; None for none.
+        talker: The model.
+        contract: Contract that questions may be about; None for none.
         mass_g: Mass of the object [g]; None where it is not known.
 
     Raises:
-        TouchError: The gel rises where a contact would press it in.
+        TouchError: The gel rises where a contact would press it in, or the weights' heads have no
+            intervals.
         ValueError: The contract is refused, or the mass is not above 0.
     """
 
     def __init__(
         self,
         cloud: TactileCloud,
-        answerer: Answerer,
+        talker: Talker,
         *,
         contract: Contract | None = None,
         mass_g: float | None = None,
     ) -> None:
-        self._told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
-        self._answerer = answerer
-        self._touch: Tensor | None = None
+        self._talker = talker
+        spoken = SpokenContact(NO_CONTACT_STATE, {})
+        self._flags: tuple[Flag, ...] = ()
+        told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
         if is_touched(cloud):
-            points = encoder_input(cloud, answerer.layout)
-            self._touch = answerer.feel(points, cloud.force_scale).touch
-        self._before: Exchange | None = None
+            felt = talker.feel(encoder_input(cloud, talker.layout), cloud.force_scale)
+            spoken = spoken_contact(talker, felt, cloud.sensor)
+            self._flags = reading_of(felt.readings, cloud, talker.model.heads.contradiction).flags
+        self._scene = replace(told, state=spoken.state)
+        self._words = spoken.confidence
+        self._before = ""
 
     def ask(self, question: str) -> Spoken:
-        """Answer a question; an untouched pad answers every one.
-
-        Raises:
-            PolicyError: The answer does not end.
-        """
-        if self._touch is None:
-            return Spoken(answer=answer_in(NOTHING), confidence=None)
-        before = self._before
-        if before is not None and not is_follow_up(question, before.prompt):
-            before = None
-        prompt = question_prompt(question, self._told, before)
-        reply = self._answerer.reply_to(self._touch, prompt)
-        if not reply.ended:
-            raise PolicyError(
-                f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "
-                "ask otherwise, or train the model longer"
-            )
-        self._before = Exchange(prompt=question, reply=reply.text)
+        """Answer a question."""
+        before = self._before if self._before and is_follow_up(question, self._before) else ""
+        asked = understood(self._talker, question, before)
+        self._before = question
+        given = answered(asked, self._scene, self._words)
+        query = "" if asked is None else asked.query
         return Spoken(
-            answer=answer_in(reply.text), confidence=mean_probability(reply.token_probabilities)
+            answer=given.answer, confidence=given.confidence, query=query, flags=self._flags
         )
 
 
@@ -147,12 +120,3 @@ def is_follow_up(question: str, before: str) -> bool:
     if understand(question, before=before) is not None:
         return True
     return len(question.split()) <= FOLLOW_UP_WORDS
-
-
-def mean_probability(probabilities: Sequence[float]) -> float | None:
-    """Geometric mean of the probabilities of a text's tokens; None without any."""
-    if not probabilities:
-        return None
-    least = 1e-12  # of a token that rounding left without any
-    logs = [math.log(max(probability, least)) for probability in probabilities]
-    return math.exp(sum(logs) / len(logs))

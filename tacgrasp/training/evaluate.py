@@ -155,7 +155,7 @@ def _answers(talker: Talker, request: EvaluationRequest, report: ProgressReport)
     right: dict[str, Any] = {"contacts": len(contacts)}
     for name, asked in sets.items():
         stage = f"{name.replace('_', '-')} questions"
-        model = asked_model(talker, contacts, len(asked), report, with_context=True, stage=stage)
+        model = asked_model(talker, contacts, len(asked), report, stage=stage)
         answers = answer_all(asked, model)
         by_kind = {kind: [a for a in answers if a.asked.row.kind is kind] for kind in AnswerKind}
         right[name] = {

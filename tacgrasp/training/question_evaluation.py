@@ -11,7 +11,8 @@ from __future__ import annotations
 
 import tempfile
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -25,15 +26,15 @@ from cltp.data.sampler import NOISY, Sampler
 from cltp.llm.generation import Talker
 from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensors import sensor_named
-from cltp.texts.exchange_packing import Exchange
 from cltp.train.stage import ProgressReport, silent
+from policies.llm.spoken import SpokenContact, spoken_contact
 from sim.full.series import press_on_gel
 from sim.gel.layer import gel_of
 from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.question_file import QuestionRow
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.question_draws import draw_scene, drawn_rows, question_prompt
+from tacgrasp.lessons.question_draws import draw_scene, drawn_rows
 from tacgrasp.lessons.question_scores import (
     AskedQuestion,
     ScoredAnswer,
@@ -43,6 +44,7 @@ from tacgrasp.lessons.question_scores import (
     figures,
     figures_by_family,
 )
+from tacgrasp.lessons.understanding import Understood, answered, understood
 
 MADE_SEED = BENCHMARK_SEED + 7
 """Seed of the contacts that are made where none are given; no data set can have it."""
@@ -103,7 +105,6 @@ def evaluate_questions(
     talker: Talker | None,
     *,
     per_question: int,
-    with_context: bool,
     seed: int = 0,
     report: ProgressReport = silent,
 ) -> tuple[dict[str, Any], list[ScoredAnswer]]:
@@ -114,7 +115,6 @@ def evaluate_questions(
         contacts: The contacts.
         talker: The model; None scores the others alone.
         per_question: Number of contacts for each question.
-        with_context: Whether the model is told contract, mass and the exchange before.
         seed: Random seed of the grammar's own questions.
         report: Receives the progress.
 
@@ -133,7 +133,7 @@ def evaluate_questions(
         scored["grammar"] = answer_all(own, contestants["grammar"])
         answers: list[ScoredAnswer] = []
         if talker is not None:
-            model = asked_model(talker, contacts, len(asked), report, with_context=with_context)
+            model = asked_model(talker, contacts, len(asked), report)
             answers = answer_all(asked, model)
             scored = {"model": answers, **scored}
     except ValueError as error:
@@ -160,34 +160,36 @@ def asked_model(
     total: int,
     report: ProgressReport,
     *,
-    with_context: bool,
     stage: str = "questions",
 ) -> Callable[[AskedQuestion], str]:
     """What asks the model.
+
+    Each contact is felt once, and each question understood once.
 
     Args:
         talker: The model.
         contacts: The contacts, by their numbers in what is asked.
         total: Number of questions to come, for the progress.
         report: Receives the progress.
-        with_context: Whether the model is told contract, mass and the exchange before.
         stage: Name of the stage, for the progress.
     """
     done = 0
 
+    @cache
+    def spoken(contact: int) -> SpokenContact:
+        return spoken_contact(talker, talker.feel(contacts[contact].points))
+
+    @cache
+    def meant(question: str, before: str) -> Understood | None:
+        return understood(talker, question, before)
+
     def reply(asked: AskedQuestion) -> str:
         nonlocal done
-        points, row = contacts[asked.contact].points, asked.row
-        prompt = row.question
-        if with_context:
-            before = None
-            if row.before:
-                first = talker.reply(points, question_prompt(row.before, asked.scene)).text
-                before = Exchange(prompt=row.before, reply=first)
-            prompt = question_prompt(row.question, asked.scene, before)
-        text = talker.reply(points, prompt).text
+        felt, row = spoken(asked.contact), asked.row
+        scene = replace(asked.scene, state=felt.state)
+        given = answered(meant(row.question, row.before), scene, felt.confidence)
         done += 1
         report(stage, done, total, {})
-        return text
+        return given.answer.text
 
     return reply

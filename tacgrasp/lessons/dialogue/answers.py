@@ -8,8 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from cltp.texts.captions import with_article
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.facts import (
@@ -42,12 +40,8 @@ from tacgrasp.lessons.dialogue.meaning import (
 from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in
 from tacgrasp.lessons.dialogue.scene import AskedScene, Value
 
-OFF_TOPIC = (
-    "I only answer about touch.",
-    "That is not about touch.",
-    "I can only talk about what touches the pad.",
-)
-UNKNOWABLE = ("I can't feel {}.", "Touch can't tell {}.", "I can't tell {} by touch.")
+OFF_TOPIC = "That is not about touch."
+UNKNOWABLE = "I can't feel {}."
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,30 +63,29 @@ class Answer:
     decidable: bool = True
 
 
-def answer(meaning: Meaning, scene: AskedScene, rng: np.random.Generator) -> Answer:
-    """The true answer to a question about a scene; ``rng`` draws its wording."""
+def answer(meaning: Meaning, scene: AskedScene) -> Answer:
+    """The true answer to a question about a scene."""
     lacking = _lacking(meaning, scene)
     if lacking is not None:
         return lacking
     match meaning:
         case Amount():
-            return _amount(meaning, scene, rng)
+            return _amount(meaning, scene)
         case Check():
-            return _check(meaning, scene, rng)
+            return _check(meaning, scene)
         case Which():
-            return _which(meaning, scene, rng)
+            return _which(meaning, scene)
         case Several():
-            return _several(meaning, scene, rng)
+            return _several(meaning, scene)
         case Why():
-            return _why(meaning, scene, rng)
+            return _why(meaning, scene)
         case Description():
             return Answer(text=_description(scene), kind=AnswerKind.TEXT)
         case Unknowable(subject=subject, length=length):
-            text = "Unknown." if length is Length.WORD else _draw(rng, *UNKNOWABLE).format(subject)
+            text = "Unknown." if length is Length.WORD else UNKNOWABLE.format(subject)
             return Answer(text=text, kind=AnswerKind.UNKNOWABLE, decidable=False)
         case OffTopic():
-            text = _draw(rng, *OFF_TOPIC)
-            return Answer(text=text, kind=AnswerKind.OFF_TOPIC, decidable=False)
+            return Answer(text=OFF_TOPIC, kind=AnswerKind.OFF_TOPIC, decidable=False)
 
 
 def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
@@ -114,56 +107,44 @@ def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
     return None
 
 
-def _amount(asked: Amount, scene: AskedScene, rng: np.random.Generator) -> Answer:
+def _amount(asked: Amount, scene: AskedScene) -> Answer:
     quantity = QUANTITIES[asked.quantity]
     value = Expression(quantity.truth).evaluate(scene.values()).value
     text = amount_text(asked.quantity, float(value or 0.0), asked.unit, scene)
     article = "" if asked.quantity in "xy" else "The "
     whole = f"{article}{quantity.noun} is {text}."
-    if asked.length is Length.FREE:
-        whole = _draw(rng, f"{text}.", f"{text}.", whole, f"It is {text}.")
-    worded = f"{text}." if asked.length is Length.WORD else whole
+    worded = whole if asked.length is Length.SENTENCE else f"{text}."
     return Answer(text=worded, kind=AnswerKind.NUMBER, value=number_in(text), unit=asked.unit)
 
 
-def _check(asked: Check, scene: AskedScene, rng: np.random.Generator) -> Answer:
+def _check(asked: Check, scene: AskedScene) -> Answer:
     values = scene.values()
     is_so = bool(Expression(asked.condition).evaluate(values).value)
     yes = "yes" if is_so else "no"
-    shorts, clauses = zip(*(fact(name, scene) for name in asked.shows), strict=True)
-    clause = " and ".join(clauses)
+    clause = " and ".join(fact(name, scene)[1] for name in asked.shows)
     if asked.needed_n:
         needed = float(Expression(asked.needed_n).evaluate(values).value or 0.0)
         clause = f"it needs {needed:.2f} N and {clause}"
-        shorts = (clause,)
-    whole = f"{yes.capitalize()}, {clause}."
-    if asked.length is Length.WORD:
-        text = f"{yes.capitalize()}."
-    elif asked.length is Length.SENTENCE:
-        text = whole
-    else:
-        short = f"{yes.capitalize()}, {' and '.join(shorts)}."
-        text = _draw(rng, short, short, whole, f"{capital(clause)}, so {yes}.")
+    is_word = asked.length is Length.WORD
+    text = f"{yes.capitalize()}." if is_word else f"{yes.capitalize()}, {clause}."
     return Answer(text=text, kind=AnswerKind.YES_NO, value=is_so)
 
 
-def _which(asked: Which, scene: AskedScene, rng: np.random.Generator) -> Answer:
+def _which(asked: Which, scene: AskedScene) -> Answer:
     word = str(scene.values()[asked.name])
     short, clause = named(asked.name, word, scene)
     if asked.length is Length.WORD:
         text = f"{capital(short if asked.name == 'action' else word)}."
-    elif asked.length is Length.SENTENCE:
-        text = f"{capital(clause)}."
     else:
-        text = _draw(rng, f"{capital(short)}.", f"{capital(clause)}.")
+        text = f"{capital(clause)}."
     return Answer(text=text, kind=kind_of(asked), value=word)
 
 
-def _several(asked: Several, scene: AskedScene, rng: np.random.Generator) -> Answer:
-    shorts, clauses = [], []
+def _several(asked: Several, scene: AskedScene) -> Answer:
+    clauses = []
     for part in asked.parts:
         if isinstance(part, Which):
-            short, clause = named(part.name, str(scene.values()[part.name]), scene)
+            clause = named(part.name, str(scene.values()[part.name]), scene)[1]
         elif isinstance(part, Amount):
             value = float(
                 Expression(QUANTITIES[part.quantity].truth).evaluate(scene.values()).value or 0
@@ -171,26 +152,22 @@ def _several(asked: Several, scene: AskedScene, rng: np.random.Generator) -> Ans
             amount = amount_text(part.quantity, value, part.unit, scene)
             noun = QUANTITIES[part.quantity].noun
             is_axis = part.quantity in "xy"
-            short = f"{part.quantity} {amount}" if is_axis else amount
             clause = f"{'' if is_axis else 'the '}{noun} is {amount}"
         else:
             yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
-            short = f"{yes}, {fact(part.shows[0], scene)[0]}"
             clause = f"{yes}, {fact(part.shows[0], scene)[1]}"
-        shorts.append(short)
         clauses.append(clause)
-    text = _draw(rng, "; ".join(shorts), "; ".join(clauses))
-    return Answer(text=f"{capital(text)}.", kind=AnswerKind.TEXT)
+    return Answer(text=f"{capital('; '.join(clauses))}.", kind=AnswerKind.TEXT)
 
 
-def _why(asked: Why, scene: AskedScene, rng: np.random.Generator) -> Answer:
+def _why(asked: Why, scene: AskedScene) -> Answer:
     values = scene.values()
     clauses = [fact(name, scene)[1] for name in asked.shows]
     clause = " and ".join(clauses) or REASONS[str(values["reason"])]
     if asked.with_action:
         text = f"{capital(ACTIONS[str(values['action'])])}: {clause}."
     else:
-        text = _draw(rng, f"Because {clause}.", f"{capital(clause)}.")
+        text = f"Because {clause}."
     return Answer(text=text, kind=AnswerKind.TEXT)
 
 
@@ -205,7 +182,3 @@ def _description(scene: AskedScene) -> str:
         f"({state.depth_mm:.2f} mm), with {with_article(str(state.area))} contact area ({area}) "
         f"and {state.force_n:.2f} N."
     )
-
-
-def _draw(rng: np.random.Generator, *choices: str) -> str:
-    return choices[int(rng.integers(len(choices)))]

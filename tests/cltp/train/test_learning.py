@@ -80,6 +80,9 @@ class FakeLessons:
             Exchange(prompt="Hold it firmly.", reply=f"Action: {soft}."),
         ]
 
+    def questions(self, num: int, rng: np.random.Generator) -> Sequence[Exchange]:
+        return [Exchange(prompt="how deep", reply="amount depth mm.")] * num
+
 
 pytestmark = pytest.mark.usefixtures("one_thread")
 
