@@ -128,12 +128,18 @@ class Talker:
         return self._language.dim
 
     @torch.inference_mode()
-    def feel(self, points: NDArray[np.float32], scale: ForceScale = NOMINAL) -> Felt:
+    def feel(
+        self,
+        points: NDArray[np.float32],
+        scale: ForceScale = NOMINAL,
+        correct: Callable[[HeadReadings], HeadReadings] | None = None,
+    ) -> Felt:
         """Encode one contact, once for all that is asked about it.
 
         Args:
             points: Shape (N, 3), from ``cltp.tactile.encoder_input`` in the encoder's ``layout``.
             scale: Force scale of the unit that measured them.
+            correct: Corrects what the heads read by what else is known; None leaves it.
 
         Raises:
             TouchError: The weights' heads have no intervals.
@@ -143,6 +149,8 @@ class Talker:
         marks.append(self._clock())
         output = self.model.heads(encoded.pooled)
         readings = readings_of(output, scale.factor, scale.spread)
+        if correct is not None:
+            readings = correct(readings)
         touch = self.model.projected(encoded, readings)[0]
         marks.append(self._clock())
         return Felt(encoded, readings, touch, _durations(("encode", "project"), marks))

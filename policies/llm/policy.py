@@ -12,17 +12,21 @@ import copy
 import math
 import time
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
 from cltp.encoder.reader import TouchReading, reading_of
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.states import NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
@@ -41,6 +45,7 @@ from policies.policy import Decision
 from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
+from primitives.sense import Interval
 
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
@@ -52,6 +57,9 @@ ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
 A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
 1,000,000.
 """
+
+
+_FORCE = NUMBERS.index("force_n")
 
 
 class SaidStep(NamedTuple):
@@ -199,7 +207,8 @@ class LlmPolicy:
         cloud = observation.cloud
         points = encoder_input(cloud, self._talker.layout)
         sampled = self._clock()
-        felt = self._talker.feel(points, cloud.force_scale)
+        directly = partial(with_felt_force, felt=observation.felt_force_n)
+        felt = self._talker.feel(points, cloud.force_scale, directly)
         read_from = self._clock()
         commanded_n = observation.commanded_force_n
         contradiction = self._talker.model.heads.contradiction
@@ -239,23 +248,6 @@ class LlmPolicy:
         )
         return reply.text
 
-    def ask(self, cloud: TactileCloud, question: str) -> str:
-        """The model's answer to a question about a contact.
-
-        Raises:
-            PolicyError: The question is empty, too long, or not in known words; or the answer does
-                not end.
-        """
-        self.check(question)
-        points = encoder_input(cloud, self._talker.layout)
-        reply = self._talker.reply(points, question, scale=cloud.force_scale)
-        if not reply.ended:
-            raise PolicyError(
-                f"the answer did not end within {reply.num_tokens} tokens, so it is not given; "
-                "ask otherwise, or train the model longer"
-            )
-        return reply.text
-
 
 class CaptionSpeaker:
     """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
@@ -280,6 +272,26 @@ def drafted(reading: TouchReading, force_n: Band) -> str:
     advice = teacher(state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
     contact = contact_text(state, said_numbers(state, ends))
     return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
+
+
+def with_felt_force(readings: HeadReadings, felt: Interval | None) -> HeadReadings:
+    """Readings of one contact with the force as it is felt directly.
+
+    The target of a step follows from that force (``policies.contract_steps.Aim``), so that both err
+    alike: with the heads' own force, as good by itself, one grip in twenty bruises. Where the two
+    contradict each other, as on contacts that the pad's edge cuts, the heads' force is kept.
+
+    Args:
+        readings: A batch of one.
+        felt: The force that is felt directly [N]; None where there is none.
+    """
+    force, low, high = (float(ends[0, _FORCE]) for ends in readings[3:])
+    if felt is None or min(felt.value, force) <= 0 or felt.high < low or high < felt.low:
+        return readings
+    factor = torch.ones(readings.values.shape[1])
+    factor[_FORCE] = felt.value / force
+    values, low_ends, high_ends = (factor * ends for ends in readings[3:])
+    return readings._replace(values=values, low=low_ends, high=high_ends)
 
 
 def flag_reason(reading: TouchReading) -> str:

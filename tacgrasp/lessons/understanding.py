@@ -26,7 +26,7 @@ PROBABLY_BELOW = 0.6
 NOT_UNDERSTOOD = "I don't understand the question."
 
 
-class Replier(Protocol):
+class QueryWriter(Protocol):
     """What writes queries; ``cltp.llm.generation.Talker`` is one."""
 
     @property
@@ -39,7 +39,7 @@ class Replier(Protocol):
         ...
 
 
-class Understood(NamedTuple):
+class ReadQuestion(NamedTuple):
     """What a question means to the model.
 
     Attributes:
@@ -53,22 +53,22 @@ class Understood(NamedTuple):
     confidence: float
 
 
-def understood(replier: Replier, question: str, before: str = "") -> Understood | None:
+def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQuestion | None:
     """What a question means; None where the model comes to no query.
 
     Args:
-        replier: The model.
+        writer: The model.
         question: The question.
         before: The question before it, where it follows one; ''.
     """
     asked = asked_text(question, before)
     grammar = query_grammar(len(asked.numbers))
-    reply = replier.reply_to(torch.zeros(0, replier.width), asked.words, grammar=grammar)
+    reply = writer.reply_to(torch.zeros(0, writer.width), asked.words, grammar=grammar)
     meaning = read_query(reply.text, asked.numbers) if reply.ended else None
     if meaning is None:
         return None
     confidence = math.prod(slot.probability for slot in reply.slots.values())
-    return Understood(reply.text, meaning, confidence)
+    return ReadQuestion(reply.text, meaning, confidence)
 
 
 class Answered(NamedTuple):
@@ -84,7 +84,7 @@ class Answered(NamedTuple):
 
 
 def answered(
-    asked: Understood | None, scene: AskedScene, words: Mapping[str, float] | None = None
+    asked: ReadQuestion | None, scene: AskedScene, words: Mapping[str, float] | None = None
 ) -> Answered:
     """The answer to a question about what is felt.
 

@@ -44,7 +44,7 @@ from tacgrasp.lessons.question_scores import (
     figures,
     figures_by_family,
 )
-from tacgrasp.lessons.understanding import Understood, answered, understood
+from tacgrasp.lessons.understanding import ReadQuestion, answered, understood
 
 MADE_SEED = BENCHMARK_SEED + 7
 """Seed of the contacts that are made where none are given; no data set can have it."""
@@ -180,7 +180,7 @@ def asked_model(
         return spoken_contact(talker, talker.feel(contacts[contact].points))
 
     @cache
-    def meant(question: str, before: str) -> Understood | None:
+    def meant(question: str, before: str) -> ReadQuestion | None:
         return understood(talker, question, before)
 
     def reply(asked: AskedQuestion) -> str:

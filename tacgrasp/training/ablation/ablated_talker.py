@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from torch import Tensor
 
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import NOMINAL, Felt, Reply, Talker
 from cltp.llm.tac3d_llm import Tac3dLlm
@@ -109,9 +110,14 @@ class AblatedTalker:
         """The model itself."""
         return self._talker.model
 
-    def feel(self, points: NDArray[np.float32], scale: ForceScale = NOMINAL) -> Felt:
+    def feel(
+        self,
+        points: NDArray[np.float32],
+        scale: ForceScale = NOMINAL,
+        correct: Callable[[HeadReadings], HeadReadings] | None = None,
+    ) -> Felt:
         """Encode one contact; as ``Talker.feel``, with the part changed."""
-        felt = self._talker.feel(points, scale)
+        felt = self._talker.feel(points, scale, correct)
         ablation = self._ablation
         if ablation is None or ablation.part is InputPart.GOAL:
             return felt

@@ -3,7 +3,7 @@
 import pytest
 
 from tacgrasp.lessons.dialogue.question_file import read_questions
-from tacgrasp.playback.conversation import is_follow_up, mean_probability
+from tacgrasp.playback.conversation import is_follow_up
 
 
 def test_kept_out_follow_ups_are_seen_as_such() -> None:
@@ -30,9 +30,3 @@ def test_most_questions_that_stand_alone_are_not() -> None:
 )
 def test_a_question_of_the_grammar_stands_alone(question: str, before: str, expected: bool) -> None:
     assert is_follow_up(question, before) is expected
-
-
-def test_confidence_is_a_geometric_mean() -> None:
-    assert mean_probability((0.5, 0.125)) == pytest.approx(0.25)
-    assert mean_probability(()) is None
-    assert mean_probability((0.0,)) is not None

@@ -1,4 +1,4 @@
-"""``tacgrasp eval questions`` with a model of a few words: prompts, figures, and refused files."""
+"""``tacgrasp eval questions`` with a model of one query: prompts, figures, and refused files."""
 
 import json
 from types import SimpleNamespace
@@ -6,6 +6,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from cltp.llm.constrained.grammar import match
+from policies.llm.spoken import SpokenContact
 from tacgrasp.__main__ import main
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.question_file import question_row
@@ -17,15 +19,22 @@ CONTACTS = [FeltContact(points=np.zeros((1024, 3), np.float32), scene=s) for s i
 
 
 class Parrot:
-    """Answers with the same text, and remembers what it was asked."""
+    """Writes the same query to every question, feels HELD, and remembers what it was asked."""
 
-    def __init__(self, text):
-        self.text, self.prompts = text, []
+    width = 4
 
-    def reply(self, points, prompt):
+    def __init__(self, query):
+        self.query, self.prompts = query, []
+
+    def feel(self, points):
         assert points.shape == (1024, 3)
+
+    def reply_to(self, touch, prompt, *, grammar):
+        assert touch.shape == (0, self.width)
+        assert match(grammar, self.query)[1]
         self.prompts.append(prompt)
-        return SimpleNamespace(text=self.text)
+        slot = SimpleNamespace(probability=0.5)
+        return SimpleNamespace(text=self.query, ended=True, slots={"first": slot})
 
 
 def row(question, kind, truth="", before=""):
@@ -43,23 +52,29 @@ ROWS = [
 @pytest.fixture(autouse=True)
 def _few_own_questions(monkeypatch):
     monkeypatch.setattr(question_evaluation, "GRAMMAR_QUESTIONS", 3)
+    spoken = SpokenContact(HELD.state, {})
+    monkeypatch.setattr(question_evaluation, "spoken_contact", lambda talker, felt: spoken)
 
 
-def evaluated(talker, *, with_context=False):
-    return evaluate_questions(ROWS, CONTACTS, talker, per_question=2, with_context=with_context)
+def evaluated(talker):
+    return evaluate_questions(ROWS, CONTACTS, talker, per_question=2)
 
 
-def test_the_model_is_asked_each_question_about_its_contacts():
-    parrot = Parrot("Yes, 5.31 N.")
+def test_the_model_reads_each_question_once_and_answers_on_what_is_felt():
+    parrot = Parrot("amount force N.")
     results, answers = evaluated(parrot)
-    assert parrot.prompts == [each.question for each in ROWS for _ in CONTACTS]
+    assert parrot.prompts == ["over # n", "over # n ? and how deep", "is it red"]
+    assert {each.text for each in answers} == {"0.83 N."}
     model = results["figures"]["model"]
-    assert (model["right"], model["decidable_n"], model["undecidable_n"]) == (0.25, 4, 2)
+    assert (model["right"], model["decidable_n"], model["undecidable_n"]) == (0, 4, 2)
     assert model["undecidable"] == 0
-    assert model["right_kind"] == pytest.approx(2 / 6)
-    assert results["families"]["yes_no"]["right"] == 0.5
     assert len(answers) == 6
     assert json.dumps(results)
+
+
+def test_a_right_query_gives_right_answers():
+    results, _ = evaluated(Parrot("amount depth mm."))
+    assert results["families"]["number"]["right"] == 0.5  # felt is HELD, asked about FIRM too
 
 
 def test_the_upper_bounds_are_reached():
@@ -68,15 +83,6 @@ def test_the_upper_bounds_are_reached():
     assert results["figures"]["truth in words"]["right"] == 1
     assert results["figures"]["grammar"]["right_kind"] == 1
     assert results["figures"]["unknowable"]["undecidable"] == 1
-
-
-def test_with_context_the_model_is_told_contract_mass_and_the_exchange_before():
-    parrot = Parrot("No.")
-    evaluated(parrot, with_context=True)
-    told = "Goal 0.62 - 0.95 N, limit 1.30 N, mass 25 g. "
-    assert parrot.prompts[0] == f"{told}Over 1 N?"
-    follow_ups = [prompt for prompt in parrot.prompts if prompt.endswith("And how deep?")]
-    assert follow_ups[0] == f"{told}Over 1 N? No. And how deep?"
 
 
 def test_contacts_are_made_where_none_are_given():
@@ -88,9 +94,7 @@ def test_contacts_are_made_where_none_are_given():
 
 def test_a_truth_that_can_not_be_evaluated_is_named():
     with pytest.raises(UsageError, match="can't be evaluated"):
-        evaluate_questions(
-            [row("?", "yes_no", "shape > 3")], CONTACTS, None, per_question=1, with_context=False
-        )
+        evaluate_questions([row("?", "yes_no", "shape > 3")], CONTACTS, None, per_question=1)
 
 
 def test_a_bad_file_is_one_line(tmp_path, capsys):

@@ -20,7 +20,7 @@ def test_every_answer_of_the_grammar_is_read_back(kind: AnswerKind) -> None:
     for family in families_by_kind()[kind]:
         for scene in (HELD, FIRM, ASIDE, LIGHT):
             question = draw_question(scene, rng, family)
-            true = answer(question.meaning, scene, rng)
+            true = answer(question.meaning, scene)
             said = answer_in(true.text)
             assert (said.kind, said.decidable) == (true.kind, true.decidable), true
             if isinstance(true.value, float):
@@ -38,7 +38,7 @@ def test_words_are_read_back_too() -> None:
             question = draw_question(scene, rng, family)
             if not isinstance(question.meaning, Which):
                 continue
-            true = answer(question.meaning, scene, rng)
+            true = answer(question.meaning, scene)
             assert answer_in(true.text).value == true.value, true
 
 

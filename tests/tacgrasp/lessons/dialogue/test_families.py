@@ -71,7 +71,7 @@ def test_questions_are_understood_and_their_answers_true(family):
             assert read is not None, question.text
             assert is_same(truth_of(read), truth_of(question.meaning)), question.text
             assert kind_of(read) is kind_of(question.meaning)
-            given = answer(question.meaning, scene, rng)
+            given = answer(question.meaning, scene)
             score = score_answer(given.text, question.row, scene)
             assert score.right, (question.text, given.text, truth_of(question.meaning))
             assert score.right_kind, (question.text, given.text)
@@ -153,5 +153,5 @@ def test_half_of_the_answers_to_a_comparison_are_yes():
             "side",
         ):
             drawn = [draw_question(HELD, rng, family).meaning for _ in range(60)]
-            counts = Counter(answer(meaning, HELD, rng).value for meaning in drawn)
+            counts = Counter(answer(meaning, HELD).value for meaning in drawn)
             assert 15 <= counts[True] <= 45, (family.name, counts)

@@ -1,0 +1,60 @@
+"""From a question to its answer, by a model that writes what it is told to."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from tacgrasp.lessons.understanding import NOT_UNDERSTOOD, answered, understood
+from tests.fakes.question_scenes import HELD, UNTOUCHED
+
+
+class Writer:
+    """Writes one query with a probability of 0.9 for each of its two parts."""
+
+    width = 8
+
+    def __init__(self, query, *, ended=True):
+        self.query, self.ended = query, ended
+
+    def reply_to(self, touch, prompt, *, grammar):
+        self.prompt = prompt
+        slots = {name: SimpleNamespace(probability=0.9) for name in ("first", "second")}
+        return SimpleNamespace(text=self.query, ended=self.ended, slots=slots)
+
+
+def test_the_numbers_of_a_question_come_from_the_question():
+    writer = Writer("check force > #1 g.")
+    asked = understood(writer, "Is the force above eighty grams?")
+    assert writer.prompt == "is the force above # grams"
+    given = answered(asked, HELD)
+    assert given.answer.text == "Yes, the force is 0.83 N."
+    assert (given.answer.value, given.answer.decidable) == (True, True)
+    assert given.confidence == pytest.approx(0.81)
+
+
+def test_a_word_in_doubt_is_probable_and_lowers_the_confidence():
+    asked = understood(Writer("word shape."), "What shape is it?")
+    sure, unsure = (answered(asked, HELD, {"shape": p}) for p in (0.95, 0.5))
+    assert sure.answer.text == "It is an ellipsoid."
+    assert unsure.answer.text == "Probably it is an ellipsoid."
+    assert unsure.answer.value == sure.answer.value == "ellipsoid"
+    assert unsure.confidence == pytest.approx(0.81 * 0.5)
+
+
+def test_a_question_that_comes_to_nothing_is_not_answered():
+    for asked in (
+        understood(Writer("check force > #2 N."), "Is it above 1 N?"),
+        understood(Writer("word", ended=False), "What shape is it?"),
+    ):
+        assert asked is None
+        given = answered(asked, HELD)
+        assert given.answer.text == NOT_UNDERSTOOD
+        assert not given.answer.decidable
+        assert given.confidence == 0
+
+
+def test_an_untouched_pad_still_has_a_contract():
+    limit = understood(Writer("amount limit N."), "What is the limit?")
+    depth = understood(Writer("amount depth mm."), "How deep is it?")
+    assert answered(limit, UNTOUCHED).answer.text == "1.19 N."
+    assert answered(depth, UNTOUCHED).answer.text == "Nothing touches the pad."
