@@ -1,5 +1,7 @@
 """Queries: every question of the grammar has one, and it reads back to the same meaning."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
@@ -86,4 +88,4 @@ def test_what_is_no_condition_is_refused(test):
 def test_no_query_is_the_beginning_of_another():
     texts = sorted(option.text for option in query_grammar(2)[0].options)
     assert len(set(texts)) == len(texts)
-    assert not [a for a, b in zip(texts, texts[1:], strict=False) if b.startswith(a)]
+    assert not [a for a, b in pairwise(texts) if b.startswith(a)]
