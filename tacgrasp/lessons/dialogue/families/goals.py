@@ -57,7 +57,8 @@ _STATES = {
         f"((below|under|short of|lower than|weaker than) {_SPEC}|{_DEGREE} too (light|weak|loose|"
         "low|gentle|soft|slack|small|little|feeble|faint) [for {body}|for the contract]|"
         "[a bit|a little|rather] (loose|slack|weak)|insufficient [for {body}]|"
-        f"on the (loose|weak|light|low|soft) side|(less|lower|weaker|looser|lighter) than {_AGREED})"
+        f"on the (loose|weak|light|low|soft) side|(less|lower|weaker|looser|lighter) than "
+        f"{_AGREED})"
     ),
     "above": (
         f"((above|over|higher than|beyond|stronger than) {_SPEC}|{_DEGREE} too (firm|strong|tight|"
@@ -67,7 +68,8 @@ _STATES = {
     ),
     "enough": (
         "((strong|firm|tight|high|hard|great) enough [for {body}|for the contract]|enough "
-        "[for {body}]|[quite] sufficient [for {body}]|adequate|sufficiently (firm|strong|tight|high)|"
+        "[for {body}]|[quite] sufficient [for {body}]|adequate|sufficiently (firm|strong|tight|"
+        "high)|"
         "at least (what we need|what the contract wants|the least that is wanted))"
     ),
 }
@@ -86,7 +88,8 @@ _MANNERS = {
     ),
     "above": (
         f"({_DEGREE} too (tightly|firmly|hard|strongly|tight|forcefully|roughly|much|heavily)|"
-        "with too much (force|pressure|grip)|harder than (we should|needed|necessary|wanted|agreed)|"
+        "with too much (force|pressure|grip)|harder than (we should|needed|necessary|wanted|"
+        "agreed)|"
         f"with more force than {_AGREED}|tighter than (needed|necessary|wanted|agreed))"
     ),
     "enough": (
@@ -98,7 +101,7 @@ _MANNERS = {
 """How something may be held, by the force's place in the band."""
 
 _PORTIONS = {
-    "within": "(the right (amount of)|the right|the wanted|the agreed)",
+    "within": "(the right amount of|the right|just the right|about the right)",
     "below": "(too little|not enough|insufficient|too small a)",
     "above": "(too much|too much|excessive|way too much|a bit too much)",
     "enough": "(enough|enough|sufficient|adequate)",
@@ -115,7 +118,10 @@ def asked_or_stated(direct: str, stated: str, short: str) -> str:
         short: Fragments of a few words.
     """
     return (
-        f"{{lead}} ( ({direct}) | {{whether}} ({stated}) | [{{believe}}] ({stated}) [{{tag}}] "
+        f"{{lead}} ( ({direct}) | ({{whether}}|is it true|are you sure|would you agree [that]) "
+        f"({stated}) "
+        f"| [{{believe}}] ({stated}) [{{tag}}|, (isn't it|aren't we|don't we|aren't you|doesn't "
+        f"it)] "
         f"| ({short}) ) {{tail}} [, {{length}}]"
     )
 
@@ -152,7 +158,8 @@ _LIMITED = (
 _SIDES = {
     "over": (
         f"((above|over|over|beyond|past|higher than|in excess of|greater than|exceeding) {_LIMIT}|"
-        "(more|higher|greater|larger|stronger) than (allowed|permitted|the contract (allows|permits)|"
+        "(more|higher|greater|larger|stronger) than (allowed|permitted|the contract (allows|"
+        "permits)|"
         "we are allowed|is (allowed|permitted))|on the wrong side of the limit)"
     ),
     "under": (
@@ -204,8 +211,10 @@ _FIRMER = {
 }
 
 _SCALE = (
-    "(too light, [just] right or too firm|too (loose|weak|light|low|soft) or too (tight|strong|firm|"
-    f"high|hard)|(below|under), (within|in|inside) or (above|over) {_BAND}|too (loose|little|weak), "
+    "(too light, [just] right or too firm|too (loose|weak|light|low|soft) or too (tight|strong|"
+    "firm|"
+    f"high|hard)|(below|under), (within|in|inside) or (above|over) {_BAND}|too (loose|little|"
+    f"weak), "
     f"too (tight|much|strong) or [just] (right|fine|OK)|(below|under) or (above|over) {_BAND}|"
     "too (tight|high|strong|firm|hard) or too (loose|low|weak|light|soft)|"
     "too much, too little or [just] (right|enough)|low, right or high|too little or too much)"
@@ -219,26 +228,32 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"(are|aren't) (we|you|the fingers) {_HOLDING} [{{thing}}] {{manner}}|"
             f"(do|do|don't) (we|you|I|the fingers|the jaws) {_HOLD} [{{thing}}] {{manner}}|"
             f"am I {_HOLDING} [{{thing}}] {{manner}}|is {{actor}} {{manner}}|"
-            f"(are (we|you) {{using}}|do (we|you) (use|apply|exert)) {{portion}} {_FORCE} [on {{thing}}]|"
+            f"(are (we|you) {{using}}|do (we|you) (use|apply|exert)) {{portion}} {_FORCE} [on "
+            f"{{thing}}]|"
             f"(did|do) (we|I) {_HOLD} {{thing}} {{manner}}|"
             f"have (we|I) (gripped|squeezed|grabbed|pressed|grasped) [{{thing}}] {{manner}}|"
+            f"(is|was) {_BAND} {{met}}|has {_BAND} been {{met}}|have we {{met}} {_BAND}|"
             "(am I|are we|is the gripper) [being] {rough} [with {thing}]|"
             "(is|is|isn't) (it|this|that|this grip) {terse}|is {thing} {slack}|"
             f"is (there|that|this) {{portion}} {_FORCE} [on {{thing}}|for {{thing}}]|"
             f"(do we have|have we got|does {{thing}} get) {{portion}} {_FORCE} [on {{thing}}]|"
-            f"do we {{meet}} {_BAND}|does ({_GRIP}) {{meet}} {_BAND}|"
+            f"do we {{meet}} {_BAND}|did we (hit|meet|reach) {_BAND}|does ({_GRIP}) {{meet}} "
+            f"{_BAND}|"
             f"(are we|does ({_GRIP}) (lie|stay|fall)) (within|in|inside) {_SPEC}",
             f"({_GRIP}) is {{state}}|(we are|you are|I am|the gripper is) {_HOLDING} [{{thing}}] "
-            f"{{manner}}|{{thing}} is {_HELD} {{manner}}|(we|you|I|the fingers) {_HOLD} [{{thing}}] "
+            f"{{manner}}|{{thing}} is {_HELD} {{manner}}|(we|you|I|the fingers) {_HOLD} "
+            f"[{{thing}}] "
             f"{{manner}}|there is {{portion}} {_FORCE} [on {{thing}}]|we {{meet}} {_BAND}|"
-            f"we (use|apply|have) {{portion}} {_FORCE}|(I am|we are) [being] {{rough}} [with {{thing}}]|"
+            f"we (use|apply|have) {{portion}} {_FORCE}|(I am|we are) [being] {{rough}} [with "
+            f"{{thing}}]|"
             "(it|this|that) is {terse}|{thing} is {slack}|"
             f"we are (within|in|inside) {_SPEC}",
-            f"{{portion}} {_FORCE} [on {{thing}}]|{_FORCE} {{state}}|{_HOLDING} [{{thing}}] {{manner}}|"
+            f"{{portion}} {_FORCE} [on {{thing}}]|{_FORCE} {{state}}|{_HOLDING} [{{thing}}] "
+            f"{{manner}}|"
             f"{{terse}}|{{terse}}|{{rough}} [with {{thing}}]",
         ),
         build=conditional(
-            "state", "manner", "portion", "meet", "terse", "rough", "slack", default="within"
+            "state", "manner", "portion", "meet", "met", "terse", "rough", "slack", default="within"
         ),
         slots={
             "state": _STATES,
@@ -251,6 +266,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
                 "below": "(undershoot|fall short of|fall below|stay below)",
                 "above": "(overshoot|go above|go beyond|rise above)",
             },
+            "met": {"within": "(met|reached|satisfied|fulfilled|attained|achieved)"},
             "terse": {
                 "within": "(within (spec|tolerance|the band|the agreed range)|in (spec|tolerance|"
                 "the [force] band))",
@@ -270,14 +286,17 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         name="not_force_band",
         pattern=(
             f"{{lead}} ( is ({_GRIP}) not {{state}} "
-            f"| is {{thing}} not {_HELD} {{manner}} | are (we|you) not {_HOLDING} [{{thing}}] {{manner}} "
+            f"| is {{thing}} not {_HELD} {{manner}} | are (we|you) not {_HOLDING} [{{thing}}] "
+            f"{{manner}} "
             f"| do (we|you) not {_HOLD} [{{thing}}] {{manner}} "
             f"| (is ({_GRIP})|are we) (outside|out of|outside) {{outside}} "
             f"| (does ({_GRIP})|do we) (miss|fail to meet) {{missed}} "
             f"| is there not {{portion}} {_FORCE} [on {{thing}}] "
             f"| ({{whether}}|[{{believe}}]) ( ({_GRIP}) (is not|isn't) {{state}} "
-            f"| {{thing}} (is not|isn't) {_HELD} {{manner}} | ({_GRIP}) is (outside|out of) {{outside}} "
-            f"| we are not {_HOLDING} [{{thing}}] {{manner}} | we do not {_HOLD} [{{thing}}] {{manner}} "
+            f"| {{thing}} (is not|isn't) {_HELD} {{manner}} | ({_GRIP}) is (outside|out of) "
+            f"{{outside}} "
+            f"| we are not {_HOLDING} [{{thing}}] {{manner}} | we do not {_HOLD} [{{thing}}] "
+            f"{{manner}} "
             f"| there is not {{portion}} {_FORCE} [on {{thing}}] ) "
             "[, is it|, right|, is that right|, am I right|, true or false|, correct] "
             "| [force] out of (spec|tolerance|range) {out} ) {tail}"
@@ -285,7 +304,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         build=conditional("state", "manner", "portion", default="within", denied=True),
         slots={
             "state": {
-                "within": f"((within|inside|in) {_SPEC}|[just] right [for {{body}}]|as (it should be|"
+                "within": f"((within|inside|in) {_SPEC}|[just] right [for {{body}}]|as (it should "
+                f"be|"
                 "wanted|agreed|we want it)|on target|acceptable|correct|OK|fine)",
                 "below": "(too (light|weak|loose|low|gentle|soft|slack) [for {body}]|"
                 f"below {_SPEC})",
@@ -310,7 +330,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         name="force_limit",
         pattern=asked_or_stated(
             f"(is|is|isn't) ({_LIMITED}) {{side}}|(are|are|aren't) (we|you|the fingers) {{side}}|"
-            f"(do|did|do) (we|you|the fingers) {{keep}} {_LIMIT}|does ({_LIMITED}) {{keep}} {_LIMIT}|"
+            f"(do|did|do) (we|you|the fingers) {{keep}} {_LIMIT}|does ({_LIMITED}) {{keep}} "
+            f"{_LIMIT}|"
             "(is|has) the [force|hard] limit [been] {been}|"
             f"(are|do) we {_HOLDING} [{{thing}}] {{harder}}|"
             "is (this|that|so) much force (allowed|permitted) {fine}|"
@@ -349,10 +370,13 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"{{lead}} ( is ({_LIMITED}) not {{side}} | are (we|you) not {{side}} "
             f"| do (we|you) not {{keep}} {_LIMIT} | does ({_LIMITED}) not {{keep}} {_LIMIT} "
             "| is the [force|hard] limit not {been} "
-            f"| ({{whether}}|[{{believe}}]) ( ({_LIMITED}) (is not|isn't) {{side}} | we are not {{side}} "
-            f"| we (do not|don't) {{keep}} {_LIMIT} | ({_LIMITED}) (does not|doesn't) {{keep}} {_LIMIT} "
+            f"| ({{whether}}|[{{believe}}]) ( ({_LIMITED}) (is not|isn't) {{side}} | we are not "
+            f"{{side}} "
+            f"| we (do not|don't) {{keep}} {_LIMIT} | ({_LIMITED}) (does not|doesn't) {{keep}} "
+            f"{_LIMIT} "
             "| the [force|hard] limit is not {been} ) "
-            "[, is it|, are we|, right|, is that right|, am I right|, true or false|, correct] ) {tail}"
+            "[, is it|, are we|, right|, is that right|, am I right|, true or false|, correct] ) "
+            "{tail}"
         ),
         build=conditional("side", "keep", "been", denied=True),
         slots={
@@ -378,7 +402,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "{harder}|would you {harder}|do you want (us|me) to {harder}|would {firmer} be better|"
             "would it be better to {harder}|do you (want|need|advise|recommend) {firmer}|"
             "is {firmer} what (we|it) need",
-            "(we|I|you|the robot) (should|must|have to|need to|ought to) {harder}|(we|you) need {firmer}|"
+            "(we|I|you|the robot) (should|must|have to|need to|ought to) {harder}|(we|you) need "
+            "{firmer}|"
             "{firmer} is (needed|required|necessary)|{thing} needs {firmer}|"
             "it (is|would be) (necessary|better) to {harder}",
             "{firmer}|{harder}|{firmer} (needed|required)|time to {harder}|need {firmer}|"
@@ -391,11 +416,15 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         name="force_band_word",
         pattern=amount_pattern(
             f"is ({_GRIP}) {_SCALE}|are we {_HOLDING} [{{thing}}] {_SCALE}|"
-            f"is {{thing}} {_HELD} too (lightly|loosely), [just] right or too (firmly|tightly|hard)|"
+            f"is (it|this|that) {_SCALE}|how is (the|our|my|this) (grip|hold|grasp)|"
+            f"how are we doing (on force|with the force|against {_BAND})|"
+            f"is {{thing}} {_HELD} too (lightly|loosely), [just] right or too (firmly|tightly|"
+            f"hard)|"
             f"how does ({_GRIP}) (compare with|compare to|relate to|stand against|sit in|"
             f"fit into|measure up to) {_BAND}|"
             f"(on which side|where|in which part) of {_BAND} (is ({_GRIP})|are we)|"
-            f"where (is ({_GRIP})|are we|does ({_GRIP}) (lie|stand|sit)) (relative to|compared with|"
+            f"where (is ({_GRIP})|are we|does ({_GRIP}) (lie|stand|sit)) (relative to|compared "
+            f"with|"
             f"with respect to|in relation to|against) {_BAND}|"
             f"do we {_HOLD} [{{thing}}] too (little|lightly|loosely) or too (much|hard|tightly)|"
             f"how (would you rate|do you judge|do you rate|would you judge) ({_GRIP}) "
@@ -415,24 +444,29 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="band_wanted",
         pattern=(
-            "{lead} ( (what|which) force (are we|am I|is the robot) (aiming for|aiming at|supposed to "
+            "{lead} ( (what|which) force (are we|am I|is the robot) (aiming for|aiming at|"
+            "supposed to "
             "(use|apply)|going for|looking for|after|targeting) {tail} ? "
             "| (what|which) [range of] force (is|was) (wanted|agreed|required|asked for|prescribed|"
             "agreed on|specified|aimed at) [for {body}|in the contract] {tail} ? "
             "| (what|which) force (does|did) the (contract|goal) (want|ask for|say|demand|"
             "require|prescribe|specify) [for {body}] {tail} ? "
-            "| how hard (should|shall|must) (we|I|the robot) (grip|squeeze|hold|press|pinch) {thing} "
-            "{tail} ? | how (hard|firmly|tightly) should {thing} be (held|gripped|squeezed|pressed) {tail} "
+            "| how hard (should|shall|must) (we|I|the robot) (grip|squeeze|hold|press|pinch) "
+            "{thing} "
+            "{tail} ? | how (hard|firmly|tightly) should {thing} be (held|gripped|squeezed|"
+            "pressed) {tail} "
             "? | how much force (should|shall|must) (we|I) (use|apply) [on {body}] {tail} ? "
             "| how much force does the contract (want|ask for|require) {tail} ? "
             "| between which forces (should|must|do) we (stay|be|keep) {tail} ? "
             "| from what to what force [does the band (go|reach)] {tail} ? "
             "| {ask} (what|which) force (we are aiming for|is wanted|was agreed|the contract wants|"
             "we should use|we agreed on) {tail} [?] "
-            "| {ask} how (hard|firmly|tightly) (we|I) should (hold|grip|squeeze|press) {thing} {tail} [?] "
+            "| {ask} how (hard|firmly|tightly) (we|I) should (hold|grip|squeeze|press) {thing} "
+            "{tail} [?] "
             "| [{want}] (the [wanted|agreed|target|desired|required] force (band|range|window)|"
             "the target force|the goal force|the wanted force|the force (we want|we agreed on|"
-            "we are aiming for)|the (two|both) ends of the [force] band|the (lower and upper|upper and "
+            "we are aiming for)|the (two|both) ends of the [force] band|the (lower and upper|"
+            "upper and "
             "lower|lower and the upper) (end|bound|bounds|ends) of the [force] band|"
             "the least and the most force that is wanted|the force goal|the force target) "
             "[in (newtons|N)] {tail} [?] "
