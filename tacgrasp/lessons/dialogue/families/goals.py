@@ -406,7 +406,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "{firmer}|"
             "{firmer} is (needed|required|necessary)|{thing} needs {firmer}|"
             "it (is|would be) (necessary|better) to {harder}",
-            "{firmer}|{harder}|{firmer} (needed|required)|time to {harder}|need {firmer}|"
+            "{firmer}|{firmer} or not|{harder} , yes or no|{firmer} (needed|required)|time to "
+            "{harder}|need {firmer}|"
             "need to {harder}",
         ),
         build=conditional("harder", "firmer"),

@@ -145,7 +145,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"good to go|ready for (takeoff|lift-off|lifting|the lift|a lift)|ready to {_LIFT}|"
             f"{_SAFE} to {_LIFT}|all (set|clear|good) (to {_LIFT}|for lifting|for the lift)|"
             f"clear to {_LIFT}|green light (to lift|for lifting|for the lift)|{_HOLD} {_GOOD}|"
-            f"permission to {_LIFT}|{_LIFT} now|go for (lift|lifting|the lift)|safe for lifting|"
+            f"permission to {_LIFT}|lift [it|this|that] [now]|lift or not|go for (lift|lifting|"
+            f"the lift)|safe for lifting|"
             f"lift , yes or no|safe or not|safe [now]|{_HOLD} (good|secure) enough to lift",
         ),
         build=conditional(default="within"),
@@ -158,7 +159,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| (would|will) {_LIFTING} be {_RISKY} | is {_LIFTING} [still] {_RISKY} "
             f"| is there (a|any) (risk|danger) (in {_LIFTING}|if (we|I) {_LIFT}) "
             f"| is the {_HOLD} not [yet] {_GOOD} [enough] [to lift|for lifting] "
-            f"| is (the|our|this) {_HOLD} {_BAD} | is this a (bad|poor|unsafe|insecure) {_HOLD} "
+            f"| is (the|our|this) {_HOLD} {_BAD} | is this (a (bad|poor|dodgy|shaky)|an (unsafe|"
+            f"insecure)) {_HOLD} "
             f"| are we not [yet] ready to {_LIFT} | is {{thing}} not [yet] ready to be {_LIFTED} "
             f"| (should|must|shall) (we|I) (wait|hold off) (before lifting|with {_LIFTING}|"
             f"before we {_LIFT}) | should (we|I) (avoid|refrain from|hold back from) {_LIFTING} "
