@@ -5,11 +5,13 @@ from __future__ import annotations
 from functools import cache
 
 from tacgrasp.lessons.dialogue.families import (
+    advice,
     amounts,
     checks,
     classes,
     contacts,
     goals,
+    lifting,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -22,6 +24,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *goals.FAMILIES,
+    *lifting.FAMILIES,
+    *advice.FAMILIES,
     *unanswerable.FAMILIES,
 )
 
