@@ -1,7 +1,7 @@
-"""Families about words, checked, denied, compared and offered: shape, texture, depth, area, place.
+"""Families about words, checked and denied: shape, texture, depth, area and place.
 
-Not here: what the words are called (``tacgrasp.lessons.dialogue.families.class_words``), open
-questions for them (``tacgrasp.lessons.dialogue.families.classes``).
+Not here: what the words are called (``tacgrasp.lessons.dialogue.families.class_words``), words that
+are offered (``class_offers``), open questions (``classes``).
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ import numpy as np
 
 from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.conditions import check_of
-from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.families import class_words as words
 from tacgrasp.lessons.dialogue.families.family import (
     Bindings,
@@ -25,32 +24,28 @@ from tacgrasp.lessons.dialogue.families.phrases import (
     check_pattern,
     denied_pattern,
 )
-from tacgrasp.lessons.dialogue.meaning import Check, Which
+from tacgrasp.lessons.dialogue.meaning import Check
 from tacgrasp.lessons.dialogue.scene import AskedScene
 
 _PAD = "(pad|gel|sensor|finger|fingertip)"
-_SURFACE = (
+SURFACE = (
     "the (surface|texture|skin|finish|outside) [of {body}]|{thing}|{thing}|"
     "the (touched|pressed) (surface|side|part)|what (we|you) (feel|are touching)"
 )
-_OBJECT = (
+OBJECT = (
     "{thing}|{thing}|the (shape|form) [of {body}]|the [contact] (shape|geometry)|"
     f"the (thing|object) (on|against) the {_PAD}|what (we|you) (feel|are touching)|"
     f"what (touches|is touching) the {_PAD}"
 )
-_DENT = (
+DENT = (
     "it|the (press|depth|indentation|contact|touch|dent|imprint|penetration)|"
     "the (contact|press) depth|the (dent|indentation) in the gel|the dent that {thing} makes"
 )
-_PATCH = (
+PATCH = (
     "the (contact area|area|footprint|contact|patch|imprint|contact patch|contact spot)|"
     "the (touched|covered) (area|part|patch)|the (area|footprint) of the (contact|touch)"
 )
-_PLACED = "{thing}|{touch}|the (contact point|touch point|pressed spot)|the (grip|press) on {body}"
-
-
-def _which(name: str, *, is_open: bool) -> Callable[[Bindings, Numbers], Which]:
-    return lambda bindings, _: Which(name=name, is_open=is_open, length=length_of(bindings))
+PLACED = "{thing}|{touch}|the (contact point|touch point|pressed spot)|the (grip|press) on {body}"
 
 
 def _checked(name: str, slots: Mapping[str, words.Words]) -> Callable[[Bindings, Numbers], Check]:
@@ -103,8 +98,8 @@ def _checks(
     """
     return QuestionFamily(
         name=f"{name}_is",
-        pattern=_any_of(
-            check_pattern(subject, predicate), _asked(direct), _asked(direct), _asked(_said(said))
+        pattern=any_of(
+            check_pattern(subject, predicate), asked(direct), asked(direct), asked(_said(said))
         ),
         build=_checked(name, slots),
         slots=slots,
@@ -117,18 +112,20 @@ def _denials(
 ) -> QuestionFamily:
     return QuestionFamily(
         name=f"not_{name}_is",
-        pattern=_any_of(denied_pattern(subject, predicate), _asked(direct)),
+        pattern=any_of(denied_pattern(subject, predicate), asked(direct)),
         build=_denied(name, slots),
         slots=slots,
         steer=_steered(name, slots, denied=True),
     )
 
 
-def _any_of(*patterns: str) -> str:
+def any_of(*patterns: str) -> str:
+    """One of some patterns."""
     return " | ".join(patterns)
 
 
-def _asked(questions: str) -> str:
+def asked(questions: str) -> str:
+    """Questions with what may stand before and after them."""
     return f"{{lead}} ( {questions} ) {{tail}} [, {{length}}]"
 
 
@@ -136,114 +133,6 @@ def _said(clause: str) -> str:
     """A statement to be confirmed, or after 'whether'."""
     return f"({{whether}}|[{{believe}}]) ({clause}) [{{tag}}]"
 
-
-def _one_of(kind: str) -> str:
-    """Two or more words of a kind to choose from."""
-    first, second, third = (f"{{{kind}{place}}}" for place in "123")
-    return (
-        f"({first} or {second}|{first} or {second}|{first} or {second}|{first} , or {second}|"
-        f"either {first} or {second}|{first} or rather {second}|{first} , {second} or {third}|"
-        f"{first} or {second} or {third})"
-    )
-
-
-def _offered(
-    name: str,
-    kinds: Mapping[str, words.Words],
-    asked: str,
-    bare: str,
-    question: str,
-) -> QuestionFamily:
-    """Words to choose from; the answer is the true one, offered or not.
-
-    Args:
-        name: Name of a scene whose value is a word.
-        kinds: Tables of words by the names that ``asked`` and ``bare`` have for them.
-        asked: Questions with words to choose from.
-        bare: Such words alone.
-        question: What stands before or after such words alone, as a question.
-    """
-
-    def steer(_: AskedScene, __: bool, rng: np.random.Generator) -> Mapping[str, str]:
-        """Different words, so that no question reads 'a ball or a ball'."""
-        given = {}
-        for kind, table in kinds.items():
-            chosen = rng.permutation(list(table))
-            given |= {f"{kind}{place}": str(chosen[place - 1]) for place in (1, 2, 3)}
-        return given
-
-    return QuestionFamily(
-        name=f"{name}_or",
-        pattern=(
-            f"{{lead}} ( {asked} | {asked} | {bare} | ({question}) (:|,) {bare} | (which is it :|which of them :|"
-            f"choose between|decide between|choose :|what fits better ,|which fits better ,|"
-            f"pick one :|what would you say ,|would you say|your choice :) {bare} "
-            f"| {bare} , (which [one] is it|which [one]|what is it|what would you say|what do you think|"
-            f"what fits better|which is right|which do you feel) ) {{tail}} [, {{length}}]"
-        ),
-        build=_which(name, is_open=False),
-        slots={f"{kind}{n}": table for kind, table in kinds.items() for n in (1, 2, 3)},
-        steer=steer,
-    )
-
-
-def _ranks(phrases: Mapping[str, str], table: words.Words) -> dict[str, str]:
-    """Phrases of a rank, by the condition without its name: '>= deep'.
-
-    Nothing is less than the least word, nor more than the greatest.
-    """
-    names = list(table)
-    parts = {">": names[:-1], "<": names[1:], ">=": names[1:], "<=": names[:-1]}
-    return {
-        f"{sign} {word}": phrases[sign].replace("WORD", table[word])
-        for sign, some in parts.items()
-        for word in some
-    }
-
-
-def _ranked(name: str, ranks: Mapping[str, str], subject: str, direct: str) -> QuestionFamily:
-    """Comparisons with a word that has an order."""
-
-    def steer(scene: AskedScene, is_yes: bool, rng: np.random.Generator) -> Mapping[str, str]:
-        if scene.values()[name] is None:
-            return {}
-        fitting = [
-            rank
-            for rank in ranks
-            if Expression(check_of(f"{name} {rank}").condition).evaluate(scene.values()).value
-            is is_yes
-        ]
-        return {"rank": fitting[rng.integers(len(fitting))]} if fitting else {}
-
-    return QuestionFamily(
-        name=f"{name}_ranked",
-        pattern=_any_of(check_pattern(subject, "{rank}"), _asked(direct)),
-        build=lambda bindings, _: check_of(
-            f"{name} {bindings['rank']}", length=length_of(bindings)
-        ),
-        slots={"rank": dict(ranks)},
-        steer=steer,
-    )
-
-
-_DEPTH_RANKS = _ranks(
-    {
-        ">": "(more than WORD|deeper than WORD|beyond WORD)",
-        "<": "(less than WORD|not yet WORD|not even WORD|short of WORD)",
-        ">=": "(at least WORD|WORD or more|WORD or deeper|no less than WORD|already WORD)",
-        "<=": "(at most WORD|no more than WORD|not more than WORD|no deeper than WORD|WORD at most)",
-    },
-    words.PLAIN_DEPTHS,
-)
-_AREA_RANKS = _ranks(
-    {
-        ">": "(more than WORD|larger than WORD|bigger than WORD)",
-        "<": "(less than WORD|smaller than WORD|not even WORD)",
-        ">=": "(at least WORD|WORD or more|WORD or larger|no less than WORD|already WORD)",
-        "<=": "(at most WORD|no more than WORD|no larger than WORD|WORD or smaller|WORD at most)",
-    },
-    words.PLAIN_AREAS,
-)
 
 _SHAPE_SLOTS = {
     "shape": words.SHAPE_NOUNS,
@@ -282,7 +171,8 @@ _SHAPE_DIRECT = (
     "are (we|you) (touching|holding|gripping|feeling|pressing) {shape}|"
     f"is {{shape}} (touching|pressing on|pressed into|on) the {_PAD}|"
     "(did (we|you) (touch|hit|catch|grip)|have (we|you) (touched|caught|hit)) {shape}|"
-    f"does {{shape}} (touch|press on) the {_PAD}|would you (say|call) (it|this|that) [is] {{shape}}|"
+    f"does {{shape}} (touch|press on) the {_PAD}|would you (say|call) (it|this|that) [is] "
+    f"{{shape}}|"
     "(could|might|can) (it|this|that) be {shape}|(is|was) that {shape} (I feel|we feel|we hit)|"
     "{shape} [{tag}]|{shape} , or not|is {thing} {shape} or not|{bare} [{tag}]|{bare}|"
     "is it {bare} shaped|is the (contact|object) {bare}-shaped|"
@@ -306,16 +196,19 @@ _TEXTURE_PREDICATE = (
     "{texture} all over"
 )
 _TEXTURE_DIRECT = (
-    f"does ({_SURFACE}) feel ({{texture}}|{{texture}}|{{likeness}}) [to you|to the touch]|"
-    "does it feel ({texture}|{likeness})|does {thing} have (a {texture} (surface|skin|finish)|{relief})|"
+    f"does ({SURFACE}) feel ({{texture}}|{{texture}}|{{likeness}}) [to you|to the touch]|"
+    "does it feel ({texture}|{likeness})|does {thing} have (a {texture} (surface|skin|finish)|"
+    "{relief})|"
     "has {thing} (a {texture} (surface|skin)|{relief})|has {thing} got {relief}|"
     "is it a {texture} (surface|texture|finish|one)|is {thing} {texture} on the (surface|outside)|"
-    "(do|can) (you|we) (feel|sense|detect) ({relief}|[any] {reliefs}) [on {thing}|there|on the surface]|"
+    "(do|can) (you|we) (feel|sense|detect) ({relief}|[any] {reliefs}) [on {thing}|there|on the "
+    "surface]|"
     "are there [any] {reliefs} [on ({thing}|the surface)]|any {reliefs} [there|on the surface]|"
     "is the (texture|surface|skin) {texture} or not|"
     "would you call (it|{body}|the surface) {texture}|are we touching a {texture} (surface|thing)|"
     "a {texture} (surface|texture|skin|finish) [{tag}]|{texture} [{tag}]|{texture}|"
-    "{texture} surface|feels ({texture}|{likeness}) [{tag}]|{texture} to the touch [{tag}]|how about {reliefs}"
+    "{texture} surface|feels ({texture}|{likeness}) [{tag}]|{texture} to the touch [{tag}]|how "
+    "about {reliefs}"
 )
 _TEXTURE_SAID = (
     "({thing}|the surface) feels ({texture}|{likeness})|there are {reliefs}|"
@@ -323,8 +216,9 @@ _TEXTURE_SAID = (
     "you feel {relief}|we are touching a {texture} (surface|thing)|the texture seems {texture}"
 )
 _TEXTURE_DENIED = (
-    f"is ({_SURFACE}) (anything but|something other than|other than) {{texture}}|"
-    "(can|could|may) (we|I|you) (rule out|exclude) {relief}|are there no {reliefs} [on ({thing}|the surface)]|"
+    f"is ({SURFACE}) (anything but|something other than|other than) {{texture}}|"
+    "(can|could|may) (we|I|you) (rule out|exclude) {relief}|are there no {reliefs} [on ({thing}|"
+    "the surface)]|"
     "so not {texture}|not {texture} (, is it|, right|, is that right|, am I right)|not {texture}|"
     "({thing}|the surface) is not {texture} at all|no {reliefs}|no {reliefs} , right|"
     "is it (certainly|definitely|surely) not {texture}|is ({thing}|the surface) free of {reliefs}|"
@@ -333,7 +227,8 @@ _TEXTURE_DENIED = (
     "({whether}|[{believe}]) {thing} has no {reliefs} [{tag}]"
 )
 _DEPTH_DIRECT = (
-    f"is (it|this|that) {{dent}} {_DENT_NOUN}|{{dent}} {_DENT_NOUN} [{{tag}}]|{{dent}} {_DENT_NOUN}|"
+    f"is (it|this|that) {{dent}} {_DENT_NOUN}|{{dent}} {_DENT_NOUN} [{{tag}}]|{{dent}} "
+    f"{_DENT_NOUN}|"
     f"is there {{dent}} {_DENT_NOUN}|do (we|you) (have|feel|see) {{dent}} {_DENT_NOUN}|"
     f"does {{thing}} (make|leave) {{dent}} {_DENT_NOUN}|"
     "is {thing} (pressed|pushed|sunk|squeezed|pressing) (in|into the (gel|pad|skin)) {deeply}|"
@@ -365,7 +260,8 @@ _AREA_DIRECT = (
     f"is (it|this|that) {{patch}} {_PATCH_NOUN}|{{patch}} {_PATCH_NOUN} [{{tag}}]|"
     f"{{patch}} {_PATCH_NOUN}|is there {{patch}} {_PATCH_NOUN}|"
     f"do (we|you) (have|feel|see|get) {{patch}} {_PATCH_NOUN}|does {{thing}} (make|have|leave) "
-    f"{{patch}} {_PATCH_NOUN}|does {{thing}} (touch|cover|press on) {{patch}} (patch|area|part|spot) "
+    f"{{patch}} {_PATCH_NOUN}|does {{thing}} (touch|cover|press on) {{patch}} (patch|area|part|"
+    f"spot) "
     f"[of the {_PAD}]|is {{patch}} (patch|area|part) [of the {_PAD}] (touched|covered|in contact)|"
     f"(are|do) we (touching|touch) {{patch}} (patch|area|spot)|is the contact {{area}} in area|"
     "would you (call|rate) (the area|the contact area|the patch|the footprint) [as] {area}|"
@@ -422,140 +318,21 @@ _PLACE_DENIED = (
     "({whether}|[{believe}]) {spot} is not touched [{tag}]"
 )
 
-_SHAPE_OFFER = (
-    f"(is ({_OBJECT})|{{ask}} whether {{thing}} is) [rather|more] ({_one_of('noun')}|{_one_of('noun')}|"
-    f"{_one_of('adjective')})|is it ({_one_of('noun')}|{_one_of('noun')}|{_one_of('adjective')})|"
-    "is it more (of {noun1} or {noun2}|like {noun1} or like {noun2}|like {noun1} or {noun2})|"
-    "is {thing} (shaped like|more like) {noun1} or {noun2}|is it {noun1} or is it {noun2}|"
-    f"(do you feel|are we touching|are you touching|are we holding|are we gripping|do we have|"
-    f"are you feeling|would you say it is|do you think it is) {_one_of('noun')}|"
-    f"does {{thing}} (feel|look) [more] (like {_one_of('noun')}|like {{noun1}} or like {{noun2}}|"
-    f"{_one_of('adjective')})|would you call {{thing}} {_one_of('noun')}|"
-    f"({{whether}}|[{{believe}}]) it is either {{noun1}} or {{noun2}} , which [one] [is it]|"
-    f"{{ask}} (if|whether) (it is|we are touching|you feel) {_one_of('noun')}|"
-    f"is the (shape|form) (more {{adjective1}} or {{adjective2}}|{_one_of('adjective')})"
-)
-_SHAPE_BARE = f"({_one_of('bare')}|{_one_of('bare')}|{_one_of('noun')}|{_one_of('adjective')})"
-_TEXTURE_OFFER = (
-    f"(is ({_SURFACE})|{{ask}} (if|whether) ({{thing}}|the surface) is) [rather|more] {_one_of('word')}|"
-    f"is it {_one_of('word')}|is it {{word1}} or is it {{word2}}|"
-    f"does ({_SURFACE}) feel [rather|more] {_one_of('word')}|does it feel {_one_of('word')}|"
-    f"(do you feel|are we touching|are you touching|is it|does it have) a "
-    "({word1} or a {word2}|{word1} or {word2}) (surface|texture|skin)|"
-    f"would you call ({{thing}}|the surface) {_one_of('word')}|"
-    f"{{ask}} (if|whether) {{thing}} feels {_one_of('word')}|"
-    f"are there {{relief1}} or {{relief2}}|do you feel {{relief1}} or {{relief2}}|"
-    "({whether}|[{believe}]) it is either {word1} or {word2} , which [one] [is it]"
-)
-_DEPTH_OFFER = (
-    f"(is ({_DENT})|{{ask}} (if|whether) ({_DENT}) is) [rather|more] {_one_of('word')}|"
-    f"is it {_one_of('word')}|is it {{word1}} or is it {{word2}}|"
-    "is (it|this|that) (a {word1} or a {word2}|a {word1} or {word2}) (dent|press|contact|indentation)|"
-    f"would you call (it|the dent|the press|the depth) {_one_of('word')}|"
-    "is it slight , moderate , deep or very deep|does (it|{body}) press in {deeply1} or {deeply2}|"
-    "is {thing} (pressed|pushed) in {deeply1} or {deeply2}|"
-    "({whether}|[{believe}]) it is either {word1} or {word2} , which [one] [is it]"
-)
-_AREA_OFFER = (
-    f"(is ({_PATCH})|{{ask}} (if|whether) ({_PATCH}) is) [rather|more] {_one_of('word')}|"
-    "is (it|this|that) (a {word1} or a {word2}|a {word1} or {word2}) (patch|area|contact|footprint)|"
-    "does {thing} (touch|cover) (a {word1} or a {word2}|a {word1} or {word2}) (patch|area)|"
-    f"would you call (the area|the patch|the contact area|the footprint) {_one_of('word')}|"
-    "is the (area|contact|patch) tiny , small , medium , large or very large|"
-    f"(how large|how big) is the (contact|area|patch|footprint) [:|,] {_one_of('word')}|is the area {_one_of('word')}|"
-    f"(what about the area|the area|contact area|the contact patch) [:|,] {_one_of('word')}|"
-    "({whether}|[{believe}]) the area is either {word1} or {word2} , which [one] [is it]"
-)
-_CORNERS = (
-    "(top|upper) or (bottom|lower) , left or right [corner|side]|top or bottom and left or right|"
-    "(left or right , and top or bottom|left or right , top or bottom)"
-)
-_PLACE_OFFER = (
-    f"(is|is|is) ({_PLACED}) ({_one_of('place')}|{_CORNERS})|is it ({_one_of('place')}|{_CORNERS})|"
-    f"{{ask}} (if|whether) ({_PLACED}) is {_one_of('place')}|"
-    f"does {{thing}} (lie|sit|touch|press) {_one_of('place')}|"
-    f"did (we|you) (touch|catch|hit) {{thing}} {_one_of('place')}|"
-    f"(does {{thing}} touch|are we touching|is it touching) {_one_of('spot')}|"
-    "is it {place1} or is it {place2}|{place1} or {place2}|"
-    "is ({thing}|the contact|the grip) centered or (off center|off to a side|off to one side|aside)|"
-    "is ({thing}|the contact) in the (middle|center) or (in a corner|at an edge|in one of the corners|"
-    "towards a side)|centered or off center|(middle|center) or corner|"
-    "({whether}|[{believe}]) it is either {place1} or {place2} , which [one] [is it]"
-)
-
 FAMILIES: tuple[QuestionFamily, ...] = (
-    _checks("shape", _SHAPE_SLOTS, _OBJECT, _SHAPE_PREDICATE, _SHAPE_DIRECT, _SHAPE_SAID),
-    _checks(
-        "texture", _TEXTURE_SLOTS, _SURFACE, _TEXTURE_PREDICATE, _TEXTURE_DIRECT, _TEXTURE_SAID
-    ),
-    _checks("depth", _DEPTH_SLOTS, _DENT, "{depth}", _DEPTH_DIRECT, _DEPTH_SAID),
-    _checks("area", _AREA_SLOTS, _PATCH, "{area}", _AREA_DIRECT, _AREA_SAID),
-    _checks("position", _PLACE_SLOTS, _PLACED, _PLACE_PREDICATE, _PLACE_DIRECT, _PLACE_SAID),
+    _checks("shape", _SHAPE_SLOTS, OBJECT, _SHAPE_PREDICATE, _SHAPE_DIRECT, _SHAPE_SAID),
+    _checks("texture", _TEXTURE_SLOTS, SURFACE, _TEXTURE_PREDICATE, _TEXTURE_DIRECT, _TEXTURE_SAID),
+    _checks("depth", _DEPTH_SLOTS, DENT, "{depth}", _DEPTH_DIRECT, _DEPTH_SAID),
+    _checks("area", _AREA_SLOTS, PATCH, "{area}", _AREA_DIRECT, _AREA_SAID),
+    _checks("position", _PLACE_SLOTS, PLACED, _PLACE_PREDICATE, _PLACE_DIRECT, _PLACE_SAID),
     _denials(
         "shape",
         _SHAPE_SLOTS,
-        _OBJECT,
+        OBJECT,
         "{shape}|{shape}|{shaped}|shaped like {shape}",
         _SHAPE_DENIED,
     ),
-    _denials("texture", _TEXTURE_SLOTS, _SURFACE, "{texture}", _TEXTURE_DENIED),
-    _denials("depth", _DEPTH_SLOTS, _DENT, "{depth}", _DEPTH_DENIED),
-    _denials("area", _AREA_SLOTS, _PATCH, "{area}", _AREA_DENIED),
-    _denials("position", _NO_PLACE_SLOTS, _PLACED, "{position}", _PLACE_DENIED),
-    _ranked(
-        "depth",
-        _DEPTH_RANKS,
-        _DENT,
-        "{rank} [{tag}]|would you call it {rank}|"
-        "does the (depth|dent|press) count as {rank}|is the depth class {rank}",
-    ),
-    _ranked(
-        "area",
-        _AREA_RANKS,
-        _PATCH,
-        "would you call the (area|patch) {rank}|"
-        "does the (area|patch) count as {rank}|is the area class {rank}",
-    ),
-    _offered(
-        "shape",
-        {
-            "noun": words.SHAPE_NOUNS,
-            "adjective": words.SHAPE_ADJECTIVES,
-            "bare": words.BARE_SHAPES,
-        },
-        _SHAPE_OFFER,
-        _SHAPE_BARE,
-        "what is it|what shape is it|which shape|what shape|which shape do you feel|shape|the shape|"
-        "what are we touching|what do you feel",
-    ),
-    _offered(
-        "texture",
-        {"word": words.TEXTURES, "relief": words.RELIEFS_OF_MANY},
-        _TEXTURE_OFFER,
-        _one_of("word"),
-        "what is it|how is the surface|what texture is it|which texture|texture|surface|the surface|"
-        "how does it feel|how does the surface feel|what is the surface like",
-    ),
-    _offered(
-        "depth",
-        {"word": words.PLAIN_DEPTHS, "deeply": words.DEEPLY},
-        _DEPTH_OFFER,
-        _one_of("word"),
-        "how deep is it|how deep|what depth|depth|the depth|the dent|which depth|how is the press",
-    ),
-    _offered(
-        "area",
-        {"word": words.PLAIN_AREAS},
-        _AREA_OFFER,
-        "(contact|area|contact area|footprint|patch) {word1} or {word2}",
-        "which|what is it",
-    ),
-    _offered(
-        "position",
-        {"place": words.PLACES, "spot": words.SPOTS, "bare": words.BARE_SPOTS},
-        _PLACE_OFFER,
-        f"({_one_of('bare')}|{_one_of('bare')}|{_one_of('spot')}|{_CORNERS})",
-        "where is it|where|where is the contact|in which corner|which part|which corner|position|"
-        "the position|where do you feel it",
-    ),
+    _denials("texture", _TEXTURE_SLOTS, SURFACE, "{texture}", _TEXTURE_DENIED),
+    _denials("depth", _DEPTH_SLOTS, DENT, "{depth}", _DEPTH_DENIED),
+    _denials("area", _AREA_SLOTS, PATCH, "{area}", _AREA_DENIED),
+    _denials("position", _NO_PLACE_SLOTS, PLACED, "{position}", _PLACE_DENIED),
 )

@@ -14,13 +14,19 @@ Words = Mapping[str, str]
 """From a class to the pattern of its names."""
 
 SHAPE_NOUNS: Words = {
-    "sphere": "(a sphere|a ball|a ball|a round ball|something spherical|a spherical (shape|surface|thing|cap))",
+    "sphere": (
+        "(a sphere|a ball|a ball|a round ball|something spherical|"
+        "a spherical (shape|surface|thing|cap))"
+    ),
     "ellipsoid": "(an ellipsoid|an oval|an ellipse|an egg shape|an ellipsoidal (shape|thing))",
     "cuboid": "(a cuboid|a box|a box|a cube|a block|a rectangle|a cuboid block|a box shape)",
     "triangle": "(a triangle|a triangular (shape|thing|face))",
     "hexagon": "(a hexagon|a hexagonal (shape|thing|face))",
     "disc": "(a disc|a disk|a round disc|a flat disc|a circular disc|a flat circle)",
-    "peak": "(a peak|a sharp peak|a cone|a point|a pyramid|a spike|a pointed tip|a sharp tip|a pyramid tip)",
+    "peak": (
+        "(a peak|a sharp peak|a cone|a point|a pyramid|a spike|a pointed tip|a sharp tip|"
+        "a pyramid tip)"
+    ),
     "plane": "(a plane|a flat plane|a flat surface|a flat face|a wide flat surface)",
     "cylinder": "(a cylinder|a rod|a rod|a round bar|the side of a cylinder|a cylindrical shape)",
     "ring": "(a ring|a hoop|a torus|a ring shape|an annulus)",
@@ -217,7 +223,8 @@ def _place(word: str) -> str:
     said = f"(in|in|at|on) {_spot(word)}"
     if word == "centered":
         said += (
-            "|centered|well centered|central|dead center|right in the middle|dead in the middle|bang in the middle|spot on center|"
+            "|centered|well centered|central|dead center|right in the middle|dead in the middle|"
+            "bang in the middle|spot on center|"
             "in the middle|in the center|properly centered|perfectly centered"
         )
     elif word.startswith("middle"):
@@ -244,7 +251,8 @@ PLACES: Words = {word: _place(word) for word in CLASSES["position"]}
 
 ASIDE: Words = {
     "centered": (
-        "(off center|off-center|off the center|out of the (center|middle)|outside the (center|middle)|"
+        "(off center|off-center|off the center|out of the (center|middle)|outside the (center|"
+        "middle)|"
         "away from the (center|middle)|out of center|not quite centered|to one side of the middle)"
     )
 }

@@ -1,11 +1,12 @@
 """Families about words: shape, texture, depth, area and place, asked openly; and all of them.
 
-Not here: such words checked or offered (``tacgrasp.lessons.dialogue.families.class_checks``).
+Not here: such words checked (``tacgrasp.lessons.dialogue.families.class_checks``) or offered
+(``tacgrasp.lessons.dialogue.families.class_offers``).
 """
 
 from __future__ import annotations
 
-from tacgrasp.lessons.dialogue.families import class_checks
+from tacgrasp.lessons.dialogue.families import class_checks, class_offers
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily, length_of
 from tacgrasp.lessons.dialogue.families.phrases import amount_pattern
 from tacgrasp.lessons.dialogue.meaning import Which
@@ -34,8 +35,10 @@ def _open(name: str, subject: str, direct: str, indirect: str, noun: str) -> Que
 _SHAPE_DIRECT = (
     "what shape is it|what is the shape|what shape is {thing}|what shape does {thing} have|"
     "what is the (shape|form|geometry) of {thing}|what shape do you feel|which shape is it|"
-    "(what|which) shape (has {thing}|has {thing} got|did you feel|do you (sense|detect|read|make out))|"
-    f"(what|which) (shape|form|geometry) (touches|is touching|is pressing on|is on|is in|is against) "
+    "(what|which) shape (has {thing}|has {thing} got|did you feel|do you (sense|detect|read|make "
+    "out))|"
+    f"(what|which) (shape|form|geometry) (touches|is touching|is pressing on|is on|is in|is "
+    f"against) "
     f"the {_PAD}|(what|which) (shape|form) (is|was) (that|this)|"
     "what (form|geometry) (does {thing} have|is {thing}|do you feel)|"
     "what (shape|form|geometry) are (we|you) (touching|holding|gripping|feeling|dealing with)|"
@@ -50,11 +53,14 @@ _SHAPE_DIRECT = (
     "what does the (shape|form) [of {thing}] (feel|look) like|what is the contact shape|"
     "what shape does (the contact|the touch|the imprint) have|what shape is the (contact|imprint)|"
     "(can|could|would) you (identify|recognise|name|tell|determine|describe) the (shape|form) "
-    "[of {thing}]|do you (know|recognise|feel) (the shape|what shape it is)|of what shape is {thing}|"
+    "[of {thing}]|do you (know|recognise|feel) (the shape|what shape it is)|of what shape is "
+    "{thing}|"
     f"{_NAME} the (shape|form|geometry) [of {{thing}}]|what is the shape like|"
-    f"which form has {{thing}}|{_GUESS} , what shape is (it|{{thing}})|what is {_OWNERS} (shape|form)|"
+    f"which form has {{thing}}|{_GUESS} , what shape is (it|{{thing}})|what is {_OWNERS} (shape|"
+    f"form)|"
     "what shape (would you say it is|could it be)|"
-    "what is its (shape|form|geometry)|shape-wise , what (is it|do we have)|if you had to name the shape , what is it"
+    "what is its (shape|form|geometry)|shape-wise , what (is it|do we have)|if you had to name "
+    "the shape , what is it"
 )
 _SHAPE_INDIRECT = (
     "what shape {thing} (is|has)|which shape (you feel|{thing} has|touches the pad|this is)|"
@@ -68,7 +74,8 @@ _SHAPE_NOUN = (
     "the [contact] (shape|form|geometry) [of {thing}]|the shape|shape|contact shape|its shape|"
     f"the {_KIND} of shape [of {{thing}}]|the name of the shape|the local (shape|geometry)|"
     "shape of ({thing}|the contact)|(geometry|form) of {thing}|shape class|the shape class|"
-    "a word for the shape|object shape|the object's shape|your guess for the shape|the geometric (shape|form)|"
+    "a word for the shape|object shape|the object's shape|your guess for the shape|the geometric "
+    "(shape|form)|"
     "the shape (you feel|under the sensor|on the pad|of the contact|that touches the pad)"
 )
 _TEXTURE_DIRECT = (
@@ -76,8 +83,10 @@ _TEXTURE_DIRECT = (
     "what texture does {thing} have|what texture do you feel|which texture is it|"
     "(what|which) (texture|surface|finish) (does {thing} have|has {thing}|has {thing} got|is this|"
     "do you (feel|sense|detect))|how does the (surface|skin|outside) [of {body}] feel|"
-    "what does the (surface|skin|outside|texture) [of {body}] feel like|how is the (surface|texture)|"
-    f"what {_KIND} of (surface|texture|finish|skin|relief) (is it|is {{thing}}|is this|does {{thing}} "
+    "what does the (surface|skin|outside|texture) [of {body}] feel like|how is the (surface|"
+    "texture)|"
+    f"what {_KIND} of (surface|texture|finish|skin|relief) (is it|is {{thing}}|is this|does "
+    f"{{thing}} "
     "have|do you feel|are we touching)|how does {thing} feel|how does {thing} feel to the touch|"
     "what does {thing} feel like (to the touch|on the surface|on the outside)|"
     "how (rough|smooth) is (it|{thing}|the surface|the texture)|"
@@ -87,10 +96,12 @@ _TEXTURE_DIRECT = (
     "what is the (roughness|relief|surface structure|surface texture|fine structure) [of {thing}]|"
     "what surface (do you feel|are we touching|is on the pad|touches the gel)|"
     "texture-wise , what (is it|do we have|do you feel)|"
-    "(can|could|would) you (identify|name|tell|determine|describe) the (texture|surface) [of {thing}]|"
+    "(can|could|would) you (identify|name|tell|determine|describe) the (texture|surface) [of "
+    "{thing}]|"
     f"{_NAME} the (texture|surface|roughness|finish) [of {{thing}}]|what is {_OWNERS} texture|"
     f"{_GUESS} , what texture is (it|{{thing}})|{_GUESS} , how does the surface feel|"
-    "do you (know|recognise|feel) (the texture|what texture it is)|what is the (skin|finish|outside) [of {body}] like|"
+    "do you (know|recognise|feel) (the texture|what texture it is)|what is the (skin|finish|"
+    "outside) [of {body}] like|"
     f"(what|which) texture (touches|is touching|is pressing on|is on) the {_PAD}|"
     "what texture are (we|you) (touching|holding|feeling)"
 )
@@ -98,7 +109,8 @@ _TEXTURE_INDIRECT = (
     "what the (texture|surface|finish|skin) [of {body}] is [like]|what texture {thing} (is|has)|"
     "which texture (you feel|{thing} has|this is)|how the (surface|skin) [of {body}] feels|"
     f"what {_KIND} of (surface|texture|finish) (it is|{{thing}} has|you feel|this is)|"
-    "how (rough|smooth) (it|{thing}|the surface) is|what its texture is|how {thing} feels to the touch|"
+    "how (rough|smooth) (it|{thing}|the surface) is|what its texture is|how {thing} feels to the "
+    "touch|"
     "how the surface is|what texture we are touching|what the surface feels like|"
     "the (texture|surface texture) [of {thing}]"
 )
@@ -113,7 +125,8 @@ _TEXTURE_NOUN = (
 _DEPTH_DIRECT = (
     "(in words|in plain words|as a word|not in numbers|without numbers|without a number|"
     "qualitatively|in a category) , how deep is ({touch}|{thing}|the dent)|"
-    "how deep is ({touch}|{thing}|the dent) , (in words|in plain words|not in numbers|without numbers|"
+    "how deep is ({touch}|{thing}|the dent) , (in words|in plain words|not in numbers|without "
+    "numbers|"
     "qualitatively|as a class)|how deep is it in words|how deep in words|how deep , qualitatively|"
     f"how would you {_RATE} the (depth|indentation|dent|press)|"
     "what would you call (the|this) depth|which [class of] depth is (it|this)|"
@@ -123,8 +136,10 @@ _DEPTH_DIRECT = (
     "is it slight, moderate, deep or very deep|which of slight, moderate, deep and very deep is it|"
     "what is the (depth class|class of the depth|depth category)|"
     f"what {_KIND} of depth is (it|this)|what {_KIND} of (dent|indentation) is it|"
-    "(describe|classify|rate|judge|categorise|characterise|label|grade) the (depth|indentation|dent) [in words]|"
-    "(can|could|would) you (describe|classify|rate|categorise) the (depth|indentation|dent) [in words]|"
+    "(describe|classify|rate|judge|categorise|characterise|label|grade) the (depth|indentation|"
+    "dent) [in words]|"
+    "(can|could|would) you (describe|classify|rate|categorise) the (depth|indentation|dent) [in "
+    "words]|"
     "say in words how deep it is|put the depth in words|how does the depth rate|"
     "in which (class|category) is the depth|in which depth (class|category) are we"
 )
@@ -158,7 +173,8 @@ _AREA_DIRECT = (
     "which of tiny, small, medium, large and very large is the area|"
     "what is the (area class|class of the area|area category|size class of the contact)|"
     f"what {_KIND} of area is (it|this)|"
-    "(describe|classify|rate|judge|categorise|characterise) the ([contact] area|footprint) [in words]|"
+    "(describe|classify|rate|judge|categorise|characterise) the ([contact] area|footprint) [in "
+    "words]|"
     "(can|could|would) you (describe|classify|rate|categorise) the [contact] area [in words]|"
     "say in words how large the (contact|area) is|put the area in words|how does the area rate|"
     "in which (class|category) is the area|in which area (class|category) are we"
@@ -174,7 +190,8 @@ _AREA_INDIRECT = (
 _AREA_NOUN = (
     "the area (class|word|category|label) [of {touch}]|"
     "the (class|category) of the [contact] area|the size class of the contact|"
-    "the [contact] area (in words|as a word|as a class|in plain words|without numbers|not in numbers)|"
+    "the [contact] area (in words|as a word|as a class|in plain words|without numbers|not in "
+    "numbers)|"
     "[contact] area (class|category|in words|as a word)|the footprint in words|"
     "a word for the [contact] area|the qualitative area|a rating of the [contact] area|"
     "the area rating"
@@ -185,24 +202,31 @@ _PLACE_DIRECT = (
     "where exactly|where abouts|where about is it|whereabouts is ({thing}|the contact)|"
     "where does {thing} touch [the pad|the gel|the sensor]|where do (we|you) (touch|feel) {thing}|"
     f"where (on|in which part of) the {_PAD} is ({{thing}}|the contact)|"
-    f"where (on|along|at) the {_PAD} (are we touching|does {{thing}} (touch|press|sit|lie)|do you feel "
-    f"{{thing}}|is the touch|is it)|on (what|which) {_SPOT} of the {_PAD} is ({{thing}}|the contact)|"
-    f"in (what|which) {_SPOT} of the {_PAD} (is {{thing}}|does {{thing}} touch|is the contact|are we)|"
+    f"where (on|along|at) the {_PAD} (are we touching|does {{thing}} (touch|press|sit|lie)|do you "
+    f"feel "
+    f"{{thing}}|is the touch|is it)|on (what|which) {_SPOT} of the {_PAD} is ({{thing}}|the "
+    f"contact)|"
+    f"in (what|which) {_SPOT} of the {_PAD} (is {{thing}}|does {{thing}} touch|is the contact|are "
+    f"we)|"
     "what is the (position|location|place) [of ({touch}|{body})]|where do you feel (it|something)|"
     f"(what|which) {_SPOT} of the {_PAD} is (touched|pressed|being touched|being pressed|loaded)|"
     f"(what|which) {_SPOT} of the {_PAD} (does {{thing}} (touch|press)|do you feel it on)|"
     "at (which|what) (place|spot|position) is {thing}|in which (cell|corner|third) is {thing}|"
     "(what|which) corner is it in|(what|which) (spot|place|cell) is (it|{thing}) in|"
-    "where is the contact (point|spot|patch|located|on the pad)|where is the contact (happening|made)|"
+    "where is the contact (point|spot|patch|located|on the pad)|where is the contact (happening|"
+    "made)|"
     "where (is|was) {thing} (pressing|touching|located|positioned|placed|sitting|resting)|"
-    "where did {thing} (land|touch|come down) [on the (pad|gel|sensor)]|where does {thing} (sit|lie|press)|"
+    "where did {thing} (land|touch|come down) [on the (pad|gel|sensor)]|where does {thing} (sit|"
+    "lie|press)|"
     "how is {thing} (positioned|placed|located) [on the (pad|gel|sensor)]|where have we got it|"
     "where on you is {thing}|where are you (touched|being touched|pressed|feeling it)|"
-    f"{_GUESS} , where is (it|{{thing}}|the contact)|{_NAME} the (position|location) [of {{thing}}]|"
+    f"{_GUESS} , where is (it|{{thing}}|the contact)|{_NAME} the (position|location) [of "
+    f"{{thing}}]|"
     f"what is {_OWNERS} (position|location)|"
     "(locate|localise) (it|{thing}|the contact|the touch) [for me|on the pad]|"
     "(can|could) you (locate|localise) (it|{thing}|the contact|the touch) [for me]|"
-    "what (position|location|place|spot) (is it|is {thing} at|is {thing} in|do you feel|does it have)|"
+    "what (position|location|place|spot) (is it|is {thing} at|is {thing} in|do you feel|does it "
+    "have)|"
     "where would you say (it|the contact) is|where is the (pressure|press|imprint|dent|footprint)|"
     "how would you describe the (position|location|place) [of {thing}]|where is it pressing|"
     "describe (the position|the location|where it is|where the contact is) [on the pad]|"
@@ -211,7 +235,8 @@ _PLACE_DIRECT = (
 _PLACE_INDIRECT = (
     "where ({touch}|{body}) is|where it is|where {thing} touches [the pad|the gel|the sensor]|"
     "where you feel (it|{thing})|where on the (pad|gel|sensor|finger|fingertip) "
-    "(it is|{thing} is|the contact is|we are touching)|where we are touching|where we touch {thing}|"
+    "(it is|{thing} is|the contact is|we are touching)|where we are touching|where we touch "
+    "{thing}|"
     f"in which {_SPOT} of the {_PAD} (it is|{{thing}} is|the contact is|we are)|"
     "what the (position|location|place) [of {thing}] is|where the contact (point|spot|patch) is|"
     f"which {_SPOT} of the {_PAD} is (touched|pressed|in use)|where {{thing}} is "
@@ -235,4 +260,5 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     _open("area_word", "area", _AREA_DIRECT, _AREA_INDIRECT, _AREA_NOUN),
     _open("position", "position", _PLACE_DIRECT, _PLACE_INDIRECT, _PLACE_NOUN),
     *class_checks.FAMILIES,
+    *class_offers.FAMILIES,
 )
