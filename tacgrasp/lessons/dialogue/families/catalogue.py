@@ -10,6 +10,7 @@ from tacgrasp.lessons.dialogue.families import (
     classes,
     contacts,
     goals,
+    off_topic,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -23,6 +24,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *contacts.FAMILIES,
     *goals.FAMILIES,
     *unanswerable.FAMILIES,
+    *off_topic.FAMILIES,
 )
 
 
