@@ -6,6 +6,7 @@ from functools import cache
 
 from tacgrasp.lessons.dialogue.families import (
     amounts,
+    backgrounds,
     checks,
     classes,
     contacts,
@@ -24,6 +25,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *contacts.FAMILIES,
     *goals.FAMILIES,
     *unanswerable.FAMILIES,
+    *backgrounds.FAMILIES,
     *off_topic.FAMILIES,
 )
 

@@ -57,6 +57,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         f"how (far|big|old|rich|large|crowded) is {_PLACE}|where is {_PLACE}|"
         f"how many (people|{{*animals}}|inhabitants|citizens) (live in|are there in|has) {_PLACE}|"
         "who (invented|discovered) (the {*objects}|the {*machines}|{*topics})|"
+        "who is the (president|king|queen|pope|chancellor) [of (america|the united states|the usa|"
+        "the uk|europe|the united kingdom)]|"
         "what is {*topics} [about]|explain {*topics} [to me]|what do you know about ({*topics}|"
         "{*countries}|{*animals}|{*famous})|how (fast|old|heavy|tall|big|clever) is (a|an|the average) "
         "{*animals}|what do (a|an|the) {*animals} eat|when was {*cities} founded|teach me {*topics}|"
@@ -90,7 +92,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "what goes (into|with) (a|an|the|) {*dishes}|how long does {*dishes} take|"
         "what shall (we|I) (eat|cook|have) (tonight|for lunch|for dinner|for breakfast|tomorrow)|"
         "do you like ({*dishes}|{*drinks})|where can I buy (a|an|some) ({*objects}|{*drinks})|"
-        "how do I (repair|clean|open|wash|fix) (my|a|the) ({*objects}|{*machines}) at home|"
+        "how (do|can) I (repair|clean|open|wash|fix) (my|a|the) ({*objects}|{*machines}) at home|"
+        "how (do|can|should) I (repair|fix|clean|use) my ({*machines}|bike|roof|sink|kitchen)|"
         "what should I wear (in {*cities}|tonight|tomorrow|to the wedding)|which {*drinks} goes with "
         "{*dishes}|is ({*dishes}|{*drinks}) healthy|what is for (lunch|dinner|breakfast)|"
         "is there [any] ({*drinks}|{*dishes}) left|why is my {*machines} (broken|so loud|not working|"
@@ -137,6 +140,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "how are you [doing|feeling|today|this morning]|how is it going|what is up|how do you do|"
         "what is your (job|hobby|dream|favourite {*dishes}|favourite color|favourite {*animals}|"
         "favourite {*films}|zodiac sign|plan for (tonight|{*days}))|"
+        "do you (like|enjoy|love|prefer) (music|sports|books|movies|work|people|humans|robots|dogs|"
+        "cats|art|pizza|children|school|summer|winter)|"
         "do you (like|know|miss|love|remember|hate) (me|us|my {*people_words}|{*animals}|{*topics}|"
         "{*cities}|{*hobbies}|{*drinks})|good (evening|night|afternoon|morning|day)|thank you|thanks|"
         "thank you [so|very] much|goodbye|bye|bye bye|see you (later|tomorrow|soon|on {*days})|"
@@ -197,7 +202,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     _off(
         "sums_and_code",
-        "what is {#n} (plus|minus|times|multiplied by|divided by) {#m}|{#n} (plus|minus|times|divided by) "
+        "what is {#n} (plus|minus|times|multiplied by|divided by|x|+|*) {#m}|{#n} (plus|minus|times|divided by) "
         "{#m}|how much is {#n} (plus|minus|times|multiplied by) {#m}|{#n} percent of {#m}|"
         "is {#n} (a prime number|odd|even|divisible by {#m})|what is {#n} percent of {#m} [euros]|"
         "what is the (square root|cube|square|logarithm|factorial|double) of {#n}|what is pi|"
