@@ -87,6 +87,19 @@ SUBJECTS: Mapping[str, str] = {
     "origin": "where it comes from",
     "inside": "what is inside it",
     "sight": "what can only be seen",
+    "material": "what it is made of",
+    "age": "its age",
+    "owner": "whose it is",
+    "maker": "who made it",
+    "purpose": "what it is for",
+    "freshness": "its freshness",
+    "danger": "whether it is dangerous",
+    "electricity": "its electric or magnetic properties",
+    "size": "its full size",
+    "surroundings": "what is around it",
+    "print": "what is printed on it",
+    "past": "what happened to it before",
+    "law": "what the rules say about it",
 }
 """What touch can't know, as answers name it."""
 
@@ -108,6 +121,7 @@ _SHARE = re.compile(
     r"(?:pad|gel|sensor|surface|fingertip|skin)\b)"
 )
 _SINGLE = re.compile(r"\b(?:an?|one)(?: single)? (?=(?:milli|micro|mm\b))")
+_ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
@@ -130,7 +144,7 @@ def asked_text(question: str, before: str = "") -> AskedText:
 
     Numbers in words are numbers too: 'half a newton', 'a third of the pad'.
     """
-    lowered = question.lower()
+    lowered = _ONE_WORD.sub("a", question.lower())
     lowered = _SHARE.sub(lambda match: f"{_SHARES[match[1]]} percent", lowered)
     lowered = _MM.sub("millimetre", lowered)
     plain = plain_text(_SINGLE.sub("1 ", in_digits(lowered)))

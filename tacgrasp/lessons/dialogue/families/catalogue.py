@@ -7,11 +7,13 @@ from functools import cache
 from tacgrasp.lessons.dialogue.families import (
     advice,
     amounts,
+    backgrounds,
     checks,
     classes,
     contacts,
     goals,
     lifting,
+    off_topic,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -27,6 +29,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *lifting.FAMILIES,
     *advice.FAMILIES,
     *unanswerable.FAMILIES,
+    *backgrounds.FAMILIES,
+    *off_topic.FAMILIES,
 )
 
 

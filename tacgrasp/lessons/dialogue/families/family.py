@@ -70,7 +70,8 @@ class QuestionFamily:
 
 def length_of(bindings: Bindings) -> Length:
     """How long an answer is asked to be."""
-    return Length(bindings.get("length", ""))
+    named = (bindings[slot] for slot in ("verdict", "length", "first_length") if slot in bindings)
+    return Length(next(named, ""))
 
 
 @lru_cache(maxsize=1)
