@@ -109,7 +109,7 @@ _SHARE = re.compile(
 )
 _SINGLE = re.compile(r"\b(?:an?|one)(?: single)? (?=(?:milli|micro|mm\b))")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
-_NUMBER = re.compile(r"(?<= )\d\S*")
+_NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
 
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from functools import cache
 
 from tacgrasp.lessons.dialogue.families import (
+    agreed_checks,
     amounts,
     checks,
     classes,
     contacts,
     goals,
+    place_checks,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -19,6 +21,8 @@ from tacgrasp.lessons.dialogue.plain_words import plain_text
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
     *checks.FAMILIES,
+    *agreed_checks.FAMILIES,
+    *place_checks.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *goals.FAMILIES,
