@@ -123,7 +123,7 @@ _SHARE = re.compile(
 _SINGLE = re.compile(r"\b(?:an?|one)(?: single)? (?=(?:milli|micro|mm\b))")
 _ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
-_NUMBER = re.compile(r"(?<= )\d\S*")
+_NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
 
 

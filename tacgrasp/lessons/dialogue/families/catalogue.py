@@ -6,6 +6,7 @@ from functools import cache
 
 from tacgrasp.lessons.dialogue.families import (
     advice,
+    agreed_checks,
     amounts,
     backgrounds,
     checks,
@@ -14,6 +15,7 @@ from tacgrasp.lessons.dialogue.families import (
     goals,
     lifting,
     off_topic,
+    place_checks,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -23,6 +25,8 @@ from tacgrasp.lessons.dialogue.plain_words import plain_text
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
     *checks.FAMILIES,
+    *agreed_checks.FAMILIES,
+    *place_checks.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *goals.FAMILIES,

@@ -20,29 +20,71 @@ from tacgrasp.lessons.dialogue.scene import AskedScene
 
 COMPARISONS: dict[str, str] = {
     ">": (
-        "(more than|over|above|beyond|greater than|higher than|larger than|in excess of|"
-        "bigger than|upwards of|past|exceeding)"
+        "(more than|more than|over|over|above|above|beyond|greater than|higher than|larger than|"
+        "in excess of|bigger than|upwards of|past|exceeding|strictly above|any more than|"
+        "anything above|something over)"
     ),
     "<": (
-        "(less than|under|below|smaller than|lower than|short of|beneath|not even|inferior to|"
-        "fewer than)"
+        "(less than|less than|under|under|below|below|smaller than|lower than|short of|beneath|"
+        "not even|inferior to|fewer than|strictly below|any less than|"
+        "anything under|something below)"
     ),
-    ">=": "(at least|no less than|not less than|not below|a minimum of|not under)",
-    "<=": "(at most|no more than|not more than|not above|not over|a maximum of|up to)",
+    ">=": (
+        "(at least|at least|no less than|not less than|not below|a minimum of|not under|"
+        "no lower than|no smaller than|as much as|equal to or above|"
+        "greater than or equal to|at or above)"
+    ),
+    "<=": (
+        "(at most|no more than|not more than|not above|not over|a maximum of|up to|no higher than|"
+        "no bigger than|no larger than|not greater than|not beyond|equal to or below|"
+        "less than or equal to|at or below|not any more than)"
+    ),
 }
 """Comparisons by their sign."""
 
-UNDENIED = {sign: COMPARISONS[sign].replace("not even|", "") for sign in "<>"}
+MORE_THAN: dict[str, str] = {
+    ">": (
+        "(more than|more than|more than|over|over|above|in excess of|upwards of|"
+        "beyond|exceeding|anything over|anything above)"
+    ),
+    "<": (
+        "(less than|less than|less than|under|under|below|not even|short of|fewer than|"
+        "anything under)"
+    ),
+    ">=": "(at least|at least|at least|no less than|not less than|a minimum of|as much as)",
+    "<=": "(at most|at most|no more than|no more than|not more than|a maximum of|up to|not over)",
+}
+"""Comparisons that may follow a verb."""
+
+UNDENIED: dict[str, str] = {
+    ">": "(more than|over|above|beyond|greater than|higher than|larger than|bigger than|past)",
+    "<": "(less than|under|below|smaller than|lower than)",
+    ">=": "(at least|quite)",
+}
 """Comparisons that 'not' may stand before."""
 
+OR_MORE: dict[str, str] = {
+    ">=": "(or more|or more|or above|or over|or higher|or greater|or beyond|and up|at least)",
+    "<=": "(or less|or less|or below|or under|or lower|or smaller|at most|at the most|at best)",
+}
+"""Comparisons that follow their number."""
+
+INVERSE = {">": "<=", "<": ">=", ">=": "<", "<=": ">"}
+"""The sign of a denied comparison."""
+
+BETWEEN, DENIED = "between", "denied"
+"""Values of slots that stand for a range, and for a 'not'."""
+
 UNITS: dict[str, str] = {
-    "mm": "(mm|millimetres|millimetre)",
-    "µm": "(µm|microns|micrometres)",
-    "N": "(N|newtons|newton)",
+    "mm": "(mm|mm|millimetres|millimetre|millimeters)",
+    "µm": "(µm|um|microns|micrometres|micrometers)",
+    "cm": "(cm|centimetres|centimeters)",
+    "N": "(N|N|newtons|newton)",
     "mN": "(mN|millinewtons)",
-    "g": "(g|grams|gram)",
-    "%": "(%|percent|per cent)",
-    "mm²": "(mm²|mm2|square millimetres)",
+    "g": "(g|g|grams|grams|gram)",
+    "kg": "(kg|kilograms|kilogram|kilos)",
+    "%": "(%|percent|per cent) [of the (pad|pad|gel|sensor|skin|surface)]",
+    "mm²": "(mm²|mm2|square millimetres|square mm|square millimeters)",
 }
 """Units of thresholds by their symbols."""
 
@@ -63,10 +105,17 @@ class Scale:
     high: float
 
 
+_WIDTH = {"mm": Scale(size=1.0, step=0.5, low=0.5, high=9.0)}
+_FORCE = {"N": Scale(size=1.0, step=0.05, low=0.1, high=8.0)}
+_MASS = {
+    "g": Scale(size=1.0, step=5, low=5, high=800),
+    "kg": Scale(size=1000.0, step=0.01, low=0.02, high=0.8),
+}
 SCALES: Mapping[str, Mapping[str, Scale]] = {
     "depth_mm": {
         "mm": Scale(size=1.0, step=0.01, low=0.05, high=1.2),
         "µm": Scale(size=1e-3, step=10, low=50, high=1200),
+        "cm": Scale(size=10.0, step=0.005, low=0.005, high=0.12),
     },
     "force_n": {
         "N": Scale(size=1.0, step=0.05, low=0.1, high=8.0),
@@ -77,7 +126,17 @@ SCALES: Mapping[str, Mapping[str, Scale]] = {
         "%": Scale(size=1.0, step=1, low=2, high=50),
         "mm²": Scale(size=0.32409, step=1, low=5, high=150),
     },
-    "hypot(x_mm, y_mm)": {"mm": Scale(size=1.0, step=0.5, low=0.5, high=9.0)},
+    "hypot(x_mm, y_mm)": _WIDTH,
+    "x_mm": _WIDTH,
+    "y_mm": _WIDTH,
+    "abs(x_mm)": _WIDTH,
+    "abs(y_mm)": _WIDTH,
+    "mass_g": _MASS,
+    "holds_g": _MASS,
+    "limit_n": _FORCE,
+    "band_low_n": _FORCE,
+    "band_high_n": _FORCE,
+    "limit_n - force_n": {"N": Scale(size=1.0, step=0.05, low=0.05, high=3.0)},
 }
 """Scales by expression and unit. mm² are those of a GelSight Mini, whose 1 % is 3.09 mm²."""
 
@@ -89,11 +148,11 @@ def one_threshold(
     expression = Expression(truth)
 
     def choose(scene: AskedScene, bindings: Bindings, rng: np.random.Generator) -> dict[str, str]:
-        scale = SCALES[truth][bindings["unit"]]
+        scale = SCALES[truth][_unit(bindings) or next(iter(SCALES[truth]))]
         value = expression.evaluate(scene.values()).value
-        known = isinstance(value, float) and value > 0
+        known = isinstance(value, float) and value != 0
         middle = (
-            float(value or 0.0) / scale.size
+            abs(float(value or 0.0)) / scale.size
             if known
             else float(np.exp(rng.uniform(math.log(scale.low), math.log(scale.high))))
         )
@@ -105,20 +164,31 @@ def one_threshold(
     return choose
 
 
-def test_of(quantity: str, unit: str, bindings: Bindings, numbers: Numbers) -> str:
-    """The comparison that a wording makes, in the words of a query.
+def test_of(quantity: str, unit: str, bindings: Bindings, numbers: Numbers) -> tuple[str, bool]:
+    """The comparison that a wording makes, in the words of a query, and whether it is denied.
+
+    A denied comparison is the one with the inverse sign; only a range stays denied.
 
     Args:
         quantity: What is compared.
-        unit: Unit of a number that is fixed in the wording, as 'half a newton' is.
+        unit: Unit of a number without one.
         bindings: Values of the wording's slots.
         numbers: Its numbers.
     """
-    unit = bindings.get("unit", unit)
-    first = bindings.get("fixed") or number_text(numbers["t"])
-    if bindings["comparison"] == "between":
-        return f"{quantity} {first} - {number_text(numbers['u'])} {unit}"
-    return f"{quantity} {bindings['comparison']} {first} {unit}"
+    values = list(bindings.values())
+    denied = DENIED in values
+    unit = _unit(bindings) or unit
+    if BETWEEN in values:
+        low, high = number_text(numbers["t"]), number_text(numbers["u"])
+        return f"{quantity} {low} - {high} {unit}", denied
+    sign = next(value for value in values if value in INVERSE)
+    first = bindings.get("fixed") or f"{number_text(numbers['t'])} {unit}"
+    return f"{quantity} {INVERSE[sign] if denied else sign} {first}", False
+
+
+def _unit(bindings: Bindings) -> str:
+    """The unit that a wording names; '' where it names none."""
+    return next((value for value in bindings.values() if value in UNITS), "")
 
 
 def _stepped(number: float, step: float) -> float:
