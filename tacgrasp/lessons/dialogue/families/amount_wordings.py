@@ -80,39 +80,38 @@ HAND = "(the (gripper|robot|hand|claw|robot hand|machine)|our (gripper|robot)|yo
 
 GUESS = (
     "(do you think|would you say|do you reckon|do you guess|do you believe|do you estimate|"
-    "|would you guess|would you estimate|do you suppose)"
+    "would you guess|would you estimate|do you suppose)"
 )
 FIND = (
     "(measure|estimate|check|determine|find out|work out|figure out|see|look|show me|show|judge|"
-    "please (measure|estimate|check|determine|find out|work out|show me|let me know|explain)|"
-    "(can|could|would|will) you [please] (measure|estimate|check|determine|find out|see|judge|"
-    "guess|figure out|work out|show me|let me know|tell us|quantify|confirm|remind me)|"
-    "do we know|is it known|I do not know|I can not see|I have no idea|I am not sure|I forgot|"
-    "I was wondering|just tell me|tell us|I am trying to find out|I am interested in|"
-    "it would help to know|it would be good to know|we have to know|I have to know|"
-    "is there a way to tell|is it possible to say|would you be so kind as to tell me|"
-    "I would be glad to know|I have to write down|the customer asks|my boss asks|they ask|my "
-    "(teacher|colleague|professor|chef|friend) (asks|wants to know)|"
-    "we are wondering|i must know|can you see|can i know|may i know|may i ask|can i ask|"
-    "does the sensor (say|tell|show|know)|quickly tell me|tell me quickly|tell me again|"
-    "say again|repeat|nobody told me|let me see|let us find out|want to know|wondering)"
+    "please (measure|estimate|check|determine|find out|work out|show me|let me know|explain)|(can|"
+    "could|would|will) you [please] (measure|estimate|check|determine|find out|see|judge|guess|"
+    "figure out|work out|show me|let me know|tell us|quantify|confirm|remind me)|do we know|"
+    "is it known|I do not know|I can not see|I have no idea|I am not sure|I forgot|I was wondering|"
+    "just tell me|tell us|I am trying to find out|I am interested in|it would help to know|"
+    "it would be good to know|we have to know|I have to know|is there a way to tell|"
+    "is it possible to say|would you be so kind as to tell me|I would be glad to know|"
+    "I have to write down|the customer asks|my boss asks|they ask|my (teacher|colleague|professor|"
+    "chef|friend) (asks|wants to know)|we are wondering|i must know|can you see|can i know|"
+    "may i know|may i ask|can i ask|does the sensor (say|tell|show|know)|quickly tell me|"
+    "tell me quickly|tell me again|say again|repeat|nobody told me|let me see|let us find out|"
+    "want to know|wondering)"
 )
 GET = (
     "(get me|get|read me|read|fetch|print|display|output|return|measure|check|determine|quantify|"
-    "please (give me|give us|measure|read|show|tell me|check|display|state|share|provide)|"
-    "(can|could|would|will) you [please] (measure|read|check|show me|show|give me|give us|report|"
-    "estimate|tell us|state|provide|share|print|determine|quantify|look up)|"
-    "(can|could|may) (I|we) (see|get|have|know|read)|what was|what is|what are you getting "
-    "for|what did you (get|read|feel|find) for|what have you got for|what do you make of|"
-    "[do] you have|have you got|got|do we have|do we know|do you see|"
-    "[give me|what is|tell me|is there] (a|an|the|any|your) (value|reading|number|figure|estimate|"
-    "measurement|guess|result) (for|of)|"
-    "what (value|reading|number|figure) (do you (get|have|read|see|show)|is there) for|"
-    "what does the (sensor|pad|gel|gripper|display|robot) (say|read|show|report|give|measure) for|"
-    "put a number on|tell us|give us|send me|send|let us see|let us have|I would like to (see|have|"
-    "know|get)|I want to (see|have|know)|I need to (see|have|know)|we need to know|i only need|"
-    "i just need|just|only|just give me|just tell me|i am interested in|i have to know|"
-    "i am after|i wonder about|i am asking for|i ask for|i was asked for|my question is about|"
+    "please (give me|give us|measure|read|show|tell me|check|display|state|share|provide)|(can|"
+    "could|would|will) you [please] (measure|read|check|show me|show|give me|give us|report|"
+    "estimate|tell us|state|provide|share|print|determine|quantify|look up)|(can|could|may) (I|"
+    "we) (see|get|have|know|read)|what was|what is|what are you getting for|what did you (get|read|"
+    "feel|find) for|what have you got for|what do you make of|[do] you have|have you got|got|"
+    "do we have|do we know|do you see|[give me|what is|tell me|is there] (a|an|the|any|"
+    "your) (value|reading|number|figure|estimate|measurement|guess|result) (for|of)|what (value|"
+    "reading|number|figure) (do you (get|have|read|see|show)|is there) for|what does the (sensor|"
+    "pad|gel|gripper|display|robot) (say|read|show|report|give|measure) for|put a number on|"
+    "tell us|give us|send me|send|let us see|let us have|I would like to (see|have|know|get)|"
+    "I want to (see|have|know)|I need to (see|have|know)|we need to know|i only need|i just need|"
+    "just|only|just give me|just tell me|i am interested in|i have to know|i am after|"
+    "i wonder about|i am asking for|i ask for|i was asked for|my question is about|"
     "remind me what was|repeat|once more|again|and|what about|how about|as for)"
 )
 _KIND = (
@@ -128,18 +127,18 @@ OPENING = (
     "your measurement|your reading),|from what you feel,|judging by the (gel|touch|sensor),|"
     "as far as you can tell,|in numbers,|roughly speaking,|as of now,|at this moment,|"
     "in this contact,|with this touch,|by feel,|in total,|after this (press|grasp|touch),|"
-    "now that we (hold|touch|have) {thing},|when you feel {thing},|approximately,|just out of "
-    "interest,|to be sure,|for my (notes|report|log|table|homework),|good,|great,|thanks,|"
-    "sorry to bother you,|friend,|mate,|sir,|dear robot,]"
+    "now that we (hold|touch|have) {thing},|when you feel {thing},|approximately,|"
+    "just out of interest,|to be sure,|for my (notes|report|log|table|homework),|good,|great,|"
+    "thanks,|sorry to bother you,|friend,|mate,|sir,|dear robot,]"
 )
 CLOSING = (
     "[, would you say|, in your opinion|, as far as you can tell|, in numbers|, as a number|"
     ", roughly speaking|, if I may ask|, if you know|, can you tell|, do you know|, any idea|"
     ", if you had to guess|, more or less|, or so|, all in all|, if you please|, be exact|"
     ", be precise|, just the number|, only the number|, number only|, as exactly as possible|"
-    ", to be exact|, according to (you|the sensor|the gel)|, for my (notes|report|log)|"
-    ", thank you|, I wonder|, robot|, tell me|, can you say|by feel|by touch|, i mean|"
-    ", i can not see it|, do you think|again|, at a guess|, ballpark|in this contact|, mate]"
+    ", to be exact|, according to (you|the sensor|the gel)|, for my (notes|report|log)|, thank you|"
+    ", I wonder|, robot|, tell me|, can you say|by feel|by touch|, i mean|, i can not see it|"
+    ", do you think|again|, at a guess|, ballpark|in this contact|, mate]"
 )
 
 
@@ -153,18 +152,18 @@ def number_pattern(wording: Wording, *, is_unit_needed: bool, extra_unit: str = 
     """
     extra = f"|{extra_unit}" if extra_unit else ""
     named = (
-        "(in {unit}|in {unit}|in {unit}|[now|here|roughly|exactly|measured|expressed|given|right "
-        "now"
-        f"|at the moment] in {{unit}}|, {{unit}}|, {{unit}} please|, in {{unit}} please|as "
-        f"{{unit}}{extra})"
+        "(in {unit}|in {unit}|in {unit}|[now|here|roughly|exactly|measured|expressed|given|"
+        "right now"
+        f"|at the moment] in {{unit}}|, {{unit}}|, {{unit}} please|, in {{unit}} please|"
+        f"as {{unit}}{extra})"
     )
     unit = named if is_unit_needed else f"[{named}]"
     direct = "|".join(f"({a.head}) ({a.inverted})" for a in wording.asked)
     plain = "|".join(f"({a.head}) ({a.plain})" for a in wording.asked)
     thought = "|".join(f"({a.head}) {GUESS} ({a.plain})" for a in wording.asked)
     short = (
-        f"[the|your|our|this|any|what] ({wording.bare}) {_READING}|"
-        f"[the|your|our] {_KIND} ({wording.bare})|({wording.bare})|({wording.bare})"
+        f"[the|your|our|this|any|what] ({wording.bare}) {_READING}|[the|your|"
+        f"our] {_KIND} ({wording.bare})|({wording.bare})|({wording.bare})"
     )
     ways = [
         f"({direct}) {unit}",

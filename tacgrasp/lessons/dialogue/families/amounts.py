@@ -26,20 +26,20 @@ _SQUEEZE = "(press|grip|squeeze|hold|clamp|push|pinch|grasp)"
 _FOR = "[for {body}|for {thing}|by {band}|in {band}|here]"
 _BOUND_FORCE = (
     "{bound} ([grip|contact|target|gripping] force (of|in|for|from) {band}|"
-    f"{_WANTED} [grip|contact] force|(force|grip force|grip) (that is|that we|we|to be|I) "
-    f"{_WANTED}|"
-    f"force {_WANTED} {_FOR}|force {{band}} (wants|asks for|allows for|names|calls for))"
+    f"{_WANTED} [grip|contact] force|(force|grip force|grip) (that is|that we|we|to be|"
+    f"I) {_WANTED}|force {_WANTED} {_FOR}|force {{band}} (wants|asks for|allows for|names|"
+    f"calls for))"
 )
 _BAND_WORDING = Wording(
     asked=(
         Asked(
             "(how much|what) force",
-            f"is {{bound}} {_WANTED}|is {_WANTED} {{at_end}} {_FOR}|(do|should) we need {{at_end}} "
-            f"{_FOR}|"
-            f"should (we|I|the fingers) (use|apply|{_SQUEEZE} with) {{at_end}}|"
+            f"is {{bound}} {_WANTED}|is {_WANTED} {{at_end}} {_FOR}|(do|"
+            f"should) we need {{at_end}} {_FOR}|should (we|I|the fingers) (use|apply|"
+            f"{_SQUEEZE} with) {{at_end}}|"
             "does {band} (ask for|want|call for|need) {at_end}|is {bound} in {band}",
-            f"is {_WANTED} {{at_end}} {_FOR}|we need {{at_end}} {_FOR}|we should (use|apply) "
-            f"{{at_end}}|"
+            f"is {_WANTED} {{at_end}} {_FOR}|we need {{at_end}} {_FOR}|we should (use|"
+            f"apply) {{at_end}}|"
             "{band} (asks for|wants|calls for) {at_end}",
         ),
         Asked(
@@ -64,8 +64,8 @@ _BAND_WORDING = Wording(
     counted=(
         Asked(
             "how many {unit}",
-            f"(are|is) {_WANTED} {{at_end}}|do we need {{at_end}} {_FOR}|should we {_SQUEEZE} with "
-            f"{{at_end}}|"
+            f"(are|is) {_WANTED} {{at_end}}|do we need {{at_end}} {_FOR}|"
+            f"should we {_SQUEEZE} with {{at_end}}|"
             "does {band} (ask for|want|call for) {at_end}|does {band} {edge} at",
             f"are {_WANTED} {{at_end}}|we need {{at_end}}|{{band}} (asks for|wants) {{at_end}}",
         ),
@@ -77,16 +77,15 @@ _BAND_WORDING = Wording(
         "the force at which {band} {edges}"
     ),
     bare=(
-        f"{{bound}} force (of|in) {{band}}|{{bound}} {_WANTED} force|{{end}} (end|bound|edge) of "
-        f"{{band}}|"
-        "{bound} force in the band|{end} band (edge|end|limit)|{bound} target force|{bound} force "
-        "wanted"
+        f"{{bound}} force (of|in) {{band}}|{{bound}} {_WANTED} force|{{end}} (end|bound|"
+        f"edge) of {{band}}|"
+        "{bound} force in the band|{end} band (edge|end|limit)|{bound} target force|"
+        "{bound} force wanted"
     ),
     terse=f"{{unit}} ({_WANTED}|needed) {{at_end}}",
     others=(
-        "{band} {edges} (where|at what force|at how much)|"
-        "what does {band} (ask for|want|call for|say) {at_end}|which is the {bound} force (in|of) "
-        "{band}"
+        "{band} {edges} (where|at what force|at how much)|what does {band} (ask for|want|call for|"
+        "say) {at_end}|which is the {bound} force (in|of) {band}"
     ),
 )
 _BAND_SLOTS = {
@@ -116,9 +115,9 @@ _BOUNDS = ("bound", "edge", "edges", "end", "at_end")
 """Slots that name an end of the force band."""
 
 _LIMIT = (
-    "(the [hard|force|upper force|absolute|strict|safety|grip force|contract] limit|"
-    "the (force|force's|contract's) [hard] limit|our [force] limit|the limit (of the contract|"
-    "on the force|of the force|for the force|for {body}|for {thing}|we must keep|of the grip))"
+    "(the [hard|force|upper force|absolute|strict|safety|grip force|contract] limit|the (force|"
+    "force's|contract's) [hard] limit|our [force] limit|the limit (of the contract|on the force|"
+    "of the force|for the force|for {body}|for {thing}|we must keep|of the grip))"
 )
 _ALLOWED = "(allowed|permitted|tolerated|admissible|permissible|acceptable|authorised|tolerable)"
 _LIMIT_WORDING = Wording(
@@ -131,94 +130,89 @@ _LIMIT_WORDING = Wording(
             "how much force",
             f"is {_ALLOWED} [at most|at the most|on {{thing}}|for {{thing}}]|(may|can) we (use|"
             f"apply) at "
-            "(most|the most)|are we allowed [to use|to apply|to put on {thing}]|"
-            "does the (contract|limit) allow|may {thing} (get|take|see)",
+            "(most|the most)|are we allowed [to use|to apply|to put on {thing}]|does the (contract|"
+            "limit) allow|may {thing} (get|take|see)",
             f"is {_ALLOWED} [at most|on {{thing}}]|we (may|can) (use|apply) at most|"
-            "we are allowed [to use|to apply]|the (contract|limit) allows",
+            f"we are allowed [to use|to apply]|the (contract|limit) allows",
         ),
         Asked(
             "how (hard|firmly|strongly|tightly)",
-            f"(may|can|could) (we|I|the fingers|the robot) {_SQUEEZE} [{{thing}}] at (most|the "
-            f"most)|"
-            f"are we allowed to {_SQUEEZE} [{{thing}}]|may (we|I|the fingers) {_SQUEEZE} "
-            f"[{{thing}}]",
+            f"(may|can|could) (we|I|the fingers|the robot) {_SQUEEZE} [{{thing}}] at (most|"
+            f"the most)|are we allowed to {_SQUEEZE} [{{thing}}]|may (we|I|"
+            f"the fingers) {_SQUEEZE} [{{thing}}]",
             f"(we|I|the fingers) (may|can) {_SQUEEZE} [{{thing}}] at (most|the most)|"
             f"we are allowed to {_SQUEEZE} [{{thing}}]|(we|I) may {_SQUEEZE} [{{thing}}]",
         ),
         Asked(
             "(what|which) force",
-            "must (never|not) be (exceeded|passed|reached|crossed|overstepped)|must we (never|not) "
-            "exceed|"
-            f"should we never (exceed|go beyond)|is {_ALLOWED} at most|is the most we may use|"
-            "may we not exceed|is too much for the contract",
-            "must (never|not) be (exceeded|passed|crossed)|we must (never|not) exceed|"
+            f"must (never|not) be (exceeded|passed|reached|crossed|overstepped)|must we (never|"
+            f"not) exceed|should we never (exceed|go beyond)|is {_ALLOWED} at most|"
+            f"is the most we may use|may we not exceed|is too much for the contract",
+            f"must (never|not) be (exceeded|passed|crossed)|we must (never|not) exceed|"
             f"is {_ALLOWED} at most",
         ),
     ),
     counted=(
         Asked(
             "how many {unit}",
-            f"(are|is) {_ALLOWED} [at most|on {{thing}}]|(is|has) {_LIMIT}|(may|can) we use at "
-            f"most|"
-            f"are we allowed [to use]|may we {_SQUEEZE} [{{thing}}] with [at most]",
+            f"(are|is) {_ALLOWED} [at most|on {{thing}}]|(is|has) {_LIMIT}|(may|"
+            f"can) we use at most|are we allowed [to use]|may we {_SQUEEZE} [{{thing}}] with [at "
+            f"most]",
             f"are {_ALLOWED}|{_LIMIT} is|we are allowed|we may use",
         ),
     ),
     nouns=(
         f"{_LIMIT}|{_LIMIT}|the (maximum|max|greatest|highest|largest|most) {_ALLOWED} force|"
         f"the (maximum|max|greatest|highest|largest) force (that is|we are|we may be) (allowed|"
-        f"permitted)|"
-        "the force (that must not be|we must not|we must never|never to be|not to be) (exceeded|"
-        "exceed)|"
-        f"the {_ALLOWED} (force|maximum|load)|the (ceiling|cap|upper bound) (on|for) the force|"
-        "the (maximum|most) force we may (use|apply)|the limiting force|the force (ceiling|cap)"
+        f"permitted)|the force (that must not be|we must not|we must never|never to be|"
+        f"not to be) (exceeded|exceed)|the {_ALLOWED} (force|maximum|load)|the (ceiling|cap|"
+        f"upper bound) (on|for) the force|the (maximum|most) force we may (use|apply)|"
+        f"the limiting force|the force (ceiling|cap)"
     ),
     bare=(
-        "limit|force limit|hard limit|limit of the contract|contract limit|limit on the force|"
+        f"limit|force limit|hard limit|limit of the contract|contract limit|limit on the force|"
         f"(maximum|max) {_ALLOWED} force|{_ALLOWED} force|limit force|grip force limit|force cap|"
         "safety limit|force ceiling|upper force limit|limit for ({body}|{thing})"
     ),
     terse=f"{{unit}} {_ALLOWED}|{{unit}} at the limit|limit {{unit}}",
     others=(
-        f"which is {_LIMIT}|at (what|which) force (is|comes) {_LIMIT}|at what force must we "
-        "stop|beyond (what|which) force must we not go|up to (what|which) force may we (go|squeeze|"
+        f"which is {_LIMIT}|at (what|which) force (is|comes) {_LIMIT}|at what force must we stop|"
+        f"beyond (what|which) force must we not go|up to (what|which) force may we (go|squeeze|"
         f"press)|{_LIMIT} is (what|how much|how high)|what limit (applies|holds|do we have|was set|"
-        f"is "
-        "set|does the contract set|is in the contract|must we respect|do we have to respect)"
+        f"is set|does the contract set|is in the contract|must we respect|do we have to respect)"
     ),
 )
 
 _TO_LIMIT = "(to|until|before|up to) (the|our) [force|hard|safety|grip force] limit"
 _BEFORE_LIMIT = (
-    "(before (the limit|we (hit|reach|break|exceed|cross|are at) the [force|hard] limit|it is over "
-    "the "
-    "limit)|until we (hit|reach|are at) the [force|hard] limit|without (breaking|exceeding|passing|"
-    "crossing) the [force|hard] limit|(within|under) the [force|hard] limit|up to the [force] "
-    "limit)"
+    "(before (the limit|we (hit|reach|break|exceed|cross|are at) the [force|hard] limit|"
+    "it is over the limit)|until we (hit|reach|are at) the [force|hard] limit|without (breaking|"
+    "exceeding|passing|crossing) the [force|hard] limit|(within|under) the [force|hard] limit|"
+    "up to the [force] limit)"
 )
 _ROOM = "(room|margin|headroom|leeway|slack|reserve|play|allowance|space|buffer|distance)"
 _HEADROOM_WORDING = Wording(
     asked=(
         Asked(
             "how much [more] force",
-            f"(is left|remains|is there left|is still free|do we have left|have we left) "
-            f"{_TO_LIMIT}|"
-            f"(may|can|could) (we|I) (add|put on|apply|use|still add) {_BEFORE_LIMIT}",
-            f"(is left|remains|is still free|we have left) {_TO_LIMIT}|"
-            f"we (may|can|could) (add|put on|apply|still add) {_BEFORE_LIMIT}",
+            f"(is left|remains|is there left|is still free|do we have left|"
+            f"have we left) {_TO_LIMIT}|(may|can|could) (we|I) (add|put on|apply|use|"
+            f"still add) {_BEFORE_LIMIT}",
+            f"(is left|remains|is still free|we have left) {_TO_LIMIT}|we (may|can|could) (add|"
+            f"put on|apply|still add) {_BEFORE_LIMIT}",
         ),
         Asked(
             f"how much {_ROOM}",
-            f"(is left|is there|remains|do we have|have we got|have we) {_TO_LIMIT}|"
-            "(is there|does the force have|do we have) (to|below) the limit",
+            f"(is left|is there|remains|do we have|have we got|have we) {_TO_LIMIT}|(is there|"
+            f"does the force have|do we have) (to|below) the limit",
             f"(is left|there is|remains|we have) {_TO_LIMIT}",
         ),
         Asked(
             "how far",
-            "(are we|is the [grip] force|is the grip) (from|below|away from|under) (the|our) "
-            "[force|hard] limit",
-            "(we are|the [grip] force is|the grip is) (from|below|away from|under) (the|our) "
-            "[force|hard] limit",
+            "(are we|is the [grip] force|is the grip) (from|below|away from|under) (the|"
+            "our) [force|hard] limit",
+            "(we are|the [grip] force is|the grip is) (from|below|away from|under) (the|"
+            "our) [force|hard] limit",
         ),
         Asked(
             "how (close|near)",
@@ -232,17 +226,15 @@ _HEADROOM_WORDING = Wording(
         ),
         Asked(
             "(how much [more]|by how much)",
-            f"(can|may|could) the (force|grip force) (grow|rise|increase|go up) "
-            f"[{_BEFORE_LIMIT}]|"
-            f"(is the force|are we) (below|under) the "
-            f"[force] limit",
+            f"(can|may|could) the (force|grip force) (grow|rise|increase|go up) [{_BEFORE_LIMIT}]|"
+            f"(is the force|are we) (below|under) the [force] limit",
             f"the (force|grip force) (can|may) (grow|rise|increase) [{_BEFORE_LIMIT}]|"
-            f"is left {_TO_LIMIT}|(the force is|we are) (below|under) the [force] limit",
+            f"(the force is|we are) (below|under) the [force] limit",
         ),
         Asked(
             "what",
-            f"is the (force|{_ROOM}) (left|that is left|remaining) {_TO_LIMIT}|"
-            f"is the {_ROOM} (to|below|up to) the [force|hard] limit|is the force margin",
+            f"is the (force|{_ROOM}) (left|that is left|remaining) {_TO_LIMIT}|is the {_ROOM} (to|"
+            f"below|up to) the [force|hard] limit|is the force margin",
             f"the {_ROOM} (to|below|up to) the [force|hard] limit is|the force margin is|"
             f"is left {_TO_LIMIT}|remains {_TO_LIMIT}",
         ),
@@ -250,18 +242,18 @@ _HEADROOM_WORDING = Wording(
     counted=(
         Asked(
             "how many [more] {unit}",
-            f"(are left|remain|do we have [left]|are there [left]|are we|is it) {_TO_LIMIT}|"
-            f"(can|may) (we|I) (add|put on|still add) [{_BEFORE_LIMIT}]",
-            f"(are left|remain|we have|we are|there are) {_TO_LIMIT}|"
-            f"we (can|may) (add|still add) [{_BEFORE_LIMIT}]",
+            f"(are left|remain|do we have [left]|are there [left]|are we|is it) {_TO_LIMIT}|(can|"
+            f"may) (we|I) (add|put on|still add) [{_BEFORE_LIMIT}]",
+            f"(are left|remain|we have|we are|there are) {_TO_LIMIT}|we (can|may) (add|"
+            f"still add) [{_BEFORE_LIMIT}]",
         ),
     ),
     nouns=(
-        f"the {_ROOM} (to|below|up to) the [force|hard] limit|"
-        f"the (force|newtons) [that is] left {_TO_LIMIT}|the force (margin|reserve|headroom)|"
-        "the (gap|difference) between the force and the limit|the headroom|the remaining force "
-        "[up to the limit]|the difference (to|from) the limit|our (margin|headroom|safety margin)|"
-        "the safety margin|the limit minus the [present|current] force|the distance from the limit"
+        f"the {_ROOM} (to|below|up to) the [force|hard] limit|the (force|"
+        f"newtons) [that is] left {_TO_LIMIT}|the force (margin|reserve|headroom)|the (gap|"
+        f"difference) between the force and the limit|the headroom|the remaining force [up to the "
+        f"limit]|the difference (to|from) the limit|our (margin|headroom|safety margin)|"
+        f"the safety margin|the limit minus the [present|current] force|the distance from the limit"
     ),
     bare=(
         "headroom|force headroom|force margin|margin to the limit|margin|room to the limit|"
@@ -275,8 +267,7 @@ _HEADROOM_WORDING = Wording(
     others=(
         f"what (is left|remains) {_TO_LIMIT}|can we {_SQUEEZE} harder and by how much|"
         f"how much (harder|more) {_BEFORE_LIMIT}|how much is (it|there) {_TO_LIMIT}|"
-        ""
-        "how much more (squeezing|pressing|gripping|force) is (allowed|permitted)"
+        f"how much more (squeezing|pressing|gripping|force) is (allowed|permitted)"
     ),
 )
 
@@ -298,9 +289,8 @@ _MASS_WORDING = Wording(
         Asked(
             f"(what|which|how much) {_WEIGHT}",
             "(does|did) {thing} have|has {thing}|(were|are) (you|we) (told|given)|is {thing}|"
-            "is (in the gripper|in our hand|between the fingers|given|known|on record)|do we have "
-            "for "
-            "{thing}|are we (holding|gripping|lifting)|do you assume|is it",
+            "is (in the gripper|in our hand|between the fingers|given|known|on record)|"
+            "do we have for {thing}|are we (holding|gripping|lifting)|do you assume|is it",
             "{thing} has|(you|we) were (told|given)|is (in the gripper|given|known)|{thing} is|"
             "we are (holding|gripping|lifting)|you assume",
         ),
@@ -309,32 +299,28 @@ _MASS_WORDING = Wording(
     counted=(
         Asked(
             "how many {unit}",
-            "(does|did) {thing} (weigh|have)|is {thing}|heavy is {thing}|has {thing}|are we "
-            "(lifting|about to lift)|is the (weight|mass)|does the scale say",
+            "(does|did) {thing} (weigh|have)|is {thing}|heavy is {thing}|has {thing}|"
+            "are we (lifting|about to lift)|is the (weight|mass)|does the scale say",
             "{thing} (weighs|is|has)|the (weight|mass) is",
         ),
     ),
     nouns=(
         f"the {_WEIGHT} [of {{thing}}]|the {_WEIGHT} [of {{thing}}]|its {_WEIGHT}|"
         f"the {_WEIGHT} (you were told|that was given|of what we (hold|are holding|grip|lift)|"
-        "in the gripper|between the fingers|to be lifted|on record)|"
-        f"the object {_WEIGHT}|the {_WEIGHT} (we have|we are going) to lift|the heaviness of "
-        f"{{thing}}|"
+        f"in the gripper|between the fingers|to be lifted|on record)|the object {_WEIGHT}|"
+        f"the {_WEIGHT} (we have|we are going) to lift|the heaviness of {{thing}}|"
         "the weight {thing} has"
     ),
     bare=(
-        "weight|mass|weight of {thing}|mass of {thing}|object (weight|mass)|weight of the "
-        "(thing|item|part)|item weight|part weight|known (mass|weight)|given (mass|"
-        "weight)"
+        "weight|mass|weight of {thing}|mass of {thing}|object (weight|mass)|weight of the (thing|"
+        "item|part)|item weight|part weight|known (mass|weight)|given (mass|weight)"
     ),
     terse="weight {unit}|mass {unit}|{unit} (it weighs|on the scale)|how many {unit} heavy",
     others=(
         "{thing} (weighs|is) (how much|how heavy|how many {unit})|{thing} has (what|which) (weight|"
-        "mass)|"
-        "how heavy might {thing} be|if I (put|laid) {thing} on a scale , "
-        "what would it (show|say|read)|what would a (scale|balance) (show|say|read) for {thing}|"
-        "what weight (goes|should I note|is noted) for {thing}|how heavy|"
-        "what did they say {thing} weighs"
+        "mass)|how heavy might {thing} be|if I (put|laid) {thing} on a scale , what would it (show|"
+        "say|read)|what would a (scale|balance) (show|say|read) for {thing}|what weight (goes|"
+        "should I note|is noted) for {thing}|how heavy|what did they say {thing} weighs"
     ),
 )
 _CARRY = "(hold|carry|lift|bear|take|support|hold up|handle|keep hold of|hold on to)"
@@ -364,18 +350,16 @@ _HOLDS_WORDING = Wording(
             "how heavy",
             f"(may|can|could|might) {{thing}} be ({_SLIPPING}|for this grip|at most for this grip)|"
             f"(may|can) {{thing}} be at most|would {{thing}} have to be to slip",
-            f"{{thing}} (may|can|could) be ({_SLIPPING}|for this grip)|{{thing}} (may|can) be at "
-            f"most",
+            f"{{thing}} (may|can|could) be ({_SLIPPING}|for this grip)|{{thing}} (may|"
+            f"can) be at most",
         ),
         Asked(
             "what",
-            "is the (largest|greatest|highest|heaviest|maximum|biggest|most) (weight|mass|load|"
-            "thing) "
-            f"{_GRIPPER} can {_CARRY} {_WITH}|is the (payload|carrying capacity|load capacity) "
-            "[of this grip]",
-            f"the (largest|greatest|highest|heaviest|maximum) (weight|mass|load) {_GRIPPER} can "
-            f"{_CARRY} "
-            "is|the (payload|carrying capacity) of this grip is",
+            f"is the (largest|greatest|highest|heaviest|maximum|biggest|most) (weight|mass|load|"
+            f"thing) {_GRIPPER} can {_CARRY} {_WITH}|is the (payload|carrying capacity|"
+            f"load capacity) [of this grip]",
+            f"the (largest|greatest|highest|heaviest|maximum) (weight|mass|"
+            f"load) {_GRIPPER} can {_CARRY} is|the (payload|carrying capacity) of this grip is",
         ),
         Asked(
             "(at|from|above) (what|which) (weight|mass)",
@@ -385,46 +369,45 @@ _HOLDS_WORDING = Wording(
         ),
         Asked(
             "up to (what|which) (weight|mass|load)",
-            f"(can|will|does|would) (this|the|our) (grip|force|grasp) {_CARRY} [{{thing}}]|"
-            "(is|are) (this grip|we) (safe|strong enough|good enough)",
-            f"(this|the|our) (grip|force|grasp) (can|will) {_CARRY} [{{thing}}]|this grip is "
-            "(safe|strong enough)",
+            f"(can|will|does|would) (this|the|our) (grip|force|grasp) {_CARRY} [{{thing}}]|(is|"
+            f"are) (this grip|we) (safe|strong enough|good enough)",
+            f"(this|the|our) (grip|force|grasp) (can|will) {_CARRY} [{{thing}}]|this grip is (safe|"
+            f"strong enough)",
         ),
     ),
     counted=(
         Asked(
             "how many {unit}",
-            f"(can|could|will|would) {_GRIPPER} {_CARRY} {_WITH} [{_SLIPPING}]|"
-            f"(may|can) {{thing}} (weigh|have) ({_SLIPPING}|at most)",
+            f"(can|could|will|would) {_GRIPPER} {_CARRY} {_WITH} [{_SLIPPING}]|(may|"
+            f"can) {{thing}} (weigh|have) ({_SLIPPING}|at most)",
             f"{_GRIPPER} (can|could|will|would) {_CARRY} {_WITH}|{{thing}} may weigh {_SLIPPING}",
         ),
     ),
     nouns=(
-        "the (largest|greatest|highest|heaviest|maximum|biggest|most) (weight|mass|load|thing|"
-        "object) "
-        f"({_GRIPPER} can {_CARRY}|for this grip|that does not slip|that stays in the grip)|"
-        "the (payload|carrying capacity|load capacity|holding capacity|lifting capacity) "
-        "[of this grip|of the grip|at this force|with this force]|the weight (at|above) which "
-        "{thing} "
-        "(slips|would slip|starts to slip)|the heaviest load [held]|the (most|maximum) we can lift|"
+        f"the (largest|greatest|highest|heaviest|maximum|biggest|most) (weight|mass|load|thing|"
+        f"object) ({_GRIPPER} can {_CARRY}|for this grip|that does not slip|"
+        f"that stays in the grip)|the (payload|carrying capacity|load capacity|holding capacity|"
+        f"lifting capacity) [of this grip|of the grip|at this force|with this force]|"
+        f"the weight (at|above) which "
+        "{thing} (slips|would slip|starts to slip)|the heaviest load [held]|the (most|"
+        "maximum) we can lift|"
         f"the weight this grip can {_CARRY}|the (weight|mass) (limit|capacity) of this grip"
     ),
     bare=(
         "payload|max payload|maximum payload|carrying capacity|load capacity|holding capacity|"
-        "heaviest load|max load for this grip|lifting capacity|payload of this grip|max weight we "
-        "can "
-        "(hold|lift|carry)|most weight we can (hold|lift|carry)|weight capacity|grip capacity|"
-        "maximum load (held|we can hold)|heaviest thing we can (hold|lift)"
+        "heaviest load|max load for this grip|lifting capacity|payload of this grip|"
+        "max weight we can (hold|lift|carry)|most weight we can (hold|lift|carry)|weight capacity|"
+        "grip capacity|maximum load (held|we can hold)|heaviest thing we can (hold|lift)"
     ),
     terse=(
         f"{{unit}} (this grip|we) can {_CARRY}|{{unit}} of payload|{{unit}} (held|carried) at most"
     ),
     others=(
-        f"how much can {_GRIPPER} {_CARRY}|how much may {{thing}} weigh "
-        f"({_SLIPPING}|at most|for this grip)|what may {{thing}} weigh ({_SLIPPING}|at most)|"
+        f"how much can {_GRIPPER} {_CARRY}|how much may {{thing}} weigh ({_SLIPPING}|at most|"
+        f"for this grip)|what may {{thing}} weigh ({_SLIPPING}|at most)|"
         f"this grip can {_CARRY} (what|how much)|what can {_GRIPPER} {_CARRY} at most|"
         f"how much weight is this grip good for|how strong is this grip in terms of (weight|load)|"
-        "what is the heaviest we can (lift|hold|carry) "
+        f"what is the heaviest we can (lift|hold|carry) "
         + _WITH
         + "|what payload (does this grip have|"
         "is possible|can we lift|do we have|does this force allow)"

@@ -17,8 +17,8 @@ from tacgrasp.lessons.dialogue.families.family import QuestionFamily
 from tacgrasp.lessons.dialogue.meaning import Amount, Several
 
 _MIDDLE = (
-    "(the (center|center|middle|middle|midpoint|center point|mid point|exact center) "
-    "[of {gel}]|(center|dead center))"
+    "(the (center|center|middle|middle|midpoint|center point|mid point|exact center) [of {gel}]|"
+    "(center|dead center))"
 )
 _TARGET = "({thing}|{touch}|the (contact|touch) point|the (contact|imprint|touch))"
 
@@ -35,8 +35,8 @@ def _coordinate(axis: str, way: str, sides: str) -> Wording:
         f"(along {axis}|along the {axis} axis|in {axis}|in the {axis} direction|on the {axis} axis)"
     )
     name = (
-        f"{axis} [coordinate|position|value|location|reading|component|place]|"
-        f"{way} (position|coordinate|location)|{axis} of {{touch}}"
+        f"{axis} [coordinate|position|value|location|reading|component|place]|{way} (position|"
+        f"coordinate|location)|{axis} of {{touch}}"
     )
     return Wording(
         asked=(
@@ -45,22 +45,22 @@ def _coordinate(axis: str, way: str, sides: str) -> Wording:
             Asked(f"how far ({sides})", f"is {_TARGET}|are we", f"{_TARGET} is|we are"),
             Asked(
                 f"how far ({sides})",
-                "does {thing} (lie|sit|touch|press|rest)|did {thing} land|did we (touch|hit) "
-                "{thing}",
+                "does {thing} (lie|sit|touch|press|rest)|did {thing} land|did we (touch|"
+                "hit) {thing}",
                 "{thing} (lies|sits|touches|presses|rests|landed)|we touched {thing}",
             ),
             Asked(f"how far {along}", f"is {_TARGET}|are we", f"{_TARGET} is|we are"),
             Asked(
                 f"(at|on) (what|which) {axis} [coordinate|value|position]",
-                f"is {_TARGET}|does {{thing}} (lie|sit|touch|press|rest)|do you feel {{thing}}|are "
-                f"we",
-                f"{_TARGET} is|{{thing}} (lies|sits|touches|presses|rests)|you feel {{thing}}|we "
-                f"are",
+                f"is {_TARGET}|does {{thing}} (lie|sit|touch|press|rest)|do you feel {{thing}}|"
+                f"are we",
+                f"{_TARGET} is|{{thing}} (lies|sits|touches|presses|rests)|you feel {{thing}}|"
+                f"we are",
             ),
             Asked(
                 f"(what|which) {axis} [coordinate|value|position|reading]",
                 f"do you (read|measure|get|have|feel|see)|does {_TARGET} have|is it|"
-                "does the sensor (show|read|give)|did you (get|measure)",
+                f"does the sensor (show|read|give)|did you (get|measure)",
                 f"you (read|measure|get|have|see)|{_TARGET} has|it is|the sensor (shows|reads)",
             ),
             Asked(
@@ -78,9 +78,9 @@ def _coordinate(axis: str, way: str, sides: str) -> Wording:
         ),
         nouns=(
             f"the ({axis} [coordinate|position|value|location|reading|component]) [of {_TARGET}]|"
-            f"{axis}|{axis} [coordinate|position|value] of {_TARGET}|"
-            f"the {way} (position|coordinate|location) [of {_TARGET}]|"
-            f"the (position|coordinate|location) [of {_TARGET}] {along}|your {axis}|its {axis} "
+            f"{axis}|{axis} [coordinate|position|value] of {_TARGET}|the {way} (position|"
+            f"coordinate|location) [of {_TARGET}]|the (position|coordinate|"
+            f"location) [of {_TARGET}] {along}|your {axis}|its {axis} "
             "[coordinate|position|value]|the signed offset " + along
         ),
         bare=(
@@ -90,9 +90,9 @@ def _coordinate(axis: str, way: str, sides: str) -> Wording:
         ),
         terse=f"{{unit}} ({sides}|{along})|{axis} {{unit}}",
         others=(
-            f"{{thing}} (is|sits|lies) at (what|which) {axis}|{axis} is (what|how much)|"
-            f"how (large|big|great) is (the [value of] {axis}|{axis}) [of {_TARGET}]|"
-            f"{axis} equals (what|how much)"
+            f"{{thing}} (is|sits|lies) at (what|which) {axis}|{axis} is (what|how much)|how (large|"
+            f"big|great) is (the [value of] {axis}|{axis}) [of {_TARGET}]|{axis} equals (what|"
+            f"how much)"
         ),
     )
 
@@ -158,9 +158,8 @@ def _midline(line: str, sideways: str, adjective: str, extra: str) -> Wording:
             ),
             Asked(
                 "(what|which) distance",
-                f"(is|lies) {_TARGET} from {line}|is there (to|from) {line}|does {{thing}} have "
-                f"(to|from) "
-                f"{line}",
+                f"(is|lies) {_TARGET} from {line}|is there (to|from) {line}|"
+                f"does {{thing}} have (to|from) {line}",
                 f"{_TARGET} (is|lies) from {line}|there is to {line}|{{thing}} has from {line}",
             ),
         ),
@@ -174,9 +173,8 @@ def _midline(line: str, sideways: str, adjective: str, extra: str) -> Wording:
         ),
         nouns=(
             f"the (distance|gap|deviation|offset) [of {_TARGET}] (from|to) {line}|"
-            f"the {name} {of_middle}|the distance between {_TARGET} and {line}|"
-            f"the (distance|offset) from {_MIDDLE} ({sideways})|"
-            f"the {name}"
+            f"the {name} {of_middle}|the distance between {_TARGET} and {line}|the (distance|"
+            f"offset) from {_MIDDLE} ({sideways})|the {name}"
         ),
         bare=(
             f"distance (from|to) {line}|{name}|{name}|{adjective} (centering|centring) error|"
@@ -184,11 +182,11 @@ def _midline(line: str, sideways: str, adjective: str, extra: str) -> Wording:
         ),
         terse=f"{{unit}} ({off} ({sideways})|from {line})",
         others=(
-            f"no matter which side, how far ({sideways}) is {_TARGET} {off}|by how much is "
-            f"{_TARGET} "
-            f"{off} ({sideways})|how (large|big|great) is the ({name}|distance (from|to) {line})|"
-            f"{_TARGET} is how far from {line}|({sideways}) , how far [off] is {_TARGET} {off}|"
-            f"({sideways}) , how far (from|off) {_MIDDLE} (is {_TARGET}|are we)"
+            f"no matter which side, how far ({sideways}) is {_TARGET} {off}|"
+            f"by how much is {_TARGET} {off} ({sideways})|how (large|big|great) is the ({name}|"
+            f"distance (from|to) {line})|{_TARGET} is how far from {line}|"
+            f"({sideways}) , how far [off] is {_TARGET} {off}|({sideways}) , how far (from|"
+            f"off) {_MIDDLE} (is {_TARGET}|are we)"
         ),
     )
 
@@ -196,8 +194,8 @@ def _midline(line: str, sideways: str, adjective: str, extra: str) -> Wording:
 _OFF_X = _midline(
     "(vertical (midline|center line|centerline|middle line|axis|line|mid line)|y axis|"
     "midline that runs up and down|long midline)",
-    "horizontally|sideways|laterally|along x|in x|in the x direction|from side to side|"
-    "to the side|to one side",
+    "horizontally|sideways|laterally|along x|in x|in the x direction|from side to side|to the side|"
+    "to one side",
     "(horizontal|sideways|lateral|side-to-side|absolute x|unsigned x)",
     "to the side|sideways|off to the side|off to one side|to one side|out to the side|aside|"
     "off sideways|over to one side",
@@ -208,9 +206,8 @@ _OFF_Y = _midline(
     "vertically|lengthwise|along y|in y|in the y direction|along the finger|up or down the finger|"
     "along the length of the finger|lengthways",
     "(vertical|lengthwise|lengthways|absolute y|unsigned y|up-and-down)",
-    "off lengthwise|off vertically|off along the finger|out lengthwise|off in y|out along the "
-    "finger|"
-    "off lengthways|off along the length of the finger",
+    "off lengthwise|off vertically|off along the finger|out lengthwise|off in y|"
+    "out along the finger|off lengthways|off along the length of the finger",
 )
 
 _OFF = f"(off center|off {_MIDDLE}|from {_MIDDLE}|away from {_MIDDLE}|out from {_MIDDLE})"
@@ -237,18 +234,17 @@ _DISTANCE = Wording(
         Asked(
             "how (badly|much|far|greatly|strongly)",
             f"is {_TARGET} (off center|decentered|off {_MIDDLE}|out of center|miscentered|"
-            f"misplaced)|"
-            f"(did|do) we miss {_MIDDLE}|is {_TARGET} shifted from {_MIDDLE}|are we off {_MIDDLE}",
+            f"misplaced)|(did|do) we miss {_MIDDLE}|is {_TARGET} shifted from {_MIDDLE}|"
+            f"are we off {_MIDDLE}",
             f"{_TARGET} is (off center|decentered|off {_MIDDLE}|out of center)|we missed {_MIDDLE}|"
             f"{_TARGET} is shifted from {_MIDDLE}|we are off {_MIDDLE}",
         ),
         Asked(
             "(what|which|at what) distance [from the center|from the middle]",
-            f"is {_TARGET}|does {{thing}} (lie|sit|have)|is there (to|from) {_MIDDLE}|do you "
-            f"(measure|"
-            f"read|get) (to|from) {_MIDDLE}",
-            f"{_TARGET} is|{{thing}} (lies|sits|has)|there is to {_MIDDLE}|you measure to "
-            f"{_MIDDLE}",
+            f"is {_TARGET}|does {{thing}} (lie|sit|have)|is there (to|from) {_MIDDLE}|"
+            f"do you (measure|read|get) (to|from) {_MIDDLE}",
+            f"{_TARGET} is|{{thing}} (lies|sits|has)|there is to {_MIDDLE}|"
+            f"you measure to {_MIDDLE}",
         ),
         Asked(
             "what",
@@ -259,8 +255,8 @@ _DISTANCE = Wording(
         ),
         Asked(
             "by (how much|what distance)",
-            f"(did|do) we miss {_MIDDLE}|is {_TARGET} (off|off center|away from {_MIDDLE})|"
-            f"(does|did) {{thing}} miss {_MIDDLE}",
+            f"(did|do) we miss {_MIDDLE}|is {_TARGET} (off|off center|away from {_MIDDLE})|(does|"
+            f"did) {{thing}} miss {_MIDDLE}",
             f"we (miss|missed) {_MIDDLE}|{_TARGET} is (off center|away from {_MIDDLE})|"
             f"{{thing}} (misses|missed) {_MIDDLE}",
         ),
@@ -279,34 +275,33 @@ _DISTANCE = Wording(
         f"the distance between {_TARGET} and {_MIDDLE}|the centering (error|offset|accuracy)|"
         "the eccentricity [of {touch}]|the radial (distance|offset|error|position)|"
         f"the (distance|offset) of the contact from {_MIDDLE}|the (off-center|center) distance|"
-        f"the straight-line distance (from|to) {_MIDDLE}|"
-        f"the (total|overall) (offset|distance) from {_MIDDLE}"
+        f"the straight-line distance (from|to) {_MIDDLE}|the (total|overall) (offset|"
+        f"distance) from {_MIDDLE}"
     ),
     bare=(
-        f"distance (from|to) {_MIDDLE}|distance to center|distance from center|offset from "
-        f"{_MIDDLE}|"
-        "off-center distance|centering error|radial distance|radial offset|eccentricity|"
-        "center distance|center offset|offset from center|deviation from center|"
-        "distance to the middle|distance off center"
+        f"distance (from|to) {_MIDDLE}|distance to center|distance from center|"
+        f"offset from {_MIDDLE}|off-center distance|centering error|radial distance|radial offset|"
+        f"eccentricity|center distance|center offset|offset from center|deviation from center|"
+        f"distance to the middle|distance off center"
     ),
     terse=f"{{unit}} ({_OFF}|to {_MIDDLE})",
     others=(
-        f"how well (centered|placed in the middle) is {_TARGET}|{_TARGET} is how far (off|from) "
-        f"{_MIDDLE}|how (large|big|great) is the (centering error|eccentricity|(distance|offset) "
-        f"(from|to) {_MIDDLE})|how far out is {_TARGET}|how far from being centered is {_TARGET}|"
-        f"how far would (we|I) have to (move|shift) to (center {{thing}}|be centered)|"
-        "how much distance is there to the (center|middle)|how far off center"
+        f"how well (centered|placed in the middle) is {_TARGET}|{_TARGET} is how far (off|"
+        f"from) {_MIDDLE}|how (large|big|great) is the (centering error|eccentricity|(distance|"
+        f"offset) (from|to) {_MIDDLE})|how far out is {_TARGET}|how far from being centered is "
+        f"{_TARGET}|how far would (we|I) have to (move|shift) to (center {{thing}}|be centered)|"
+        f"how much distance is there to the (center|middle)|how far off center"
     ),
 )
 
 _COORDINATES = (
-    "the [exact|precise|x and y|contact|touch|x y] coordinates [of {touch}|of {thing}]|"
-    "(x and y|both coordinates|both x and y) [of {touch}|of {thing}|of the contact point]|"
+    "the [exact|precise|x and y|contact|touch|x y] coordinates [of {touch}|of {thing}]|(x and y|"
+    "both coordinates|both x and y) [of {touch}|of {thing}|of the contact point]|"
     "the x and [the] y [of {touch}|of {thing}|coordinates|values|positions]|its coordinates|"
-    "the ([contact|touch] position|contact point|location of {thing}|position of {thing}|location) "
-    "in "
-    "(millimetres|mm|coordinates|x and y|numbers)|the x coordinate and the y coordinate|"
-    "the numerical (position|location)|the x and y (coordinate|coordinates|offsets|offset)"
+    "the ([contact|touch] position|contact point|location of {thing}|position of {thing}|"
+    "location) in (millimetres|mm|coordinates|x and y|numbers)|the x coordinate and the y "
+    "coordinate|the numerical (position|location)|the x and y (coordinate|coordinates|offsets|"
+    "offset)"
 )
 _AT = "(at which|at what|on which) (coordinates|x and y|x and y coordinates)"
 _EXACTLY = "(in (mm|millimetres|coordinates|x and y|terms of x and y|numbers)|on the x and y axes)"
@@ -321,15 +316,13 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="coordinates",
         pattern=(
-            f"{{lead}} {OPENING} ( what are ({_COORDINATES}) | {{ask}} what ({_COORDINATES}) are "
-            f"| ([{{want}}]|{GET}) ({_COORDINATES}) | {_AT} (is ({{touch}}|{{thing}})|does "
-            f"{{thing}} "
-            f"(lie|sit|touch|press)|do you feel {{thing}}) | ({{ask}}|{FIND}) {_AT} ({{touch}}|"
-            f"{{thing}}) "
-            f"is | where [exactly] is ({{touch}}|{{thing}}) {_EXACTLY} | ({{ask}}|{FIND}) where "
-            f"[exactly] "
-            f"({{touch}}|{{thing}}) is {_EXACTLY} | ({_SHORT}) [in (mm|millimetres)] "
-            f"| [the|your] ({_SHORT}) ) [in {{unit}}] {CLOSING} {{tail}}"
+            f"{{lead}} {OPENING} ( what are ({_COORDINATES}) | {{ask}} what ({_COORDINATES}) are |"
+            f" ([{{want}}]|{GET}) ({_COORDINATES}) | {_AT} (is ({{touch}}|{{thing}})|"
+            f"does {{thing}} (lie|sit|touch|press)|do you feel {{thing}}) | ({{ask}}|"
+            f"{FIND}) {_AT} ({{touch}}|{{thing}}) is | where [exactly] is ({{touch}}|"
+            f"{{thing}}) {_EXACTLY} | ({{ask}}|{FIND}) where [exactly] ({{touch}}|"
+            f"{{thing}}) is {_EXACTLY} | ({_SHORT}) [in (mm|millimetres)] | [the|"
+            f"your] ({_SHORT}) ) [in {{unit}}] {CLOSING} {{tail}}"
         ),
         build=lambda *_: Several(
             parts=(Amount(quantity="x", unit="mm"), Amount(quantity="y", unit="mm"))

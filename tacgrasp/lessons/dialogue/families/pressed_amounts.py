@@ -14,8 +14,8 @@ from tacgrasp.lessons.dialogue.families.amount_wordings import (
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
 
 _DENT = (
-    "(the (dent|dip|dimple|indentation|impression|imprint|print|mark|hollow|depression|"
-    "deformation|penetration|press|contact|touch|pit) [in {gel}|on {gel}|of {thing}])"
+    "(the (dent|dip|dimple|indentation|impression|imprint|print|mark|hollow|depression|deformation|"
+    "penetration|press|contact|touch|pit) [in {gel}|on {gel}|of {thing}])"
 )
 _INTO = "(in|in|into {gel}|into {gel}|inside {gel})"
 _SUNK = (
@@ -43,8 +43,8 @@ _DEPTH = Wording(
         Asked(
             "how (deep|far|deeply|much)",
             f"does {{thing}} (go|sink|push|press|dig|poke|bite|cut|dip|stick|reach) {_INTO}",
-            f"{{thing}} (goes|sinks|pushes|presses|digs|pokes|bites|cuts|dips|sticks|reaches) "
-            f"{_INTO}",
+            f"{{thing}} (goes|sinks|pushes|presses|digs|pokes|bites|cuts|dips|sticks|"
+            f"reaches) {_INTO}",
         ),
         Asked(
             "how deep",
@@ -59,12 +59,12 @@ _DEPTH = Wording(
         ),
         Asked(
             "how (deep|far|deeply)",
-            f"are {{hands}} {_PRESSING} [{{thing}}] {_INTO}|did (we|you|I) (press|push) "
-            f"[{{thing}}] {_INTO}|"
-            f"have (we|you|I) (pressed|pushed|gone) [{{thing}}] {_INTO}|are we in",
-            f"{{hands}} are {_PRESSING} [{{thing}}] {_INTO}|(we|you|I) (pressed|pushed) "
-            f"[{{thing}}] {_INTO}|"
-            f"we have (pressed|pushed|gone) [{{thing}}] {_INTO}|we are in",
+            f"are {{hands}} {_PRESSING} [{{thing}}] {_INTO}|did (we|you|I) (press|"
+            f"push) [{{thing}}] {_INTO}|have (we|you|I) (pressed|pushed|gone) [{{thing}}] {_INTO}|"
+            f"are we in",
+            f"{{hands}} are {_PRESSING} [{{thing}}] {_INTO}|(we|you|I) (pressed|"
+            f"pushed) [{{thing}}] {_INTO}|we have (pressed|pushed|gone) [{{thing}}] {_INTO}|"
+            f"we are in",
         ),
         Asked(
             "how (deeply|far|much|deep)",
@@ -74,8 +74,7 @@ _DEPTH = Wording(
         Asked(
             "how (much|far|deeply)",
             "(does|did) {thing} (dent|indent|press in|push in|squash|squish|compress|deform|"
-            "depress) "
-            "{gel}|is {thing} (denting|compressing|squashing|deforming|pressing in) {gel}",
+            "depress) {gel}|is {thing} (denting|compressing|squashing|deforming|pressing in) {gel}",
             "{thing} (dents|indents|presses in|squashes|squishes|compresses|deforms) {gel}|"
             "{thing} is (denting|compressing|squashing|deforming) {gel}",
         ),
@@ -104,14 +103,19 @@ _DEPTH = Wording(
             "is the ([contact|press] depth|indentation|penetration)",
             "the ([contact|press] depth|indentation|penetration) is",
         ),
+        Asked(
+            "how (squished|squashed|compressed|dented|indented|deformed)",
+            "is {gel} [by {thing}|under {thing}]",
+            "{gel} is [by {thing}|under {thing}]",
+        ),
     ),
     counted=(
         Asked(
             "how many {unit}",
             f"(deep|in|into {{gel}}) is ({{thing}}|{_DENT})|deep are we|is {{thing}} {_SUNK} in|"
             "does {thing} (sink|go|press|push|dig) (in|into {gel})|of (depth|indentation) [is it|"
-            "are "
-            "there|do you feel|do you have]|deep|are we in|does {gel} give way|is {gel} pressed in",
+            "are there|do you feel|do you have]|deep|are we in|does {gel} give way|"
+            "is {gel} pressed in",
             f"(deep|in) {{thing}} is|{{thing}} (is {_SUNK} in|sinks in|goes in|presses in)|"
             "of (depth|indentation) there are|{gel} is pressed in|we are in",
         ),
@@ -125,11 +129,10 @@ _DEPTH = Wording(
         "the [contact|press|pressing|indentation|maximum|largest|greatest|peak|present|overall|"
         "penetration|dent|gel] depth|the indentation|the penetration [depth]|the dent|"
         "the depth of (the contact|the dent|the indentation|the press|the imprint|{body}|{touch})|"
-        "the (depth|distance) to which {thing} is pressed [in]|"
-        "the depth (in|into|on|at|under) {gel}|the [largest|deepest] indentation [of {gel}]|"
-        "the deepest (point|spot) of {touch}|the amount of indentation|the depth you (feel|"
-        "measure)|"
-        "the (compression|deformation) (depth|of {gel})|the depth that {thing} reaches"
+        "the (depth|distance) to which {thing} is pressed [in]|the depth (in|into|on|at|"
+        "under) {gel}|the [largest|deepest] indentation [of {gel}]|the deepest (point|"
+        "spot) of {touch}|the amount of indentation|the depth you (feel|measure)|the (compression|"
+        "deformation) (depth|of {gel})|the depth that {thing} reaches"
     ),
     bare=(
         "depth|depth|contact depth|indentation depth|penetration depth|indentation|press depth|"
@@ -139,15 +142,13 @@ _DEPTH = Wording(
     terse="{unit} (deep|in|pressed in|of depth|of indentation|into {gel}|sunk in)",
     others=(
         "how deep|how deep in|{thing} (is|goes|sits|sinks) how deep [in]|{thing} is [pressed|"
-        "pushed] in how far|"
-        "the depth is (what|how much)|(deep|pressed in|in) by how much|by how much is (it|{gel}|"
-        "{thing}) "
+        "pushed] in how far|the depth is (what|how much)|(deep|pressed in|in) by how much|"
+        "by how much is (it|{gel}|{thing}) "
         f"{_SQUASHED}|how much depth (is there|do you feel|do we have|have we got)|"
-        "how much (indentation|penetration|depth) (is there|do you (feel|see|measure)|do we have)|"
+        f"how much (indentation|penetration|depth) (is there|do you (feel|see|measure)|do we have)|"
         "how deep (a|is the) (dent|mark|hole|imprint|dip) [does {thing} make|has {thing} made|"
-        "is {thing} making|did {thing} leave] [in {gel}]|how much (further|deeper) than the "
-        "surface "
-        "is {thing}|how far (beneath|below|under) the surface is {thing}"
+        "is {thing} making|did {thing} leave] [in {gel}]|how much (further|"
+        "deeper) than the surface is {thing}|how far (beneath|below|under) the surface is {thing}"
     ),
 )
 
@@ -162,8 +163,8 @@ _HARD = (
     "lightly|loosely)"
 )
 _GRIP = (
-    "(the|our|your|this) (grip|grasp|hold|squeeze|pinch|press|push|clamp|clamping|touch) "
-    "[on {thing}]"
+    "(the|our|your|this) (grip|grasp|hold|squeeze|pinch|press|push|clamp|clamping|"
+    "touch) [on {thing}]"
 )
 _FORCE_NAME = (
     "(the|our|your|this) [contact|normal|grip|gripping|grasp|clamping|pressing|holding|pinch|"
@@ -180,8 +181,7 @@ _FORCE_ASKED = (
     Asked(
         f"how {_HARD}",
         f"do {{hands}} {_HOLD} [{{thing}}]|are the (fingers|jaws|fingertips) {_HOLDING} "
-        f"[{{thing}}]|"
-        f"is {{hand}} {_HOLDING} [{{thing}}]|does {{hand}} {_HOLD} [{{thing}}]",
+        f"[{{thing}}]|is {{hand}} {_HOLDING} [{{thing}}]|does {{hand}} {_HOLD} [{{thing}}]",
         f"{{hand}} is {_HOLDING} [{{thing}}]|I am {_HOLDING} {{thing}}",
     ),
     Asked(
@@ -203,58 +203,56 @@ _FORCE_ASKED = (
         "do you (feel|measure|read|sense|notice|see|get|have)|does {thing} (put on|exert on) {gel}|"
         "does {gel} (feel|see|get|carry)|does {thing} (feel|get|see|take)|do we have",
         "is on ({thing}|{gel})|there is [on ({thing}|{gel})]|is (acting|being applied|applied|"
-        "used)|"
-        "{hands} (use|apply|exert|put on {thing}|press with|hold {thing} with|are using)|"
+        "used)|{hands} (use|apply|exert|put on {thing}|press with|hold {thing} with|are using)|"
         "you (feel|measure|read|sense)|{thing} (puts on|exerts on) {gel}|{thing} (feels|gets)",
+    ),
+    Asked(
+        "how (much|hard|strongly)",
+        "does {thing} (push back|press back|resist)|is {thing} (pushing|pressing) back",
+        "{thing} (pushes back|presses back|resists)|{thing} is (pushing|pressing) back",
     ),
     Asked(
         "how much (pressure|load|squeeze|push)",
         "is (there|on {thing}|on {gel}|there on {gel}|pressing on {gel})|do you (feel|measure|"
-        "sense)|"
-        "are we (putting on|applying to) {thing}|do (we|you) apply [to {thing}]|"
+        "sense)|are we (putting on|applying to) {thing}|do (we|you) apply [to {thing}]|"
         "does {thing} put on {gel}|is {thing} (under|feeling|getting)",
         "is on ({thing}|{gel})|there is [on ({thing}|{gel})]|we (put on {thing}|apply)|you (feel|"
-        "measure)|"
-        "{thing} is under",
+        "measure)|{thing} is under",
     ),
     Asked(
         "(with what|with how much|with which|at what) force",
         f"is {{thing}} {_HELD}|do {{hands}} {_HOLD} [{{thing}}]|are {{hands}} {_HOLDING} {{thing}}|"
         "does {thing} (press|push) [on {gel}]",
-        f"{{thing}} is {_HELD}|{{hands}} {_HOLD} [{{thing}}]|{{thing}} (presses|pushes) [on "
-        f"{{gel}}]",
+        f"{{thing}} is {_HELD}|{{hands}} {_HOLD} [{{thing}}]|{{thing}} (presses|"
+        f"pushes) [on {{gel}}]",
     ),
     Asked(
         "(what|which) force",
-        f"is {{thing}} {_HELD} with|do {{hands}} {_HOLD} [{{thing}}] with|are {{hands}} "
-        f"{_HOLDING} [{{thing}}] with|"
-        "do you (feel|measure|read|get|sense|see)|is (there|it|being applied|acting|felt)|are we "
-        "at|"
+        f"is {{thing}} {_HELD} with|do {{hands}} {_HOLD} [{{thing}}] with|"
+        f"are {{hands}} {_HOLDING} [{{thing}}] with|do you (feel|measure|read|get|sense|see)|"
+        f"is (there|it|being applied|acting|felt)|are we at|"
         "does {thing} (press|push) [on {gel}] [with]|does the (sensor|gripper) (read|show|use|"
-        "apply)|"
-        "are we (using|applying)|do we (use|apply|have)|is on ({thing}|{gel})|did you (feel|"
+        "apply)|are we (using|applying)|do we (use|apply|have)|is on ({thing}|{gel})|did you (feel|"
         "measure|get)",
-        f"{{thing}} is {_HELD} with|{{hands}} {_HOLD} [{{thing}}] with|you (feel|measure|read|"
-        f"get)|"
+        f"{{thing}} is {_HELD} with|{{hands}} {_HOLD} [{{thing}}] with|you (feel|measure|read|get)|"
         "there is|{thing} (presses|pushes) [on {gel}] with|the sensor (reads|shows)|we (use|apply|"
-        "have)|"
-        "is (acting|applied|on {thing})|it is",
+        "have)|is (acting|applied|on {thing})|it is",
     ),
     Asked(
         "what",
         f"is ({_FORCE_NAME}|the (load|pressure) on {{gel}}|the (grip|gripping|clamping) strength|"
-        "the strength of (the|our) (grip|grasp|hold|squeeze))",
+        f"the strength of (the|our) (grip|grasp|hold|squeeze))",
         f"({_FORCE_NAME}|the (load|pressure) on {{gel}}|the (grip|gripping) strength|"
-        "the strength of the (grip|grasp|hold)) (is|was|comes to|amounts to)",
+        f"the strength of the (grip|grasp|hold)) (is|was|comes to|amounts to)",
     ),
 )
 _FORCE_COUNTED = (
     Asked(
         "how many {unit}",
-        "(do|did) you (feel|measure|read|sense|get)|are (on {thing}|on {gel}|acting|felt|there on "
-        "{gel})|"
-        f"is {{thing}} {_HELD} with|do {{hands}} ({_HOLD} [{{thing}}] with|use|apply|put on "
-        f"{{thing}})|are {{hands}} {_HOLDING} [{{thing}}] with|"
+        "(do|did) you (feel|measure|read|sense|get)|are (on {thing}|on {gel}|acting|felt|"
+        "there on {gel})|"
+        f"is {{thing}} {_HELD} with|do {{hands}} ({_HOLD} [{{thing}}] with|use|apply|"
+        f"put on {{thing}})|are {{hands}} {_HOLDING} [{{thing}}] with|"
         "(does|is) {thing} (press|push|pressing|pushing) [on {gel}] with|of (force|grip|squeeze|"
         "load|"
         f"pressure) [is it|are there|do you feel|do we have]|is {_FORCE_NAME}|is {_GRIP}|"
@@ -267,18 +265,15 @@ _FORCE_COUNTED = (
 )
 _FORCE_NOUNS = (
     "the [contact|normal|grip|gripping|grasp|clamping|pressing|felt|present|holding|pinch|"
-    "squeezing|pushing|touch|reaction|measured|total|acting|applied|sensed|finger] force|"
-    "the (load|pressure|push) on {gel}|the (force|pressure|load) (of|from|on) {body}|"
-    "the [grip|gripping|clamping|holding|squeezing] (strength|power)|the (clamping force|pressure|"
-    "load)|"
+    "squeezing|pushing|touch|reaction|measured|total|acting|applied|sensed|finger] force|the (load|"
+    "pressure|push) on {gel}|the (force|pressure|load) (of|from|on) {body}|the [grip|gripping|"
+    "clamping|holding|squeezing] (strength|power)|the (clamping force|pressure|load)|"
     "the force (between|of|in|at|from) the (fingers|jaws|fingertips|gripper)|the squeeze|"
-    f"the force (with|at) which {{thing}} is {_HELD}|the force (on|in|at) {{gel}}|"
-    "the (strength|force|firmness|tightness) of (the|our|your) (grip|grasp|hold|squeeze|press|"
-    "push)|"
+    f"the force (with|at) which {{thing}} is {_HELD}|the force (on|in|at) {{gel}}|the (strength|"
+    f"force|firmness|tightness) of (the|our|your) (grip|grasp|hold|squeeze|press|push)|"
     "the (force|load) (that|which) (acts on {thing}|you feel|you measure|we apply|we use)|"
-    "the force we (are applying|apply|use|press with|hold {thing} with)|"
-    "the force (you are feeling|of {touch}|being applied|acting on {gel})|the force in the grip|"
-    "the push of {thing}"
+    "the force we (are applying|apply|use|press with|hold {thing} with)|the force (you are feeling|"
+    "of {touch}|being applied|acting on {gel})|the force in the grip|the push of {thing}"
 )
 _FORCE_BARE = (
     "force|force|contact force|grip force|normal force|gripping force|clamping force|press force|"
@@ -288,15 +283,14 @@ _FORCE_BARE = (
 )
 _FORCE_OTHERS = (
     "{thing} is (held|gripped|squeezed|pressed) how (hard|tightly|firmly|strongly)|"
-    "the force is (what|how much|how high)|we are (squeezing|pressing|gripping) "
-    "how "
-    "hard|by what force is {thing} (held|pressed)|{thing} presses with what force|"
-    "with how much (force|pressure|strength|power) (is {thing} held|do we hold {thing}|"
-    "are we (pressing|squeezing|gripping) [{thing}]|does {thing} press [on {gel}])|"
-    "how (much force|much pressure|hard) on ({thing}|{gel})|what is pressing on {gel} in terms of "
-    "force|what (load|pressure) is (on {gel}|acting on {gel})|what (load|grip strength) do you "
-    "(feel|measure|sense)|how hard a (grip|squeeze|press|push) is (it|this|that)|"
-    "how strong a (grip|force|squeeze|press) (is this|do we have|do you feel|is it)"
+    "the force is (what|how much|how high)|we are (squeezing|pressing|gripping) how hard|"
+    "by what force is {thing} (held|pressed)|{thing} presses with what force|with how much (force|"
+    "pressure|strength|power) (is {thing} held|do we hold {thing}|are we (pressing|squeezing|"
+    "gripping) [{thing}]|does {thing} press [on {gel}])|how (much force|much pressure|"
+    "hard) on ({thing}|{gel})|what is pressing on {gel} in terms of force|what (load|"
+    "pressure) is (on {gel}|acting on {gel})|what (load|grip strength) do you (feel|measure|sense)|"
+    "how hard a (grip|squeeze|press|push) is (it|this|that)|how strong a (grip|force|squeeze|"
+    "press) (is this|do we have|do you feel|is it)"
 )
 
 _FORCE_N = Wording(
@@ -316,8 +310,8 @@ _FORCE_OTHER = Wording(
     bare=_FORCE_BARE,
     others=_FORCE_OTHERS,
     terse=(
-        "{unit} of (force|grip|squeeze|grip force|pressing force)|"
-        "{unit} of force on ({gel}|{thing})"
+        "{unit} of (force|grip|squeeze|grip force|pressing force)|{unit} of force on ({gel}|"
+        "{thing})"
     ),
 )
 
@@ -345,8 +339,7 @@ _AREA_ASKED = (
     Asked(
         "how much (area|surface|surface area|contact area|contact surface|space|room)",
         f"(does|did) {{thing}} {_SPREAD} [on {{gel}}]|is {_COVERED} [by {{thing}}|with {{thing}}]|"
-        f"is there|"
-        "do you (feel|measure|see|have)|do we have|are we (touching|covering)|"
+        f"is there|do you (feel|measure|see|have)|do we have|are we (touching|covering)|"
         "of {gel} is (touched|covered|in contact)|is {thing} (covering|touching|taking up)",
         f"{{thing}} {_SPREADS} [on {{gel}}]|is {_COVERED} [by {{thing}}]|there is|you (feel|"
         f"measure)|"
@@ -355,10 +348,9 @@ _AREA_ASKED = (
     Asked(
         "(what|which|how large an|how big an|how wide an) area",
         f"(does|did) {{thing}} {_SPREAD}|is {_COVERED} [by {{thing}}]|do you (feel|measure|read|"
-        f"get)|"
-        "is it|is there|does the (contact|touch|footprint) have|are we touching",
+        f"get)|is it|is there|does the (contact|touch|footprint) have|are we touching",
         f"{{thing}} {_SPREADS}|is {_COVERED} [by {{thing}}]|you (feel|measure|read|get)|there is|"
-        "the (contact|touch|footprint) has|we are touching",
+        f"the (contact|touch|footprint) has|we are touching",
     ),
     Asked(
         "what",
@@ -369,8 +361,8 @@ _AREA_ASKED = (
     ),
     Asked(
         "over (what|how large an|how big an|how much) area",
-        "does {thing} (touch|press on) {gel}|is {gel} (touched|pressed)|are we in contact|do we "
-        "touch",
+        "does {thing} (touch|press on) {gel}|is {gel} (touched|pressed)|are we in contact|"
+        "do we touch",
         "{thing} (touches|presses on) {gel}|{gel} is (touched|pressed)|we are in contact",
     ),
 )
@@ -387,18 +379,14 @@ _AREA_SHARE = (
     ),
 )
 _AREA_NOUNS = (
-    "the [contact|touched|covered|total|pressed|present|touching] area|the [contact|touched] "
-    "surface "
-    "[area]|the area of (contact|the contact|{touch}|the footprint|the imprint|touch)|the "
-    "footprint|"
-    "the size of (the contact|the contact patch|the footprint|the imprint|the touch|the patch)|"
-    "the (part|portion) of {gel} (in contact|covered by {thing}|taken up)|"
-    "what part of {gel} is covered|"
-    "the area (that|which) {thing} (touches|covers|presses on|occupies)|the covered (area|part)|"
-    "the contact (patch|region|zone|spot) [size]|the footprint (size|area|of {thing})|"
-    "the (extent|spread) of the (contact|touch|imprint)|the area (in contact|under {thing}|"
-    "covered)|"
-    "the imprint (size|area)"
+    "the [contact|touched|covered|total|pressed|present|touching] area|the [contact|"
+    "touched] surface [area]|the area of (contact|the contact|{touch}|the footprint|the imprint|"
+    "touch)|the footprint|the size of (the contact|the contact patch|the footprint|the imprint|"
+    "the touch|the patch)|the (part|portion) of {gel} (in contact|covered by {thing}|taken up)|"
+    "what part of {gel} is covered|the area (that|which) {thing} (touches|covers|presses on|"
+    "occupies)|the covered (area|part)|the contact (patch|region|zone|spot) [size]|"
+    "the footprint (size|area|of {thing})|the (extent|spread) of the (contact|touch|imprint)|"
+    "the area (in contact|under {thing}|covered)|the imprint (size|area)"
 )
 _SHARE_NOUNS = (
     "the (percentage|fraction|share|proportion|percent) of {gel} (in contact|that is (touched|"
@@ -413,15 +401,13 @@ _AREA_BARE = (
     "contact region size|surface in contact|area in contact"
 )
 _AREA_OTHERS = (
-    "{thing} (covers|touches) how much [of {gel}]|the area is (what|how large|how big)|"
-    "how (large|big) (a (patch|footprint|contact|spot|mark)|an (area|imprint)) (does "
-    "{thing} "
-    "make|is it|is there|do you feel|does {thing} leave)|how much contact (is there|do we have|"
-    "does "
-    "{thing} make|do you feel)|how much {thing} (covers|touches)|how much is (covered|touched|"
+    "{thing} (covers|touches) how much [of {gel}]|the area is (what|how large|how big)|how (large|"
+    "big) (a (patch|footprint|contact|spot|mark)|an (area|imprint)) (does {thing} make|is it|"
+    "is there|do you feel|does {thing} leave)|how much contact (is there|do we have|"
+    "does {thing} make|do you feel)|how much {thing} (covers|touches)|how much is (covered|touched|"
     "in contact)|how (large|big) is the (part|piece|bit|portion) of {gel} that is (touched|covered|"
-    "in contact)|how much of {gel} (feels|senses|has contact with) {thing}|how much of {gel} does "
-    "{thing} have contact with"
+    "in contact)|how much of {gel} (feels|senses|has contact with) {thing}|"
+    "how much of {gel} does {thing} have contact with"
 )
 
 _AREA_PERCENT = Wording(
@@ -446,17 +432,16 @@ _AREA_SQUARE = Wording(
         Asked(
             "how many {unit}",
             f"are {_COVERED} [by {{thing}}]|of {{gel}} are {_COVERED}|does {{thing}} {_SPREAD}|"
-            "is the (contact [area]|area|footprint)|of (contact|area) [are there|do you feel|is "
-            "it]|"
-            "large is the (contact|footprint)|do we (touch|cover)",
+            f"is the (contact [area]|area|footprint)|of (contact|area) [are there|do you feel|"
+            f"is it]|large is the (contact|footprint)|do we (touch|cover)",
             f"are {_COVERED} [by {{thing}}]|{{thing}} {_SPREADS}|the (contact|area|footprint) is|"
-            "of contact there are|we touch",
+            f"of contact there are|we touch",
         ),
     ),
     nouns=_AREA_NOUNS,
     bare=_AREA_BARE,
     others=_AREA_OTHERS,
-    terse="[how many] {unit} (covered|touched|in contact|of contact|of {gel}|of area|of touch)",
+    terse="[how many] {unit} [covered|touched|in contact|of contact|of {gel}|of area|of touch]",
 )
 
 FAMILIES: tuple[QuestionFamily, ...] = (
