@@ -6,6 +6,7 @@ An answer that needs what nobody gave says what is missing.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -161,6 +162,8 @@ def _which(asked: Which, scene: AskedScene, rng: np.random.Generator) -> Answer:
 
 def _several(asked: Several, scene: AskedScene, rng: np.random.Generator) -> Answer:
     shorts, clauses = [], []
+    has_amount = any(isinstance(part, Amount) for part in asked.parts)
+    asks_shape = any(isinstance(part, Which) and part.name == "shape" for part in asked.parts)
     for part in asked.parts:
         if isinstance(part, Which):
             short, clause = named(part.name, str(scene.values()[part.name]), scene)
@@ -175,8 +178,11 @@ def _several(asked: Several, scene: AskedScene, rng: np.random.Generator) -> Ans
             clause = f"{'' if is_axis else 'the '}{noun} is {amount}"
         else:
             yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
-            short = f"{yes}, {fact(part.shows[0], scene)[0]}"
-            clause = f"{yes}, {fact(part.shows[0], scene)[1]}"
+            short, clause = (f"{yes}, {shown}" for shown in fact(part.shows[0], scene))
+            is_number = has_amount and re.search(r"\d", short)
+            if is_number or (asks_shape and part.shows == ("cut",)):
+                # a number, or an edge, would be taken for one that was asked for
+                short = clause = yes
         shorts.append(short)
         clauses.append(clause)
     text = _draw(rng, "; ".join(shorts), "; ".join(clauses))

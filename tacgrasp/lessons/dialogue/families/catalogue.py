@@ -10,6 +10,8 @@ from tacgrasp.lessons.dialogue.families import (
     classes,
     contacts,
     goals,
+    sides,
+    together,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -21,6 +23,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *checks.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
+    *sides.FAMILIES,
+    *together.FAMILIES,
     *goals.FAMILIES,
     *unanswerable.FAMILIES,
 )
