@@ -13,7 +13,6 @@ import numpy as np
 
 from tacgrasp.lessons.dialogue.families.family import Bindings, Numbers
 from tacgrasp.lessons.dialogue.meaning import Meaning
-from tacgrasp.lessons.dialogue.pattern import Slots
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.lessons.dialogue.scene import AskedScene
 
@@ -207,7 +206,7 @@ _TABLES: Mapping[str, Part] = {
     "if": _CLAIMS,
     "how": _units(_HOW),
 }
-SLOTS: Slots = {
+SLOTS: Mapping[str, Mapping[str, str]] = {
     **{f"{kind}{place}": dict(table) for kind, table in _TABLES.items() for place in PLACES},
 }
 """Tables by kind of phrase and place in the question."""
