@@ -34,10 +34,10 @@ from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
 
 KIND_WEIGHTS: Mapping[AnswerKind, float] = {
-    AnswerKind.NUMBER: 0.22,
-    AnswerKind.YES_NO: 0.30,
-    AnswerKind.CHOICE: 0.14,
-    AnswerKind.TEXT: 0.14,
+    AnswerKind.NUMBER: 0.20,
+    AnswerKind.YES_NO: 0.36,
+    AnswerKind.CHOICE: 0.12,
+    AnswerKind.TEXT: 0.12,
     AnswerKind.UNKNOWABLE: 0.10,
     AnswerKind.OFF_TOPIC: 0.10,
 }

@@ -131,6 +131,7 @@ def _has_all(
     verdicts = list(reading.verdicts)
     numbers: dict[str, list[float]] = {}
     wanted: dict[str, int] = {}
+    asks_mass = any(dimension_of(truth) == "mass" for truth in row.truths)
     for expression, truth in zip(row.truths, truths, strict=True):
         if isinstance(truth.value, str):
             if reading.words(expression.text) != [truth.value]:
@@ -140,7 +141,10 @@ def _has_all(
                 return False
         else:
             dimension = dimension_of(expression)
-            found = numbers.setdefault(dimension, _converted(reading.numbers, dimension, scene))
+            # grams are a force only where no mass is asked for too
+            is_mass = asks_mass and dimension != "mass"
+            said = [each for each in reading.numbers if not (is_mass and each.dimension == "mass")]
+            found = numbers.setdefault(dimension, _converted(said, dimension, scene))
             place = wanted.get(dimension, 0)
             wanted[dimension] = place + 1
             if place >= len(found) or not _is_near(found[place], row, expression, truth):

@@ -19,8 +19,8 @@ _BASE_UNITS = {unit.dimension: unit.symbol for unit in UNITS.values() if unit.si
 _OTHERS = ("force_band", "wholeness", "worse_axis", "side_x", "side_y")
 """Names whose words are looked for where no action and no class is named."""
 
-_NO_PLACE = re.compile(r"\bleft to\b")
-"""'The force left to the limit' is on no side."""
+_NO_WORD = re.compile(r"\bleft to\b|\bthe edge (?=cuts\b)", re.I)
+"""'The force left to the limit' is on no side, and the edge of the pad is no shape."""
 
 
 def answer_in(text: str) -> Answer:
@@ -57,6 +57,6 @@ def _words(reading: AnswerReading) -> list[str]:
     """The actions of an answer; where it has none its classes, else its other words."""
     if action := list(reading.words("action")):
         return action
-    reading = replace(reading, text=_NO_PLACE.sub("", reading.text))
+    reading = replace(reading, text=_NO_WORD.sub("", reading.text))
     classes = [word for name in CLASSES for word in reading.words(name)]
     return classes or [word for name in _OTHERS for word in reading.words(name)]

@@ -6,6 +6,7 @@ An answer that needs what nobody gave says what is missing.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
 from cltp.texts.captions import with_article
@@ -142,6 +143,8 @@ def _which(asked: Which, scene: AskedScene) -> Answer:
 
 def _several(asked: Several, scene: AskedScene) -> Answer:
     clauses = []
+    has_amount = any(isinstance(part, Amount) for part in asked.parts)
+    asks_shape = any(isinstance(part, Which) and part.name == "shape" for part in asked.parts)
     for part in asked.parts:
         if isinstance(part, Which):
             clause = named(part.name, str(scene.values()[part.name]), scene)[1]
@@ -155,7 +158,11 @@ def _several(asked: Several, scene: AskedScene) -> Answer:
             clause = f"{'' if is_axis else 'the '}{noun} is {amount}"
         else:
             yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
-            clause = f"{yes}, {fact(part.shows[0], scene)[1]}"
+            shown = fact(part.shows[0], scene)[1]
+            is_number = has_amount and re.search(r"\d", shown)
+            # a number, or an edge, would be taken for one that was asked for
+            is_mistakable = is_number or (asks_shape and part.shows == ("cut",))
+            clause = yes if is_mistakable else f"{yes}, {shown}"
         clauses.append(clause)
     return Answer(text=f"{capital('; '.join(clauses))}.", kind=AnswerKind.TEXT)
 

@@ -16,6 +16,8 @@ from tacgrasp.lessons.dialogue.families import (
     lifting,
     off_topic,
     place_checks,
+    sides,
+    together,
     unanswerable,
 )
 from tacgrasp.lessons.dialogue.families.family import QuestionFamily
@@ -29,6 +31,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *place_checks.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
+    *sides.FAMILIES,
+    *together.FAMILIES,
     *goals.FAMILIES,
     *lifting.FAMILIES,
     *advice.FAMILIES,
