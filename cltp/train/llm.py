@@ -52,9 +52,9 @@ from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 
 STAGES = {
-    "text": Schedule(steps=1600, batch_size=16, learning_rate=2e-3),
+    "text": Schedule(steps=1000, batch_size=16, learning_rate=2e-3),
     "projector": Schedule(steps=200, batch_size=32, learning_rate=2e-3),
-    "joint": Schedule(steps=1600, batch_size=16, learning_rate=1e-3),
+    "joint": Schedule(steps=1000, batch_size=16, learning_rate=1e-3),
 }
 
 FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
@@ -79,7 +79,7 @@ QUESTIONS = {"text": 256, "joint": 128}
 QUESTION_ROW = 8
 """Questions in one sequence: more would leave more of its attention unused."""
 
-QUESTIONS_PER_CONTACT = 12
+QUESTIONS_PER_CONTACT = 6
 """Questions beside each contact from which the tokenizer learns."""
 
 ACTION_WEIGHT = 4.0
@@ -106,7 +106,7 @@ def train_words(
     data_dir: Path,
     lessons: Lessons,
     *,
-    size: int = 8192,
+    size: int = 10_240,
     num_contacts: int = 4000,
     seed: int = 0,
     texts: Sequence[str] = (),

@@ -31,7 +31,7 @@ from policies.llm.text import (
 from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band
 from tacgrasp.lessons.captions import CAPTION_REQUESTS
-from tacgrasp.lessons.dialogue.families.family import word_lists
+from tacgrasp.lessons.dialogue.patterns.family import word_lists
 from tacgrasp.lessons.question_draws import query_exchange
 
 CAPTIONS = 0.3

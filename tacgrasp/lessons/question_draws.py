@@ -18,7 +18,6 @@ from cltp.texts.exchange_packing import Exchange
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
-from tacgrasp.lessons.dialogue.families.family import QuestionFamily
 from tacgrasp.lessons.dialogue.meaning import (
     AnswerKind,
     Check,
@@ -27,7 +26,8 @@ from tacgrasp.lessons.dialogue.meaning import (
     names_of,
     truth_of,
 )
-from tacgrasp.lessons.dialogue.pattern import draw
+from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
+from tacgrasp.lessons.dialogue.patterns.pattern import draw
 from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
 from tacgrasp.lessons.dialogue.query import asked_text, query_of
 from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row

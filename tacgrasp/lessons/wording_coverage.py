@@ -1,6 +1,6 @@
 """How much of some questions the grammar contains: whole wordings, and runs of four words.
 
-Decided exactly on the automata of the families (``tacgrasp.lessons.dialogue.automaton``), which
+Decided exactly on the automata of the families (``tacgrasp.lessons.dialogue.patterns``), which
 accept every wording that the grammar produces: what they reject, it can't produce. Both sides are
 compared in plain words, so capitals, punctuation, contractions and spelling make no difference.
 """

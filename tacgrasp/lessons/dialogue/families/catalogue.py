@@ -4,39 +4,32 @@ from __future__ import annotations
 
 from functools import cache
 
-from tacgrasp.lessons.dialogue.families import (
-    advice,
-    agreed_checks,
-    amounts,
-    backgrounds,
-    checks,
-    classes,
-    contacts,
-    goals,
-    lifting,
-    off_topic,
-    place_checks,
-    sides,
-    together,
-    unanswerable,
-)
-from tacgrasp.lessons.dialogue.families.family import QuestionFamily
+from tacgrasp.lessons.dialogue.families.amounts import agreed as amounts
+from tacgrasp.lessons.dialogue.families.classes import asked as classes
+from tacgrasp.lessons.dialogue.families.comparisons import agreed as agreed_comparisons
+from tacgrasp.lessons.dialogue.families.comparisons import felt as comparisons
+from tacgrasp.lessons.dialogue.families.comparisons import placed as placed_comparisons
+from tacgrasp.lessons.dialogue.families.contacts import contact as contacts
+from tacgrasp.lessons.dialogue.families.contacts import sides, together
+from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting
+from tacgrasp.lessons.dialogue.families.unfelt import backgrounds, off_topic, traits
 from tacgrasp.lessons.dialogue.meaning import Meaning, truth_of
+from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.plain_words import plain_text
 
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
-    *checks.FAMILIES,
-    *agreed_checks.FAMILIES,
-    *place_checks.FAMILIES,
+    *comparisons.FAMILIES,
+    *agreed_comparisons.FAMILIES,
+    *placed_comparisons.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *sides.FAMILIES,
     *together.FAMILIES,
-    *goals.FAMILIES,
+    *force.FAMILIES,
     *lifting.FAMILIES,
     *advice.FAMILIES,
-    *unanswerable.FAMILIES,
+    *traits.FAMILIES,
     *backgrounds.FAMILIES,
     *off_topic.FAMILIES,
 )

@@ -6,8 +6,8 @@ import re
 import numpy as np
 import pytest
 
-from tacgrasp.lessons.dialogue.automaton import Automaton
-from tacgrasp.lessons.dialogue.pattern import compile_pattern, draw
+from tacgrasp.lessons.dialogue.patterns.automaton import Automaton
+from tacgrasp.lessons.dialogue.patterns.pattern import compile_pattern, draw
 from tacgrasp.lessons.dialogue.plain_words import plain_text, plain_words
 
 SLOTS = {

@@ -1,0 +1,215 @@
+"""Patterns: the notation of the grammar, with its draws.
+
+A pattern is text with
+
+    (a|b|c)     one of these
+    [a|b]       one of these, or nothing
+    {name}      the slot of that name: another pattern, or a table of values with their patterns,
+                of which the one that is drawn is bound to the name
+    {#name}     a number, bound to the name
+    {*name}     an entry of a word list
+
+Not here: the patterns themselves (``tacgrasp.lessons.dialogue.families``), recognition
+(``tacgrasp.lessons.dialogue.patterns.automaton``).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+Slots = Mapping[str, "str | Mapping[str, str]"]
+"""Slots by name: a pattern, or a table from values to patterns."""
+
+OPTION_PROBABILITY = 0.25
+"""How often an optional part is drawn. Our choice: most questions are short."""
+
+
+@dataclass(frozen=True, slots=True)
+class Literal:
+    """A piece of text, with its punctuation."""
+
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class NumberSlot:
+    """A number that is chosen when the question is put to a contact."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class ListSlot:
+    """An entry of a word list."""
+
+    name: str
+    entries: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """Parts one after another."""
+
+    parts: tuple[Node, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class OneOf:
+    """One of some parts; ``optional`` adds the empty one."""
+
+    parts: tuple[Node, ...]
+    optional: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """A part that gives a name its value."""
+
+    name: str
+    value: str
+    part: Node
+
+
+Node = Literal | NumberSlot | ListSlot | Chain | OneOf | Bound
+
+_SYNTAX = re.compile(r"\(|\)|\[|\]|\||\{[#*]?\w+\}|[^\s()\[\]{}|]+")
+
+
+def compile_pattern(text: str, slots: Slots, lists: Mapping[str, Sequence[str]]) -> Node:
+    """Read a pattern.
+
+    Raises:
+        ValueError: Brackets that don't match, or an unknown slot or list; the message names it.
+    """
+    tokens = _SYNTAX.findall(text)
+    node, end = _choice(tokens, 0, slots, lists)
+    if end != len(tokens):
+        raise ValueError(f"unmatched {tokens[end]!r} in the pattern {text[:60]!r}")
+    return node
+
+
+def _choice(
+    tokens: Sequence[str], begin: int, slots: Slots, lists: Mapping[str, Sequence[str]]
+) -> tuple[Node, int]:
+    """Parts that ``|`` separates, up to a closing bracket or the end."""
+    choices: list[Node] = []
+    parts: list[Node] = []
+    at = begin
+    while at < len(tokens) and tokens[at] not in (")", "]"):
+        token = tokens[at]
+        at += 1
+        if token == "|":
+            choices.append(Chain(tuple(parts)))
+            parts = []
+        elif token in ("(", "["):
+            inner, at = _choice(tokens, at, slots, lists)
+            if at >= len(tokens) or tokens[at] != {"(": ")", "[": "]"}[token]:
+                raise ValueError(f"a {token!r} is not closed in {' '.join(tokens)[:60]!r}")
+            at += 1
+            parts.append(OneOf((inner,), optional=True) if token == "[" else inner)
+        else:
+            parts.append(_leaf(token, slots, lists))
+    choices.append(Chain(tuple(parts)))
+    return (choices[0] if len(choices) == 1 else OneOf(tuple(choices))), at
+
+
+def _leaf(token: str, slots: Slots, lists: Mapping[str, Sequence[str]]) -> Node:
+    if not token.startswith("{"):
+        return Literal(token)
+    name = token[1:-1]
+    if name.startswith("#"):
+        return NumberSlot(name[1:])
+    if name.startswith("*"):
+        if name[1:] not in lists:
+            raise ValueError(f"no word list is called {name[1:]!r}; known: {', '.join(lists)}")
+        return ListSlot(name[1:], tuple(lists[name[1:]]))
+    if name not in slots:
+        raise ValueError(f"no slot is called {name!r}; known: {', '.join(slots)}")
+    slot = slots[name]
+    if isinstance(slot, str):
+        return compile_pattern(slot, slots, lists)
+    bound = [Bound(name, value, compile_pattern(p, slots, lists)) for value, p in slot.items()]
+    return OneOf(tuple(bound))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DrawnWording:
+    """A wording before its numbers are chosen.
+
+    Attributes:
+        pieces: Pieces of text in order; a ``NumberSlot`` stands for its number.
+        bindings: Bound values by name.
+    """
+
+    pieces: tuple[str | NumberSlot, ...]
+    bindings: Mapping[str, str]
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Names of the numbers to be chosen."""
+        return tuple(piece.name for piece in self.pieces if isinstance(piece, NumberSlot))
+
+    def text(self, numbers: Mapping[str, str]) -> str:
+        """The wording with its numbers, given as text by name."""
+        words = [numbers[p.name] if isinstance(p, NumberSlot) else p for p in self.pieces]
+        joined = re.sub(r"\s+([?.,;:!%])", r"\1", " ".join(words))
+        return re.sub(r"(?<=\d)%", " %", joined)
+
+
+def draw(
+    node: Node, rng: np.random.Generator, given: Mapping[str, str] | None = None
+) -> DrawnWording:
+    """Draw one wording; ``given`` are values of names that are not to be drawn."""
+    pieces: list[str | NumberSlot] = []
+    bindings: dict[str, str] = {}
+    _draw(node, rng, given or {}, pieces, bindings)
+    return DrawnWording(pieces=tuple(pieces), bindings=bindings)
+
+
+def _draw(
+    node: Node,
+    rng: np.random.Generator,
+    given: Mapping[str, str],
+    pieces: list[str | NumberSlot],
+    bindings: dict[str, str],
+) -> None:
+    match node:
+        case Literal(text):
+            pieces.append(text)
+        case NumberSlot():
+            pieces.append(node)
+        case ListSlot(_, entries):
+            pieces.append(entries[rng.integers(len(entries))])
+        case Chain(parts):
+            for part in parts:
+                _draw(part, rng, given, pieces, bindings)
+        case OneOf(parts, optional):
+            if not optional or rng.random() < OPTION_PROBABILITY:
+                part = _given_part(parts, given) or parts[rng.integers(len(parts))]
+                _draw(part, rng, given, pieces, bindings)
+        case Bound(name, value, part):
+            bindings[name] = value
+            _draw(part, rng, given, pieces, bindings)
+
+
+def _given_part(parts: Sequence[Node], given: Mapping[str, str]) -> Node | None:
+    """The part that binds a name to its given value; None where there is none."""
+    for part in parts:
+        if isinstance(part, Bound) and given.get(part.name) == part.value:
+            return part
+    return None
+
+
+def walk(node: Node, visit: Callable[[Node], None]) -> None:
+    """Visit a node and all that it consists of."""
+    visit(node)
+    match node:
+        case Chain(parts) | OneOf(parts):
+            for part in parts:
+                walk(part, visit)
+        case Bound(_, _, part):
+            walk(part, visit)
