@@ -7,6 +7,7 @@ touch: what a question asks for does not hang on the contact.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from typing import NamedTuple, Protocol
 
@@ -22,6 +23,11 @@ from tacgrasp.lessons.dialogue.scene import AskedScene
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
+
+FOLLOW_UP_WORDS = 5
+"""Longest question [words] that may be a follow-up without beginning as one. Our choice."""
+
+_FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
 NOT_UNDERSTOOD = "I don't understand the question."
 
@@ -69,6 +75,23 @@ def understood(writer: QueryWriter, question: str, before: str = "") -> ReadQues
         return None
     confidence = math.prod(slot.probability for slot in reply.slots.values())
     return ReadQuestion(reply.text, meaning, confidence)
+
+
+def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQuestion | None:
+    """What a question means after another one.
+
+    One that begins as follow-ups do is read behind the question before it. So is another short one
+    where that gives the likelier query.
+    """
+    if not before:
+        return understood(writer, question)
+    if _FOLLOWS.match(question):
+        return understood(writer, question, before)
+    alone = understood(writer, question)
+    if len(question.split()) > FOLLOW_UP_WORDS:
+        return alone
+    read = [each for each in (alone, understood(writer, question, before)) if each is not None]
+    return max(read, key=lambda each: each.confidence, default=None)
 
 
 class Answered(NamedTuple):

@@ -5,7 +5,6 @@ Not here: the lines of a terminal (``tacgrasp.cli.ask``).
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,16 +16,9 @@ from cltp.tactile.states import NO_CONTACT_STATE
 from policies.llm.spoken import SpokenContact, spoken_contact
 from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import Answer
-from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.scene import AskedScene
-from tacgrasp.lessons.understanding import answered, understood
+from tacgrasp.lessons.understanding import answered, understood_in_turn
 from tacgrasp.playback.describe import is_touched
-
-FOLLOW_UP_WORDS = 5
-"""Longest question [words] that is taken as a follow-up where the grammar has it neither alone nor
-after the one before. Our choice."""
-
-_FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -97,26 +89,10 @@ class Conversation:
 
     def ask(self, question: str) -> Spoken:
         """Answer a question."""
-        before = self._before if self._before and is_follow_up(question, self._before) else ""
-        asked = understood(self._talker, question, before)
+        asked = understood_in_turn(self._talker, question, self._before)
         self._before = question
         given = answered(asked, self._scene, self._words)
         query = "" if asked is None else asked.query
         return Spoken(
             answer=given.answer, confidence=given.confidence, query=query, flags=self._flags
         )
-
-
-def is_follow_up(question: str, before: str) -> bool:
-    """Whether a question means something only after the one before it.
-
-    One that begins as follow-ups do is; where the grammar has it neither alone nor after that one,
-    a short one is taken to be.
-    """
-    if _FOLLOWS.match(question):
-        return True
-    if understand(question) is not None:
-        return False
-    if understand(question, before=before) is not None:
-        return True
-    return len(question.split()) <= FOLLOW_UP_WORDS

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tacgrasp.lessons.understanding import NOT_UNDERSTOOD, answered, understood
+from tacgrasp.lessons.understanding import NOT_UNDERSTOOD, answered, understood, understood_in_turn
 from tests.fakes.question_scenes import HELD, UNTOUCHED
 
 
@@ -58,3 +58,42 @@ def test_an_untouched_pad_still_has_a_contract():
     depth = understood(Writer("amount depth mm."), "How deep is it?")
     assert answered(limit, UNTOUCHED).answer.text == "1.19 N."
     assert answered(depth, UNTOUCHED).answer.text == "Nothing touches the pad."
+
+
+class Chooser:
+    """Writes one query with a probability of its own for each prompt."""
+
+    width = 8
+
+    def __init__(self, probabilities):
+        self.probabilities = probabilities
+
+    def reply_to(self, touch, prompt, *, grammar):
+        slots = {"first": SimpleNamespace(probability=self.probabilities[prompt])}
+        text = "amount depth µm." if "?" in prompt else "other."
+        return SimpleNamespace(text=text, ended=True, slots=slots)
+
+
+BEFORE = "How deep is it?"
+
+
+@pytest.mark.parametrize(
+    ("question", "alone", "behind", "query"),
+    [
+        ("And in microns?", 1.0, 0.1, "amount depth µm."),  # begins as a follow-up
+        ("In microns?", 0.3, 0.8, "amount depth µm."),  # the likelier of two
+        ("What a day!", 0.8, 0.3, "other."),
+        ("Who won the final match in Paris last night?", 0.2, 0.9, "other."),  # too long for one
+    ],
+)
+def test_a_follow_up_is_read_behind_the_question_before(question, alone, behind, query):
+    words = question.lower().rstrip("?!")
+    chances = {words: alone, f"how deep is it ? {words}": behind}
+    assert understood_in_turn(Chooser(chances), question, BEFORE).query == query
+
+
+def test_without_a_question_before_nothing_follows():
+    assert (
+        understood_in_turn(Chooser({"and in microns": 0.5}), "And in microns?", "").query
+        == "other."
+    )

@@ -54,9 +54,10 @@ class Automaton:
     """
 
     def __init__(self, node: Node) -> None:
-        self._silent: list[list[_Arc]] = []
-        self._spoken: list[dict[str, list[_Arc]]] = []
-        self._listed: list[list[_Arc]] = []
+        self._size = 0
+        self._silent: dict[int, list[_Arc]] = {}
+        self._spoken: dict[int, dict[str, list[_Arc]]] = {}
+        self._listed: dict[int, list[_Arc]] = {}
         self.classes: dict[str, frozenset[str]] = {}
         self._start = self._state()
         self._end = self._build(node, self._start)
@@ -65,7 +66,7 @@ class Automaton:
     def _targets(self) -> Mapping[str, set[int]]:
         """By word, the states that any arc with it leads to."""
         targets: dict[str, set[int]] = {}
-        for arcs in self._spoken:
+        for arcs in self._spoken.values():
             for word, some in arcs.items():
                 targets.setdefault(word, set()).update(arc.target for arc in some)
         return targets
@@ -74,31 +75,29 @@ class Automaton:
     def _listed_targets(self) -> Mapping[str, set[int]]:
         """By class of words, the states that any arc with it leads to."""
         targets: dict[str, set[int]] = {}
-        for arcs in self._listed:
+        for arcs in self._listed.values():
             for arc in arcs:
                 targets.setdefault(arc.label, set()).add(arc.target)
         return targets
 
     def __len__(self) -> int:
-        return len(self._silent)
+        return self._size
 
     def _state(self) -> int:
-        self._silent.append([])
-        self._spoken.append({})
-        self._listed.append([])
-        return len(self._silent) - 1
+        self._size += 1
+        return self._size - 1
 
     def _say(self, start: int, words: Iterable[str], binding: tuple[str, str] | None = None) -> int:
         for word in words:
             end = self._state()
-            self._spoken[start].setdefault(word, []).append(_Arc(end, word, binding))
+            self._spoken.setdefault(start, {}).setdefault(word, []).append(_Arc(end, word, binding))
             start = end
         return start
 
     def _build(self, node: Node, start: int) -> int:
         match node:
             case Literal(text):
-                return self._say(start, plain_words(text))
+                return self._say(start, _plain(text))
             case ListSlot(name, entries):
                 return self._build_list(name, entries, start)
             case Chain(parts):
@@ -108,44 +107,41 @@ class Automaton:
             case OneOf(parts, optional):
                 end = self._state()
                 for part in parts:
-                    self._silent[self._build(part, start)].append(_Arc(end))
+                    self._silent.setdefault(self._build(part, start), []).append(_Arc(end))
                 if optional:
-                    self._silent[start].append(_Arc(end))
+                    self._silent.setdefault(start, []).append(_Arc(end))
                 return end
             case Bound(name, value, part):
                 inner = self._state()
-                self._silent[start].append(_Arc(inner, binding=(name, value)))
+                arc = _Arc(inner, binding=(name, value))
+                self._silent.setdefault(start, []).append(arc)
                 return self._build(part, inner)
         return self._say(start, [NUMBER], (node.name, ""))
 
     def _build_list(self, name: str, entries: Sequence[str], start: int) -> int:
         end = self._state()
-        by_length: dict[int, list[tuple[str, ...]]] = {}
-        for entry in entries:
-            words = _plain(entry)
-            by_length.setdefault(len(words), []).append(words)
-        for length, group in by_length.items():
+        for length, classes in _classes(tuple(entries)).items():
             at = start
-            for place in range(length):
+            for place, words in enumerate(classes):
                 label = f"<{name} {place + 1} of {length}>"
-                self.classes[label] = frozenset(words[place] for words in group)
+                self.classes[label] = words
                 target = end if place == length - 1 else self._state()
-                self._listed[at].append(_Arc(target, label))
+                self._listed.setdefault(at, []).append(_Arc(target, label))
                 at = target
         return end
 
     def _closure(self, states: Iterable[int]) -> frozenset[int]:
         seen, left = set(states), list(states)
         while left:
-            for arc in self._silent[left.pop()]:
+            for arc in self._silent.get(left.pop(), ()):
                 if arc.target not in seen:
                     seen.add(arc.target)
                     left.append(arc.target)
         return frozenset(seen)
 
     def _arcs(self, state: int, word: str) -> list[_Arc]:
-        listed = [arc for arc in self._listed[state] if word in self.classes[arc.label]]
-        return self._spoken[state].get(word, []) + listed
+        listed = [arc for arc in self._listed.get(state, ()) if word in self.classes[arc.label]]
+        return self._spoken.get(state, {}).get(word, []) + listed
 
     def _step(self, states: Iterable[int], word: str) -> frozenset[int]:
         return self._closure({arc.target for state in states for arc in self._arcs(state, word)})
@@ -182,7 +178,7 @@ class Automaton:
                 return False
             if state == self._end and at == len(text.words):
                 return True
-            arcs = [(arc, at) for arc in self._silent[state]]
+            arcs = [(arc, at) for arc in self._silent.get(state, ())]
             if at < len(text.words):
                 arcs += [(arc, at + 1) for arc in self._arcs(state, text.words[at])]
             for arc, after in arcs:
@@ -202,31 +198,47 @@ class Automaton:
             numbers={name: text.numbers[at] for (name, value), at in trail if not value},
         )
 
-    def num_wordings(self) -> int:
-        """Number of distinct wordings; all entries of a word list are one, and so are numbers.
+    def num_wordings(self, most: int) -> int:
+        """Number of distinct wordings, up to ``most``.
 
-        Determinises the automaton and counts its paths.
+        All entries of a word list are one, and so are all numbers.
         """
 
-        @cache
-        def count(states: frozenset[int]) -> int:
+        def count(states: frozenset[int], room: int) -> int:
             targets: dict[str, set[int]] = {}
             for state in states:
-                for word, arcs in self._spoken[state].items():
+                for word, arcs in self._spoken.get(state, {}).items():
                     targets.setdefault(word, set()).update(arc.target for arc in arcs)
-                for arc in self._listed[state]:
+                for arc in self._listed.get(state, ()):
                     targets.setdefault(arc.label, set()).add(arc.target)
-            nexts = sum(count(self._closure(each)) for each in targets.values())
-            return nexts + (self._end in states)
+            found = int(self._end in states)
+            for each in targets.values():
+                if found >= room:
+                    break
+                found += count(self._closure(each), room - found)
+            return found
 
-        return count(self._closure([self._start]))
+        return min(most, count(self._closure([self._start]), most))
 
     def vocabulary(self) -> set[str]:
         """All words of its wordings."""
-        words = {word for arcs in self._spoken for word in arcs} - {NUMBER}
+        words = {word for arcs in self._spoken.values() for word in arcs} - {NUMBER}
         return words.union(*self.classes.values())
 
 
 @cache
-def _plain(entry: str) -> tuple[str, ...]:
-    return plain_words(entry)
+def _plain(text: str) -> tuple[str, ...]:
+    return plain_words(text)
+
+
+@cache
+def _classes(entries: tuple[str, ...]) -> Mapping[int, tuple[frozenset[str], ...]]:
+    """Words at each place of the entries, by the entries' number of words."""
+    by_length: dict[int, list[tuple[str, ...]]] = {}
+    for entry in entries:
+        words = _plain(entry)
+        by_length.setdefault(len(words), []).append(words)
+    return {
+        length: tuple(frozenset(words[place] for words in group) for place in range(length))
+        for length, group in by_length.items()
+    }

@@ -85,55 +85,72 @@ def compile_pattern(text: str, slots: Slots, lists: Mapping[str, Sequence[str]])
     Raises:
         ValueError: Brackets that don't match, or an unknown slot or list; the message names it.
     """
-    tokens = _SYNTAX.findall(text)
-    node, end = _choice(tokens, 0, slots, lists)
-    if end != len(tokens):
-        raise ValueError(f"unmatched {tokens[end]!r} in the pattern {text[:60]!r}")
-    return node
+    return _Compiler(slots, lists).compile(text)
 
 
-def _choice(
-    tokens: Sequence[str], begin: int, slots: Slots, lists: Mapping[str, Sequence[str]]
-) -> tuple[Node, int]:
-    """Parts that ``|`` separates, up to a closing bracket or the end."""
-    choices: list[Node] = []
-    parts: list[Node] = []
-    at = begin
-    while at < len(tokens) and tokens[at] not in (")", "]"):
-        token = tokens[at]
-        at += 1
-        if token == "|":
-            choices.append(Chain(tuple(parts)))
-            parts = []
-        elif token in ("(", "["):
-            inner, at = _choice(tokens, at, slots, lists)
-            if at >= len(tokens) or tokens[at] != {"(": ")", "[": "]"}[token]:
-                raise ValueError(f"a {token!r} is not closed in {' '.join(tokens)[:60]!r}")
+class _Compiler:
+    """Reads a pattern and each of its slots once.
+
+    Args:
+        slots: The slots.
+        lists: The word lists.
+    """
+
+    def __init__(self, slots: Slots, lists: Mapping[str, Sequence[str]]) -> None:
+        self._slots, self._lists = slots, lists
+        self._compiled: dict[str, Node] = {}
+
+    def compile(self, text: str) -> Node:
+        tokens = _SYNTAX.findall(text)
+        node, end = self._choice(tokens, 0)
+        if end != len(tokens):
+            raise ValueError(f"unmatched {tokens[end]!r} in the pattern {text[:60]!r}")
+        return node
+
+    def _choice(self, tokens: Sequence[str], begin: int) -> tuple[Node, int]:
+        """Parts that ``|`` separates, up to a closing bracket or the end."""
+        choices: list[Node] = []
+        parts: list[Node] = []
+        at = begin
+        while at < len(tokens) and tokens[at] not in (")", "]"):
+            token = tokens[at]
             at += 1
-            parts.append(OneOf((inner,), optional=True) if token == "[" else inner)
-        else:
-            parts.append(_leaf(token, slots, lists))
-    choices.append(Chain(tuple(parts)))
-    return (choices[0] if len(choices) == 1 else OneOf(tuple(choices))), at
+            if token == "|":
+                choices.append(Chain(tuple(parts)))
+                parts = []
+            elif token in ("(", "["):
+                inner, at = self._choice(tokens, at)
+                if at >= len(tokens) or tokens[at] != {"(": ")", "[": "]"}[token]:
+                    raise ValueError(f"a {token!r} is not closed in {' '.join(tokens)[:60]!r}")
+                at += 1
+                parts.append(OneOf((inner,), optional=True) if token == "[" else inner)
+            else:
+                parts.append(self._leaf(token))
+        choices.append(Chain(tuple(parts)))
+        return (choices[0] if len(choices) == 1 else OneOf(tuple(choices))), at
 
+    def _leaf(self, token: str) -> Node:
+        if not token.startswith("{"):
+            return Literal(token)
+        name = token[1:-1]
+        if name.startswith("#"):
+            return NumberSlot(name[1:])
+        if name.startswith("*"):
+            if name[1:] not in self._lists:
+                known = ", ".join(self._lists)
+                raise ValueError(f"no word list is called {name[1:]!r}; known: {known}")
+            return ListSlot(name[1:], tuple(self._lists[name[1:]]))
+        if name not in self._slots:
+            raise ValueError(f"no slot is called {name!r}; known: {', '.join(self._slots)}")
+        if name not in self._compiled:
+            self._compiled[name] = self._slot(name)
+        return self._compiled[name]
 
-def _leaf(token: str, slots: Slots, lists: Mapping[str, Sequence[str]]) -> Node:
-    if not token.startswith("{"):
-        return Literal(token)
-    name = token[1:-1]
-    if name.startswith("#"):
-        return NumberSlot(name[1:])
-    if name.startswith("*"):
-        if name[1:] not in lists:
-            raise ValueError(f"no word list is called {name[1:]!r}; known: {', '.join(lists)}")
-        return ListSlot(name[1:], tuple(lists[name[1:]]))
-    if name not in slots:
-        raise ValueError(f"no slot is called {name!r}; known: {', '.join(slots)}")
-    slot = slots[name]
-    if isinstance(slot, str):
-        return compile_pattern(slot, slots, lists)
-    bound = [Bound(name, value, compile_pattern(p, slots, lists)) for value, p in slot.items()]
-    return OneOf(tuple(bound))
+    def _slot(self, name: str) -> Node:
+        slot = self._slots[name]
+        if isinstance(slot, str):
+            return self.compile(slot)
+        return OneOf(tuple(Bound(name, value, self.compile(p)) for value, p in slot.items()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

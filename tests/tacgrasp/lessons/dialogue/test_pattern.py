@@ -63,9 +63,10 @@ def test_runs_are_those_of_the_wordings():
 
 
 def test_distinct_wordings_are_counted_once_and_a_list_as_one():
-    assert Automaton(node("(a|b|a) [c]")).num_wordings() == 4
+    assert Automaton(node("(a|b|a) [c]")).num_wordings(99) == 4
     # 3 openings, 'it' and names of 1, 2 and 3 words, 3 sides, with and without a number
-    assert Automaton(node()).num_wordings() == 3 * 4 * 3 * 2
+    assert Automaton(node()).num_wordings(99) == 3 * 4 * 3 * 2
+    assert Automaton(node()).num_wordings(10) == 10
 
 
 def test_draws_are_accepted_and_understood_as_they_were_drawn():
