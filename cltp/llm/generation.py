@@ -58,8 +58,6 @@ class Reply:
         slots: With a grammar, what was decided about each part, by its name; otherwise empty.
         passes: Number of forward passes.
         close_calls: Number of passes among these that were spent on close decisions.
-        token_probabilities: Probability of each token of a free reply, among all tokens; empty with
-            a grammar.
     """
 
     text: str
@@ -71,7 +69,6 @@ class Reply:
     slots: Mapping[str, SlotDecision] = field(default_factory=dict)
     passes: int = 0
     close_calls: int = 0
-    token_probabilities: tuple[float, ...] = ()
 
     @property
     def confidence(self) -> float:
@@ -241,7 +238,6 @@ class Talker:
             slots=said.slots,
             passes=said.passes,
             close_calls=said.close_calls,
-            token_probabilities=tuple(said.token_probabilities),
         )
 
 
@@ -258,7 +254,6 @@ class _Generated(NamedTuple):
     ended: bool
     probabilities: list[float]
     passes: int
-    token_probabilities: Sequence[float] = ()
     text: str = ""
     slots: Mapping[str, SlotDecision] = {}
     close_calls: int = 0
@@ -297,10 +292,8 @@ def _own(
 ) -> _Generated:
     actions = [tokens[0] for tokens in language.actions()]
     probabilities: list[Tensor] = []
-    token_probabilities: list[float] = []
 
     def watch(token: int, logits: Tensor) -> None:
-        token_probabilities.append(float(logits.softmax(-1)[token]))
         if token in actions and not probabilities:
             probabilities.append(logits[actions].softmax(-1))
 
@@ -320,7 +313,6 @@ def _own(
         ended=len(ids) < max_tokens,
         probabilities=probabilities[0].tolist() if probabilities else [],
         passes=len(ids) + 1,
-        token_probabilities=token_probabilities,
     )
 
 
@@ -336,13 +328,11 @@ def _stock(
     logits = run.begin(inputs)[0]
     prefilled()
     ids: list[int] = []
-    chances: list[float] = []
     while len(ids) < max_tokens:
         token = int(logits.argmax())
         if token == language.end:
-            return _Generated(ids, True, [], run.passes, chances)
+            return _Generated(ids, True, [], run.passes)
         ids.append(token)
-        chances.append(float(logits.softmax(-1)[token]))
         logits = run.advance([token])[0]
         if language.decode(ids[-8:]).rstrip().endswith(CUE):
             weights = [
@@ -354,9 +344,8 @@ def _stock(
             probabilities = [weight / (sum(weights) or 1.0) for weight in weights]
             best = int(np.argmax(probabilities))
             ids += language.actions()[best]
-            chances += [probabilities[best]] + [1.0] * (len(language.actions()[best]) - 1)
-            return _Generated(ids, True, probabilities, run.passes, chances)
-    return _Generated(ids, False, [], run.passes, chances)
+            return _Generated(ids, True, probabilities, run.passes)
+    return _Generated(ids, False, [], run.passes)
 
 
 class _Run:

@@ -69,10 +69,3 @@ def test_a_caption_is_said_under_its_grammar(talker: Talker) -> None:
     assert parse_caption_reply(reply.text, MINI).goal is None
     assert reply.action is None
     assert reply.probabilities == ()
-
-
-def test_a_free_reply_gives_the_probability_of_each_token(talker: Talker) -> None:
-    reply = talker.reply(POINTS, "What is it?", max_tokens=6)
-    assert len(reply.token_probabilities) == reply.num_tokens
-    assert all(0 < p <= 1 for p in reply.token_probabilities)
-    assert reply.slots == {}
