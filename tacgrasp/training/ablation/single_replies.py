@@ -14,8 +14,9 @@ from cltp.encoder.readings import HeadReadings
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.states import CLASSES
+from policies.errors import PolicyError
 from policies.llm.grammar import step_grammar
-from policies.llm.reading import SaidContact, read_contact
+from policies.llm.parse import ParsedReply, parse_reply
 from policies.llm.text import step_request
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.question_draws import draw_contract
@@ -95,7 +96,7 @@ def score_replies(steps: Sequence[AskedStep], replies: Sequence[Reply]) -> dict[
     ``doubtful``: the fraction with a word in doubt or an interval. ``read``: the fraction that is a
     D_t at all.
     """
-    said = [read_contact(reply.text) for reply in replies]
+    said = [_parsed(reply.text) for reply in replies]
     pairs = list(zip(steps, said, strict=True))
     return {
         "words": {name: _fraction(_first_right(pairs, name)) for name in CLASSES},
@@ -103,7 +104,7 @@ def score_replies(steps: Sequence[AskedStep], replies: Sequence[Reply]) -> dict[
         "actions": _fraction(
             [reply.action == step.action for step, reply in zip(steps, replies, strict=True)]
         ),
-        "doubtful": _fraction([each is not None and each.is_doubtful for each in said]),
+        "doubtful": _fraction([each is not None and _is_doubtful(each) for each in said]),
         "read": _fraction([each is not None for each in said]),
     }
 
@@ -149,22 +150,33 @@ def _first_said(
 ) -> str | None:
     """The first word of a dimension that the model says of a step; None where it says none."""
     touch = touch_parts(talker.model, talker.feel(step.points), misreading).whole
-    said = read_contact(talker.reply_to(touch, step.prompt, grammar=step.grammar).text)
-    words = said.words.get(dimension) if said is not None else None
-    return words[0] if words else None
+    said = _parsed(talker.reply_to(touch, step.prompt, grammar=step.grammar).text)
+    return said.words.get(dimension) if said is not None else None
 
 
-def _first_right(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
+def _parsed(text: str) -> ParsedReply | None:
+    """A reply as D_t; None where it is none, as without a goal."""
+    try:
+        return parse_reply(text)
+    except PolicyError:
+        return None
+
+
+def _is_doubtful(said: ParsedReply) -> bool:
+    return bool(said.rivals) or any(low < high for low, high in said.numbers.values())
+
+
+def _first_right(pairs: Sequence[tuple[AskedStep, ParsedReply | None]], name: str) -> list[bool]:
     return [
-        said is not None and said.words.get(name, ("",))[0] == step.word(name)
+        said is not None and said.words.get(name) == step.word(name)
         for step, said in pairs
         if step.word(name) is not None
     ]
 
 
-def _named(pairs: Sequence[tuple[AskedStep, SaidContact | None]], name: str) -> list[bool]:
+def _named(pairs: Sequence[tuple[AskedStep, ParsedReply | None]], name: str) -> list[bool]:
     return [
-        said is not None and step.word(name) in said.words.get(name, ())
+        said is not None and step.word(name) in (said.words.get(name), said.rivals.get(name))
         for step, said in pairs
         if step.word(name) is not None
     ]
