@@ -59,6 +59,7 @@ class Automaton:
         self._spoken: dict[int, dict[str, list[_Arc]]] = {}
         self._listed: dict[int, list[_Arc]] = {}
         self.classes: dict[str, frozenset[str]] = {}
+        self._known_after: dict[tuple[str, ...], frozenset[int]] = {}
         self._start = self._state()
         self._end = self._build(node, self._start)
 
@@ -148,6 +149,8 @@ class Automaton:
 
     def accepts(self, words: Sequence[str]) -> bool:
         """Whether a wording, in plain words, may be produced."""
+        if not self.vocabulary.issuperset(words):
+            return False
         states = self._closure([self._start])
         for word in words:
             states = self._step(states, word)
@@ -155,18 +158,25 @@ class Automaton:
 
     def has_run(self, words: Sequence[str]) -> bool:
         """Whether some words, one after another, occur anywhere in a wording."""
-        first, *others = words
-        # from any state, since each of them lies on a way from the start to the end
-        targets = set(self._targets.get(first, ()))
-        for label, ends in self._listed_targets.items():
-            if first in self.classes[label]:
-                targets |= ends
-        states = self._closure(targets)
-        for word in others:
-            if not states:
-                break
-            states = self._step(states, word)
-        return bool(states)
+        return self.vocabulary.issuperset(words) and bool(self._after(tuple(words)))
+
+    def _after(self, words: tuple[str, ...]) -> frozenset[int]:
+        """States that take a word, or end, behind some words that begin anywhere."""
+        if words not in self._known_after:
+            if len(words) > 1:
+                states = self._step(self._after(words[:-1]), words[-1])
+            else:  # from any state, since each of them lies on a way from the start to the end
+                targets = set(self._targets.get(words[0], ()))
+                for label, ends in self._listed_targets.items():
+                    if words[0] in self.classes[label]:
+                        targets |= ends
+                states = self._closure(targets)
+            self._known_after[words] = frozenset(
+                state
+                for state in states
+                if state in self._spoken or state in self._listed or state == self._end
+            )
+        return self._known_after[words]
 
     def understand(self, text: PlainText) -> Understood | None:
         """Bindings of the first way in which a text may be produced; None where there is none."""
@@ -220,9 +230,10 @@ class Automaton:
 
         return min(most, count(self._closure([self._start]), most))
 
-    def vocabulary(self) -> set[str]:
-        """All words of its wordings."""
-        words = {word for arcs in self._spoken.values() for word in arcs} - {NUMBER}
+    @cached_property
+    def vocabulary(self) -> frozenset[str]:
+        """All words of its wordings; ``NUMBER`` where they have numbers."""
+        words = frozenset(word for arcs in self._spoken.values() for word in arcs)
         return words.union(*self.classes.values())
 
 

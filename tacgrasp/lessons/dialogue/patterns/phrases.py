@@ -168,7 +168,7 @@ SHARED: dict[str, str | dict[str, str]] = {
         "is it right to say that|is it fair to say that|is it a fact that|is it possible that|"
         "is it likely that|could it be that|can it be that|might it be that|"
         "can (I|we|one) say that|may (I|we) say that|can we assume that|should I assume that|"
-        "am I right that|am I right in thinking that|am I correct that|am I wrong to think that|"
+        "am I right that|am I right in thinking that|am I correct that|"
         "would I be right that|are we sure that|are you certain that|are you positive that|"
         "true or false :|right or wrong :|yes or no :|"
         "does it look as if|does it look like|does it feel like|does the touch say that|"

@@ -32,7 +32,7 @@ def test_every_question_of_the_grammar_has_a_query_that_reads_back(family):
         ("Over half a newton?", "over # newton", (0.5,)),
         ("Does it cover a third of the pad?", "does it cover # percent of the pad", (33.3,)),
         ("Between two and three newtons?", "between # and # newtons", (2.0, 3.0)),
-        ("In one word: how deep?", "in one word how deep", ()),
+        ("In one word: how deep?", "in a word how deep", ()),
         ("A tenth of a millimetre or more?", "# millimetre or more", (0.1,)),
     ],
 )

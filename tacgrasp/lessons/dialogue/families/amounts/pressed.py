@@ -379,8 +379,8 @@ _AREA_SHARE = (
     ),
 )
 _AREA_NOUNS = (
-    "the [contact|touched|covered|total|pressed|present|touching] area|the [contact|"
-    "touched] surface [area]|the area of (contact|the contact|{touch}|the footprint|the imprint|"
+    "the [contact|touched|covered|total|pressed|present|touching] area|the (contact|"
+    "touched) surface [area]|the surface area|the area of (contact|the contact|{touch}|the footprint|the imprint|"
     "touch)|the footprint|the size of (the contact|the contact patch|the footprint|the imprint|"
     "the touch|the patch)|the (part|portion) of {gel} (in contact|covered by {thing}|taken up)|"
     "what part of {gel} is covered|the area (that|which) {thing} (touches|covers|presses on|"
