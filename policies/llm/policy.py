@@ -30,7 +30,7 @@ from cltp.tactile.states import NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
-from policies.llm.grammar import SURE, caption_grammar, step_grammar
+from policies.llm.grammar import REASON, SURE, caption_grammar, step_grammar
 from policies.llm.question_check import check_question
 from policies.llm.text import (
     CAPTION_REQUEST,
@@ -42,7 +42,7 @@ from policies.llm.text import (
 )
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, Reason, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
 from primitives.sense import Interval
@@ -214,23 +214,24 @@ class LlmPolicy:
         contradiction = self._talker.model.heads.contradiction
         reading = reading_of(felt.readings, cloud, contradiction, commanded_force_n=commanded_n)
         draft = drafted(reading, force_n)
-        excluded = (*repeated_moves(self._moves), *barred)
-        grammar = step_grammar(cloud.sensor, force_n, excluded)
+        excluded = [*repeated_moves(self._moves), *barred]
+        asked = request or step_request(force_n, limit_n)
         read = self._clock()
-        reply = self._talker.reply_to(
-            felt.touch,
-            request or step_request(force_n, limit_n),
-            grammar=grammar,
-            draft=draft,
-            penalties=ACTION_PENALTIES,
-        )
         stages = {
             "sample": 1e3 * (sampled - begin),
             **felt.stage_ms,
             "read": 1e3 * (read - read_from),
-            **reply.stage_ms,
         }
-        return SaidStep(felt, reading, reply, stages)
+        while True:
+            grammar = step_grammar(cloud.sensor, force_n, excluded)
+            reply = self._talker.reply_to(
+                felt.touch, asked, grammar=grammar, draft=draft, penalties=ACTION_PENALTIES
+            )
+            for name, spent_ms in reply.stage_ms.items():
+                stages[name] = stages.get(name, 0.0) + spent_ms
+            if reply.action is None or not contradicts_itself(reply, force_n):
+                return SaidStep(felt, reading, reply, stages)
+            excluded.append(reply.action)
 
     def describe(self, cloud: TactileCloud, *, doubt: bool = True) -> str:
         """The model's caption of a contact, with its numbers.
@@ -292,6 +293,27 @@ def with_felt_force(readings: HeadReadings, felt: Interval | None) -> HeadReadin
     factor[_FORCE] = felt.value / force
     values, low_ends, high_ends = (factor * ends for ends in readings[3:])
     return readings._replace(values=values, low=low_ends, high=high_ends)
+
+
+def contradicts_itself(reply: Reply, force_n: Band) -> bool:
+    """Whether D_t's action goes against the force that the same D_t has said.
+
+    Args:
+        reply: A reply under the grammar of a step.
+        force_n: Its target [N].
+    """
+    said = reply.slots.get("force_n")
+    if said is None:
+        return False
+    ends = [float(end) for end in said.chosen.split("-")]
+    match reply.action:
+        case "<increase_force>":
+            return ends[0] >= force_n.low
+        case "<decrease_force>":
+            return ends[-1] <= force_n.high
+        case "<none>" if reply.slots[REASON].chosen == Reason.GOOD.name:
+            return ends[0] > force_n.high or ends[-1] < force_n.low
+    return False
 
 
 def flag_reason(reading: TouchReading) -> str:

@@ -15,7 +15,9 @@ from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.encoder.reader import Flag
+from cltp.encoder.readings import HeadReadings
 from cltp.llm.causal_lm import Language, small_lm
+from cltp.llm.constrained.decode import SlotDecision
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Felt, Reply
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
@@ -28,7 +30,13 @@ from policies.errors import PolicyError
 from policies.extraction import extract
 from policies.llm.grammar import step_grammar
 from policies.llm.parse import parse_reply
-from policies.llm.policy import LlmPolicy, hold_reason, repeated_moves
+from policies.llm.policy import (
+    LlmPolicy,
+    contradicts_itself,
+    hold_reason,
+    repeated_moves,
+    with_felt_force,
+)
 from primitives import Primitive
 from primitives.contract import Band
 from primitives.sense import Interval
@@ -234,3 +242,69 @@ def test_what_is_clearly_felt_bars_the_decisions_against_it(
     felt = None if felt_n is None else Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
     policy.decide(Observation(cloud=touch(), felt_force_n=felt), contract(0.95, 1.9, 2.4))
     assert asked[0] == barred
+
+
+def said(action: str, force: str, reason: str = "GOOD") -> Reply:
+    """A reply whose force and action are all that matters."""
+    chosen = {"force_n": force, "action": action, "reason": reason}
+    slots = {
+        name: SlotDecision(name=name, chosen=value, probability=1.0, rival="", probabilities={})
+        for name, value in chosen.items()
+    }
+    return Reply(
+        text="",
+        ended=True,
+        num_tokens=1,
+        action=action,
+        probabilities=(1.0,),
+        stage_ms={},
+        slots=slots,
+    )
+
+
+@pytest.mark.parametrize(
+    ("action", "force", "expected"),
+    [
+        ("<increase_force>", "0.41", False),
+        ("<increase_force>", "0.42", True),
+        ("<increase_force>", "0.38-0.60", False),  # it may be too light
+        ("<decrease_force>", "0.52", False),
+        ("<decrease_force>", "0.51", True),
+        ("<decrease_force>", "0.38-0.60", False),
+        ("<none>", "0.42", False),
+        ("<none>", "0.52", True),
+        ("<none>", "0.10-0.30", True),
+        ("<none>", "0.10-0.45", False),
+        ("<move_up>", "9.00", False),
+        ("<reset>", "0.00", False),
+    ],
+)
+def test_d_t_does_not_advise_against_the_force_that_it_says(
+    action: str, force: str, expected: bool
+) -> None:
+    assert contradicts_itself(said(action, force), Band(low=0.42, high=0.51)) is expected
+
+
+def test_where_no_step_fits_none_is_no_contradiction() -> None:
+    reply = said("<none>", "0.90", "BAND_TOO_NARROW")
+    assert not contradicts_itself(reply, Band(low=0.42, high=0.51))
+
+
+def test_no_reply_of_the_policy_contradicts_itself(untrained: Path) -> None:
+    policy = LlmPolicy(untrained)
+    for low in (0.1, 0.3, 1.0, 3.0):
+        band = Band(low=low, high=1.2 * low)
+        reply = policy.say(Observation(cloud=touch()), band, 2 * low).reply
+        assert not contradicts_itself(reply, band)
+
+
+def test_the_felt_force_takes_the_place_of_a_reading_that_it_agrees_with() -> None:
+    ends = [torch.tensor([[0.2, 0.0, 0.0, 0.1, force]]) for force in (0.8, 0.6, 1.1)]
+    words = tuple(torch.ones(1, 2) for _ in range(5))
+    read = HeadReadings(words, torch.ones(1), torch.zeros(1, 4), *ends)
+    told = with_felt_force(read, Interval(value=1.0, low=0.7, high=1.4))
+    forces = [float(end[0, 4]) for end in (told.values, told.low, told.high)]
+    assert forces == pytest.approx([1.0, 0.75, 1.375])
+    assert torch.equal(told.values[:, :4], read.values[:, :4])
+    assert with_felt_force(read, None) is read
+    assert with_felt_force(read, Interval(value=3.0, low=2.0, high=4.0)) is read  # they contradict
