@@ -30,7 +30,7 @@ from cltp.tactile.states import NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
-from policies.llm.grammar import REASON, SURE, caption_grammar, step_grammar
+from policies.llm.grammar import SURE, caption_grammar, step_grammar
 from policies.llm.question_check import check_question
 from policies.llm.text import (
     CAPTION_REQUEST,
@@ -42,7 +42,7 @@ from policies.llm.text import (
 )
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.teacher import LESSON_MOVE_STEP_MM, Reason, force_goal, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
 from primitives.sense import Interval
@@ -50,14 +50,6 @@ from primitives.sense import Interval
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
 1,000,000: at 0.5 one episode in eight ended with ``no_action``, undecided between good answers."""
-
-ACTION_PENALTIES = {f"<{Primitive.INCREASE_FORCE}>": math.log(3.0)}
-"""Penalties of actions [nats]: ``increase_force`` must be 3 times likelier than any other action.
-
-A force that is too low can be raised in the next step, but a bruise stays. Chosen on seeds below
-1,000,000.
-"""
-
 
 _FORCE = NUMBERS.index("force_n")
 
@@ -214,24 +206,22 @@ class LlmPolicy:
         contradiction = self._talker.model.heads.contradiction
         reading = reading_of(felt.readings, cloud, contradiction, commanded_force_n=commanded_n)
         draft = drafted(reading, force_n)
-        excluded = [*repeated_moves(self._moves), *barred]
-        asked = request or step_request(force_n, limit_n)
+        excluded = (*repeated_moves(self._moves), *barred, *denied(reading, force_n))
+        grammar = step_grammar(cloud.sensor, force_n, excluded)
         read = self._clock()
+        reply = self._talker.reply_to(
+            felt.touch,
+            request or step_request(force_n, limit_n),
+            grammar=grammar,
+            draft=draft,
+        )
         stages = {
             "sample": 1e3 * (sampled - begin),
             **felt.stage_ms,
             "read": 1e3 * (read - read_from),
+            **reply.stage_ms,
         }
-        while True:
-            grammar = step_grammar(cloud.sensor, force_n, excluded)
-            reply = self._talker.reply_to(
-                felt.touch, asked, grammar=grammar, draft=draft, penalties=ACTION_PENALTIES
-            )
-            for name, spent_ms in reply.stage_ms.items():
-                stages[name] = stages.get(name, 0.0) + spent_ms
-            if reply.action is None or not contradicts_itself(reply, force_n):
-                return SaidStep(felt, reading, reply, stages)
-            excluded.append(reply.action)
+        return SaidStep(felt, reading, reply, stages)
 
     def describe(self, cloud: TactileCloud, *, doubt: bool = True) -> str:
         """The model's caption of a contact, with its numbers.
@@ -295,25 +285,25 @@ def with_felt_force(readings: HeadReadings, felt: Interval | None) -> HeadReadin
     return readings._replace(values=values, low=low_ends, high=high_ends)
 
 
-def contradicts_itself(reply: Reply, force_n: Band) -> bool:
-    """Whether D_t's action goes against the force that the same D_t has said.
+def denied(reading: TouchReading, force_n: Band) -> tuple[str, ...]:
+    """Tokens of actions that go against the force as it is read.
+
+    Which side of the target a force is on is read, not guessed: the model decides between a move,
+    a new grasp and the one action on the force that is left. Read as a text of digits, one force in
+    fifteen was taken for another one, and one grip in twenty bruised or slipped.
 
     Args:
-        reply: A reply under the grammar of a step.
-        force_n: Its target [N].
+        reading: What is read of the contact.
+        force_n: Target of the step [N].
     """
-    said = reply.slots.get("force_n")
-    if said is None:
-        return False
-    ends = [float(end) for end in said.chosen.split("-")]
-    match reply.action:
-        case "<increase_force>":
-            return ends[0] >= force_n.low
-        case "<decrease_force>":
-            return ends[-1] <= force_n.high
-        case "<none>" if reply.slots[REASON].chosen == Reason.GOOD.name:
-            return ends[0] > force_n.high or ends[-1] < force_n.low
-    return False
+    if not reading.state.in_contact:
+        return ()
+    more, less, enough = "<increase_force>", "<decrease_force>", "<none>"
+    if reading.state.force_n < force_n.low:
+        return less, enough
+    if reading.state.force_n > force_n.high:
+        return more, enough
+    return more, less
 
 
 def flag_reason(reading: TouchReading) -> str:

@@ -14,16 +14,16 @@ from cltp.checkpoints.manifest import WeightsError
 from cltp.checkpoints.tac3d_llm import save_encoder, save_tac3d_llm
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads
-from cltp.encoder.reader import Flag
+from cltp.encoder.reader import Flag, TouchReading
 from cltp.encoder.readings import HeadReadings
 from cltp.llm.causal_lm import Language, small_lm
-from cltp.llm.constrained.decode import SlotDecision
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Felt, Reply
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.sensors import SENSORS
+from cltp.tactile.states import NO_CONTACT_STATE
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
 from policies.errors import PolicyError
@@ -32,7 +32,7 @@ from policies.llm.grammar import step_grammar
 from policies.llm.parse import parse_reply
 from policies.llm.policy import (
     LlmPolicy,
-    contradicts_itself,
+    denied,
     hold_reason,
     repeated_moves,
     with_felt_force,
@@ -41,6 +41,7 @@ from primitives import Primitive
 from primitives.contract import Band
 from primitives.sense import Interval
 from tests.fakes.contracts import contract, wide_contract
+from tests.fakes.question_scenes import HELD
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -239,63 +240,30 @@ def test_what_is_clearly_felt_bars_the_decisions_against_it(
         return step_grammar(None, Band(low=0.95, high=1.9), excluded)
 
     monkeypatch.setattr(policies.llm.policy, "step_grammar", record)
+    monkeypatch.setattr(policies.llm.policy, "denied", lambda *_: ())
     felt = None if felt_n is None else Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
     policy.decide(Observation(cloud=touch(), felt_force_n=felt), contract(0.95, 1.9, 2.4))
     assert asked[0] == barred
 
 
-def said(action: str, force: str, reason: str = "GOOD") -> Reply:
-    """A reply whose force and action are all that matters."""
-    chosen = {"force_n": force, "action": action, "reason": reason}
-    slots = {
-        name: SlotDecision(name=name, chosen=value, probability=1.0, rival="", probabilities={})
-        for name, value in chosen.items()
-    }
-    return Reply(
-        text="",
-        ended=True,
-        num_tokens=1,
-        action=action,
-        probabilities=(1.0,),
-        stage_ms={},
-        slots=slots,
-    )
-
-
 @pytest.mark.parametrize(
-    ("action", "force", "expected"),
+    ("force_n", "expected"),
     [
-        ("<increase_force>", "0.41", False),
-        ("<increase_force>", "0.42", True),
-        ("<increase_force>", "0.38-0.60", False),  # it may be too light
-        ("<decrease_force>", "0.52", False),
-        ("<decrease_force>", "0.51", True),
-        ("<decrease_force>", "0.38-0.60", False),
-        ("<none>", "0.42", False),
-        ("<none>", "0.52", True),
-        ("<none>", "0.10-0.30", True),
-        ("<none>", "0.10-0.45", False),
-        ("<move_up>", "9.00", False),
-        ("<reset>", "0.00", False),
+        (0.41, {"<decrease_force>", "<none>"}),
+        (0.42, {"<increase_force>", "<decrease_force>"}),
+        (0.51, {"<increase_force>", "<decrease_force>"}),
+        (0.52, {"<increase_force>", "<none>"}),
     ],
 )
-def test_d_t_does_not_advise_against_the_force_that_it_says(
-    action: str, force: str, expected: bool
+def test_what_goes_against_the_force_as_it_is_read_is_denied(
+    force_n: float, expected: set[str]
 ) -> None:
-    assert contradicts_itself(said(action, force), Band(low=0.42, high=0.51)) is expected
-
-
-def test_where_no_step_fits_none_is_no_contradiction() -> None:
-    reply = said("<none>", "0.90", "BAND_TOO_NARROW")
-    assert not contradicts_itself(reply, Band(low=0.42, high=0.51))
-
-
-def test_no_reply_of_the_policy_contradicts_itself(untrained: Path) -> None:
-    policy = LlmPolicy(untrained)
-    for low in (0.1, 0.3, 1.0, 3.0):
-        band = Band(low=low, high=1.2 * low)
-        reply = policy.say(Observation(cloud=touch()), band, 2 * low).reply
-        assert not contradicts_itself(reply, band)
+    read = TouchReading(
+        state=replace(HELD.state, force_n=force_n), numbers={}, confidence={}, contact=1.0, flags=()
+    )
+    band = Band(low=0.42, high=0.51)
+    assert set(denied(read, band)) == expected
+    assert denied(replace(read, state=NO_CONTACT_STATE), band) == ()
 
 
 def test_the_felt_force_takes_the_place_of_a_reading_that_it_agrees_with() -> None:

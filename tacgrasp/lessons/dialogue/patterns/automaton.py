@@ -180,6 +180,8 @@ class Automaton:
 
     def understand(self, text: PlainText) -> Understood | None:
         """Bindings of the first way in which a text may be produced; None where there is none."""
+        if not self.vocabulary.issuperset(text.words):
+            return None
         failed: set[tuple[int, int]] = set()
         trail: list[tuple[tuple[str, str], int]] = []
 
