@@ -1,4 +1,4 @@
-"""Stages 'text', 'projector' and 'joint' of Tac3D-LLM (paper, section 5.3, after LLaVA).
+"""Stages 'text', 'projector', 'joint' and 'words' of Tac3D-LLM (paper, section 5.3, after LLaVA).
 
 text: the language model learns how contacts are described and which advice follows, behind readings
     alone that are drawn around the truth; and, without any touch, what a question asks for.
@@ -7,6 +7,8 @@ projector: encoder and language model are frozen; the MLP between them learns by
 joint: projector and language model learn captions, advice and questions together; the encoder
     stays as CLTP left it. Some readings are left out or wrong (``cltp.llm.unsure_readings``), so
     that the touch tokens are listened to.
+words: the same with many contacts and one text about each: words come from the touch tokens, which
+    are as many as there are contacts.
 
 The texts about a contact come from ``Lessons``; this package knows no targets and no actions. Words
 are learned from the truth, numbers from the readings of the encoder's heads. Written digit by
@@ -55,6 +57,7 @@ STAGES = {
     "text": Schedule(steps=1000, batch_size=16, learning_rate=2e-3),
     "projector": Schedule(steps=200, batch_size=32, learning_rate=2e-3),
     "joint": Schedule(steps=700, batch_size=16, learning_rate=1e-3),
+    "words": Schedule(steps=200, batch_size=48, learning_rate=8e-4),
 }
 
 FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
@@ -73,7 +76,7 @@ IN_DOUBT = 0.2
 BEFORE_TOUCH = ("text", "encoder")
 """The stage that goes on behind another encoder: it does not use any."""
 
-QUESTIONS = {"text": 256, "joint": 128}
+QUESTIONS = {"text": 256, "joint": 128, "words": 64}
 """Questions in each step of a stage, besides its contacts."""
 
 QUESTION_ROW = 8
@@ -193,8 +196,8 @@ def train_llm(
             continue
         made_of = {key: value for key, value in identity.items() if (name, key) != BEFORE_TOUCH}
         model.requires_grad_(False)
-        model.projector.requires_grad_(name in ("projector", "joint"))
-        model.lm.requires_grad_(name in ("text", "joint"))
+        model.projector.requires_grad_(name != "text")
+        model.lm.requires_grad_(name != "projector")
         learner.train(Stage(name, run, learned, schedules[name], made_of), number)
     save_tac3d_llm(run.out, model.cpu().eval())
     return run.out
@@ -257,10 +260,17 @@ class _Learner:
                 encoded, readings = self._felt(batch, factors, spreads)
                 told = shown(readings, rng)
             felt = [_felt(states[row], readings, row, rng) for row in told.meant.tolist()]
-            teach = self.lessons.captions if stage.name == "projector" else self.lessons.mixed
-            exchanges = [teach(each, rng) for each in felt]
+            exchanges = [self._exchanges(stage.name, each, rng) for each in felt]
             packed = pack(self.words, exchanges, num_touch, action_weight=ACTION_WEIGHT)
             yield _Sample(encoded, told, packed, self._questions(stage.name, rng))
+
+    def _exchanges(
+        self, stage: str, felt: ToldContact, rng: np.random.Generator
+    ) -> Sequence[Exchange]:
+        if stage == "projector" or (stage == "words" and rng.random() < 0.5):
+            return self.lessons.captions(felt, rng)
+        exchanges = self.lessons.mixed(felt, rng)
+        return exchanges[-1:] if stage == "words" else exchanges
 
     def _questions(self, stage: str, rng: np.random.Generator) -> Packed | None:
         asked = self.lessons.questions(QUESTIONS.get(stage, 0), rng)

@@ -17,7 +17,7 @@ from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.states import CLASSES
 from policies.llm.grammar import step_grammar
 from policies.llm.policy import LlmPolicy
-from policies.llm.text import REQUEST, advice_text, contact_text
+from policies.llm.text import REQUEST, advice_text, contact_text, goal_text
 from primitives.contract import Band
 from tacgrasp.__main__ import main
 from tacgrasp.training.ablation.ablated_talker import (
@@ -112,7 +112,9 @@ def reply_of(text: str) -> Reply:
 def right_text(step: AskedStep) -> str:
     advice = step.scene.advice
     assert advice is not None
-    return f"{contact_text(step.scene.state)} {advice_text(advice)}"
+    assert step.scene.contract is not None
+    goal = goal_text(step.scene.contract.terms.force_n)
+    return f"{contact_text(step.scene.state)} {goal} {advice_text(advice)}"
 
 
 def test_both_parts_are_what_the_model_makes_of_a_contact(
