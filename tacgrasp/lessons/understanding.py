@@ -27,6 +27,9 @@ PROBABLY_BELOW = 0.6
 FOLLOW_UP_WORDS = 5
 """Longest question [words] that may be a follow-up without beginning as one. Our choice."""
 
+ALONE_FROM = 0.5
+"""Confidence from which a question that does not begin as a follow-up is none. Our choice."""
+
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
 NOT_UNDERSTOOD = "I don't understand the question."
@@ -81,14 +84,15 @@ def understood_in_turn(writer: QueryWriter, question: str, before: str) -> ReadQ
     """What a question means after another one.
 
     One that begins as follow-ups do is read behind the question before it. So is another short one
-    where that gives the likelier query.
+    where it means little alone, and that gives the likelier query.
     """
     if not before:
         return understood(writer, question)
     if _FOLLOWS.match(question):
         return understood(writer, question, before)
     alone = understood(writer, question)
-    if len(question.split()) > FOLLOW_UP_WORDS:
+    stands_alone = alone is not None and alone.confidence >= ALONE_FROM
+    if stands_alone or len(question.split()) > FOLLOW_UP_WORDS:
         return alone
     read = [each for each in (alone, understood(writer, question, before)) if each is not None]
     return max(read, key=lambda each: each.confidence, default=None)
