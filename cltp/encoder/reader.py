@@ -144,15 +144,7 @@ def reading_of(
     words = {name: CLASSES[name][int(chance.argmax())] for name, chance in chances.items()}
     state = NO_CONTACT_STATE
     if contact >= 0.5:
-        state = ContactState(
-            **{name: number.value for name, number in numbers.items()},
-            depth=Depth(words["depth"]),
-            position=Position(words["position"]),
-            area=Area(words["area"]),
-            shape=Shape(words["shape"]),
-            texture=Texture(words["texture"]),
-            cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
-        )
+        state = state_in_words(read, words)
     flags = list(_flags(numbers, cloud))
     if state.in_contact and contradiction is not None:
         low, high = contradiction.tolist()
@@ -168,6 +160,24 @@ def reading_of(
         confidence={name: float(chance.max()) for name, chance in chances.items()},
         contact=contact,
         flags=tuple(flags),
+    )
+
+
+def state_in_words(read: HeadReadings, words: Mapping[str, str]) -> ContactState:
+    """A contact with the numbers and cut sides that the heads read, a batch of one, and words.
+
+    Args:
+        read: What the heads read.
+        words: A word for each dimension of ``CLASSES``.
+    """
+    return ContactState(
+        **dict(zip(NUMBERS, read.values[0].tolist(), strict=True)),
+        depth=Depth(words["depth"]),
+        position=Position(words["position"]),
+        area=Area(words["area"]),
+        shape=Shape(words["shape"]),
+        texture=Texture(words["texture"]),
+        cut=frozenset(side for side, x in zip(Side, read.cut[0], strict=True) if x > 0.5),
     )
 
 

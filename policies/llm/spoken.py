@@ -8,20 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from cltp.encoder.reader import state_in_words
 from cltp.llm.generation import Felt, Talker
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import (
-    CLASSES,
-    NO_CONTACT_STATE,
-    NUMBERS,
-    Area,
-    ContactState,
-    Depth,
-    Position,
-    Shape,
-    Side,
-    Texture,
-)
+from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
 from policies.llm.text import CAPTION_REQUEST
 
@@ -52,14 +42,5 @@ def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None)
     if any(slot.chosen == NOTHING_TOUCHES for slot in said.values()):
         return SpokenContact(NO_CONTACT_STATE, {})
     words = {name: slot.chosen for name, slot in said.items()}
-    numbers = dict(zip(NUMBERS, felt.readings.values[0].tolist(), strict=True))
-    state = ContactState(
-        **numbers,
-        depth=Depth(words["depth"]),
-        position=Position(words["position"]),
-        area=Area(words["area"]),
-        shape=Shape(words["shape"]),
-        texture=Texture(words["texture"]),
-        cut=frozenset(side for side, p in zip(Side, felt.readings.cut[0], strict=True) if p > 0.5),
-    )
+    state = state_in_words(felt.readings, words)
     return SpokenContact(state, {name: slot.probability for name, slot in said.items()})

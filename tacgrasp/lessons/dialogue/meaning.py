@@ -137,20 +137,7 @@ class OffTopic:
 Meaning = Amount | Check | Which | Several | Why | Description | Unknowable | OffTopic
 
 FACTS: Mapping[str, str] = {
-    "depth": "depth_mm",
-    "force": "force_n",
-    "area": "area_percent",
-    "x": "x_mm",
-    "y": "y_mm",
-    "distance": "hypot(x_mm, y_mm)",
-    "offset_x": "abs(x_mm)",
-    "offset_y": "abs(y_mm)",
-    "mass": "mass_g",
-    "limit": "limit_n",
-    "band_low": "band_low_n",
-    "band_high": "band_high_n",
-    "headroom": "limit_n - force_n",
-    "holds": "holds_g",
+    **{name: quantity.truth for name, quantity in QUANTITIES.items()},
     "shape": "shape",
     "texture": "texture",
     "depth_word": "depth",
