@@ -15,6 +15,7 @@ from collections.abc import Mapping, Sequence
 
 from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.meaning import Check, Length
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES
 from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
 IN_BAND = "band_low_n <= force_n <= band_high_n"
@@ -39,27 +40,23 @@ STATES: Mapping[str, tuple[str, str]] = {
 }
 """Expression of each state, and the fact that an answer names."""
 
-MEASURED: Mapping[str, Mapping[str, tuple[str, str]]] = {
-    "depth": {"mm": ("depth_mm", ""), "µm": ("depth_mm", " / 1000"), "cm": ("depth_mm", " * 10")},
-    "force": {
-        "N": ("force_n", ""),
-        "mN": ("force_n", " / 1000"),
-        "g": ("force_n", " * 0.00981"),
-    },
-    "area": {"%": ("area_percent", ""), "mm²": ("area_mm2", "")},
-    "distance": {"mm": ("hypot(x_mm, y_mm)", "")},
-    "x": {"mm": ("x_mm", "")},
-    "y": {"mm": ("y_mm", "")},
-    "offset_x": {"mm": ("abs(x_mm)", "")},
-    "offset_y": {"mm": ("abs(y_mm)", "")},
-    "mass": {"g": ("mass_g", ""), "kg": ("mass_g", " * 1000")},
-    "limit": {"N": ("limit_n", "")},
-    "band_low": {"N": ("band_low_n", "")},
-    "band_high": {"N": ("band_high_n", "")},
-    "headroom": {"N": ("limit_n - force_n", "")},
-    "holds": {"g": ("holds_g", ""), "kg": ("holds_g", " * 1000")},
+MEASURED: Mapping[str, Mapping[str, str]] = {
+    "depth": {"mm": "", "µm": " / 1000", "cm": " * 10"},
+    "force": {"N": "", "mN": " / 1000", "g": " * 0.00981"},
+    "area": {"%": "", "mm²": ""},
+    "distance": {"mm": ""},
+    "x": {"mm": ""},
+    "y": {"mm": ""},
+    "offset_x": {"mm": ""},
+    "offset_y": {"mm": ""},
+    "mass": {"g": "", "kg": " * 1000"},
+    "limit": {"N": ""},
+    "band_low": {"N": ""},
+    "band_high": {"N": ""},
+    "headroom": {"N": ""},
+    "holds": {"g": "", "kg": " * 1000"},
 }
-"""What is compared with a number: expression and factor of the number, by quantity and unit."""
+"""Factor behind a number, by the quantity of ``QUANTITIES`` that is compared with it and by unit."""
 
 SIGNS = (">", "<", ">=", "<=")
 
@@ -146,7 +143,8 @@ def _mass(number: str | None, unit: str | None) -> str:
 def _measured(name: str, unit: str) -> tuple[str, str]:
     if unit not in MEASURED.get(name, {}):
         raise ValueError(f"there is no {name} in {unit}")
-    return MEASURED[name][unit]
+    expression = "area_mm2" if unit == "mm²" else QUANTITIES[name].truth
+    return expression, MEASURED[name][unit]
 
 
 def _plain(number: str) -> str:
