@@ -56,7 +56,7 @@ MEASURED: Mapping[str, Mapping[str, str]] = {
     "headroom": {"N": ""},
     "holds": {"g": "", "kg": " * 1000"},
 }
-"""Factor behind a number, by the quantity of ``QUANTITIES`` that is compared with it and by unit."""
+"""Factor behind a number, by compared quantity (``QUANTITIES``) and unit."""
 
 SIGNS = (">", "<", ">=", "<=")
 
