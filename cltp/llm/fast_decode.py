@@ -63,14 +63,14 @@ class FastDecoder:
     @torch.no_grad()
     def prefill(self, embeddings: Tensor) -> Tensor:
         """Begin with inputs (T, D); return the logits of what follows, shape (V,)."""
-        return self.begin(embeddings)[0]
+        return self.logits(self.begin(embeddings)[0])
 
     @torch.no_grad()
     def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
         """Begin with inputs (T, D) and tokens after them, in one pass.
 
         Returns:
-            Logits of what follows the inputs, and each of the tokens: shape (1 + tokens, V).
+            States behind the inputs, and behind each of the tokens: shape (1 + tokens, D).
         """
         self._length = 0
         return self._advance(
@@ -80,12 +80,23 @@ class FastDecoder:
     @torch.no_grad()
     def step(self, token: int) -> Tensor:
         """Append a token; return the logits of what follows, shape (V,)."""
-        return self._advance(self._embedding[token : token + 1], 1)[0]
+        return self.logits(self._advance(self._embedding[token : token + 1], 1)[0])
 
     @torch.no_grad()
     def advance(self, tokens: Sequence[int]) -> Tensor:
-        """Append one or more tokens in one pass; the logits of what follows each, (tokens, V)."""
+        """Append one or more tokens in one pass; the state behind each, shape (tokens, D)."""
         return self._advance(self._embedding[list(tokens)], len(tokens))
+
+    @torch.no_grad()
+    def logits(self, states: Tensor) -> Tensor:
+        """Logits of what follows states (..., D): shape (..., V)."""
+        return F.linear(states, self._head)
+
+    @torch.no_grad()
+    def scores(self, state: Tensor, tokens: Sequence[int]) -> list[float]:
+        """Logits of some tokens behind a state (D,): the others cost nothing."""
+        logits: list[float] = (self._head[list(tokens)] @ state).float().tolist()
+        return logits
 
     def rewind(self, length: int) -> None:
         """Forget all but the first ``length`` positions.
@@ -98,7 +109,7 @@ class FastDecoder:
         self._length = length
 
     def _advance(self, x: Tensor, rows: int) -> Tensor:
-        """Append inputs (T, D); the logits of what follows the last ``rows`` of them."""
+        """Append inputs (T, D); the states behind the last ``rows`` of them, (rows, D)."""
         count = len(x)
         start, end = self._length, self._length + count
         cos, sin = self._cos[start:end], self._sin[start:end]
@@ -127,7 +138,7 @@ class FastDecoder:
             gate, up = F.linear(normed, layer.gate_up).chunk(2, -1)
             x = x + F.linear(F.silu(gate) * up, layer.down)
         self._length = end
-        return F.linear(F.rms_norm(x[-rows:], width, self._norm, self._eps), self._head)
+        return F.rms_norm(x[-rows:], width, self._norm, self._eps)
 
 
 def _joined(layer: Any) -> _Layer:

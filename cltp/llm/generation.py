@@ -349,7 +349,10 @@ def _stock(
 
 
 class _Run:
-    """A stock checkpoint's forward pass, with its cache, under the names of ``FastDecoder``."""
+    """A stock checkpoint's forward pass, with its cache, under the names of ``FastDecoder``.
+
+    What it gives behind each token are the logits themselves.
+    """
 
     def __init__(self, language: Language) -> None:
         self._language = language
@@ -366,6 +369,11 @@ class _Run:
     def advance(self, tokens: Sequence[int]) -> Tensor:
         """Append tokens; the logits of what follows each, shape (tokens, V)."""
         return self._feed(self._language.embed(tokens), len(tokens))
+
+    def scores(self, logits: Tensor, tokens: Sequence[int]) -> list[float]:
+        """Logits of some tokens out of those of all, shape (V,)."""
+        some: list[float] = logits[list(tokens)].float().tolist()
+        return some
 
     def rewind(self, length: int) -> None:
         """Forget all but the first ``length`` positions."""

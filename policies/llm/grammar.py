@@ -16,7 +16,15 @@ from functools import lru_cache
 from itertools import combinations
 from typing import NamedTuple
 
-from cltp.llm.constrained.grammar import Grammar, NumberRange, Option, Part, TextChoice, Verbatim
+from cltp.llm.constrained.grammar import (
+    Grammar,
+    NumberRange,
+    Option,
+    Part,
+    TextChoice,
+    Verbatim,
+    allows_number,
+)
 from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import CLASSES, Side
 from cltp.texts.captions import NO_CONTACT, with_article
@@ -94,6 +102,7 @@ def step_grammar(
     force_n: Band,
     barred: Iterable[str] = (),
     nouns: Sequence[str] = NOUNS,
+    numbers: Mapping[str, str] | None = None,
 ) -> Grammar:
     """The grammar of D_t in one step.
 
@@ -102,6 +111,8 @@ def step_grammar(
         force_n: Target of the step [N].
         barred: Actions that must not be named, such as '<move_up>' or '<none>'.
         nouns: Which of ``NOUNS`` are said.
+        numbers: Texts of numbers of a contact by ``cltp.tactile.states.NUMBERS``, which are said as
+            they are where the sensor's range has them; all others are the model's own.
 
     Raises:
         PolicyError: Every action is barred.
@@ -114,12 +125,25 @@ def step_grammar(
     if in_contact is None:
         raise PolicyError("every action is barred, so D_t can't name one; ask for a wider goal")
     words, rest = _contact(ranges_of(sensor), tuple(nouns))
+    rest = _with_numbers(rest, numbers or {})
     options = [
         Option(one.value, one.text, one.rival, (*rest, goal, in_contact)) for one in words.options
     ]
     if without is not None:
         options.append(Option(NOTHING_TOUCHES, NOTHING, then=(goal, without)))
     return (TextChoice(words.name, tuple(options)),)
+
+
+def _with_numbers(parts: Grammar, numbers: Mapping[str, str]) -> Grammar:
+    """Parts with a literal in the place of each number that is given and lies in its range."""
+    said: list[Part] = []
+    for part in parts:
+        text = numbers.get(part.name) if isinstance(part, NumberRange) else None
+        if isinstance(part, NumberRange) and text is not None and allows_number(part, text):
+            said += [Verbatim(f" {text}"), Verbatim(part.after)]
+        else:
+            said.append(part)
+    return tuple(said)
 
 
 @lru_cache(16)

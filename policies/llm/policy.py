@@ -11,7 +11,7 @@ from __future__ import annotations
 import copy
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -96,6 +96,7 @@ class LlmPolicy:
         self._talker = Talker(model, clock)
         self._folder, self._abstain_below, self._clock = folder, abstain_below, clock
         self._moves: list[Primitive] = []
+        self._says_readings = True
 
     @property
     def name(self) -> str:
@@ -109,10 +110,16 @@ class LlmPolicy:
     def start(self) -> None:
         self._moves = []
 
-    def through(self, talker: Talker) -> LlmPolicy:
-        """A policy that asks ``talker``, with a memory of its own."""
+    def through(self, talker: Talker, *, says_readings: bool = True) -> LlmPolicy:
+        """A policy that asks ``talker``, with a memory of its own.
+
+        Args:
+            talker: The model.
+            says_readings: Whether what is read decides what D_t may say: its numbers, and which
+                side of the target the force is on. Without it every word of D_t is the model's.
+        """
         other = self.twin()
-        other._talker = talker
+        other._talker, other._says_readings = talker, says_readings
         return other
 
     def twin(self) -> LlmPolicy:
@@ -205,9 +212,14 @@ class LlmPolicy:
         commanded_n = observation.commanded_force_n
         contradiction = self._talker.model.heads.contradiction
         reading = reading_of(felt.readings, cloud, contradiction, commanded_force_n=commanded_n)
-        draft = drafted(reading, force_n)
-        excluded = (*repeated_moves(self._moves), *barred, *denied(reading, force_n))
-        grammar = step_grammar(cloud.sensor, force_n, excluded)
+        numbers = numbers_as_read(reading)
+        draft = drafted(reading, numbers, force_n)
+        excluded = [*repeated_moves(self._moves), *barred]
+        if self._says_readings:
+            excluded += denied(reading, force_n)
+        grammar = step_grammar(
+            cloud.sensor, force_n, excluded, numbers=numbers if self._says_readings else None
+        )
         read = self._clock()
         reply = self._talker.reply_to(
             felt.touch,
@@ -256,12 +268,18 @@ class CaptionSpeaker:
         return self._talker.reply(points, prompt, grammar=grammar, doubt_below=SURE)
 
 
-def drafted(reading: TouchReading, force_n: Band) -> str:
-    """The reply that is expected: what the heads read, and the teacher's advice on it."""
-    state = reading.state
+def numbers_as_read(reading: TouchReading) -> dict[str, str]:
+    """Texts of the numbers of a contact that is read; none where nothing touches."""
+    if not reading.state.in_contact:
+        return {}
     ends = {name: (number.low, number.high) for name, number in reading.numbers.items()}
-    advice = teacher(state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
-    contact = contact_text(state, said_numbers(state, ends))
+    return said_numbers(reading.state, ends)
+
+
+def drafted(reading: TouchReading, numbers: Mapping[str, str], force_n: Band) -> str:
+    """The reply that is expected: what the heads read, and the teacher's advice on it."""
+    advice = teacher(reading.state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+    contact = contact_text(reading.state, numbers)
     return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
 
 

@@ -40,7 +40,7 @@ def _number(part: NumberRange, rng: random.Random) -> str:
 
 
 class FakeDecoder:
-    """A decoder whose logits are a function of the tokens so far.
+    """A decoder whose logits, which are its states, are a function of the tokens so far.
 
     It counts its passes, and checks that it is used as ``FastDecoder`` can be.
     """
@@ -62,6 +62,9 @@ class FakeDecoder:
         assert tokens
         self.passes += 1
         return torch.stack(self._feed(tokens))
+
+    def scores(self, logits: torch.Tensor, tokens: Sequence[int]) -> list[float]:
+        return [float(logits[token]) for token in tokens]
 
     def rewind(self, length: int) -> None:
         assert 0 <= length - self._num_inputs <= len(self._tokens)

@@ -1,9 +1,9 @@
 """Greedy decoding under a grammar: only decisions cost a pass, and a good draft saves those too.
 
 What the grammar forces is fed together with the next decision's place. A draft goes through the
-model in the same pass as the prompt: at every place whose tokens so far agree with it, the logits
-are there already. Where the reply leaves the draft, ``AHEAD`` tokens of it are fed along again
-from the next part on.
+model in the same pass as the prompt: at every place whose tokens so far agree with it, the state is
+there already, and a decision costs the logits of the few tokens that the grammar allows. Where the
+reply leaves the draft, ``AHEAD`` tokens of it are fed along again from the next part on.
 
 A choice between texts is made down the trie of their tokens, with softmax over the tokens that may
 follow. If the probability of the chosen text is low, its rival is said too: the likeliest token
@@ -22,8 +22,6 @@ from dataclasses import dataclass
 from itertools import takewhile
 from typing import NamedTuple, Protocol
 
-import numpy as np
-from numpy.typing import NDArray
 from torch import Tensor
 
 from cltp.errors import TouchError
@@ -58,10 +56,13 @@ class Decoder(Protocol):
     longest: int
 
     def begin(self, embeddings: Tensor, tokens: Sequence[int] = ()) -> Tensor:
-        """Begin with inputs (T, D) and tokens; the logits after the inputs and each token."""
+        """Begin with inputs (T, D) and tokens; a state behind the inputs and each token."""
 
     def advance(self, tokens: Sequence[int]) -> Tensor:
-        """Append tokens; the logits of what follows each, shape (tokens, V)."""
+        """Append tokens; a state behind each of them."""
+
+    def scores(self, state: Tensor, tokens: Sequence[int]) -> list[float]:
+        """Logits of some tokens behind a state."""
 
     def rewind(self, length: int) -> None:
         """Forget all but the first ``length`` positions."""
@@ -137,8 +138,8 @@ class _Walk(NamedTuple):
     is_close: bool
 
 
-class _Rows:
-    """Logits behind the tokens of a reply, by as few passes as possible.
+class _States:
+    """States of the model behind the tokens of a reply, by as few passes as possible.
 
     Args:
         decoder: Runs the model.
@@ -152,10 +153,10 @@ class _Rows:
         self._decoder, self._inputs, self._prefilled = decoder, inputs, prefilled
         self.passes = self.close_calls = 0
         self._fed: list[int] = []
-        self._rows: list[NDArray[np.float32]] = []
+        self._states: list[Tensor] = []
 
-    def after(self, said: list[int], rest: Sequence[int]) -> NDArray[np.float32]:
-        """Logits of what follows some tokens, shape (V,).
+    def after(self, said: list[int], rest: Sequence[int]) -> Tensor:
+        """The state behind some tokens.
 
         Args:
             said: The tokens of the reply so far.
@@ -164,8 +165,8 @@ class _Rows:
         Raises:
             _FullError: There are too many tokens.
         """
-        if self._rows and self._fed[: len(said)] == said:
-            return self._rows[len(said)]
+        if self._states and self._fed[: len(said)] == said:
+            return self._states[len(said)]
         pairs = zip(said, self._fed, strict=False)
         same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
         room = self._decoder.longest - len(self._inputs) - len(said)
@@ -173,30 +174,29 @@ class _Rows:
             raise _FullError
         ahead = [*said[same:], *rest[:room]]
         self.passes += 1
-        if not self._rows:
-            self._rows = list(_plain(self._decoder.begin(self._inputs, ahead)))
+        if not self._states:
+            self._states = list(self._decoder.begin(self._inputs, ahead))
             if self._prefilled is not None:
                 self._prefilled()
         else:
             self._decoder.rewind(len(self._inputs) + same)
-            self._rows[same + 1 :] = list(_plain(self._decoder.advance(ahead)))
+            self._states[same + 1 :] = list(self._decoder.advance(ahead))
         self._fed[same:] = ahead
-        return self._rows[len(said)]
+        return self._states[len(said)]
 
-    def anew(self, said: list[int]) -> NDArray[np.float32]:
+    def scores(self, state: Tensor, tokens: Sequence[int]) -> list[float]:
+        """Logits of some tokens behind a state."""
+        return self._decoder.scores(state, tokens)
+
+    def anew(self, said: list[int]) -> Tensor:
         """The same from a single pass over the inputs and these tokens."""
         if len(self._inputs) + len(said) > self._decoder.longest:
             raise _FullError
         self.passes += 1
         self.close_calls += 1
-        self._rows = list(_plain(self._decoder.begin(self._inputs, said)))
+        self._states = list(self._decoder.begin(self._inputs, said))
         self._fed = list(said)
-        return self._rows[-1]
-
-
-def _plain(logits: Tensor) -> NDArray[np.float32]:
-    rows: NDArray[np.float32] = logits.float().cpu().numpy()
-    return rows
+        return self._states[-1]
 
 
 class _Draft:
@@ -257,7 +257,7 @@ class ConstrainedDecoder:
             TouchError: Penalties exclude every option of a choice.
         """
         run = _Run(
-            _Rows(self._decoder, inputs, prefilled),
+            _States(self._decoder, inputs, prefilled),
             self._tokens,
             _Draft(draft, grammar, self._tokens),
             penalties or {},
@@ -273,8 +273,8 @@ class ConstrainedDecoder:
             ids=run.said,
             ended=ended,
             decisions=run.decisions,
-            passes=run.rows.passes,
-            close_calls=run.rows.close_calls,
+            passes=run.states.passes,
+            close_calls=run.states.close_calls,
         )
 
 
@@ -283,13 +283,13 @@ class _Run:
 
     def __init__(
         self,
-        rows: _Rows,
+        states: _States,
         tokens: TextTokens,
         draft: _Draft,
         penalties: Mapping[str, float],
         doubt_below: Mapping[str, float],
     ) -> None:
-        self.rows, self.tokens, self.draft = rows, tokens, draft
+        self.states, self.tokens, self.draft = states, tokens, draft
         self.penalties, self.doubt_below = penalties, doubt_below
         self.said: list[int] = []
         self.texts: list[str] = []
@@ -352,8 +352,11 @@ class _Run:
         while node.ended is None:
             followers = list(node.children.items())
             if len(followers) > 1:
-                row = self._row(anew=anew)
-                scores = [float(row[t]) - self._penalty(options, n) for t, n in followers]
+                logits = self._scores([token for token, _ in followers], anew=anew)
+                scores = [
+                    logit - self._penalty(options, below)
+                    for logit, (_, below) in zip(logits, followers, strict=True)
+                ]
                 is_close |= _lead(scores) < CLOSE
                 best, fractions = _softmax(scores)
                 left += [
@@ -426,20 +429,18 @@ class _Run:
         if len(tokens) == 1:
             return tokens[0], 1.0
         for anew in (False, True):
-            row = self._row(anew=anew)
-            scores = [float(row[token]) for token in tokens]
+            scores = self._scores(tokens, anew=anew)
             if _lead(scores) >= CLOSE:
                 break
         best, fractions = _softmax(scores)
         return tokens[best], fractions[best]
 
-    def _row(self, *, anew: bool = False) -> NDArray[np.float32]:
-        """Logits of what follows the reply so far."""
+    def _scores(self, tokens: Sequence[int], *, anew: bool = False) -> list[float]:
+        """Logits of some tokens behind the reply so far."""
         if anew:
-            return self.rows.anew(self.said)
-        return self.rows.after(
-            self.said, self.draft.rest(self.said, self._name, len(self.said) - self._begin)
-        )
+            return self.states.scores(self.states.anew(self.said), tokens)
+        rest = self.draft.rest(self.said, self._name, len(self.said) - self._begin)
+        return self.states.scores(self.states.after(self.said, rest), tokens)
 
 
 def _index(node: Node) -> int:

@@ -166,3 +166,8 @@ def _number_ways(part: NumberRange, text: str, at: int) -> Iterator[tuple[Segmen
         end = second.end()
     value = text[at + 1 : end]
     yield Segment(part.name, text[at:end], value), (Verbatim(part.after),)
+
+
+def allows_number(part: NumberRange, text: str) -> bool:
+    """Whether a text, such as '0.31' or '0.25-0.41', may be said in the place of a number."""
+    return any(segment.value == text for segment, _ in _number_ways(part, f" {text}", 0))

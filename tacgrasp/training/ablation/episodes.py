@@ -27,7 +27,7 @@ def run_episode(policy: LlmPolicy, talker: AblatedTalker, seed: int) -> EpisodeR
     rig = build(config.object, seed, sensor_name=config.sensor)
     entered = Contestant(
         rig=rig,
-        policy=policy.through(cast(Talker, talker)),
+        policy=policy.through(cast(Talker, talker), says_readings=False),
         contract=contract_of(config),
         sense=GelSense(rig.sensor),
     )

@@ -290,12 +290,18 @@ def test_a_pass_over_many_tokens_gives_the_logits_of_single_ones() -> None:
     tokens = [3, 14, 15, 9, 26, 5]
     single, many, joint = FastDecoder(lm), FastDecoder(lm), FastDecoder(lm)
     expected = torch.stack([single.prefill(inputs), *(single.step(t) for t in tokens)])
-    torch.testing.assert_close(joint.begin(inputs, tokens), expected, atol=1e-4, rtol=1e-4)
+    torch.testing.assert_close(
+        joint.logits(joint.begin(inputs, tokens)), expected, atol=1e-4, rtol=1e-4
+    )
     many.prefill(inputs)
-    torch.testing.assert_close(many.advance(tokens[:4]), expected[1:5], atol=1e-4, rtol=1e-4)
+    states = many.advance(tokens[:4])
+    torch.testing.assert_close(many.logits(states), expected[1:5], atol=1e-4, rtol=1e-4)
+    some = torch.tensor(many.scores(states[0], [3, 1]))
+    torch.testing.assert_close(some, expected[1][[3, 1]], atol=1e-4, rtol=1e-4)
     many.advance([7, 8, 9])
     many.rewind(9 + 2)
-    torch.testing.assert_close(many.advance(tokens[2:]), expected[3:], atol=1e-4, rtol=1e-4)
+    states = many.advance(tokens[2:])
+    torch.testing.assert_close(many.logits(states), expected[3:], atol=1e-4, rtol=1e-4)
     with pytest.raises(ValueError, match="rewound"):
         many.rewind(100)
 

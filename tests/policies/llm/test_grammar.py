@@ -258,6 +258,38 @@ def test_ten_thousand_replies_by_chance_all_keep_the_grammar(words: Words) -> No
     assert intervals > 500
 
 
+def test_given_numbers_are_said_as_they_are_where_the_sensor_s_range_has_them(words: Words) -> None:
+    given = {
+        "depth_mm": "0.12-0.31",
+        "x_mm": "-8.0",
+        "y_mm": "+3.4",
+        "area_fraction": "9.7-20",
+        "force_n": f"{MAX_FORCE_N + 1:.2f}",  # the model's own
+    }
+    said = "{depth_mm} mm,", "x {x_mm} y {y_mm},", " {area_fraction} %,"
+    grammar, tokens = step_grammar(MINI, BAND, numbers=given), TextTokens(words.encode)
+    for seed in range(50):
+        decoder = ConstrainedDecoder(FakeDecoder(random_logits_of(words, seed)), tokens)
+        reply = decoder.decode(torch.zeros(1, 1), grammar)
+        assert reply.ids == words.encode(reply.text)
+        parsed = parse_reply(reply.text, MINI)
+        if parsed.in_contact:
+            assert all(text.format(**given) in reply.text for text in said)
+            assert parsed.numbers["depth_mm"] == (0.12, 0.31)
+            assert parsed.numbers["force_n"][1] <= MAX_FORCE_N
+            assert {"depth_mm", "force_n"} & set(reply.decisions) == {"force_n"}
+
+
+@pytest.mark.parametrize("text", ["0.31-0.12", "0.12-", "-0.12", "0.123", "9.00", "", "1e-3"])
+def test_a_number_that_no_reply_may_have_is_not_taken_over(words: Words, text: str) -> None:
+    decoder = ConstrainedDecoder(FakeDecoder(random_logits_of(words, 1)), TextTokens(words.encode))
+    reply = decoder.decode(
+        torch.zeros(1, 1), step_grammar(MINI, BAND, ["<reset>"], numbers={"depth_mm": text})
+    )
+    assert parse_reply(reply.text, MINI).in_contact
+    assert "depth_mm" in reply.decisions
+
+
 random_table = functools.cache(random_logits)
 
 

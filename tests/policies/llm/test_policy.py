@@ -23,7 +23,7 @@ from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.sensors import SENSORS
-from cltp.tactile.states import NO_CONTACT_STATE
+from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS, ContactState
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
 from policies.errors import PolicyError
@@ -34,6 +34,7 @@ from policies.llm.policy import (
     LlmPolicy,
     denied,
     hold_reason,
+    numbers_as_read,
     repeated_moves,
     with_felt_force,
 )
@@ -201,6 +202,30 @@ def test_d_t_names_the_target_of_the_contract_and_no_other(untrained: Path) -> N
     assert parse_reply(said).goal == Band(low=0.95, high=1.9)
 
 
+def test_what_is_read_is_said_as_it_is_unless_the_model_must_say_all(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    given: list[object] = []
+
+    def record(_sensor: object, band: Band, _excluded: object, *, numbers: object) -> Grammar:
+        given.append(numbers)
+        return step_grammar(None, band)
+
+    monkeypatch.setattr(policies.llm.policy, "step_grammar", record)
+    policy, band = LlmPolicy(untrained), Band(low=0.42, high=0.51)
+    said = policy.say(Observation(cloud=touch()), band, 1.0)
+    policy.through(policy.talker, says_readings=False).say(Observation(cloud=touch()), band, 1.0)
+    assert given == [numbers_as_read(said.reading), None]
+
+
+def test_every_number_of_a_contact_that_is_read_has_a_text() -> None:
+    def read(state: ContactState) -> TouchReading:
+        return TouchReading(state=state, numbers={}, confidence={}, contact=1.0, flags=())
+
+    assert set(numbers_as_read(read(HELD.state))) == set(NUMBERS)
+    assert numbers_as_read(read(NO_CONTACT_STATE)) == {}
+
+
 def test_what_can_t_be_trusted_is_not_acted_on(
     untrained: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -235,7 +260,9 @@ def test_what_is_clearly_felt_bars_the_decisions_against_it(
     policy = LlmPolicy(untrained)
     asked: list[set[str]] = []
 
-    def record(_sensor: object, _band: object, excluded: Iterable[str]) -> Grammar:
+    def record(
+        _sensor: object, _band: object, excluded: Iterable[str], *, numbers: object
+    ) -> Grammar:
         asked.append(set(excluded))
         return step_grammar(None, Band(low=0.95, high=1.9), excluded)
 
