@@ -30,7 +30,9 @@ from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig.factory import make_rig
 from tacgrasp.rig.protocols import Rig
 
-NUM_CLOUDS = 8
+NUM_SEEDS = 20
+"""Bodies that are felt, each under every force."""
+
 WARM_UP = 5
 FORCES_N = (0.6, 1.2, 2.4)
 
@@ -48,8 +50,8 @@ def run(settings: LatencySettings) -> None:
     policy_name, ticks = settings.policy, settings.ticks
     config = load(settings.task)[0].model_copy(update={"weights": settings.weights})
     policy = make_policy(policy_name, config)
+    clouds = _clouds(config)
     rig = make_rig(config)
-    clouds = _clouds(rig)
     observations = [Observation(cloud=cloud, in_contact=True) for cloud in clouds]
     policy.start()
     contract = contract_of(config)
@@ -94,12 +96,15 @@ def _language_model(
     return figures | {"start_to_first_action_s": started_s}
 
 
-def _clouds(rig: Rig) -> list[TactileCloud]:
-    """Clouds under different forces, each with its own noise."""
+def _clouds(config: RunConfig) -> list[TactileCloud]:
+    """Clouds of drawn bodies, of which few lie in the middle, under different forces."""
     clouds = []
-    for number in range(NUM_CLOUDS):
-        rig.gripper.grip(FORCES_N[number % len(FORCES_N)])
-        clouds.append(rig.sensor.read())
+    for seed in range(NUM_SEEDS):
+        rig = make_rig(config.model_copy(update={"seed": seed}))
+        for force_n in FORCES_N:
+            rig.gripper.grip(force_n)
+            clouds.append(rig.sensor.read())
+        rig.disconnect()
     return clouds
 
 

@@ -346,7 +346,7 @@ def test_latency_puts_every_stage_beside_its_floor_and_transformers_beside_ours(
     found = json.loads(figures.read_text())
     stages = ["sample", "encode", "project", "read", "prefill", "generate", "extract", "record"]
     assert list(found["stages_ms"]) == stages
-    assert set(found["floors"]) == {"encode", "project", "prefill", "generate"}
+    assert set(found["floors"]) == {"encode", "project", "prefill"}
     assert found["tokens"]["p50"] > 40
     assert 1 <= found["passes"]["p50"] <= found["tokens"]["p50"]
     assert found["speedup_cached"] > 0
