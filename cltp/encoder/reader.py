@@ -141,10 +141,7 @@ def reading_of(
     numbers = {name: Number(*each) for name, each in zip(NUMBERS, ends, strict=True)}
     contact = float(read.touching[0])
     chances = {name: x[0] for name, x in zip(CLASSES, read.words, strict=True)}
-    words = {name: CLASSES[name][int(chance.argmax())] for name, chance in chances.items()}
-    state = NO_CONTACT_STATE
-    if contact >= 0.5:
-        state = state_in_words(read, words)
+    state = most_probable_state(read)
     flags = list(_flags(numbers, cloud))
     if state.in_contact and contradiction is not None:
         low, high = contradiction.tolist()
@@ -161,6 +158,17 @@ def reading_of(
         contact=contact,
         flags=tuple(flags),
     )
+
+
+def most_probable_state(read: HeadReadings) -> ContactState:
+    """The most probable words and the numbers that heads read of a contact, a batch of one."""
+    if float(read.touching[0]) < 0.5:
+        return NO_CONTACT_STATE
+    words = {
+        name: names[int(chances[0].argmax())]
+        for (name, names), chances in zip(CLASSES.items(), read.words, strict=True)
+    }
+    return state_in_words(read, words)
 
 
 def state_in_words(read: HeadReadings, words: Mapping[str, str]) -> ContactState:

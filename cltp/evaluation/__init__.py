@@ -4,6 +4,6 @@ Evaluation splits, encoded contacts, zero-shot prompts, probes, retrieval and th
 that all of them are compared with. Not here: training (``cltp.train``), and the tables and commands
 that show these scores (``tacgrasp.pretraining``, ``tacgrasp.training.evaluate``).
 
-May import: cltp, cltp.checkpoints, cltp.data, cltp.encoder, cltp.llm, cltp.tactile, cltp.texts,
+May import: cltp, cltp.checkpoints, cltp.data, cltp.encoder, cltp.tactile, cltp.texts,
 cltp.train.
 """

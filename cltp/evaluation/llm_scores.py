@@ -12,18 +12,15 @@ from numpy.typing import NDArray
 from cltp.data.sampler import Batch
 from cltp.errors import TouchError
 from cltp.evaluation.scores import Predictions
-from cltp.llm.generation import Reply
 from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.captions import Slots, parse_caption
 
-REQUEST = "Describe the contact."
-
 
 class Speaker(Protocol):
-    """What evaluation needs of ``cltp.llm.generation.Talker``."""
+    """What describes contacts."""
 
-    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
-        """Answer about one contact, points of shape (1024, 3) scaled."""
+    def caption(self, points: NDArray[np.float32]) -> str:
+        """Describe one contact, points of shape (N, 3) scaled."""
         ...
 
 
@@ -45,7 +42,7 @@ def predict_by_captions(
     classes, numbers = [], []
     for batch in batches:
         for points in batch.points:
-            text = speaker.reply(points, REQUEST).text
+            text = speaker.caption(points)
             try:
                 slots = parse_caption(text.split(".")[0])
             except TouchError:

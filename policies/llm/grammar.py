@@ -146,35 +146,23 @@ def _with_numbers(parts: Grammar, numbers: Mapping[str, str]) -> Grammar:
     return tuple(said)
 
 
-@lru_cache(16)
-def caption_grammar(sensor: SensorSpec | None, nouns: tuple[str, ...] = NOUNS) -> Grammar:
-    """The grammar of a caption with its numbers, as ``tacgrasp.lessons.exchanges`` teaches it.
+def caption_grammar(
+    sensor: SensorSpec | None,
+    nouns: Sequence[str] = NOUNS,
+    numbers: Mapping[str, str] | None = None,
+) -> Grammar:
+    """The grammar of a caption with its numbers, as ``policies.llm.text.caption_text`` words it.
 
     Args:
         sensor: The sensor; None for any.
         nouns: Which of ``NOUNS`` are said.
+        numbers: As for ``step_grammar``.
     """
-    numbers = _numbers(ranges_of(sensor))
-    first, more = _nouns(nouns, with_article)
-    rest = (
-        *more,
-        Verbatim(" object, pressed" if nouns else ", pressed"),
-        _word("depth"),
-        Verbatim(" in"),
-        _word("position"),
-        Verbatim(" with"),
-        _word("area"),
-        Verbatim(" contact area."),
-        NumberRange("depth_mm", numbers.depth, " mm,"),
-        NumberRange("force_n", numbers.force, " N,"),
-        NumberRange("area_fraction", numbers.area, " %, x"),
-        NumberRange("x_mm", numbers.x, ", y"),
-        NumberRange("y_mm", numbers.y, ""),
-        _cut(),
-    )
-    options = [Option(one.value, one.text, one.rival, rest) for one in first.options]
+    words, rest = _caption(ranges_of(sensor), tuple(nouns))
+    rest = _with_numbers(rest, numbers or {})
+    options = [Option(one.value, one.text, one.rival, rest) for one in words.options]
     options.append(Option(NOTHING_TOUCHES, f"{NO_CONTACT} 0.00 mm, 0.00 N."))
-    return (TextChoice(first.name, tuple(options)),)
+    return (TextChoice(words.name, tuple(options)),)
 
 
 class _Words(NamedTuple):
@@ -211,6 +199,29 @@ def _contact(ranges: Ranges, nouns: tuple[str, ...]) -> tuple[_Words, tuple[Part
         _word("area"),
         NumberRange("area_fraction", numbers.area, " %,", interval=True),
         NumberRange("force_n", numbers.force, " N", interval=True),
+        _cut(),
+    )
+
+
+@lru_cache(16)
+def _caption(ranges: Ranges, nouns: tuple[str, ...]) -> tuple[_Words, tuple[Part, ...]]:
+    """First words of a caption, and the rest of it."""
+    numbers = _numbers(ranges)
+    first, more = _nouns(nouns, with_article)
+    return first, (
+        *more,
+        Verbatim(" object, pressed" if nouns else ", pressed"),
+        _word("depth"),
+        Verbatim(" in"),
+        _word("position"),
+        Verbatim(" with"),
+        _word("area"),
+        Verbatim(" contact area."),
+        NumberRange("depth_mm", numbers.depth, " mm,"),
+        NumberRange("force_n", numbers.force, " N,"),
+        NumberRange("area_fraction", numbers.area, " %, x"),
+        NumberRange("x_mm", numbers.x, ", y"),
+        NumberRange("y_mm", numbers.y, ""),
         _cut(),
     )
 

@@ -16,9 +16,7 @@ from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
 from cltp.encoder.reader import TouchReading, reading_of
@@ -30,10 +28,10 @@ from cltp.tactile.states import NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
-from policies.llm.grammar import SURE, caption_grammar, step_grammar
+from policies.llm.grammar import step_grammar
 from policies.llm.question_check import check_question
+from policies.llm.spoken import caption_reply
 from policies.llm.text import (
-    CAPTION_REQUEST,
     advice_text,
     contact_text,
     goal_text,
@@ -242,30 +240,8 @@ class LlmPolicy:
             cloud: The contact.
             doubt: Whether a word that is in doubt is said with its rival.
         """
-        reply = self._talker.reply(
-            encoder_input(cloud, self._talker.layout),
-            CAPTION_REQUEST,
-            scale=cloud.force_scale,
-            grammar=caption_grammar(cloud.sensor),
-            doubt_below=None if doubt else SURE,
-        )
-        return reply.text
-
-
-class CaptionSpeaker:
-    """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
-
-    Args:
-        talker: The model.
-    """
-
-    def __init__(self, talker: Talker) -> None:
-        self._talker = talker
-
-    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
-        """Describe one contact, points of shape (N, 3) scaled."""
-        grammar = caption_grammar(None)
-        return self._talker.reply(points, prompt, grammar=grammar, doubt_below=SURE)
+        felt = self._talker.feel(encoder_input(cloud, self._talker.layout), cloud.force_scale)
+        return caption_reply(self._talker, felt, cloud.sensor, doubt=doubt).text
 
 
 def numbers_as_read(reading: TouchReading) -> dict[str, str]:

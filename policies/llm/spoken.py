@@ -8,12 +8,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from cltp.encoder.reader import state_in_words
-from cltp.llm.generation import Felt, Talker
+import numpy as np
+from numpy.typing import NDArray
+
+from cltp.encoder.reader import most_probable_state, state_in_words
+from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
-from policies.llm.text import CAPTION_REQUEST
+from policies.llm.text import CAPTION_REQUEST, caption_text, said_numbers
 
 
 class SpokenContact(NamedTuple):
@@ -28,6 +31,43 @@ class SpokenContact(NamedTuple):
     confidence: Mapping[str, float]
 
 
+def caption_reply(
+    talker: Talker, felt: Felt, sensor: SensorSpec | None = None, *, doubt: bool = False
+) -> Reply:
+    """The model's caption of a contact, with its numbers as the heads read them.
+
+    Args:
+        talker: The model.
+        felt: The contact as it feels it.
+        sensor: The sensor; None for any.
+        doubt: Whether a word that is in doubt is said with its rival.
+    """
+    state = most_probable_state(felt.readings)
+    numbers = said_numbers(state, {}) if state.in_contact else {}
+    return talker.reply_to(
+        felt.touch,
+        CAPTION_REQUEST,
+        grammar=caption_grammar(sensor, numbers=numbers),
+        draft=caption_text(state),
+        doubt_below=None if doubt else SURE,
+    )
+
+
+class CaptionSpeaker:
+    """Captions without doubt, as evaluation reads them (``cltp.evaluation.llm_scores.Speaker``).
+
+    Args:
+        talker: The model.
+    """
+
+    def __init__(self, talker: Talker) -> None:
+        self._talker = talker
+
+    def caption(self, points: NDArray[np.float32]) -> str:
+        """Describe one contact, points of shape (N, 3) scaled."""
+        return caption_reply(self._talker, self._talker.feel(points)).text
+
+
 def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None) -> SpokenContact:
     """Have the model say what it feels.
 
@@ -36,8 +76,7 @@ def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None)
         felt: The contact as it feels it.
         sensor: The sensor; None for any.
     """
-    grammar = caption_grammar(sensor)
-    reply = talker.reply_to(felt.touch, CAPTION_REQUEST, grammar=grammar, doubt_below=SURE)
+    reply = caption_reply(talker, felt, sensor)
     said = {name: slot for name, slot in reply.slots.items() if name in CLASSES}
     if any(slot.chosen == NOTHING_TOUCHES for slot in said.values()):
         return SpokenContact(NO_CONTACT_STATE, {})

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from cltp.tactile.states import ContactState, Side
+from cltp.texts.captions import caption
 from policies.speech import REASON_WORDINGS, SUCCESS_WORDINGS
 from policies.teacher import Advice
 from primitives.contract import Band
@@ -108,6 +109,26 @@ def contact_text(
         f"{nouns}, {words['depth']} {said['depth_mm']} mm, {words['position']} "
         f"x {said['x_mm']} y {said['y_mm']}, {words['area']} {said['area_fraction']} %, "
         f"{said['force_n']} N{cut_text(state.cut)}."
+    )
+
+
+def caption_text(state: ContactState, rivals: Mapping[str, str] | None = None) -> str:
+    """The paper's caption with numbers behind it: depth [mm], force [N], area [%], x and y [mm].
+
+    Args:
+        state: The contact.
+        rivals: A second word for those that are in doubt, by dimension.
+    """
+    return f"{caption(state, rivals)} {_caption_numbers(state)}"
+
+
+def _caption_numbers(state: ContactState) -> str:
+    if not state.in_contact:
+        return "0.00 mm, 0.00 N."
+    said = said_numbers(state, {})
+    return (
+        f"{said['depth_mm']} mm, {said['force_n']} N, {said['area_fraction']} %, "
+        f"x {said['x_mm']}, y {said['y_mm']}{cut_text(state.cut)}."
     )
 
 

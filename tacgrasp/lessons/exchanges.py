@@ -15,16 +15,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from cltp.tactile.states import ContactState
-from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange
 from cltp.texts.told import ToldContact
 from policies.llm.text import (
     advice_text,
+    caption_text,
     contact_text,
-    cut_text,
     goal_text,
-    percent,
     said_numbers,
     step_request,
 )
@@ -48,22 +45,10 @@ BLIND = "Do what is needed."
 """What the instruction-blind control is asked instead of a target."""
 
 
-def numbers(state: ContactState) -> str:
-    """Numbers of a contact behind its caption: depth [mm], force [N], area [%], x and y [mm]."""
-    if not state.in_contact:
-        return "0.00 mm, 0.00 N."
-    return (
-        f"{state.depth_mm:.2f} mm, {state.force_n:.2f} N, {percent(state.area_fraction)} %, "
-        f"x {state.x_mm:+.1f}, y {state.y_mm:+.1f}{cut_text(state.cut)}."
-    )
-
-
 def caption_exchange(felt: ToldContact, rng: np.random.Generator) -> Exchange:
     """A request for a description, and the caption with its numbers."""
     request = CAPTION_REQUESTS[rng.integers(len(CAPTION_REQUESTS))]
-    return Exchange(
-        prompt=request, reply=f"{caption(felt.state, felt.rivals)} {numbers(felt.state)}"
-    )
+    return Exchange(prompt=request, reply=caption_text(felt.state, felt.rivals))
 
 
 def draw_target(force_n: float, rng: np.random.Generator) -> tuple[Band, float]:

@@ -32,7 +32,7 @@ from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.retrieval import score_image_retrieval
 from cltp.evaluation.scores import Predictions, best_classes, median_errors, score_classes
 from cltp.evaluation.zero_shot import ClassPrompts
-from cltp.llm.generation import Reply, Talker
+from cltp.llm.generation import Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
@@ -40,7 +40,8 @@ from cltp.tactile.states import MEASURABLE
 from cltp.train.stage import ProgressReport, silent
 from policies import Observation, PolicyError
 from policies.contract_steps import target_of
-from policies.llm.policy import CaptionSpeaker, LlmPolicy
+from policies.llm.policy import LlmPolicy
+from policies.llm.spoken import CaptionSpeaker
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives.contract import Contract
 from tacgrasp.lessons.captions import read_numbers
@@ -134,11 +135,11 @@ class _ReportedSpeaker(CaptionSpeaker):
         super().__init__(talker)
         self._total, self._report, self._done = total, report, 0
 
-    def reply(self, points: NDArray[np.float32], prompt: str) -> Reply:
-        reply = super().reply(points, prompt)
+    def caption(self, points: NDArray[np.float32]) -> str:
+        text = super().caption(points)
         self._done += 1
         self._report("captions", self._done, self._total, {})
-        return reply
+        return text
 
 
 def _answers(talker: Talker, request: EvaluationRequest, report: ProgressReport) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from cltp.evaluation.probes import predict_with_heads
 from cltp.evaluation.scores import Predictions, median_errors, score_classes
 from cltp.tactile.states import CLASSES, MEASURABLE, NUMBERS, ContactState
 from cltp.train.text_targets import class_numbers
-from policies.llm.policy import CaptionSpeaker
+from policies.llm.spoken import CaptionSpeaker
 from tacgrasp.benchmarks.robustness.contacts import Sampled, part
 from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.policy_factory import load_llm

@@ -24,7 +24,6 @@ from cltp.tactile.states import (
     depth_word,
     position_word,
 )
-from cltp.texts.captions import caption
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies.errors import PolicyError
 from policies.goal import Goal
@@ -37,11 +36,17 @@ from policies.llm.grammar import (
     step_grammar,
 )
 from policies.llm.parse import parse_caption_reply, parse_reply
-from policies.llm.text import NOTHING, advice_text, contact_text, goal_text, said_numbers
+from policies.llm.text import (
+    NOTHING,
+    advice_text,
+    caption_text,
+    contact_text,
+    goal_text,
+    said_numbers,
+)
 from policies.teacher import Advice, Reason, teacher
 from primitives import Primitive
 from primitives.contract import Band
-from tacgrasp.lessons.exchanges import numbers
 from tests.fakes.language import FakeDecoder, random_logits, random_text
 
 MINI = SENSORS["gelsight_mini"]
@@ -132,14 +137,14 @@ def test_captions_of_states_are_in_the_grammar_and_read_back() -> None:
         state = random_state(rng)
         missing = [n for n in ("texture", "shape") if number % 5 == 0 and rng.random() < 0.5]
         state = dataclasses.replace(state, **dict.fromkeys(missing))
-        parsed = parse_caption_reply(f"{caption(state)} {numbers(state)}", MINI)
+        parsed = parse_caption_reply(caption_text(state), MINI)
         assert parsed.in_contact
         assert parsed.words.get("texture") == state.texture
         assert parsed.words.get("shape") == state.shape
         assert parsed.numbers["depth_mm"] == pytest.approx((state.depth_mm,) * 2, abs=0.0051)
         assert parsed.cut == state.cut
     empty = dataclasses.replace(state, depth=None)
-    assert not parse_caption_reply(f"{caption(empty)} {numbers(empty)}").in_contact
+    assert not parse_caption_reply(caption_text(empty)).in_contact
 
 
 @pytest.mark.parametrize("sensor", SENSORS)

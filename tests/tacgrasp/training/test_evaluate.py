@@ -14,6 +14,7 @@ from cltp.tactile.states import ContactState
 from cltp.texts.told import ToldContact
 from policies import Decision, Observation
 from policies.contract_steps import target_of
+from policies.llm.text import caption_text
 from policies.teacher import LESSON_MOVE_STEP_MM, teacher
 from primitives import Primitive
 from primitives.contract import Contract
@@ -23,7 +24,7 @@ from tacgrasp.lessons.captions import read_numbers
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.question_file import read_questions
 from tacgrasp.lessons.dialogue.scene import band_contract
-from tacgrasp.lessons.exchanges import caption_exchange, numbers
+from tacgrasp.lessons.exchanges import caption_exchange
 from tacgrasp.lessons.instruction_pairs import (
     MOVES,
     NONE,
@@ -134,7 +135,7 @@ def test_the_numbers_of_a_description_are_read_back() -> None:
     told = ToldContact(state=state(1.0, -4.0, 0.95, 2.0))
     text = caption_exchange(told, np.random.default_rng(0)).reply
     assert read_numbers(text) == pytest.approx([0.95, 1.0, -4.0, 0.12, 2.0])
-    assert read_numbers(numbers(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
+    assert read_numbers(caption_text(NOTHING)) == pytest.approx([0, 0, 0, 0, 0])
     assert read_numbers("a smooth sphere object") is None
 
 
