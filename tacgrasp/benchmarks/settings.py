@@ -315,17 +315,21 @@ class LatencySettings(ModelBenchmarkSettings):
 
     Attributes:
         ticks: Number of steps to time.
+        contacts: Number of contacts that are felt in turn. The language model also replies to each
+            without its draft, and the replies are compared.
         policy: Policy to time. For llm, the arithmetic floor and plain decoding are timed too.
         task: Task whose goal and instruction the policy is given.
     """
 
     ticks: int = 200
+    contacts: int = 60
     policy: Annotated[str, tyro.conf.arg(aliases=["--policies"])] = "rules"
     task: str = "strawberry"
 
     def __post_init__(self) -> None:
-        if self.ticks < 1:
-            raise UsageError(f"--ticks must be at least 1, got {self.ticks}")
+        for name in ("ticks", "contacts"):
+            if getattr(self, name) < 1:
+                raise UsageError(f"--{name} must be at least 1, got {getattr(self, name)}")
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,6 +6,7 @@ Recording is timed apart from the decision.
 
 from __future__ import annotations
 
+import math
 import tempfile
 import time
 from collections import defaultdict
@@ -30,9 +31,6 @@ from tacgrasp.policy_factory import default_weights, make_policy
 from tacgrasp.rig.factory import make_rig
 from tacgrasp.rig.protocols import Rig
 
-NUM_SEEDS = 20
-"""Bodies that are felt, each under every force."""
-
 WARM_UP = 5
 FORCES_N = (0.6, 1.2, 2.4)
 
@@ -50,7 +48,7 @@ def run(settings: LatencySettings) -> None:
     policy_name, ticks = settings.policy, settings.ticks
     config = load(settings.task)[0].model_copy(update={"weights": settings.weights})
     policy = make_policy(policy_name, config)
-    clouds = _clouds(config)
+    clouds = _clouds(config, settings.contacts)
     rig = make_rig(config)
     observations = [Observation(cloud=cloud, in_contact=True) for cloud in clouds]
     policy.start()
@@ -96,12 +94,12 @@ def _language_model(
     return figures | {"start_to_first_action_s": started_s}
 
 
-def _clouds(config: RunConfig) -> list[TactileCloud]:
-    """Clouds of drawn bodies, of which few lie in the middle, under different forces."""
-    clouds = []
-    for seed in range(NUM_SEEDS):
+def _clouds(config: RunConfig, count: int) -> list[TactileCloud]:
+    """Clouds of drawn bodies, of which few lie in the middle, each body under every force."""
+    clouds: list[TactileCloud] = []
+    for seed in range(math.ceil(count / len(FORCES_N))):
         rig = make_rig(config.model_copy(update={"seed": seed}))
-        for force_n in FORCES_N:
+        for force_n in FORCES_N[: count - len(clouds)]:
             rig.gripper.grip(force_n)
             clouds.append(rig.sensor.read())
         rig.disconnect()
@@ -171,9 +169,10 @@ def _print_language(report: dict[str, Any], console: Console) -> None:
     passes = report["passes"]
     console.print(
         f"tokens said: {report['tokens']['p50']} (median), {report['tokens']['max']} at most, in "
-        f"{passes['p50']:.0f} passes (median), {passes['p90']:.0f} (90 %); {report['threads']} "
-        f"thread(s); floors at the {report['product_gflops']:.1f} GFLOP/s of a matrix product in "
-        "this run"
+        f"{passes['p50']:.0f} passes (median), {passes['p90']:.0f} (90 %); "
+        f"{report['same_without_draft']} of {report['contacts']} replies are the same without a "
+        f"draft, {report['close_calls']} decisions were close; {report['threads']} thread(s); "
+        f"floors at the {report['product_gflops']:.1f} GFLOP/s of a matrix product in this run"
     )
     console.print(
         "transformers' generate with its cache, the same tokens: "

@@ -15,7 +15,7 @@ import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import torch
@@ -24,7 +24,7 @@ from transformers.utils.logging import disable_progress_bar
 
 from cltp.llm.causal_lm import load_language
 from cltp.llm.fast_decode import FastDecoder
-from cltp.llm.generation import Talker
+from cltp.llm.generation import Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from policies import Observation
 from policies.llm.policy import LlmPolicy, SaidStep
@@ -58,14 +58,18 @@ def language_report(
         stages_ms: Measured durations by stage, with ``p50`` [ms].
 
     Returns:
-        ``tokens``, ``passes``, ``threads``, ``product_gflops``, ``floors``, ``with_cache``,
-        ``speedup_cached``.
+        ``contacts``, ``same_without_draft``, ``tokens``, ``passes``, ``close_calls``,
+        ``threads``, ``product_gflops``, ``floors``, ``with_cache_ms``, ``speedup_cached``.
     """
     terms = contract.terms
-    said = [
-        policy.say(Observation(cloud=cloud, in_contact=True), terms.force_n, terms.limit_n)
-        for cloud in clouds
-    ]
+    said, plain = (
+        [
+            each.say(Observation(cloud=cloud, in_contact=True), terms.force_n, terms.limit_n)
+            for cloud in clouds
+        ]
+        for each in (policy, policy.through(cast(Talker, _Undrafted(policy.talker))))
+    )
+    same = [a.reply.text == b.reply.text for a, b in zip(said, plain, strict=True)]
     lengths = [each.reply.num_tokens for each in said]
     tokens, rate = int(np.median(lengths)), product_rate()
     request = step_request(terms.force_n, terms.limit_n)
@@ -82,6 +86,8 @@ def language_report(
     }
     cached_ms = with_cache_ms(policy.talker, lm_folder, said[0], request)
     return {
+        "contacts": len(said),
+        "same_without_draft": sum(same),
         "tokens": {"p50": tokens, "max": max(lengths)},
         "passes": _quantiles([each.reply.passes for each in said]),
         "close_calls": sum(each.reply.close_calls for each in said),
@@ -91,6 +97,17 @@ def language_report(
         "with_cache_ms": cached_ms,
         "speedup_cached": cached_ms / ours_ms,
     }
+
+
+class _Undrafted:
+    """A talker that is given no draft."""
+
+    def __init__(self, talker: Talker) -> None:
+        self.model, self.layout, self.feel = talker.model, talker.layout, talker.feel
+        self._talker = talker
+
+    def reply_to(self, *args: Any, draft: str = "", **options: Any) -> Reply:
+        return self._talker.reply_to(*args, **options)
 
 
 def _quantiles(counts: Sequence[int]) -> dict[str, float]:

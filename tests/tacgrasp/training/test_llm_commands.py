@@ -342,11 +342,13 @@ def test_latency_puts_every_stage_beside_its_floor_and_transformers_beside_ours(
     monkeypatch.setattr(bench_language, "start_to_first_action_s", lambda *_: 4.5)
     figures = tmp_path / "latency.json"
     argv = ["bench", "latency", "--policies", "llm", "--weights", str(weights), "--ticks", "3"]
+    argv += ["--contacts", "4"]
     assert main([*argv, "--json", str(figures)]) == 0
     found = json.loads(figures.read_text())
     stages = ["sample", "encode", "project", "read", "prefill", "generate", "extract", "record"]
     assert list(found["stages_ms"]) == stages
     assert set(found["floors"]) == {"encode", "project", "prefill"}
+    assert (found["contacts"], found["same_without_draft"]) == (4, 4)
     assert found["tokens"]["p50"] > 40
     assert 1 <= found["passes"]["p50"] <= found["tokens"]["p50"]
     assert found["speedup_cached"] > 0
