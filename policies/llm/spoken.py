@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from cltp.encoder.reader import most_probable_state, state_in_words
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, ContactState
+from cltp.tactile.states import CLASSES, NO_CONTACT_STATE, NUMBERS, ContactState
 from policies.llm.grammar import NOTHING_TOUCHES, SURE, caption_grammar
 from policies.llm.text import CAPTION_REQUEST, caption_text, said_numbers
 
@@ -25,10 +25,12 @@ class SpokenContact(NamedTuple):
     Attributes:
         state: The words that it says, and the numbers [mm, N, fraction].
         confidence: Probability of each word, by dimension; empty where nothing touches.
+        ends: Ends of the interval of each number, by name; empty where nothing touches.
     """
 
     state: ContactState
     confidence: Mapping[str, float]
+    ends: Mapping[str, tuple[float, float]]
 
 
 def caption_reply(
@@ -79,7 +81,12 @@ def spoken_contact(talker: Talker, felt: Felt, sensor: SensorSpec | None = None)
     reply = caption_reply(talker, felt, sensor)
     said = {name: slot for name, slot in reply.slots.items() if name in CLASSES}
     if any(slot.chosen == NOTHING_TOUCHES for slot in said.values()):
-        return SpokenContact(NO_CONTACT_STATE, {})
+        return SpokenContact(NO_CONTACT_STATE, {}, {})
     words = {name: slot.chosen for name, slot in said.items()}
     state = state_in_words(felt.readings, words)
-    return SpokenContact(state, {name: slot.probability for name, slot in said.items()})
+    ends = zip(felt.readings.low[0].tolist(), felt.readings.high[0].tolist(), strict=True)
+    return SpokenContact(
+        state,
+        {name: slot.probability for name, slot in said.items()},
+        dict(zip(NUMBERS, ends, strict=True)),
+    )

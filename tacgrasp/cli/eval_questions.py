@@ -114,6 +114,11 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
             count = figures["decidable_n"] + figures["undecidable_n"]
             table.add_row(name, *(_percent(figures[column]) for column in COLUMNS), str(count))
     console.print(table)
+    if trust := results.get("confidence"):
+        console.print(
+            f"confidence: {_percent(trust['calibration_error'])} % off the fraction right in the "
+            f"mean of ten groups; right above wrong in {_percent(trust['auroc'])} % (AUROC)"
+        )
     console.print(
         "trivial: no, yes, unknowable, most frequent; upper bounds: truth in words, and grammar on "
         "questions of its own"

@@ -18,6 +18,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import mannwhitneyu
 
 from tacgrasp.lessons.dialogue.answer_scores import AnswerScore, dimension_of, score_answer
 from tacgrasp.lessons.dialogue.answers import answer
@@ -26,6 +27,8 @@ from tacgrasp.lessons.dialogue.families.catalogue import understand
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
 from tacgrasp.lessons.dialogue.question_file import UNDECIDABLE, QuestionRow
 from tacgrasp.lessons.dialogue.scene import AskedScene
+
+CONFIDENCE_GROUPS = 10
 
 _BASE_UNITS = {"length": "mm", "force": "N", "fraction": "%", "mass": "g", "": ""}
 
@@ -112,6 +115,39 @@ def figures(answers: Sequence[ScoredAnswer]) -> QuestionFigures:
         undecidable_n=len(undecidable),
         close_n=len(answers) - len(counted),
     )
+
+
+def confidence_figures(
+    answers: Sequence[ScoredAnswer], confidences: Sequence[float]
+) -> dict[str, float | None]:
+    """How far confidences are from the fraction of right answers, and whether they order them.
+
+    Args:
+        answers: The answers; those to undecidable questions and those too near to a threshold don't
+            count.
+        confidences: Of each answer.
+
+    Returns:
+        ``calibration_error``: mean distance of confidence and fraction right in ten groups of
+        ascending confidence. ``auroc``: chance that a right answer has more confidence than a
+        wrong one; None where all are right, or all wrong.
+    """
+    counted = [
+        (confidence, each.score.right)
+        for each, confidence in zip(answers, confidences, strict=True)
+        if each.score.decidable and not each.score.is_close
+    ]
+    if not counted:
+        return {"calibration_error": None, "auroc": None}
+    sure, right = (np.array(column, dtype=np.float64) for column in zip(*counted, strict=True))
+    groups = np.array_split(np.argsort(sure, kind="stable"), min(CONFIDENCE_GROUPS, len(sure)))
+    error = sum(len(g) * abs(sure[g].mean() - right[g].mean()) for g in groups) / len(sure)
+    hits, misses = sure[right == 1], sure[right == 0]
+    auroc = None
+    if len(hits) and len(misses):
+        statistic = mannwhitneyu(hits, misses).statistic
+        auroc = float(statistic / (len(hits) * len(misses)))
+    return {"calibration_error": float(error), "auroc": auroc}
 
 
 def figures_by_family(answers: Sequence[ScoredAnswer]) -> Mapping[str, QuestionFigures]:

@@ -8,14 +8,18 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from statistics import NormalDist
 from typing import NamedTuple, Protocol
 
+import numpy as np
 import torch
 from torch import Tensor
 
 from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
+from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, Meaning, names_of
 from tacgrasp.lessons.dialogue.query import asked_text, query_grammar, read_query
@@ -24,11 +28,27 @@ from tacgrasp.lessons.dialogue.scene import AskedScene
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
 
+SURE_FROM = 0.9
+"""Fraction of the numbers that may be true, under which an answer must hold to be said without
+'probably'. As many lie in their intervals."""
+
+DRAWS = 64
+"""Numbers that may be true, for each answer. Our choice: a tenth of them is six."""
+
+_NORMAL = NormalDist()
+_STEPS = [
+    _NORMAL.inv_cdf((number + 0.5) / DRAWS) / _NORMAL.inv_cdf(0.95) for number in range(DRAWS)
+]
+"""Quantiles of a normal distribution, with the end of an interval at 1."""
+
 FOLLOW_UP_WORDS = 5
 """Longest question [words] that may be a follow-up without beginning as one. Our choice."""
 
 ALONE_FROM = 0.5
 """Confidence from which a question that does not begin as a follow-up is none. Our choice."""
+
+SIGNED = ("x_mm", "y_mm")
+"""Numbers of a contact that may be below 0."""
 
 _FOLLOWS = re.compile(r"(?:and|but|then|why|how come|what about|how about|same)\b", re.I)
 
@@ -103,15 +123,20 @@ class Answered(NamedTuple):
 
     Attributes:
         answer: The answer.
-        confidence: Probability that the question is understood and its words are right.
+        confidence: Probability that the question is understood and the answer right.
+        interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
     """
 
     answer: Answer
     confidence: float
+    interval: tuple[float, float] | None = None
 
 
 def answered(
-    asked: ReadQuestion | None, scene: AskedScene, words: Mapping[str, float] | None = None
+    asked: ReadQuestion | None,
+    scene: AskedScene,
+    words: Mapping[str, float] | None = None,
+    ends: Mapping[str, tuple[float, float]] | None = None,
 ) -> Answered:
     """The answer to a question about what is felt.
 
@@ -119,13 +144,47 @@ def answered(
         asked: What the question means; None where it is not understood.
         scene: The contact as it is felt and said, with the contract and the mass.
         words: Probabilities of the contact's words, by dimension.
+        ends: Ends of the intervals of the contact's numbers, by name.
     """
     if asked is None:
         unclear = Answer(text=NOT_UNDERSTOOD, kind=AnswerKind.UNKNOWABLE, decidable=False)
         return Answered(unclear, 0.0)
     given = answer(asked.meaning, scene)
     told = [(words or {}).get(name, 1.0) for name in names_of(asked.meaning)]
-    if given.decidable and min(told, default=1.0) < PROBABLY_BELOW:
-        text = f"Probably {given.text[:1].lower()}{given.text[1:]}"
-        given = Answer(text=text, kind=given.kind, value=given.value, unit=given.unit)
-    return Answered(given, asked.confidence * math.prod(told))
+    interval, holds, holds_well = None, 1.0, True
+    if given.decidable and given.value is not None and scene.state.in_contact and ends:
+        values = [answer(asked.meaning, each).value for each in _possible(scene, ends)]
+        if given.kind is AnswerKind.NUMBER:
+            low, high = np.quantile(np.array(values, dtype=np.float64), [0.05, 0.95])
+            interval = float(f"{low:.4g}"), float(f"{high:.4g}")
+            holds_well = low < 0 or high < DOUBTFUL_RATIO * low
+        else:
+            holds = float(np.mean([value == given.value for value in values]))
+            holds_well = holds >= SURE_FROM
+    if given.decidable and (min(told, default=1.0) < PROBABLY_BELOW or not holds_well):
+        given = replace(given, text=_probably(given))
+    return Answered(given, asked.confidence * math.prod(told) * holds, interval)
+
+
+def _possible(scene: AskedScene, ends: Mapping[str, tuple[float, float]]) -> Iterator[AskedScene]:
+    """Scenes whose numbers are spread around what is felt, each of them evenly over its quantiles.
+
+    The order in which they meet is drawn, the same each time (Latin hypercube sampling).
+    """
+    rng = np.random.default_rng(0)
+    spread = {}
+    for name, (low, high) in ends.items():
+        value, steps = getattr(scene.state, name), rng.permutation(_STEPS)
+        numbers = value + np.where(steps > 0, (high - value) * steps, (value - low) * steps)
+        spread[name] = numbers if name in SIGNED else np.maximum(numbers, 0.0)
+    for drawn in zip(*(numbers.tolist() for numbers in spread.values()), strict=True):
+        yield replace(scene, state=replace(scene.state, **dict(zip(spread, drawn, strict=True))))
+
+
+def _probably(given: Answer) -> str:
+    """An answer that may be wrong, as text; a yes or no still stands first."""
+    if given.kind is AnswerKind.YES_NO:
+        verdict, comma, clause = given.text.rstrip(".").partition(",")
+        return f"{verdict}, probably:{clause}." if comma else f"{verdict}, probably."
+    word = "About" if given.kind is AnswerKind.NUMBER and given.text[:1].isdigit() else "Probably"
+    return f"{word} {given.text[:1].lower()}{given.text[1:]}"

@@ -27,14 +27,15 @@ class Spoken:
 
     Attributes:
         answer: The answer.
-        confidence: Probability that the question is understood, and that the words of the contact
-            which it needs are right.
+        confidence: Probability that the question is understood and the answer right.
+        interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
         query: What the model took the question for; '' where it came to nothing.
         flags: Why what is felt is not to be trusted; empty where it may be.
     """
 
     answer: Answer
     confidence: float
+    interval: tuple[float, float] | None
     query: str
     flags: tuple[Flag, ...] = ()
 
@@ -45,6 +46,7 @@ class Spoken:
             "kind": self.answer.kind.value,
             "value": self.answer.value,
             "unit": self.answer.unit or None,
+            "interval": self.interval,
             "confidence": self.confidence,
             "decidable": self.answer.decidable,
             "query": self.query,
@@ -76,7 +78,7 @@ class Conversation:
         mass_g: float | None = None,
     ) -> None:
         self._talker = talker
-        spoken = SpokenContact(NO_CONTACT_STATE, {})
+        spoken = SpokenContact(NO_CONTACT_STATE, {}, {})
         self._flags: tuple[Flag, ...] = ()
         told = AskedScene(contract=contract, mass_g=mass_g, sensor=cloud.sensor)
         if is_touched(cloud):
@@ -84,15 +86,19 @@ class Conversation:
             spoken = spoken_contact(talker, felt, cloud.sensor)
             self._flags = reading_of(felt.readings, cloud, talker.model.heads.contradiction).flags
         self._scene = replace(told, state=spoken.state)
-        self._words = spoken.confidence
+        self._words, self._ends = spoken.confidence, spoken.ends
         self._before = ""
 
     def ask(self, question: str) -> Spoken:
         """Answer a question."""
         asked = understood_in_turn(self._talker, question, self._before)
         self._before = question
-        given = answered(asked, self._scene, self._words)
+        given = answered(asked, self._scene, self._words, self._ends)
         query = "" if asked is None else asked.query
         return Spoken(
-            answer=given.answer, confidence=given.confidence, query=query, flags=self._flags
+            answer=given.answer,
+            confidence=given.confidence,
+            interval=given.interval,
+            query=query,
+            flags=self._flags,
         )

@@ -41,6 +41,7 @@ from tacgrasp.lessons.question_scores import (
     answer_all,
     ask_all,
     baselines,
+    confidence_figures,
     figures,
     figures_by_family,
 )
@@ -132,13 +133,16 @@ def evaluate_questions(
         own = own_questions(scenes, GRAMMAR_QUESTIONS, seed)
         scored["grammar"] = answer_all(own, contestants["grammar"])
         answers: list[ScoredAnswer] = []
+        trust: dict[str, Any] = {}
         if talker is not None:
-            model = asked_model(talker, contacts, len(asked), report)
+            confidences: list[float] = []
+            model = asked_model(talker, contacts, len(asked), report, confidences=confidences)
             answers = answer_all(asked, model)
             scored = {"model": answers, **scored}
+            trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
         raise UsageError(f"the file of questions: {error}") from None
-    return {
+    return trust | {
         "questions": len(rows),
         "contacts": len(contacts),
         "per_question": min(per_question, len(contacts)),
@@ -161,6 +165,7 @@ def asked_model(
     report: ProgressReport,
     *,
     stage: str = "questions",
+    confidences: list[float] | None = None,
 ) -> Callable[[AskedQuestion], str]:
     """What asks the model.
 
@@ -172,6 +177,7 @@ def asked_model(
         total: Number of questions to come, for the progress.
         report: Receives the progress.
         stage: Name of the stage, for the progress.
+        confidences: Receives the confidence of each answer.
     """
     done = 0
 
@@ -187,8 +193,10 @@ def asked_model(
         nonlocal done
         felt, row = spoken(asked.contact), asked.row
         scene = replace(asked.scene, state=felt.state)
-        given = answered(meant(row.question, row.before), scene, felt.confidence)
+        given = answered(meant(row.question, row.before), scene, felt.confidence, felt.ends)
         done += 1
+        if confidences is not None:
+            confidences.append(given.confidence)
         report(stage, done, total, {})
         return given.answer.text
 

@@ -64,7 +64,7 @@ def talker(monkeypatch: pytest.MonkeyPatch) -> Writer:
 
     policy = SimpleNamespace(talker=writer, check=check)
     monkeypatch.setattr(policy_factory, "load_llm", lambda weights=None: policy)
-    spoken = SpokenContact(HELD.state, {"shape": 0.5})
+    spoken = SpokenContact(HELD.state, {"shape": 0.5}, {"depth_mm": (0.16, 0.25)})
     monkeypatch.setattr(conversation, "spoken_contact", lambda *_: spoken)
     flagged = SimpleNamespace(flags=(Flag.NOISE,))
     monkeypatch.setattr(conversation, "reading_of", lambda *_: flagged)
@@ -138,6 +138,7 @@ def test_programs_get_value_unit_confidence_query_and_flags(
         "unit": "µm",
         "confidence": pytest.approx(0.5),
         "decidable": True,
+        "interval": pytest.approx([160, 250], abs=15),
         "query": "amount depth µm.",
         "flags": ["noise"],
     }

@@ -41,6 +41,40 @@ def test_a_word_in_doubt_is_probable_and_lowers_the_confidence():
     assert unsure.confidence == pytest.approx(0.81 * 0.5)
 
 
+@pytest.mark.parametrize(
+    ("ends", "text", "holds"),
+    [
+        ((0.82, 0.84), "Yes, the force is 0.83 N.", 1.0),
+        ((0.7, 1.0), "Yes, probably: the force is 0.83 N.", 0.65),
+        ((0.3, 2.0), "Yes, probably: the force is 0.83 N.", 0.54),
+    ],
+)
+def test_a_threshold_inside_the_interval_is_probable_and_lowers_the_confidence(ends, text, holds):
+    asked = understood(Writer("check force > #1 N."), "Is the force above 0.8 N?")
+    given = answered(asked, HELD, {}, {"force_n": ends})
+    assert given.answer.text == text
+    assert given.answer.value is True
+    assert given.confidence == pytest.approx(0.81 * holds, abs=0.06)
+    assert given.interval is None
+
+
+def test_a_word_that_is_asked_for_stays_one_where_it_is_in_doubt():
+    asked = understood(Writer("check force > #1 N in a word."), "Above 0.8 N?")
+    assert answered(asked, HELD, {}, {"force_n": (0.5, 1.2)}).answer.text == "Yes, probably."
+
+
+def test_a_number_has_an_interval_in_its_unit_that_no_amount_makes_negative():
+    asked = understood(Writer("amount depth µm."), "How many microns deep?")
+    given = answered(asked, HELD, {}, {"depth_mm": (0.1, 0.22)})
+    assert given.answer.text == "About 190 µm."
+    narrow = answered(asked, HELD, {}, {"depth_mm": (0.17, 0.22)})
+    assert narrow.answer.text == "190 µm."
+    assert given.interval == pytest.approx((100, 220), abs=15)
+    wide = answered(asked, HELD, {}, {"depth_mm": (-0.5, 0.9)})
+    assert wide.interval[0] == 0
+    assert answered(asked, UNTOUCHED, {}, {}).interval is None
+
+
 def test_a_question_that_comes_to_nothing_is_not_answered():
     for asked in (
         understood(Writer("check force > #2 N."), "Is it above 1 N?"),

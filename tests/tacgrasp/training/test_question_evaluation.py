@@ -52,7 +52,7 @@ ROWS = [
 @pytest.fixture(autouse=True)
 def _few_own_questions(monkeypatch):
     monkeypatch.setattr(question_evaluation, "GRAMMAR_QUESTIONS", 3)
-    spoken = SpokenContact(HELD.state, {})
+    spoken = SpokenContact(HELD.state, {}, {})
     monkeypatch.setattr(question_evaluation, "spoken_contact", lambda talker, felt: spoken)
 
 
@@ -69,6 +69,7 @@ def test_the_model_reads_each_question_once_and_answers_on_what_is_felt():
     assert (model["right"], model["decidable_n"], model["undecidable_n"]) == (0, 4, 2)
     assert model["undecidable"] == 0
     assert len(answers) == 6
+    assert results["confidence"] == {"calibration_error": 0.5, "auroc": None}  # all wrong
     assert json.dumps(results)
 
 
