@@ -334,6 +334,8 @@ def _forces(text: str) -> tuple[list[Force], str]:
             if _CORRECTION.search(left) or _CORRECTION.match(text[stop:].lstrip(" .,;-–—")):
                 is_denied = is_denied or not _CORRECTION.search(left)
                 if _CORRECTION.search(left):
+                    if kind == "value":
+                        kind = _kind_corrected([force for force, _ in found])
                     found = [(force, False) for force, _ in found]
             kept = not (_PAST.search(clause) or is_denied)
             found.append((Force(kind=kind, value_n=ends[0], words=words), kept))
@@ -342,6 +344,13 @@ def _forces(text: str) -> tuple[list[Force], str]:
     kept_forces = [force for force, kept in found if kept] or [force for force, _ in found]
     bounds = {force.value_n for force in kept_forces if force.kind != "value"}
     return [f for f in kept_forces if f.kind != "value" or f.value_n not in bounds], rest
+
+
+def _kind_corrected(found: list[Force]) -> Kind:
+    """Kind of the force that a bare one corrects: 'at most 2 N, make that 1 N' is at most 1 N."""
+    if not found or (len(found) > 1 and found[-2].words == found[-1].words):  # a range
+        return "value"
+    return found[-1].kind
 
 
 def _matches(text: str) -> Iterator[tuple[int, int, list[float]]]:
