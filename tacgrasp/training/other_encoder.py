@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from cltp.atomic_write import write_atomically
-from cltp.checkpoints.frozen import load_frozen
+from cltp.checkpoints.frozen import FORMAT, load_frozen
 from cltp.checkpoints.manifest import manifest_digest, write_manifest
 from cltp.checkpoints.tac3d_llm import load_encoder, save_encoder
 from cltp.checkpoints.weight_files import CONFIG, read_config
@@ -23,6 +23,7 @@ from cltp.train.methods import METHODS
 from cltp.train.recipes import HEADS_SCHEDULE
 from cltp.train.stage import TrainingRun
 from tacgrasp.base.errors import UsageError
+from tacgrasp.pretraining.methods import ABOUT
 
 SOURCE = "source.json"
 """File beside an encoder that was taken from elsewhere: its method, and its manifest's SHA-256."""
@@ -47,13 +48,16 @@ def take_other_encoder(source: Path, run: TrainingRun, heads_steps: int) -> None
             raise UsageError(f"{out} holds another encoder; choose another folder with --out")
         return
     config = read_config(source / "encoder" / CONFIG)
-    method = str(config.get("method", "cltp"))
-    about: dict[str, object] = {"manifest": origin, "method": method, "path": str(source.resolve())}
-    part = out / "encoder.part"
-    shutil.rmtree(part, ignore_errors=True)
-    if "StateHeads" in config.get("architectures", ["StateHeads"]):
+    trained = read_config(source / ABOUT) if (source / ABOUT).is_file() else {}
+    method = str(trained.get("method", config.get("method", "cltp")))
+    about: dict[str, object] = {"manifest": origin, "method": method}
+    part, is_first = out / "encoder.part", run.workers.is_first
+    if is_first:
+        shutil.rmtree(part, ignore_errors=True)
+    if config.get("format") != FORMAT:
         load_encoder(source / "encoder")
-        shutil.copytree(source / "encoder", part)
+        if is_first:
+            shutil.copytree(source / "encoder", part)
     else:
         frozen = load_frozen(source / "encoder")
         if frozen.sees_images:
@@ -64,8 +68,11 @@ def take_other_encoder(source: Path, run: TrainingRun, heads_steps: int) -> None
         schedule = replace(HEADS_SCHEDULE, steps=heads_steps)
         heads = train_heads(run, frozen.encoder, schedule, LEARNING_NOISE)
         about["heads"] = f"fitted in {schedule.steps} steps of {schedule.batch_size}"
-        save_encoder(part, frozen.encoder, heads)
-    if run.workers.is_first:
+        if is_first:
+            save_encoder(part, frozen.encoder, heads)
+    if is_first:
+        if (source / "clip").is_dir() and not (out / "clip").exists():
+            shutil.copytree(source / "clip", out / "clip")
         write_atomically(part / SOURCE, json.dumps(about, indent=2) + "\n")
         write_manifest(part)
         part.rename(out / "encoder")

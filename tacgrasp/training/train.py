@@ -100,6 +100,11 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     began_s = time.monotonic()
     base = None
     if request.lm is not None:
+        sources = (methods, request.encoder, blind_of)
+        if not any(sources) and not (out / "encoder").exists():
+            raise UsageError(
+                f"{out} has no encoder to train behind; take one by --encoder policies/weights"
+            )
         base = load_base(request.lm, request.recipe, request.precision)
     before = _digest(out)
     if methods is not None:

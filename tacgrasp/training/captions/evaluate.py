@@ -131,8 +131,9 @@ def reference(state: ContactState) -> str:
 def most_frequent_caption(data: ContactDataset) -> str:
     """The words that most contacts of a split have, behind them the medians of their numbers."""
     states = [data.state(index) for index in range(len(data))]
-    (words, _), *_ = Counter(caption(state) for state in states).most_common(1)
-    alike = [state for state in states if caption(state) == words]
+    captions = [caption(state) for state in states]
+    ((most, _),) = Counter(captions).most_common(1)
+    alike = [state for state, text in zip(states, captions, strict=True) if text == most]
     medians = {
         name: float(np.median([getattr(state, name) for state in alike])) for name in NUMBERS
     }

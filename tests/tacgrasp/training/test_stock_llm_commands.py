@@ -111,7 +111,8 @@ def test_the_folder_of_the_language_model_is_named_once(
 @pytest.mark.parametrize(
     ("argv", "expected"),
     [
-        (["--lm", "nowhere"], "nowhere: it is not a directory"),
+        (["--lm", "nowhere"], "weights has no encoder to train behind; take one by --encoder"),
+        (["--lm", "nowhere", "--encoder", "w"], "nowhere: it is not a directory"),
         (["--lm", "m", "--start", "w"], "--lm and --start both name a language model"),
         (["--tune", "all"], "--tune is for a language model of others; name its directory"),
         (["--lm", "m", "--lora-rank", "0"], "lora_rank must be above 0"),
