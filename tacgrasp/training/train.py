@@ -20,7 +20,7 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
-from cltp.checkpoints.base_lm import move_base
+from cltp.checkpoints.base_lm import BaseLm, is_stock, move_base
 from cltp.checkpoints.card import PARTS, write_card
 from cltp.checkpoints.layout import renew_layout
 from cltp.checkpoints.manifest import write_manifest
@@ -31,6 +31,7 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
+from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
 from cltp.train.llm import train_llm, train_words
@@ -98,14 +99,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     methods, blind_of = request.methods, request.blind_of
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
-    base = None
-    if request.lm is not None:
-        sources = (methods, request.encoder, blind_of)
-        if not any(sources) and not (out / "encoder").exists():
-            raise UsageError(
-                f"{out} has no encoder to train behind; take one by --encoder policies/weights"
-            )
-        base = load_base(request.lm, request.recipe, request.precision)
+    base = _base(request)
     before = _digest(out)
     if methods is not None:
         take_pretrained(methods, out)
@@ -147,6 +141,28 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
             f"{about['batch_size']}, data checksum {checksums}"
         )
     write_card(out, facts)
+
+
+def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
+    """The language model of others to train behind; None for our own.
+
+    Raises:
+        UsageError: It is named in the wrong way, or there is no encoder to stand before it.
+        TouchError: As ``cltp.train.stock.llm.load_base``.
+    """
+    if request.start is not None and is_stock(request.start / "lm"):
+        raise UsageError(
+            f"--start {request.start} was trained behind a language model of others; name that one "
+            "with --lm instead"
+        )
+    if request.lm is None:
+        return None
+    sources = (request.methods, request.encoder, request.blind_of)
+    if not any(sources) and not (request.out / "encoder").exists():
+        raise UsageError(
+            f"{request.out} has no encoder to train behind; take one by --encoder policies/weights"
+        )
+    return load_base(request.lm, request.recipe, request.precision)
 
 
 def _words(request: TrainLlmRequest) -> Words:

@@ -136,6 +136,9 @@ def test_a_moved_base_is_named_by_a_command(
     base, out = save_stock_lm(tmp_path / "base", "qwen2"), tmp_path / "out"
     argv = ["train", "llm", "--lm", str(base), "--encoder", str(weights), "--out", str(out)]
     assert main([*argv, *made, "--tune", "projector"]) == 0
+    capsys.readouterr()
+    onto = ["train", "llm", "--start", str(out), "--out", str(tmp_path / "new")]
+    assert "was trained behind a language model of others" in complaint(onto, capsys)
     moved = base.rename(tmp_path / "moved")
     touch = tmp_path / "touch.npy"
     np.save(touch, bump(1.0, -2.0, 0.5))

@@ -20,11 +20,13 @@ from cltp.encoder.encoder import EncoderConfig, TactileEncoder
 from cltp.encoder.heads import StateHeads
 from cltp.errors import TouchError
 from cltp.llm.causal_lm import load_language
-from cltp.llm.generation import _Run
+from cltp.llm.constrained.grammar import Option, TextChoice, Verbatim
+from cltp.llm.generation import Talker, _Run
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.texts.captions import caption
 from cltp.texts.exchange_packing import Exchange, pack
 from cltp.texts.stock_tokenizer import SAMPLE, StockTokenizer
+from cltp.texts.tokenizer import ACTIONS
 from cltp.texts.told import ToldContact
 from cltp.train.recipes import StockRecipe
 from cltp.train.stage import Stage, TrainingRun
@@ -152,6 +154,22 @@ def test_an_adapter_is_trained_written_and_read_back(
     torch.testing.assert_close(
         first_logits(loaded), first_logits(in_memory), rtol=1e-3, atol=1e-3
     )  # merged, and with the adapter beside the matrices
+
+
+@needs_peft
+def test_what_is_taught_is_said_afterwards(bases: Path, data: Path, tmp_path: Path) -> None:
+    """Behind a frozen base, projector and adapter learn the one action that is always advised."""
+    recipe = replace(RECIPE, tune_steps=40, lora_rank=8, lora_alpha=16.0, tune_rate=2e-2)
+    weights = train(new_run(data, tmp_path), bases / "qwen2", recipe)
+    choice = TextChoice("action", tuple(Option(name, f" {name}") for name in ACTIONS))
+    grammar = (Verbatim("Goal 1.00 N. Action:"), choice)
+    points = np.random.default_rng(0).random((1024, 3), dtype=np.float32)
+    before = Talker(model_behind(bases / "qwen2")).reply(points, "What next?", grammar=grammar)
+    after = Talker(load_tac3d_llm(weights)).reply(points, "What next?", grammar=grammar)
+    up = ACTIONS.index("<move_up>")
+    assert before.probabilities[up] < 0.5
+    assert after.action == "<move_up>"
+    assert after.probabilities[up] > 0.9
 
 
 class _StoppedError(Exception):
