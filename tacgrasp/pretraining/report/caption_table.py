@@ -52,8 +52,9 @@ def caption_section(groups: Groups) -> PageSection:
             "is in % right, but for malformed captions; – where nothing was measured."
         ],
         table=PageTable(head=[*head, "language model", "contacts"], rows=rows),
-        note="Contacts: the split contact_noisy. PointBERT-LLM and PointMAE-LLM have the same "
-        "language model and budget behind those encoders, frozen, with state heads fitted on them. "
+        note="Contacts: the split contact_noisy. PointBERT-LLM and PointMAE-LLM are trained by "
+        "`tacgrasp train llm --encoder` behind those encoders, frozen, with state heads fitted on "
+        "them. 'Of data …' are language models that learned from another data set than this one. "
         "Most frequent caption: the training split's, with its median numbers. Questions: in "
         "wordings of the grammar, and in wordings that were kept out of training.",
     )

@@ -12,6 +12,7 @@ Not here: the rule (``tacgrasp.training.captions.rating``).
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -20,6 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from cltp.checkpoints.base_lm import BaseLm, is_stock
+from cltp.checkpoints.card import CARD
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.features import random_batches
@@ -47,6 +49,9 @@ from tacgrasp.training.other_encoder import method_of
 from tacgrasp.training.question_evaluation import asked_model, felt_contacts, own_questions
 
 SPLIT = "contact_noisy"
+
+_LEARNED_DATA = re.compile(r"^\| data checksum \| ([0-9a-f]{8,})", re.M)
+"""The line of a model card that names the data of the training."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,7 +89,7 @@ def rate_captions(run: CaptionRun) -> list[Result]:
         TouchError: Weights or data can't be used, or the data has no contacts of the split.
     """
     (split,) = evaluation_splits(run.data, (SPLIT,))
-    talker = load_llm(run.weights).talker
+    talker, checksum = load_llm(run.weights).talker, ContactDataset(run.data).checksum()
     data = ContactDataset(run.data, split=split.split)
     batches = random_batches(data, run.contacts, split.noise, seed=run.seed, layout=talker.layout)
     truths = [state for batch in batches for state in batch.states]
@@ -97,10 +102,10 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     usual = Result(
         table=CAPTIONS,
         method=method_of(run.weights),
-        variant=variant_of(run.weights),
+        variant=variant_of(run.weights, checksum),
         split=SPLIT,
         seed=run.seed,
-        data=ContactDataset(run.data).checksum(),
+        data=checksum,
         budget=None,
         command=run.command,
         contacts=len(truths),
@@ -166,12 +171,24 @@ def rated(
     return values
 
 
-def variant_of(weights: Path) -> str:
-    """What language model some weights have: our own small one, or which base, tuned how."""
-    if not is_stock(weights / "lm"):
-        return "our small one"
-    base = BaseLm.read(weights / "lm")
-    return f"{Path(base.path).name} ({base.model_type}), {base.tune}"
+def variant_of(weights: Path, data: str) -> str:
+    """What language model some weights have, and whether it learned from the data it is rated on.
+
+    Args:
+        weights: Folder of weights; its model card names the data of the training.
+        data: Checksum of the data that captions are rated on.
+    """
+    model = "our small one"
+    if is_stock(weights / "lm"):
+        base = BaseLm.read(weights / "lm")
+        model = f"{Path(base.path).name} ({base.model_type}), {base.tune}"
+    try:
+        match = _LEARNED_DATA.search((weights / CARD).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        match = None
+    if match is None:
+        return f"{model}, of unknown data"
+    return model if match[1] == data else f"{model}, of data {match[1][:8]}"
 
 
 def _words(

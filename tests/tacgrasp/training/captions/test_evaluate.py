@@ -10,12 +10,19 @@ from pathlib import Path
 import pytest
 import torch
 
+from cltp.checkpoints.base_lm import BaseLm
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.texts.captions import caption
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining.report.store import MOST_FREQUENT, SHUFFLED, load_results
-from tacgrasp.training.captions.evaluate import most_frequent_caption, others, rated, reference
+from tacgrasp.training.captions.evaluate import (
+    most_frequent_caption,
+    others,
+    rated,
+    reference,
+    variant_of,
+)
 from tacgrasp.training.captions.rating import rate_caption
 from tests.fakes.fake_contacts import write_contacts
 from tests.fakes.fake_results import fake_result
@@ -59,6 +66,18 @@ def test_figures_are_means_over_contacts() -> None:
     assert half["rating"] == 3.0
     assert half["malformed"] == half["shape"] == 50.0
     assert half["numbers"] == 100.0  # of those that are said
+
+
+def test_a_row_says_what_its_language_model_learned_from(tmp_path: Path) -> None:
+    assert variant_of(tmp_path, "abcdef12") == "our small one, of unknown data"
+    (tmp_path / "README.md").write_text("| seed | 0 |\n| data checksum | abcdef1234 |\n")
+    assert variant_of(tmp_path, "abcdef1234") == "our small one"
+    assert variant_of(tmp_path, "0123456789") == "our small one, of data abcdef12"
+    base = BaseLm(path="/there/Qwen2.5-VL-3B", model_type="qwen2_5_vl", fingerprint="", tune="lora")
+    (tmp_path / "lm").mkdir()
+    base.write(tmp_path / "lm")
+    said = variant_of(tmp_path, "abcdef1234")
+    assert said == "Qwen2.5-VL-3B (qwen2_5_vl), lora"
 
 
 def test_captions_are_rated_stored_and_reported(
