@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 WEIGHTS_VARIABLE = "TACGRASP_WEIGHTS"
 
 LLM_THREADS = 1
-"""Threads of torch for the language model. Its matrices are too small to gain from a second thread,
-and with a fixed number a decision can be repeated to the bit."""
+"""Threads of torch for our own language model. Its matrices are too small to gain from another
+one, and with a fixed number a decision can be repeated to the bit."""
 
 
 def default_weights() -> Path:
@@ -35,6 +35,11 @@ def shipped_weights() -> Path:
     return Path(policies.__file__).parent / "weights"
 
 
+def stock_threads() -> int:
+    """Threads of torch for a language model that others made, whose matrices are large."""
+    return os.cpu_count() or 1
+
+
 def load_llm(weights: Path | None = None) -> LlmPolicy:
     """Load the language model of a folder, and set the number of torch's threads in this process.
 
@@ -46,14 +51,21 @@ def load_llm(weights: Path | None = None) -> LlmPolicy:
     """
     import torch
 
+    from cltp.checkpoints.base_lm import is_stock
     from policies.llm.policy import LlmPolicy
 
-    torch.set_num_threads(LLM_THREADS)
-    return LlmPolicy(weights or default_weights())
+    folder, threads = weights or default_weights(), LLM_THREADS
+    if is_stock(folder / "lm"):
+        from transformers.utils.logging import disable_progress_bar
+
+        disable_progress_bar()
+        threads = stock_threads()
+    torch.set_num_threads(threads)
+    return LlmPolicy(folder)
 
 
 def _llm(config: RunConfig) -> Policy:
-    policy = load_llm(config.weights)
+    policy = load_llm(config.weights_folder)
     try:
         policy.check_move_step(config.primitives.move_step_mm)
     except PolicyError as error:
@@ -117,7 +129,7 @@ def check_policy(name: str, config: RunConfig) -> None:
         hint = f"; {_OTHER_COMMANDS[name]}" if name in _OTHER_COMMANDS else ""
         known = ", ".join(names_with("policies", POLICIES))
         raise UsageError(f"unknown policy {name!r}; known: {known}{hint}")
-    weights = config.weights or default_weights()
+    weights = config.weights_folder or default_weights()
     if name == "llm" and not weights.is_dir():
         raise UsageError(
             f"weights are missing: {weights} is not a folder; train them with `tacgrasp train "

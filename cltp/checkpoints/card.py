@@ -14,8 +14,9 @@ from pathlib import Path
 from safetensors import SafetensorError, safe_open
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.base_lm import BASE_FILE, BaseLm, is_stock
 from cltp.checkpoints.manifest import WeightsError
-from cltp.checkpoints.weight_files import CONFIG, WEIGHTS, read_config
+from cltp.checkpoints.weight_files import CONFIG, read_config
 
 CARD = "README.md"
 SCORES = "## Scores"
@@ -69,6 +70,22 @@ the tokenizers add none of them. Text features are those of `<eos>`, as
 token of every clip whose end has the number 2."""
 
 
+_BASE_USE = """The language model was trained behind another one, the {kind} in `{path}`, of which
+`lm` has {trained}; the other parts began with random weights, and the contacts are computed by
+`tacgrasp data generate`. Every part has a `manifest.json` with the SHA-256 of its files. Read from
+this folder, with that language model where it was (`tacgrasp train base` names another place):
+
+```python
+from pathlib import Path
+
+from cltp.checkpoints.tac3d_llm import load_tac3d_llm
+
+model = load_tac3d_llm(Path("."))  # all parts but clip, and that they belong together
+```"""
+
+_TRAINED = {"lora": "an adapter in peft's format", "all": "all, changed", "projector": "nothing"}
+
+
 def write_card(folder: Path, facts: Mapping[str, str]) -> None:
     """Write the model card of weights that lie in a folder, with an empty table of scores.
 
@@ -79,7 +96,8 @@ def write_card(folder: Path, facts: Mapping[str, str]) -> None:
     Raises:
         WeightsError: A part can't be read.
     """
-    lines = ["# Tac3D-LLM, small", "", "| | |", "|---|---|"]
+    size = ", small" if not is_stock(folder / "lm") else ""
+    lines = [f"# Tac3D-LLM{size}", "", "| | |", "|---|---|"]
     lines += [f"| {name} | {value} |" for name, value in facts.items()]
     _write(folder, "\n".join(lines), "\n\n| | |\n|---|---|\n")
 
@@ -103,7 +121,12 @@ def renew_card(folder: Path) -> None:
 def _write(folder: Path, above: str, scores: str) -> None:
     rows = ["| part | model_type | architectures | numbers | bytes |", "|---|---|---|---|---|"]
     rows += [f"| {' | '.join(row)} |" for row in _part_rows(folder)]
-    sections = [f"{FRONT_MATTER}\n{above}", _PARTS, "\n".join(rows), _USE, f"{SCORES}{scores}"]
+    matter, use = FRONT_MATTER, _USE
+    if is_stock(folder / "lm"):
+        base = BaseLm.read(folder / "lm")
+        matter = matter.replace("base_model: []", f"base_model: [{Path(base.path).name!r}]")
+        use = _BASE_USE.format(kind=base.model_type, path=base.path, trained=_TRAINED[base.tune])
+    sections = [f"{matter}\n{above}", _PARTS, "\n".join(rows), use, f"{SCORES}{scores}"]
     folder.mkdir(parents=True, exist_ok=True)
     write_atomically(folder / CARD, "\n\n".join(sections))
 
@@ -114,14 +137,14 @@ def _part_rows(folder: Path) -> Iterator[tuple[str, ...]]:
         part = folder / name
         if not part.is_dir():
             continue
-        config = read_config(part / CONFIG)
+        config = read_config(part / (CONFIG if (part / CONFIG).exists() else BASE_FILE))
         classes = config.get("architectures") or ["-"]
         size = sum(path.stat().st_size for path in part.iterdir() if path.is_file())
         yield (
             name,
             f"`{config.get('model_type', '-')}`",
             ", ".join(f"`{kind}`" for kind in classes),
-            f"{_count(part / WEIGHTS):,}",
+            f"{sum(map(_count, part.glob('*.safetensors'))):,}",
             f"{size:,}",
         )
 

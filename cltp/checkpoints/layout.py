@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.base_lm import is_stock
 from cltp.checkpoints.card import CARD, PARTS, renew_card
 from cltp.checkpoints.frozen import FORMAT
 from cltp.checkpoints.manifest import (
@@ -47,6 +48,9 @@ def renew_layout(weights: Path) -> list[str]:
         raise WeightsError(f"{weights} has none of {', '.join(PARTS)}; name a folder of weights")
     whole = {"encoder", "projector", "lm"} <= set(parts)
     words = {}
+    if is_stock(weights / "lm"):  # in the layout of others
+        check_manifest(weights / "lm")
+        parts.remove("lm")
     for name in parts:
         require_files(weights / name)
         check_manifest(weights / name)

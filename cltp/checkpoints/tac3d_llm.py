@@ -5,7 +5,8 @@
       encoder/          config.json, model.safetensors        E_T with its state heads
       clip/             transformers' CLIP with its tokenizer
       projector/        config.json, model.safetensors
-      lm/               transformers' Seed-OSS, which is a Qwen2, with its tokenizer
+      lm/               transformers' Seed-OSS, which is a Qwen2, with its tokenizer; or what
+                        was trained of one that others made (``cltp.checkpoints.base_lm``)
 
 and in each of the four a manifest.json (``cltp.checkpoints.manifest``), checked before it is read.
 Every config.json names its ``model_type`` and ``architectures``. A tokenizer is the three files of
@@ -24,8 +25,10 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import torch
 from safetensors import SafetensorError
 
+from cltp.checkpoints.base_lm import PARTNERS, BaseLm, is_stock, write_stock_lm
 from cltp.checkpoints.manifest import (
     WeightsError,
     check_manifest,
@@ -37,6 +40,7 @@ from cltp.checkpoints.weight_files import check_sizes, require_files
 from cltp.encoder.clip_towers import Towers, load_towers
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import StateHeads
+from cltp.llm.adapter import merged
 from cltp.llm.causal_lm import Language, load_language
 from cltp.llm.stored_lm import load_stored_lm, write_seed_oss_config
 from cltp.llm.tac3d_llm import Tac3dLlm
@@ -83,10 +87,52 @@ def save_tac3d_llm(folder: Path, model: Tac3dLlm) -> None:
     """
     words = model.language.words
     if words is None:
-        raise WeightsError("a stock checkpoint is used from its own directory and not written")
+        raise WeightsError("a stock checkpoint is written with its base; use save_stock_llm")
     save_pretrained(folder / "lm", model.lm, words)
     stored = StoredProjector(model.projector, words.fingerprint())
-    stored.save_pretrained(folder / "projector", trained_with=("encoder", "lm"))
+    stored.save_pretrained(folder / "projector", trained_with=PARTNERS)
+
+
+def save_stock_llm(folder: Path, model: Tac3dLlm, base: BaseLm, adapter: Any = None) -> None:
+    """Write projector and what was trained of a stock language model, beside their encoder.
+
+    Args:
+        folder: Folder of the weights.
+        model: The model.
+        base: The language model that it was trained behind.
+        adapter: peft's model around it, where an adapter was trained.
+
+    Raises:
+        WeightsError: ``save_encoder`` has not written the encoder.
+    """
+    language = model.language
+    write_stock_lm(folder / "lm", base, language.lm, language.tokens, adapter)
+    stored = StoredProjector(model.projector, language.tokens.fingerprint())
+    stored.save_pretrained(folder / "projector", trained_with=PARTNERS)
+
+
+def load_stock_llm(weights: Path) -> Language:
+    """Read the language model of weights that were trained behind one that others made.
+
+    It is read for decoding, onto an accelerator in bfloat16 where there is one, else in 32 bits.
+
+    Raises:
+        TouchError: Base, adapter or weights are missing, damaged, or of another training; or peft
+            is not installed.
+    """
+    folder = weights / "lm"
+    check_manifest(folder)
+    base = BaseLm.read(folder)
+    if base.tune != "all":
+        base.check(weights)
+    source = folder if base.tune == "all" else Path(base.path)
+    check_sizes(source)
+    has_gpu = torch.cuda.is_available()
+    language = load_language(source, torch.bfloat16 if has_gpu else torch.float32)
+    if base.tune == "lora":
+        language.lm = merged(language.lm, folder).eval()
+    language.lm = language.lm.requires_grad_(False).to("cuda" if has_gpu else "cpu")
+    return language
 
 
 def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
@@ -102,7 +148,9 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
     """
     encoder, heads = load_encoder(folder / "encoder")
     config = ProjectorConfig.read(folder / "projector")
-    if lm_folder is None:
+    if lm_folder is None and is_stock(folder / "lm"):
+        language = load_stock_llm(folder)
+    elif lm_folder is None:
         require_files(folder / "lm")
         check_manifest(folder / "lm")
         language = Language(load_stored_lm(folder / "lm"), words=Words.load(folder / "lm"))
@@ -110,8 +158,7 @@ def load_tac3d_llm(folder: Path, *, lm_folder: Path | None = None) -> Tac3dLlm:
         check_manifest(lm_folder, required=False)
         check_sizes(lm_folder)
         language = load_language(lm_folder)
-    words = language.words
-    if words is not None and words.fingerprint() != config.tokenizer_sha256:
+    if language.tokens.fingerprint() != config.tokenizer_sha256:
         raise WeightsError(
             f"the tokenizer in {folder / 'lm'} is not the one that {folder / 'projector'} was "
             "trained with; take both from one training"

@@ -18,8 +18,9 @@ def load_strictly(
     *,
     expected: Callable[[str], bool] = lambda name: True,
     error_class: type[TouchError] = TouchError,
+    dtype: torch.dtype = torch.float32,
 ) -> Any:
-    """Read a model in 32 bits, with every weight there, of the right shape, and no other.
+    """Read a model with every weight there, of the right shape, and no other.
 
     Args:
         model_class: A model class of transformers.
@@ -27,13 +28,14 @@ def load_strictly(
         title: Name of the model in errors.
         expected: Whether a weight in the directory must be one of the model's; others are ignored.
         error_class: Class of the errors.
+        dtype: Precision of its weights in memory; 32 bits by default.
 
     Raises:
         TouchError: Missing, damaged, or weights that don't fit.
     """
     try:
         model, info = model_class.from_pretrained(
-            folder, local_files_only=True, output_loading_info=True, dtype=torch.float32
+            folder, local_files_only=True, output_loading_info=True, dtype=dtype
         )
     except Exception as error:  # transformers raises errors of every kind for a bad configuration
         reason = str(error).splitlines()[0] if str(error) else repr(error)

@@ -207,7 +207,8 @@ class Talker:
             TouchError: Grammar and penalties leave no action.
         """
         marks = [self._clock()]
-        inputs = torch.cat([touch, self._language.embed(self._language.prompt(prompt))])
+        asked = self._language.embed(self._language.prompt(prompt))
+        inputs = torch.cat([touch.to(asked), asked])
 
         def prefilled() -> None:
             marks.append(self._clock())
@@ -382,13 +383,18 @@ class _Run:
         self.length = length
 
     def _feed(self, inputs: Tensor, rows: int) -> Tensor:
+        before = self.length
         self.length += len(inputs)
         self.passes += 1
+        # Positions by number: a Qwen2.5-VL would count them from the last image that it saw.
+        positions = torch.arange(before, self.length, device=inputs.device)[None]
         out = self._language.lm(
             inputs_embeds=inputs[None],
             attention_mask=torch.ones(1, self.length, dtype=torch.long, device=inputs.device),
+            position_ids=positions,
             past_key_values=self._past,
             use_cache=True,
+            logits_to_keep=rows,
         )
         self._past = out.past_key_values
         logits: Tensor = out.logits[0, -rows:]

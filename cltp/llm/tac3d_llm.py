@@ -86,8 +86,12 @@ class Tac3dLlm(nn.Module):
 
     @property
     def num_touch(self) -> int:
-        """Tokens before a prompt: groups, class token, pooled tokens, readings."""
-        return self.encoder.config.num_groups + 1 + NUM_POOLED + NUM_READINGS
+        """Tokens before a prompt: groups, class token, pooled tokens, readings.
+
+        A stock checkpoint's own, which begin a turn, stand before them.
+        """
+        touch = self.encoder.config.num_groups + 1 + NUM_POOLED + NUM_READINGS
+        return len(self.language.begin) + touch
 
     @property
     def layout(self) -> PointLayout:
@@ -110,29 +114,34 @@ class Tac3dLlm(nn.Module):
             given: Shape (B, 6), bool: which readings it is told; None for all.
         """
         embeddings: Tensor = self.projector(encoded, readings, given)
-        return embeddings
+        begin = self.language.begin
+        if not begin:
+            return embeddings
+        before = self.language.embed(begin).to(embeddings)
+        return torch.cat([before.expand(len(embeddings), -1, -1), embeddings], dim=1)
 
     def loss(self, touch: Tensor | None, packed: Packed) -> dict[str, Tensor]:
         """Loss of packed exchanges behind touch embeddings, or of text alone.
 
         Only replies are learned. Returns the weighted mean as ``language``, and as a score
-        ``action_right``: the fraction of actions that are the most probable of the eight.
+        ``action_right``: the fraction of actions that are the most probable of the eight, where
+        each is one token.
         """
         embedded = self.lm.get_input_embeddings()(packed.ids)
         num_touch = 0
         if touch is not None:
             num_touch = touch.shape[1]
-            embedded = torch.cat([touch, embedded], dim=1)
+            embedded = torch.cat([touch.to(embedded.dtype), embedded], dim=1)
         hidden = self.lm.model(
             inputs_embeds=embedded,
-            attention_mask=packed.mask,
+            attention_mask=packed.mask.to(embedded.dtype),
             position_ids=packed.positions,
             use_cache=False,
         ).last_hidden_state[:, num_touch:]
         learned = packed.labels != NOT_LEARNED
         logits = self.lm.get_output_embeddings()(hidden[learned])
         labels, weights = packed.labels[learned], packed.weights[learned]
-        each = F.cross_entropy(logits, labels, reduction="none")
+        each = F.cross_entropy(logits.float(), labels, reduction="none")
         terms = {"language": (each * weights).sum() / weights.sum()}
         if self.language.words is not None:
             actions = torch.tensor(self.language.words.actions, device=labels.device)

@@ -10,15 +10,28 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import torch
 from torch import Tensor
 from torch.nn.utils.rnn import pad_sequence
 
-from cltp.texts.tokenizer import Words
-
 NOT_LEARNED = -100
+
+
+class ExchangeTokens(Protocol):
+    """A tokenizer of exchanges: ours, or that of a stock checkpoint."""
+
+    pad: int
+    eos: int
+
+    def prompt_ids(self, text: str) -> list[int]:
+        """Tokens between the touch and the reply."""
+        ...
+
+    def encode_marked(self, text: str) -> tuple[list[int], list[bool]]:
+        """Tokens of a reply, and which of them name an action."""
+        ...
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,19 +65,8 @@ class Packed(NamedTuple):
     mask: Tensor
 
 
-def prompt_ids(words: Words, prompt: str, *, longest: int = 96) -> list[int]:
-    """Tokens before a reply: ``<user> prompt <reply>``.
-
-    Of a prompt with more than ``longest`` tokens, beginning and end remain, half each.
-    """
-    ids = words.encode(prompt, trusted=False)
-    if len(ids) > longest:
-        ids = ids[: longest // 2] + ids[-(longest - longest // 2) :]
-    return [words.user, *ids, words.reply]
-
-
 def pack(
-    words: Words,
+    words: ExchangeTokens,
     groups: Sequence[Sequence[Exchange]],
     num_touch: int,
     *,
@@ -76,13 +78,13 @@ def pack(
         words: Tokenizer.
         groups: For each of B contacts, one or more exchanges.
         num_touch: Number P of touch tokens; 0 for learning from text alone.
-        action_weight: Weight of a label that is an action; others weigh 1.
+        action_weight: Weight of a label that names an action; others weigh 1.
     """
     rows = [_sequence(words, group, num_touch) for group in groups]
-    ids, labels, positions, segments = (
+    ids, labels, actions, positions, segments = (
         pad_sequence([torch.tensor(one) for one in column], batch_first=True, padding_value=padding)
         for column, padding in zip(
-            zip(*rows, strict=True), (words.pad, NOT_LEARNED, 0, -1), strict=True
+            zip(*rows, strict=True), (words.pad, NOT_LEARNED, 0, 0, -1), strict=True
         )
     )
     total = positions.shape[1]
@@ -91,22 +93,26 @@ def pack(
     causal = torch.ones(total, total, dtype=torch.bool).tril()
     mask = torch.zeros(len(ids), 1, total, total)
     mask[:, 0].masked_fill_(~((own | touch) & causal), float("-inf"))
-    is_action = torch.isin(labels, torch.tensor(words.actions))
-    weights = torch.where(is_action, action_weight, 1.0) * (labels != NOT_LEARNED)
+    weights = torch.where(actions > 0, action_weight, 1.0) * (labels != NOT_LEARNED)
     return Packed(ids=ids, labels=labels, weights=weights, positions=positions, mask=mask)
 
 
-def _sequence(words: Words, group: Sequence[Exchange], num_touch: int) -> tuple[list[int], ...]:
-    """Tokens and labels of some exchanges, then positions and segments behind the touch tokens."""
+def _sequence(
+    words: ExchangeTokens, group: Sequence[Exchange], num_touch: int
+) -> tuple[list[int], ...]:
+    """Tokens, labels, which of these name an action; positions and segments behind the touch."""
     all_ids: list[int] = []
     labels: list[int] = []
+    actions: list[int] = []
     positions, segments = list(range(num_touch)), [0] * num_touch
     for segment, exchange in enumerate(group, start=1):
-        before = prompt_ids(words, exchange.prompt)
-        reply = [*words.encode(exchange.reply), words.eos]
+        before = words.prompt_ids(exchange.prompt)
+        said, marks = words.encode_marked(exchange.reply)
+        reply = [*said, words.eos]
         ids = before + reply[:-1]
         all_ids += ids
         labels += [NOT_LEARNED] * (len(before) - 1) + reply
+        actions += [0] * (len(before) - 1) + [int(mark) for mark in marks] + [0]
         positions += range(num_touch, num_touch + len(ids))
         segments += [segment] * len(ids)
-    return all_ids, labels, positions, segments
+    return all_ids, labels, actions, positions, segments

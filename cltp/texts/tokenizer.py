@@ -65,6 +65,9 @@ WHOLE_REPEATS = 50
 """How often a word that must be one token counts in training. Our choice: above the words that few
 texts have, far below those of every sentence."""
 
+LONGEST_PROMPT = 96
+"""Most tokens of a prompt."""
+
 
 class Words:
     """A tokenizer.
@@ -173,6 +176,21 @@ class Words:
             for token in (*CONTROL, *ACTIONS):
                 text = text.replace(token, token.strip("<>"))
         return list(self._tokenizer.encode(text, add_special_tokens=False).ids)
+
+    def encode_marked(self, text: str) -> tuple[list[int], list[bool]]:
+        """Tokens of a reply, and which of them name an action."""
+        ids = self.encode(text)
+        return ids, [i in self.actions for i in ids]
+
+    def prompt_ids(self, text: str) -> list[int]:
+        """Tokens before a reply: ``<user> prompt <reply>``.
+
+        Of a prompt with more than ``LONGEST_PROMPT`` tokens, beginning and end remain, half each.
+        """
+        ids = self.encode(text, trusted=False)
+        if len(ids) > LONGEST_PROMPT:
+            ids = ids[: LONGEST_PROMPT // 2] + ids[-LONGEST_PROMPT // 2 :]
+        return [self.user, *ids, self.reply]
 
     def has_token(self, word: str) -> bool:
         """Whether a word is a single token, as words that were common in training are."""

@@ -189,6 +189,50 @@ def _terms(
     return terms | {"temperature": 1 / loss.contrast.scale.detach()}
 
 
+def train_heads(
+    run: TrainingRun,
+    encoder: TactileEncoder,
+    schedule: Schedule,
+    augmentation: Augmentation | None = None,
+) -> StateHeads:
+    """Train, or continue training, state heads on a frozen encoder that has none.
+
+    So an encoder of another method is compared behind the same language model: its readings are as
+    good as its own tokens are.
+
+    Args:
+        run: Data, folder of the checkpoint, seed, progress and processes.
+        encoder: The encoder; it is not changed.
+        schedule: How long and how fast the heads learn.
+        augmentation: How contacts are varied.
+
+    Raises:
+        TouchError: Data or checkpoint can't be used, or a batch is not finite.
+    """
+    data, device, config = run.dataset(), run.workers.device, encoder.config
+    encoder = encoder.to(device).eval().requires_grad_(False)
+    torch.manual_seed(run.seed)
+    heads = StateHeads(2 * config.dim).to(device)
+    weights = float(sum(p.double().abs().sum() for p in encoder.parameters()))
+    identity = {"data": data.checksum(), "config": config.identity, "variant": str(augmentation)}
+    stage = Stage("heads", run, heads, schedule, {**identity, "encoder": weights})
+    sampler = Sampler(data, augmentation, seed=run.seed, layout=config.variant.layout)
+    batches = prefetched(stage.batches(sampler))
+
+    def terms(step: int) -> dict[str, Tensor]:
+        batch = next(batches)
+        labels = targets(batch.states)
+        check_batch("heads", step, data, batch, labels)
+        with torch.no_grad(), run.workers.autocast():
+            pooled = encoder(torch.from_numpy(batch.points).to(device)).pooled.float()
+        return heads.losses(pooled, Targets(*(part.to(device) for part in labels)))
+
+    stage.train(terms)
+    heads = heads.cpu().eval()
+    calibrate_heads(run, encoder.cpu(), heads, augmentation)
+    return heads
+
+
 def calibrate_heads(
     run: TrainingRun, encoder: TactileEncoder, heads: StateHeads, augmentation: Augmentation | None
 ) -> None:

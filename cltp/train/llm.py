@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import NamedTuple, Protocol
 
@@ -46,7 +46,7 @@ from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.llm.unsure_readings import ShownReadings, drawn_readings, shown, told_numbers
 from cltp.tactile.force_scale import UNCALIBRATED_SPREAD
 from cltp.tactile.states import CLASSES, ContactState
-from cltp.texts.exchange_packing import Exchange, Packed, pack
+from cltp.texts.exchange_packing import Exchange, ExchangeTokens, Packed, pack
 from cltp.texts.tokenizer import Words
 from cltp.texts.told import ToldContact
 from cltp.train.prefetch import prefetched
@@ -179,7 +179,7 @@ def train_llm(
         begun = load_tac3d_llm(start, lm_folder=start / "lm")
         language, projector = begun.language, begun.projector
     model = Tac3dLlm(encoder, heads, projector, language).to(run.workers.device)
-    learner = _Learner(run, model, words, data, lessons, augmentation)
+    learner = ExchangeLearner(run, model, words, data, lessons, augmentation)
     identity = {
         "data": data.checksum(),
         # Tells encoders apart; a stage must not continue behind another one.
@@ -213,15 +213,29 @@ class _Sample(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class _Learner:
+class ExchangeLearner:
+    """Teaches a model the exchanges about contacts, a stage at a time.
+
+    Attributes:
+        run: Seed, progress and processes.
+        model: The model; what of it is learned is the stage's.
+        words: Its tokenizer.
+        data: The contacts.
+        lessons: The exchanges about them.
+        augmentation: How they are varied.
+        questions: Questions in each step of a stage, besides its contacts.
+    """
+
     run: TrainingRun
     model: Tac3dLlm
-    words: Words
+    words: ExchangeTokens
     data: ContactDataset
     lessons: Lessons
     augmentation: Augmentation | None
+    questions: Mapping[str, int] = field(default_factory=lambda: QUESTIONS)
 
     def train(self, stage: Stage, number: int) -> None:
+        """Do the remaining steps of a stage, the ``number``-th of a training."""
         samples = prefetched(self._samples(stage, number))
         model, device = self.model, self.run.workers.device
 
@@ -245,8 +259,8 @@ class _Learner:
     def _samples(self, stage: Stage, number: int) -> Iterator[_Sample]:
         seed = 1000 * self.run.seed + number
         sampler = Sampler(self.data, self.augmentation, seed=seed, layout=self.model.layout)
-        size = stage.schedule.batch_size
-        for step in range(stage.step, stage.schedule.steps):
+        size = self.run.workers.per_process(stage.schedule.batch_size)
+        for step in map(self.run.workers.part, range(stage.step, stage.schedule.steps)):
             rng = np.random.default_rng([self.run.seed, number, step])
             factors, spreads = _units(size, rng)
             if stage.name == "text":
@@ -273,7 +287,7 @@ class _Learner:
         return exchanges[-1:] if stage == "words" else exchanges
 
     def _questions(self, stage: str, rng: np.random.Generator) -> Packed | None:
-        asked = self.lessons.questions(QUESTIONS.get(stage, 0), rng)
+        asked = self.lessons.questions(self.questions.get(stage, 0), rng)
         rows = [asked[at : at + QUESTION_ROW] for at in range(0, len(asked), QUESTION_ROW)]
         return pack(self.words, rows, 0) if rows else None
 

@@ -116,6 +116,62 @@ class Schedule:
         return self.learning_rate * (0.01 + 0.99 * 0.5 * (1 + math.cos(math.pi * decayed)))
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StockRecipe:
+    """How a projector and a language model that others made are trained (--lm).
+
+    First the projector alone, by captions, which is all that the paper trains. Then the projector
+    and what ``tune`` names, by captions, advice and questions.
+
+    Attributes:
+        tune: What of the language model is trained after the projector: low-rank adapters, all of
+            it, or nothing.
+        lora_rank: Rank of the adapters.
+        lora_alpha: Their scale times the rank.
+        projector_steps: Optimiser steps of the projector alone.
+        tune_steps: Optimiser steps after that.
+        batch_size: Contacts in a step, of all processes together.
+        projector_rate: Learning rate of the projector alone, at its peak.
+        tune_rate: Learning rate after that, at its peak; a tenth of it does for --tune all.
+        recompute_activations: Compute the activations of a layer once more in the backward pass,
+            instead of keeping them: a third more time, a tenth of their memory.
+
+    Raises:
+        TouchError: A number is not positive.
+    """
+
+    tune: Literal["lora", "all", "projector"] = "lora"
+    lora_rank: int = 16
+    lora_alpha: float = 32.0
+    projector_steps: int = 500
+    tune_steps: int = 2000
+    batch_size: int = 16
+    projector_rate: float = 1e-3
+    tune_rate: float = 2e-4
+    recompute_activations: bool = False
+
+    def __post_init__(self) -> None:
+        for part in fields(self):
+            value = getattr(self, part.name)
+            if part.name not in ("tune", "recompute_activations") and not value > 0:
+                raise TouchError(f"{part.name} must be above 0, got {value}")
+
+    @property
+    def stages(self) -> dict[str, Schedule]:
+        """The schedules of its stages, in their order."""
+        first = Schedule(
+            steps=self.projector_steps,
+            batch_size=self.batch_size,
+            learning_rate=self.projector_rate,
+        )
+        second = Schedule(
+            steps=self.tune_steps, batch_size=self.batch_size, learning_rate=self.tune_rate
+        )
+        return {"projector": first} | ({} if self.tune == "projector" else {"joint": second})
+
+
 CLIP_SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
 CLTP_SCHEDULE = Schedule(steps=5000, batch_size=64, learning_rate=2e-3)
 """Of CLTP, and of every method that it is compared with."""
+HEADS_SCHEDULE = Schedule(steps=1000, batch_size=64, learning_rate=1e-3)
+"""Of state heads on a frozen encoder that has none."""

@@ -6,7 +6,7 @@ import json
 import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,17 @@ from tacgrasp.cli.flags import parse
 
 if TYPE_CHECKING:
     from tacgrasp.playback.conversation import Conversation, Spoken
+
+
+@dataclass(frozen=True)
+class LlmFolder:
+    """The language model, as tacgrasp run names it.
+
+    Attributes:
+        dir: Folder of weights that tacgrasp train llm wrote; the same as --weights.
+    """
+
+    dir: Path | None = None
 
 
 @dataclass(frozen=True)
@@ -39,6 +50,7 @@ class AskFlags:
         instruction: Instruction whose contract is told to the model, instead of --goal.
         mass: Mass of the object [g], for questions such as "Will it slip?".
         weights: Folder of weights; by default TACGRASP_WEIGHTS, else the shipped weights.
+        llm: The same by another name: --llm.dir.
         json: Print a JSON object for each answer: answer, kind, value, unit, confidence, decidable.
     """
 
@@ -51,9 +63,12 @@ class AskFlags:
     instruction: str | None = None
     mass: float | None = None
     weights: Path | None = None
+    llm: LlmFolder = field(default_factory=LlmFolder)
     json: bool = False
 
     def __post_init__(self) -> None:
+        if None not in (self.weights, self.llm.dir):
+            raise UsageError("--weights and --llm.dir name the same folder; give one")
         if self.goal is not None and (self.task or self.instruction) is not None:
             raise UsageError("--goal and --task or --instruction both name a contract; give one")
         if self.limit is not None and self.goal is None:
@@ -72,7 +87,7 @@ def main(argv: Sequence[str]) -> int:
 
     cloud = read_cloud(flags.file, sensor_named(flags.sensor))
     with working("loading the language model"):
-        policy = load_llm(flags.weights)
+        policy = load_llm(flags.weights or flags.llm.dir)
     try:
         talk = Conversation(cloud, policy.talker, contract=contract, mass_g=flags.mass)
     except ValueError as error:

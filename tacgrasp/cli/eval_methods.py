@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.eval_ablate import main as ablate
+from tacgrasp.cli.eval_captions import main as captions
 from tacgrasp.cli.eval_instructions import main as instructions
 from tacgrasp.cli.eval_intervals import main as intervals
 from tacgrasp.cli.eval_questions import main as questions
@@ -211,6 +212,7 @@ def report(argv: Sequence[str]) -> None:
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
     "ablate": ablate,
+    "captions": captions,
     "instructions": instructions,
     "intervals": intervals,
     "questions": questions,

@@ -216,10 +216,23 @@ class LayoutFlags:
     weights: Path
 
 
+@dataclass(frozen=True)
+class BaseFlags:
+    """Name the folder of the language model that weights were trained behind, where it has moved.
+
+    Attributes:
+        weights: Folder of weights that tacgrasp train llm --lm wrote.
+        lm: Where that language model is now.
+    """
+
+    weights: Path
+    lm: Path
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
-    "llm": (TrainLlmRequest, "Train the language model: text, projector, both together."),
+    "llm": (TrainLlmRequest, "Train the language model, our own or (--lm) any local Qwen."),
     "all": (TrainAllRequest, "clip, cltp and llm, one after another, into one folder of weights."),
     "point-mae": (TrainMethodFlags, "Baseline: reconstruct hidden patches of clouds."),
     "point-bert": (TrainMethodFlags, "Baseline: predict hidden patches in a vocabulary of shapes."),
@@ -228,6 +241,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
     "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
     "layout": (LayoutFlags, "Bring older weights into today's layout, without training."),
+    "base": (BaseFlags, "Name the folder of a language model that was trained behind, and moved."),
     "probe": (TrainProbeFlags, "MLPs on frozen encoders, measured as by tacgrasp eval probe."),
     "all-methods": (TrainAllMethodsFlags, "clip, cltp, all baselines, their tables, the report."),
 }
@@ -254,6 +268,8 @@ def main(argv: Sequence[str]) -> int:
         train.write_manifests(flags.weights)
     elif isinstance(flags, LayoutFlags):
         train.renew_weights(flags.weights)
+    elif isinstance(flags, BaseFlags):
+        train.name_base(flags.weights, flags.lm)
     elif isinstance(flags, TrainLlmRequest):
         train.train_language_model(flags, command)
     else:

@@ -212,6 +212,16 @@ class PadConfig(SettingsBase):
         return self
 
 
+class LlmConfig(SettingsBase):
+    """The language model of the policy llm.
+
+    Attributes:
+        dir: Folder of weights that tacgrasp train llm wrote; the same as weights.
+    """
+
+    dir: Path | None = None
+
+
 class RunConfig(SettingsBase):
     """Configuration of a run.
 
@@ -226,6 +236,7 @@ class RunConfig(SettingsBase):
         policy_timeout_s: Longest wait for an answer of that server [s].
         policy_key_file: File with the key that the server asks for.
         weights: Folder of the language model's weights; none: the shipped weights.
+        llm: The same by another name: llm.dir.
         instruction: Instruction to the policy in plain English; by default the task's.
         object: Object between the fingers (simulated and emulated rigs only).
         object_mesh: Mesh file [mm, +z up] to grasp instead (simulated and emulated rigs only).
@@ -249,6 +260,7 @@ class RunConfig(SettingsBase):
     policy_timeout_s: Number = Field(default=2.0, ge=0.05, le=60)
     policy_key_file: Path | None = None
     weights: Path | None = None
+    llm: LlmConfig = LlmConfig()
     instruction: str = Field(min_length=1)
     object: str = Field(min_length=1)
     object_mesh: Path | None = None
@@ -268,6 +280,11 @@ class RunConfig(SettingsBase):
     on_failure: EndAction = "release"
     dry_run: bool = False
     record: Path = Path("episodes")
+
+    @property
+    def weights_folder(self) -> Path | None:
+        """Folder of the language model's weights, by either name; None for the usual ones."""
+        return self.weights or self.llm.dir
 
     def limits(self) -> Limits:
         """Limits of every command of a run."""
@@ -293,6 +310,11 @@ class RunConfig(SettingsBase):
             raise ValueError(
                 "devices: hardware needs gripper.first_force_n, the largest commanded force until "
                 "something is felt [N]"
+            )
+        if None not in (self.weights, self.llm.dir) and self.weights != self.llm.dir:
+            raise ValueError(
+                f"weights {self.weights} and llm.dir {self.llm.dir} both name the language model's "
+                "folder; give one"
             )
         for name in ("object_mass_g", "object_young_mpa", "object_bruise_n"):
             if self.object_mesh is None and getattr(self, name) is not None:

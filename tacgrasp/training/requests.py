@@ -5,10 +5,13 @@ Imports nothing heavy, so that ``--help`` answers at once.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field, fields
 from pathlib import Path
-from typing import Literal
+from typing import Annotated, Literal
 
+import tyro
+
+from cltp.train.recipes import HEADS_SCHEDULE, StockRecipe
 from tacgrasp.base.errors import UsageError
 
 
@@ -75,14 +78,49 @@ class TrainAllRequest:
 class TrainLlmRequest(TrainAllRequest):
     """Train the language model behind the encoder and CLIP in OUT.
 
+    Several processes: accelerate launch --num-processes N -m tacgrasp train llm ...
+
     Attributes:
+        lm: Directory of a Qwen2, Qwen2.5, Qwen2.5-VL or Qwen3 in transformers' layout, to train
+            behind instead of our own small model; nothing is downloaded, and it is not changed.
+        recipe: How it is trained; only with --lm.
         methods: Folder of pre-training from which the encoder and CLIP are copied into OUT first.
+        encoder: Folder with an encoder in it, of weights (policies/weights) or of one method
+            (runs/methods/point_mae), which is copied into OUT first; state heads are fitted on one
+            that has none.
+        heads_steps: Optimiser steps of these heads.
         blind_of: Folder of weights; trains an instruction-blind copy behind its encoder, for
             tacgrasp eval --blind.
         start: Folder of weights, such as policies/weights, whose projector and language model are
             trained on, in fewer steps, instead of random ones.
     """
 
+    lm: Path | None = None
+    recipe: Annotated[StockRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=StockRecipe)
     methods: Path | None = None
+    encoder: Path | None = None
+    heads_steps: int = HEADS_SCHEDULE.steps
     blind_of: Path | None = None
     start: Path | None = None
+
+    def __post_init__(self) -> None:
+        sources = {
+            "--methods": self.methods,
+            "--encoder": self.encoder,
+            "--blind-of": self.blind_of,
+        }
+        given = [flag for flag, folder in sources.items() if folder is not None]
+        if len(given) > 1:
+            raise UsageError(f"{' and '.join(given)} exclude each other")
+        if self.lm is None and self.recipe != StockRecipe():
+            changed = next(
+                part.name
+                for part in fields(StockRecipe)
+                if getattr(self.recipe, part.name) != part.default
+            )
+            raise UsageError(
+                f"--{changed.replace('_', '-')} is for a language model of others; name its "
+                "directory with --lm"
+            )
+        if self.lm is not None and self.start is not None:
+            raise UsageError("--lm and --start both name a language model; give one")

@@ -20,6 +20,7 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.base_lm import BaseLm, is_stock, move_base
 from cltp.checkpoints.card import PARTS, write_card
 from cltp.checkpoints.layout import renew_layout
 from cltp.checkpoints.manifest import write_manifest
@@ -30,11 +31,13 @@ from cltp.checkpoints.tac3d_llm import (
 )
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.splits import LEARNING_NOISE
+from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
 from cltp.train.llm import train_llm, train_words
 from cltp.train.progress import Bar
 from cltp.train.stage import TrainingRun
+from cltp.train.stock.llm import load_base, train_stock_llm
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.generate import generate
 from tacgrasp.datasets.requests import GenerateRequest
@@ -43,6 +46,7 @@ from tacgrasp.lessons.exchanges import TouchLessons, known_words
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
 from tacgrasp.pretraining.run_all import pretraining_run
+from tacgrasp.training.other_encoder import take_other_encoder
 from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
 
 PRETRAINED = "pretraining.json"
@@ -88,15 +92,14 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     from the language model. ``command`` is the command line, for the model card.
 
     Raises:
-        UsageError: ``request.out`` holds other weights, or both folders are given.
+        UsageError: ``request.out`` holds other weights.
         TouchError: Data, weights or a checkpoint can't be used.
     """
     out, data, contacts, seed = request.out, request.data, request.contacts, request.seed
     methods, blind_of = request.methods, request.blind_of
-    if methods is not None and blind_of is not None:
-        raise UsageError("--methods and --blind-of exclude each other")
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
+    base = _base(request)
     before = _digest(out)
     if methods is not None:
         take_pretrained(methods, out)
@@ -107,17 +110,18 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
     generate(GenerateRequest(out=data, set="full", contacts=contacts, seed=seed))
     check_trainable(ContactDataset(data))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
-    if request.start is None:
-        # the same data and seed give the same words
-        words = train_words(data, TouchLessons(), seed=seed, whole=known_words())
-    else:
-        words = Words.load(request.start / "lm")
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
         workers = joined_workers(request.precision)
         run = TrainingRun(data=data, out=out, seed=seed, report=report, workers=workers)
-        train_llm(run, words, lessons, augmentation=LEARNING_NOISE, start=request.start)
-    if _digest(out) == before:
+        if request.encoder is not None:
+            take_other_encoder(request.encoder, run, request.heads_steps)
+        if base is not None:
+            train_stock_llm(run, *base, lessons, request.recipe, augmentation=LEARNING_NOISE)
+        else:
+            words = _words(request)
+            train_llm(run, words, lessons, augmentation=LEARNING_NOISE, start=request.start)
+    if _digest(out) == before or not workers.is_first:
         return  # nothing was left to do: the card with its scores still holds
     facts = {
         "command": f"`{command}`",
@@ -137,6 +141,36 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
             f"{about['batch_size']}, data checksum {checksums}"
         )
     write_card(out, facts)
+
+
+def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
+    """The language model of others to train behind; None for our own.
+
+    Raises:
+        UsageError: It is named in the wrong way, or there is no encoder to stand before it.
+        TouchError: As ``cltp.train.stock.llm.load_base``.
+    """
+    if request.start is not None and is_stock(request.start / "lm"):
+        raise UsageError(
+            f"--start {request.start} was trained behind a language model of others; name that one "
+            "with --lm instead"
+        )
+    if request.lm is None:
+        return None
+    sources = (request.methods, request.encoder, request.blind_of)
+    if not any(sources) and not (request.out / "encoder").exists():
+        raise UsageError(
+            f"{request.out} has no encoder to train behind; take one by --encoder policies/weights"
+        )
+    return load_base(request.lm, request.recipe, request.precision)
+
+
+def _words(request: TrainLlmRequest) -> Words:
+    """The tokenizer of our own model."""
+    if request.start is not None:
+        return Words.load(request.start / "lm")
+    # the same data and seed give the same words
+    return train_words(request.data, TouchLessons(), seed=request.seed, whole=known_words())
 
 
 def _require_mark(out: Path, *, blind: bool) -> None:
@@ -209,6 +243,21 @@ def write_manifests(weights: Path) -> None:
             write_manifest(part, trained_with=partners)
     except OSError as error:
         raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
+
+
+def name_base(weights: Path, folder: Path) -> None:
+    """Name the folder of the language model that weights were trained behind, which was moved.
+
+    Raises:
+        UsageError: It can't be written.
+        TouchError: As ``cltp.checkpoints.base_lm.move_base``.
+    """
+    try:
+        base = move_base(weights, folder)
+    except OSError as error:
+        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
+    line = f"base: {weights} stands behind the {base.model_type} in {base.path}"
+    Console(soft_wrap=True).print(line, markup=False, highlight=False)
 
 
 def renew_weights(weights: Path) -> None:

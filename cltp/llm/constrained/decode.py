@@ -407,8 +407,8 @@ class _Run:
             tokens = [*followers, end] if is_whole and end is not None else list(followers)
             token, fraction = self._likeliest(tokens) if tokens else (end, 1.0)
             mass *= fraction
-            if token is None or token == end:
-                break
+            if token is None or (is_whole and token == end):
+                break  # before a number is whole, a token such as ' ' may begin it and what follows
             if is_low and token in high:
                 low = _index(node)
                 value = f"{part.texts[low]}-"

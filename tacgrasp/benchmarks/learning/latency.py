@@ -88,9 +88,9 @@ def _language_model(
 
     if not isinstance(policy, LlmPolicy):
         return {}
-    lm_folder = (config.weights or default_weights()) / "lm"
+    lm_folder = (config.weights_folder or default_weights()) / "lm"
     figures = language_report(policy, lm_folder, clouds, contract, stages_ms)
-    started_s = start_to_first_action_s(config.task, config.weights)
+    started_s = start_to_first_action_s(config.task, config.weights_folder)
     return figures | {"start_to_first_action_s": started_s}
 
 

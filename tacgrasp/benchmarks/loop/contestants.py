@@ -123,7 +123,7 @@ def enter(
         policy = ForceOnlyPolicy(move_step_mm=config.primitives.move_step_mm)
         contract = replace(contract, x_mm=ANYWHERE, y_mm=ANYWHERE)
     elif name == "llm":
-        policy = language_model(config.weights, config.primitives.move_step_mm)
+        policy = language_model(config.weights_folder, config.primitives.move_step_mm)
     else:
         policy = make_policy(name, config)
     return Contestant(rig=rig, policy=policy, contract=contract, sense=sense)

@@ -184,7 +184,7 @@ def run(settings: StrawberrySettings) -> None:
             f"bench needs policies out of {', '.join(NAMES)}; got {', '.join(policies)}"
         )
     if "llm" in policies:
-        language_model(config.weights, config.primitives.move_step_mm)  # an error shows here
+        language_model(config.weights_folder, config.primitives.move_step_mm)  # an error shows here
     contestants: list[PolicyAndForce] = []
     for name in policies:
         forces = swept_forces_n(config) if name in SWEPT else (None,)
@@ -234,7 +234,9 @@ def _store(settings: StrawberrySettings, config: RunConfig, policies: list[str])
         "first_seed": settings.first_seed,
         "episodes": len(settings.seeds),
         "policies": policies,
-        "weights": weights_sum(config.weights or default_weights()) if "llm" in policies else None,
+        "weights": weights_sum(config.weights_folder or default_weights())
+        if "llm" in policies
+        else None,
     }
     store = SeedResults(path=settings.json, about=about)
     store.read(resume=settings.resume)

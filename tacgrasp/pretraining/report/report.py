@@ -11,12 +11,14 @@ from pathlib import Path
 from cltp.atomic_write import write_atomically
 from tacgrasp.base.errors import UsageError
 from tacgrasp.base.html_page import render_page
+from tacgrasp.pretraining.report.caption_table import caption_section
 from tacgrasp.pretraining.report.failure_sections import failure_sections
 from tacgrasp.pretraining.report.failures import load_failures
 from tacgrasp.pretraining.report.pages import PageSection
 from tacgrasp.pretraining.report.plots import bars, confusions, curves
 from tacgrasp.pretraining.report.rankings import ranking_section
 from tacgrasp.pretraining.report.store import (
+    CAPTIONS,
     GEOMETRIC_BASELINE,
     TITLES,
     Groups,
@@ -68,6 +70,7 @@ def _sections(folder: Path, weights: Path | None) -> list[PageSection]:
             title="", text=[describe_run(results, groups), f"Data {data[:16]}. {budgets(results)}"]
         ),
         *paper_tables(groups),
+        caption_section(groups),
         ranking_section(groups),
         *detail_tables(groups),
         *failure_sections(groups, load_failures(folder, data)),
@@ -90,7 +93,8 @@ def describe_run(results: Sequence[Result], groups: Groups) -> str:
         device = f"With an accelerator ({', '.join(accelerators)})"
     else:
         device = "Without an accelerator"
-    presets = sorted({r.variant for r in results if r.method != GEOMETRIC_BASELINE})
+    encoders = [r for r in results if r.table != CAPTIONS and r.method != GEOMETRIC_BASELINE]
+    presets = sorted({r.variant for r in encoders})
     seeds = len({r.learned_seed for r in results if r.learned_seed is not None})
     learned = {0: "an unknown number of seeds", 1: "one seed"}.get(seeds, f"{seeds} seeds")
     methods: dict[int, set[str]] = {}

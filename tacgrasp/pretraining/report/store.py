@@ -27,17 +27,26 @@ VERSION = 2
 
 M = TypeVar("M", bound="Measurement")
 
-TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval")
+CAPTIONS = "captions"
+"""The table of rated captions (``tacgrasp eval captions``)."""
+
+TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval", CAPTIONS)
 
 GEOMETRIC_BASELINE = "geometric_baseline"
+MOST_FREQUENT, SHUFFLED = "most_frequent", "shuffled"
+"""Trivial captions: always the same one, and that of another contact."""
 
 TITLES = {name: method.title for name, method in METHODS.items()} | {
-    GEOMETRIC_BASELINE: "geometric baseline"
+    GEOMETRIC_BASELINE: "geometric baseline",
+    MOST_FREQUENT: "most frequent caption",
+    SHUFFLED: "another contact's caption",
 }
-"""Names in tables, in the order of rows: the methods, then the baseline that has no encoder."""
+"""Names in tables, in the order of rows: the methods, then the baselines that have no encoder."""
 
 USUAL_VARIANTS = {name: method.preset for name, method in METHODS.items()} | {
-    GEOMETRIC_BASELINE: "measured"
+    GEOMETRIC_BASELINE: "measured",
+    MOST_FREQUENT: "",
+    SHUFFLED: "",
 }
 """The variant of each method that stands first, and whose figures ``nested`` takes."""
 
@@ -112,6 +121,7 @@ class Result(Measurement):
         confusion: Counts by dimension, labels by row; empty where there are no classes.
         device: Device that the encoder was trained on; None where unknown or not trained.
         learned_seed: Random seed of the pre-training; None likewise.
+        judge: What rated captions beside the rule; '' where nothing did.
     """
 
     format: ClassVar[str] = "tacgrasp-result"
@@ -123,6 +133,7 @@ class Result(Measurement):
     confusion: Mapping[str, list[list[int]]] = field(default_factory=dict)
     device: str | None = None
     learned_seed: int | None = None
+    judge: str = ""
 
 
 def save(folder: Path, measurement: Measurement) -> Path:
