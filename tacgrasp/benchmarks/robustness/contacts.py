@@ -170,5 +170,5 @@ def force_factor(condition: Condition) -> float:
 def part(sampled: Sampled, rows: slice) -> Batch:
     """Some of the contacts."""
     batch = sampled.batch
-    changes = {field.name: getattr(batch, field.name)[rows] for field in dataclasses.fields(batch)}
-    return Batch(**changes)
+    columns = (each.name for each in dataclasses.fields(batch) if each.name != "layout")
+    return Batch(layout=batch.layout, **{name: getattr(batch, name)[rows] for name in columns})

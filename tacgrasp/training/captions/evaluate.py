@@ -25,15 +25,14 @@ from cltp.checkpoints.card import CARD
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.evaluation.features import random_batches
-from cltp.evaluation.llm_scores import REQUEST
 from cltp.evaluation.splits import evaluation_splits
 from cltp.llm.generation import Talker
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import caption
 from cltp.train.stage import ProgressReport, silent
-from policies.llm.policy import CaptionSpeaker
+from policies.llm.spoken import CaptionSpeaker
+from policies.llm.text import caption_text
 from tacgrasp.lessons.dialogue.question_file import read_questions
-from tacgrasp.lessons.exchanges import numbers
 from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.pretraining.report.store import (
@@ -93,11 +92,11 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     data = ContactDataset(run.data, split=split.split)
     batches = random_batches(data, run.contacts, split.noise, seed=run.seed, layout=talker.layout)
     truths = [state for batch in batches for state in batch.states]
-    references = [reference(state) for state in truths]
+    references = [caption_text(state) for state in truths]
     speaker = CaptionSpeaker(talker)
     texts: list[str] = []
     for points in (points for batch in batches for points in batch.points):
-        texts.append(speaker.reply(points, REQUEST).text)
+        texts.append(speaker.caption(points))
         run.report("captions", len(texts), len(truths), {})
     usual = Result(
         table=CAPTIONS,
@@ -128,11 +127,6 @@ def rate_captions(run: CaptionRun) -> list[Result]:
     return results
 
 
-def reference(state: ContactState) -> str:
-    """The true caption of a contact, with its numbers."""
-    return f"{caption(state)} {numbers(state)}"
-
-
 def most_frequent_caption(data: ContactDataset) -> str:
     """The words that most contacts of a split have, behind them the medians of their numbers."""
     states = [data.state(index) for index in range(len(data))]
@@ -142,7 +136,7 @@ def most_frequent_caption(data: ContactDataset) -> str:
     medians = {
         name: float(np.median([getattr(state, name) for state in alike])) for name in NUMBERS
     }
-    return reference(replace(alike[0], cut=frozenset(), **medians))  # type: ignore[arg-type]  # numbers
+    return caption_text(replace(alike[0], cut=frozenset(), **medians))  # type: ignore[arg-type]  # numbers
 
 
 def others(references: Sequence[str], seed: int) -> list[str]:

@@ -61,7 +61,13 @@ def complaint(argv: list[str], capsys: pytest.CaptureFixture[str]) -> str:
 
 
 @needs_peft
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        kind if kind == "qwen2_5_vl" else pytest.param(kind, marks=pytest.mark.slow)
+        for kind in KINDS
+    ],
+)
 def test_any_local_qwen_is_trained_run_and_asked(
     kind: str,
     weights: Path,

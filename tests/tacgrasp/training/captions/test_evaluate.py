@@ -14,13 +14,13 @@ from cltp.checkpoints.base_lm import BaseLm
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.texts.captions import caption
+from policies.llm.text import caption_text
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining.report.store import MOST_FREQUENT, SHUFFLED, load_results
 from tacgrasp.training.captions.evaluate import (
     most_frequent_caption,
     others,
     rated,
-    reference,
     variant_of,
 )
 from tacgrasp.training.captions.rating import rate_caption
@@ -60,7 +60,7 @@ def test_the_most_frequent_caption_is_a_caption(data: Path) -> None:
 
 def test_figures_are_means_over_contacts() -> None:
     truths = [state(0.0, 0.0, 0.6, 2.0), state(4.0, 0.0, 0.6, 2.0)]
-    references = [reference(each) for each in truths]
+    references = [caption_text(each) for each in truths]
     assert rated(references, truths, references, None)["rating"] == 5.0
     half = rated([references[0], "nothing of the kind"], truths, references, None)
     assert half["rating"] == 3.0

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from cltp.tactile.states import NO_CONTACT_STATE, Position
-from tacgrasp.training.captions.evaluate import reference
+from policies.llm.text import caption_text
 from tacgrasp.training.captions.rating import rate_caption
 from tests.fakes.tiny_weights import state
 
@@ -22,7 +22,7 @@ def rating(text: str) -> float:
 
 
 def test_the_reference_is_right_in_all() -> None:
-    assert rating(reference(TRUTH)) == 5.0
+    assert rating(caption_text(TRUTH)) == 5.0
     assert rating(f"{WORDS} {NUMBERS}") == 5.0
     assert rating(WORDS) == 5.0
 
