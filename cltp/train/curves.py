@@ -61,6 +61,10 @@ class CurveFile:
         self._rows.clear()
 
 
+LEAST_LOSS = 1e-4
+"""Lowest loss that is drawn, over the highest: a term that nothing is left of hides the others."""
+
+
 def read_curves(path: Path) -> dict[str, NDArray[np.float64]]:
     """Columns of a file that ``CurveFile`` wrote.
 
@@ -82,6 +86,7 @@ def plot_curves(path: Path, picture: Path) -> None:
     Raises:
         TouchError: There are no curves.
     """
+    from matplotlib import colormaps
     from matplotlib.figure import Figure
 
     curves = read_curves(path)
@@ -90,10 +95,15 @@ def plot_curves(path: Path, picture: Path) -> None:
     temperature = curves.pop("temperature", None)
     figure = Figure(figsize=(8, 6 if temperature is not None else 4), layout="constrained")
     axes = figure.subplots(2 if temperature is not None else 1, 1, sharex=True, squeeze=False)
+    axes[0, 0].set_prop_cycle(color=colormaps["tab20"].colors)
     for name, values in curves.items():
         axes[0, 0].plot(steps, smoothed(values), label=name, linewidth=1)
     axes[0, 0].set_ylabel("loss, mean over 50 steps")
     axes[0, 0].set_yscale("log")
+    highest = max(float(values.max()) for values in curves.values())
+    lowest = min(float(smoothed(values).min()) for values in curves.values())
+    if highest > 0:
+        axes[0, 0].set_ylim(bottom=max(0.8 * lowest, highest * LEAST_LOSS))
     axes[0, 0].legend(fontsize=8, ncols=3)
     if temperature is not None:
         axes[1, 0].plot(steps, temperature, color="black", linewidth=1)
