@@ -95,7 +95,7 @@ def plot_curves(path: Path, picture: Path) -> None:
     temperature = curves.pop("temperature", None)
     figure = Figure(figsize=(8, 6 if temperature is not None else 4), layout="constrained")
     axes = figure.subplots(2 if temperature is not None else 1, 1, sharex=True, squeeze=False)
-    axes[0, 0].set_prop_cycle(color=colormaps["tab20"].colors)
+    axes[0, 0].set_prop_cycle(color=list(colormaps["tab20"](np.arange(20))))
     for name, values in curves.items():
         axes[0, 0].plot(steps, smoothed(values), label=name, linewidth=1)
     axes[0, 0].set_ylabel("loss, mean over 50 steps")
