@@ -46,8 +46,10 @@ def wait_for_workers(process: subprocess.Popen[bytes], count: int) -> set[int]:
 
 @pytest.mark.parametrize(
     ("number", "wait_s"),
-    [(signal.SIGTERM, 3.0), (signal.SIGKILL, 0.0)],
-    ids=["terminated at work", "killed while they start"],
+    [
+        pytest.param(signal.SIGTERM, 3.0, id="terminated at work", marks=pytest.mark.slow),
+        pytest.param(signal.SIGKILL, 0.0, id="killed while they start"),
+    ],
 )
 def test_a_benchmark_that_is_ended_leaves_no_worker_behind(number: int, wait_s: float) -> None:
     with subprocess.Popen(

@@ -376,8 +376,8 @@ def test_encoders_of_other_data_are_refused(
         (["eval", "probe", "--methods", "tvl", "--checkpoint", "/no"], "is no directory"),
         (
             ["eval", "dance"],
-            "expects one of ablate, instructions, intervals, questions, zero-shot, probe, "
-            "retrieval, report",
+            "expects one of ablate, captions, instructions, intervals, questions, zero-shot, "
+            "probe, retrieval, report",
         ),
     ],
 )
