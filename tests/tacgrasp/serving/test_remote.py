@@ -79,7 +79,7 @@ def lie(**changes):
 
 
 FAULTS = {
-    "it hangs": (lambda *_: time.sleep(5), "gave no answer within 0.3 s"),
+    "it hangs": (lambda *_: time.sleep(1), "gave no answer within 0.3 s"),
     "it dies": (lambda connection, *_: connection.socket.close(), "is gone|gave no answer"),
     "it closes": (lambda connection, *_: connection.close(), "is gone"),
     "it refuses": (sends("no weights here"), "says: no weights here"),

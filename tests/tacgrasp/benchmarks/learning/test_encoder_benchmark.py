@@ -61,7 +61,9 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
     assert set(found["scaling"]) == {"256 points, 64 groups"}
 
 
-@pytest.mark.parametrize(("tokenizer", "groups"), [("lattice", 64), ("grid", 63)])
+@pytest.mark.parametrize(
+    ("tokenizer", "groups"), [pytest.param("lattice", 64, marks=pytest.mark.slow), ("grid", 63)]
+)
 def test_encoders_with_height_quantiles_are_timed(
     tokenizer: str, groups: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

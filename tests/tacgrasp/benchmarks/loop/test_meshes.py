@@ -24,6 +24,7 @@ def folder(tmp_path: Path) -> Path:
     return meshes
 
 
+@pytest.mark.slow
 def test_each_mesh_is_tried_or_refused_and_pictured(folder, tmp_path):
     figures, picture = tmp_path / "figures.json", tmp_path / "meshes.png"
     argv = ["--data", str(folder), "--episodes", "1", "--workers", "1"]

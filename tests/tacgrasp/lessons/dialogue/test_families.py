@@ -52,6 +52,7 @@ def test_a_family_has_a_thousand_wordings(family):
     assert family.automaton.num_wordings(LEAST_WORDINGS) == LEAST_WORDINGS
 
 
+@pytest.mark.slow
 def test_the_vocabulary_is_wide():
     words = set().union(*(family.automaton.vocabulary for family in FAMILIES))
     print(  # noqa: T201
