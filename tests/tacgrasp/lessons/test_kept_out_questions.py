@@ -26,7 +26,6 @@ def test_there_are_three_hundred_of_all_kinds():
     assert len({row.family for row in ROWS}) >= 30
 
 
-@pytest.mark.slow
 def test_the_grammar_can_produce_none_of_them_and_few_of_their_runs():
     results = coverage([row.question for row in ROWS])
     produced = [each.question for each in results if each.produced_by]

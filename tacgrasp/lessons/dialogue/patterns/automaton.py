@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
+from typing import NamedTuple
 
 from tacgrasp.lessons.dialogue.patterns.pattern import Bound, Chain, ListSlot, Literal, Node, OneOf
 from tacgrasp.lessons.dialogue.plain_words import NUMBER, PlainText, plain_words
@@ -31,121 +32,67 @@ class Understood:
     numbers: Mapping[str, float]
 
 
-@dataclass(frozen=True, slots=True)
-class _Arc:
-    """An arc to a state: labelled by nothing, a word, a class of words, or a number.
+class _State(NamedTuple):
+    """A state, with the arcs that leave it: one that takes a word, or some that take none.
 
     Attributes:
-        target: State that it leads to.
-        label: A word, ``NUMBER`` or the name of a class; '' for an arc that takes no word.
-        binding: Name and value that it binds; for a number its name and ''.
+        label: A word, ``NUMBER`` or the name of a class; '' where the arcs take no word.
+        targets: States that the arcs lead to, in the order of the pattern.
+        binding: Name and value that the arc binds; for a number its name and ''.
     """
 
-    target: int
-    label: str = ""
+    label: str
+    targets: tuple[int, ...]
     binding: tuple[str, str] | None = None
 
 
 class Automaton:
     """The wordings of a pattern.
 
+    It is built from its end: what is followed by the same is built once, so that a phrase at the
+    end of many wordings has one chain of states.
+
     Args:
         node: The pattern.
     """
 
     def __init__(self, node: Node) -> None:
-        self._size = 0
-        self._silent: dict[int, list[_Arc]] = {}
-        self._spoken: dict[int, dict[str, list[_Arc]]] = {}
-        self._listed: dict[int, list[_Arc]] = {}
+        self._states: list[_State] = []
         self.classes: dict[str, frozenset[str]] = {}
         self._known_after: dict[tuple[str, ...], frozenset[int]] = {}
-        self._start = self._state()
-        self._end = self._build(node, self._start)
+        builder = _Builder(self._states, self.classes)
+        self._end = builder.state("", ())
+        self._start = builder.build(node, self._end)
 
     @cached_property
-    def _targets(self) -> Mapping[str, set[int]]:
-        """By word, the states that any arc with it leads to."""
+    def _targets(self) -> Mapping[str, frozenset[int]]:
+        """By word or class of words, the states that any arc with it leads to."""
         targets: dict[str, set[int]] = {}
-        for arcs in self._spoken.values():
-            for word, some in arcs.items():
-                targets.setdefault(word, set()).update(arc.target for arc in some)
-        return targets
-
-    @cached_property
-    def _listed_targets(self) -> Mapping[str, set[int]]:
-        """By class of words, the states that any arc with it leads to."""
-        targets: dict[str, set[int]] = {}
-        for arcs in self._listed.values():
-            for arc in arcs:
-                targets.setdefault(arc.label, set()).add(arc.target)
-        return targets
+        for state in self._states:
+            if state.label:
+                targets.setdefault(state.label, set()).update(state.targets)
+        return {label: frozenset(some) for label, some in targets.items()}
 
     def __len__(self) -> int:
-        return self._size
-
-    def _state(self) -> int:
-        self._size += 1
-        return self._size - 1
-
-    def _say(self, start: int, words: Iterable[str], binding: tuple[str, str] | None = None) -> int:
-        for word in words:
-            end = self._state()
-            self._spoken.setdefault(start, {}).setdefault(word, []).append(_Arc(end, word, binding))
-            start = end
-        return start
-
-    def _build(self, node: Node, start: int) -> int:
-        match node:
-            case Literal(text):
-                return self._say(start, _plain(text))
-            case ListSlot(name, entries):
-                return self._build_list(name, entries, start)
-            case Chain(parts):
-                for part in parts:
-                    start = self._build(part, start)
-                return start
-            case OneOf(parts, optional):
-                end = self._state()
-                for part in parts:
-                    self._silent.setdefault(self._build(part, start), []).append(_Arc(end))
-                if optional:
-                    self._silent.setdefault(start, []).append(_Arc(end))
-                return end
-            case Bound(name, value, part):
-                inner = self._state()
-                arc = _Arc(inner, binding=(name, value))
-                self._silent.setdefault(start, []).append(arc)
-                return self._build(part, inner)
-        return self._say(start, [NUMBER], (node.name, ""))
-
-    def _build_list(self, name: str, entries: Sequence[str], start: int) -> int:
-        end = self._state()
-        for length, classes in _classes(tuple(entries)).items():
-            at = start
-            for place, words in enumerate(classes):
-                label = f"<{name} {place + 1} of {length}>"
-                self.classes[label] = words
-                target = end if place == length - 1 else self._state()
-                self._listed.setdefault(at, []).append(_Arc(target, label))
-                at = target
-        return end
+        return len(self._states)
 
     def _closure(self, states: Iterable[int]) -> frozenset[int]:
+        """States that are reached without a word."""
         seen, left = set(states), list(states)
         while left:
-            for arc in self._silent.get(left.pop(), ()):
-                if arc.target not in seen:
-                    seen.add(arc.target)
-                    left.append(arc.target)
+            state = self._states[left.pop()]
+            if not state.label:
+                new = [target for target in state.targets if target not in seen]
+                seen.update(new)
+                left += new
         return frozenset(seen)
 
-    def _arcs(self, state: int, word: str) -> list[_Arc]:
-        listed = [arc for arc in self._listed.get(state, ()) if word in self.classes[arc.label]]
-        return self._spoken.get(state, {}).get(word, []) + listed
+    def _takes(self, state: _State, word: str) -> bool:
+        return state.label == word or word in self.classes.get(state.label, ())
 
     def _step(self, states: Iterable[int], word: str) -> frozenset[int]:
-        return self._closure({arc.target for state in states for arc in self._arcs(state, word)})
+        taken = (self._states[state] for state in states)
+        return self._closure({each.targets[0] for each in taken if self._takes(each, word)})
 
     def accepts(self, words: Sequence[str]) -> bool:
         """Whether a wording, in plain words, may be produced."""
@@ -166,15 +113,11 @@ class Automaton:
             if len(words) > 1:
                 states = self._step(self._after(words[:-1]), words[-1])
             else:  # from any state, since each of them lies on a way from the start to the end
-                targets = set(self._targets.get(words[0], ()))
-                for label, ends in self._listed_targets.items():
-                    if words[0] in self.classes[label]:
-                        targets |= ends
-                states = self._closure(targets)
+                labels = [label for label, some in self.classes.items() if words[0] in some]
+                found = (self._targets.get(label, frozenset()) for label in (words[0], *labels))
+                states = self._closure(frozenset().union(*found))
             self._known_after[words] = frozenset(
-                state
-                for state in states
-                if state in self._spoken or state in self._listed or state == self._end
+                state for state in states if self._states[state].label or state == self._end
             )
         return self._known_after[words]
 
@@ -190,15 +133,14 @@ class Automaton:
                 return False
             if state == self._end and at == len(text.words):
                 return True
-            arcs = [(arc, at) for arc in self._silent.get(state, ())]
-            if at < len(text.words):
-                arcs += [(arc, at + 1) for arc in self._arcs(state, text.words[at])]
-            for arc, after in arcs:
-                if arc.binding is not None:
-                    trail.append((arc.binding, at))
-                if follow(arc.target, after):
+            label, targets, binding = self._states[state]
+            is_taken = bool(label) and at < len(text.words)
+            if not label or (is_taken and self._takes(self._states[state], text.words[at])):
+                if binding is not None:
+                    trail.append((binding, at))
+                if any(follow(target, at + bool(label)) for target in targets):
                     return True
-                if arc.binding is not None:
+                if binding is not None:
                     trail.pop()
             failed.add((state, at))
             return False
@@ -218,11 +160,9 @@ class Automaton:
 
         def count(states: frozenset[int], room: int) -> int:
             targets: dict[str, set[int]] = {}
-            for state in states:
-                for word, arcs in self._spoken.get(state, {}).items():
-                    targets.setdefault(word, set()).update(arc.target for arc in arcs)
-                for arc in self._listed.get(state, ()):
-                    targets.setdefault(arc.label, set()).add(arc.target)
+            for state in (self._states[each] for each in states):
+                if state.label:
+                    targets.setdefault(state.label, set()).update(state.targets)
             found = int(self._end in states)
             for each in targets.values():
                 if found >= room:
@@ -235,8 +175,73 @@ class Automaton:
     @cached_property
     def vocabulary(self) -> frozenset[str]:
         """All words of its wordings; ``NUMBER`` where they have numbers."""
-        words = frozenset(word for arcs in self._spoken.values() for word in arcs)
+        words = frozenset(state.label for state in self._states) - {"", *self.classes}
         return words.union(*self.classes.values())
+
+
+class _Builder:
+    """Builds the states of a pattern, each of them once.
+
+    Args:
+        states: Receives the states.
+        classes: Receives the words of each class.
+    """
+
+    def __init__(self, states: list[_State], classes: dict[str, frozenset[str]]) -> None:
+        self._states, self._classes = states, classes
+        self._numbers: dict[_State, int] = {}
+        self._built: dict[tuple[int, int], int] = {}
+
+    def state(
+        self, label: str, targets: tuple[int, ...], binding: tuple[str, str] | None = None
+    ) -> int:
+        """The number of a state."""
+        state = _State(label, targets, binding)
+        if state not in self._numbers:
+            self._numbers[state] = len(self._states)
+            self._states.append(state)
+        return self._numbers[state]
+
+    def build(self, node: Node, end: int) -> int:
+        """The state from which a node leads to another state."""
+        key = (id(node), end)
+        if key not in self._built:
+            self._built[key] = self._before(node, end)
+        return self._built[key]
+
+    def _before(self, node: Node, end: int) -> int:
+        match node:
+            case Literal(text):
+                for word in reversed(_plain(text)):
+                    end = self.state(word, (end,))
+                return end
+            case ListSlot(name, entries):
+                return self._list(name, entries, end)
+            case Chain(parts):
+                for part in reversed(parts):
+                    end = self.build(part, end)
+                return end
+            case OneOf(parts, optional):
+                starts = [self.build(part, end) for part in parts]
+                return self._either([*starts, end] if optional else starts)
+            case Bound(name, value, part):
+                return self.state("", (self.build(part, end),), (name, value))
+        return self.state(NUMBER, (end,), (node.name, ""))
+
+    def _either(self, starts: Sequence[int]) -> int:
+        different = tuple(dict.fromkeys(starts))
+        return different[0] if len(different) == 1 else self.state("", different)
+
+    def _list(self, name: str, entries: Sequence[str], end: int) -> int:
+        starts = []
+        for length, classes in _classes(tuple(entries)).items():
+            at = end
+            for place, words in reversed(list(enumerate(classes))):
+                label = f"<{name} {place + 1} of {length}>"
+                self._classes[label] = words
+                at = self.state(label, (at,))
+            starts.append(at)
+        return self._either(starts)
 
 
 @cache
