@@ -1,6 +1,8 @@
 # make run   set up what is missing, then close the loop on a simulated strawberry
 # make test  set up what is missing, then ruff, mypy and the tests
-# make test-all  the same with the slow tests, and those of the viewer (rerun, 500 MB)
+# make test-all  the same with the slow tests, those of the viewer (rerun, 500 MB), the docs, and the question
+#                to pip's resolver whether all this can be installed beside lerobot
+# make docs  the documentation as pages, build/site/index.html
 # make test-lerobot  loads an exported data set with the real lerobot (gigabytes)
 # make test-openpi  openpi's own client against our policy server
 # make fuzz  every parser against mutated input: CASES=1000 PARSER=all SEED=0
@@ -13,7 +15,7 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
-.PHONY: run test test-all test-lerobot test-openpi fuzz weights setup clean
+.PHONY: run test test-all docs test-lerobot test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:
 
 run: setup
@@ -28,6 +30,12 @@ test: setup
 test-all: test $(STAMPS)/view
 	$(BIN)/python -m pytest -m "slow and not hardware and not gpu"
 	.venv/view/bin/python -m pytest -m "not hardware and not gpu" tests/tacgrasp/viewer
+	scripts/resolve-beside-lerobot $(PYTHON) .venv/resolve
+	$(MAKE) docs
+
+docs: setup $(STAMPS)/docs
+	$(BIN)/python scripts/command_pages.py docs/commands
+	.venv/docs/bin/mkdocs build --strict --site-dir build/site
 
 test-lerobot: setup $(STAMPS)/lerobot
 	.venv/lerobot/bin/python tests/lerobot/check.py $(BIN)/python
@@ -65,6 +73,11 @@ $(STAMPS)/view: $(STAMPS)/app requirements-view.lock
 	$(BIN)/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])' \
 	    > "$$(.venv/view/bin/python -c 'import sysconfig; print(sysconfig.get_paths()["purelib"])')/core.pth"
 	.venv/view/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-view.lock
+	@touch $@
+
+$(STAMPS)/docs: $(STAMPS)/venv requirements-docs.lock
+	scripts/make-venv $(PYTHON) .venv/docs
+	.venv/docs/bin/python -m pip install --quiet --disable-pip-version-check -r requirements-docs.lock
 	@touch $@
 
 $(STAMPS)/lerobot: $(STAMPS)/venv

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -121,4 +121,16 @@ class Gripper(Protocol):
 
     def disconnect(self) -> None:
         """Free the device, keeping the present grip. Idempotent, never raises."""
+        ...
+
+
+@runtime_checkable
+class AdjustableGripper(Protocol):
+    """A gripper whose closed grip can be changed without waiting for it."""
+
+    def adjust(self, force_n: float) -> GripperState:
+        """Ask for another force [N] of a closed grip and return at once; the fingers follow.
+
+        Refuses (``LimitError``) a force out of range, and an open grip. Errors as for ``Gripper``.
+        """
         ...

@@ -326,6 +326,28 @@ class Executor:
             return self._reset(started, force_n)
         return self._change_force(primitive, started, force_n)
 
+    @property
+    def gripper_state(self) -> GripperState:
+        """State of the gripper, which commands nothing."""
+        return self._gripper.state()
+
+    def most_felt_n(self, force_n: float) -> float:
+        """Largest felt force that a command [N] can make, as far as is known [N]."""
+        return force_n * self._gripper.limit_n / self._gripper.most_n
+
+    def correct_force(self, force_n: float) -> GripperState:
+        """Change the force of a closed grip between two primitives, within all limits (a reflex).
+
+        Raises:
+            LimitError: Nothing is gripped, or the force is not finite and positive.
+            RobotError: The gripper failed.
+        """
+        if self._dry_run or self._force_n <= 0:
+            raise LimitError("nothing is gripped: there is no force to correct")
+        state = self._gripper.adjust(clamp_force(force_n, self._limits).value)
+        self._force_n = state.force_n
+        return state
+
     def _move(self, primitive: Primitive, started: float, force_n: float | None) -> Executed:
         step = clamp_step(self._move_step_mm, self._limits)
         here = self._arm.pose()

@@ -9,9 +9,10 @@ command through the same ``GuardedGripper``.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
-from primitives.devices import Gripper, GripperState
+from primitives.devices import AdjustableGripper, Gripper, GripperState
 from primitives.errors import LimitError
 from primitives.sense import Interval
 
@@ -98,14 +99,29 @@ class GuardedGripper:
             LimitError: The command is not finite or not positive.
             RobotError: As the gripper raises it.
         """
+        return self._within(force_n, self._gripper.grip)
+
+    def adjust(self, force_n: float) -> GripperState:
+        """As ``grip``, for a closed grip: a gripper that can returns before it has settled.
+
+        Raises:
+            LimitError: As ``grip``, or the grip is open.
+            RobotError: As the gripper raises it.
+        """
+        gripper = self._gripper
+        quick = gripper.adjust if isinstance(gripper, AdjustableGripper) else gripper.grip
+        return self._within(force_n, quick)
+
+    def _within(self, force_n: float, send: Callable[[float], GripperState]) -> GripperState:
+        """Send a command, lowered to ``most_n``."""
         if not (math.isfinite(force_n) and force_n > 0):
             raise LimitError(f"a grip needs a finite force above 0 N, got {force_n}")
         if force_n <= self.most_n * (1 + 1e-9):
-            return self._gripper.grip(force_n)
+            return send(force_n)
         most_n = self.most_n
         note = (
             f"command {force_n:.3g} N lowered to {most_n:.3g} N: times "
             f"{self._limit_n / most_n:.2g} (felt over commanded) it may reach the contract's limit "
             f"of {self._limit_n:.3g} N"
         )
-        return replace(self._gripper.grip(most_n), clamped=note)
+        return replace(send(most_n), clamped=note)

@@ -295,6 +295,8 @@ def _remarks(record: StepRecord, width: int) -> list[Text]:
     """What limits changed and which failures were survived, for people; mostly nothing."""
     changes = [] if record.executed is None else list(record.executed.clamped)
     notes = [record.note] if record.note else []
+    if record.reflex is not None:
+        notes.append(record.reflex.text)
     lines = [line for each in [*changes, *notes] for line in wrapped(each, len(_INDENT), 16, width)]
     return [Text(line, style="yellow") for line in lines]
 

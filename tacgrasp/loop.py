@@ -18,7 +18,7 @@ on nothing are followed by the runtime's own ``reset``, without asking the polic
 with no contact in between ends the episode with ``contact_lost``.
 
 A declared success is then checked by lifting (``tacgrasp.runtime.verify``); only that makes a
-``success``.
+``success``. While it is lifted the reflex keeps the contract (``tacgrasp.runtime.reflex_loop``).
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from tacgrasp.episodes import EpisodeError
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import Rig
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer, Outcome, Verification
+from tacgrasp.runtime.reflex_loop import make_reflex
 from tacgrasp.runtime.shutdown import Ending, close
 from tacgrasp.runtime.steps import (
     NOTHING_TOUCHES,
@@ -63,10 +64,12 @@ def run_episode(
 
     Raises:
         LimitError: The contract is refused; nothing has moved.
+        TouchError: The slip calibration can't be used; nothing has moved.
         Exception: A bug in a called function; the robot has been made safe and the episode ended.
     """
     _ = contract.terms  # a refused one ends here
-    steps = Steps(rig, config.loop, recorder, observers, sense)
+    reflex = make_reflex(rig, executor, config)
+    steps = Steps(rig, config.loop, recorder, observers, sense, reflex)
     end = EndOfEpisode(EndReason.FAULT, "stopped by an unforeseen error; this is a bug")
     step: Step | None = None
     verification: Verification | None = None

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from policies.llm.policy import LlmPolicy
 
 WEIGHTS_VARIABLE = "TACGRASP_WEIGHTS"
+SHIPPED = "shipped"
+"""Word for the shipped weights where a folder of weights is expected."""
 
 LLM_THREADS = 1
 """Threads of torch for our own language model. Its matrices are too small to gain from another
@@ -33,6 +35,11 @@ def default_weights() -> Path:
 def shipped_weights() -> Path:
     """Folder of the shipped weights, in the ``policies`` package."""
     return Path(policies.__file__).parent / "weights"
+
+
+def named_weights(folder: Path | None) -> Path | None:
+    """A folder of weights as it is given; the word ``shipped`` names the shipped weights."""
+    return shipped_weights() if folder == Path(SHIPPED) else folder
 
 
 def stock_threads() -> int:

@@ -19,9 +19,14 @@ def ctrl_c_is_heard() -> Iterator[None]:
 
 
 @pytest.fixture(scope="module")
-def one_thread() -> Iterator[None]:
-    """Models this small lose by sharing a step among threads, most of all on a busy machine."""
+def threads_as_before() -> Iterator[None]:
+    """Commands set the number of threads: other modules have that which they began with."""
     before = torch.get_num_threads()
-    torch.set_num_threads(1)
     yield
     torch.set_num_threads(before)
+
+
+@pytest.fixture(scope="module")
+def one_thread(threads_as_before: None) -> None:
+    """Models this small lose by sharing a step among threads, most of all on a busy machine."""
+    torch.set_num_threads(1)

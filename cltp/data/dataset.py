@@ -134,10 +134,12 @@ class ContactDataset:
         self.about = abouts[0]
         self._index_files: list[Path] = []
         tables: list[pa.Table] = []
+        first_shards = 0
         for each, about in zip(folders, abouts, strict=True):
             files, shards = _read_shards(each, about, partial=partial)
             self._index_files += files
             tables += shards
+            first_shards = first_shards or len(shards)
         shard = np.concatenate([np.full(len(t), i) for i, t in enumerate(tables)])
         no_rows = pa.schema([*SCHEMA, *OPTIONAL]).empty_table()
         table = pa.concat_tables([no_rows, *tables], promote_options="default")
@@ -147,11 +149,17 @@ class ContactDataset:
         if len(table) == 0:
             raise TouchError(f"{folder} has no contacts of the split {split}")
         self._shard = shard
+        self._num_also = int(np.count_nonzero(shard >= first_shards))
         self._columns = {name: table[name].to_numpy() for name in table.column_names}
         self._maps: dict[int, NDArray[np.uint8]] = {}
 
     def __len__(self) -> int:
         return len(self._shard)
+
+    @property
+    def num_also(self) -> int:
+        """Number of contacts of the further folders; they are the last ones."""
+        return self._num_also
 
     @property
     def column_names(self) -> list[str]:

@@ -9,8 +9,8 @@ The gel beyond the sensing area was never measured. A move that would bring it i
 the gel at that border is at rest (``REST_MM``), so that untouched gel comes in. A real pad ends at
 its sensing area and gives way more easily there; this is not modelled.
 
-Not here: mirroring and noise at training time (``cltp.data.sampler``,
-``cltp.tactile.sensor_noise``).
+Not here: smaller pads (``cltp.data.windows``), mirroring and noise at training time
+(``cltp.data.sampler``, ``cltp.tactile.sensor_noise``).
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ class Moved:
 
 
 @dataclass(frozen=True, slots=True)
-class _Footprint:
+class Footprint:
     """Pixels of a contact: positions (K,) and heights above the footprint's level (K,) [mm]."""
 
     x_mm: FloatArray
@@ -94,7 +94,7 @@ class _Footprint:
     level_mm: float
 
     @classmethod
-    def of(cls, heights: FloatArray, state: ContactState, sensor: SensorSpec) -> _Footprint:
+    def of(cls, heights: FloatArray, state: ContactState, sensor: SensorSpec) -> Footprint:
         """The highest pixels, as many as the stored area implies; at least one."""
         count = max(1, round(state.area_fraction * heights.size))
         highest = np.argpartition(heights.ravel(), -count)[-count:]
@@ -115,8 +115,14 @@ class _Footprint:
         return np.asarray(positions @ load / load.sum())
 
     def relabelled(
-        self, moved: FloatArray, state: ContactState, sensor: SensorSpec, placement: Placement
+        self,
+        moved: FloatArray,
+        state: ContactState,
+        sensor: SensorSpec,
+        placement: Placement,
+        pad_fraction: float = 1.0,
     ) -> ContactState:
+        """The state after a move onto a pad, by which fraction of its own pad that one covers."""
         stays = self.stays(sensor, placement)
         if not stays.any():
             raise TouchError("the whole contact would leave the pad; move it less far")
@@ -125,7 +131,8 @@ class _Footprint:
             # A contact that is cut loses more of itself in every move but none and half a turn.
             turned = math.cos(placement.turn_rad) < 0
             cut = frozenset(side.opposite for side in state.cut) if turned else state.cut
-            return _with(state, sensor, x_mm=x_mm, y_mm=y_mm, cut=cut)
+            area = min(1.0, state.area_fraction / pad_fraction)
+            return _with(state, sensor, x_mm=x_mm, y_mm=y_mm, area_fraction=area, cut=cut)
         shift_x, shift_y = self.centre(stays) - self.centre(np.ones_like(stays))
         x_mm, y_mm = placement.moved(state.x_mm + shift_x, state.y_mm + shift_y)
         pitch_mm = sensor.width_mm / moved.shape[1]
@@ -135,7 +142,7 @@ class _Footprint:
             depth_mm=min(state.depth_mm, float(moved.max())),
             x_mm=x_mm,
             y_mm=y_mm,
-            area_fraction=state.area_fraction * float(stays.mean()),
+            area_fraction=min(1.0, state.area_fraction * float(stays.mean()) / pad_fraction),
             force_n=state.force_n * float(self.load[stays].sum() / self.load.sum()),
             cut=cut_sides(moved > self.level_mm, least=round(CUT_MM / pitch_mm)),
         )
@@ -164,7 +171,7 @@ def move(
     x, y = _origin(heights.shape, sensor, placement)
     moved = heights_at(heights, x, y, sensor)
     if state.in_contact:
-        footprint = _Footprint.of(heights, state, sensor)
+        footprint = Footprint.of(heights, state, sensor)
         state = footprint.relabelled(moved, state, sensor, placement)
     return Moved(height_mm=moved.astype(np.float32), state=state)
 
@@ -180,7 +187,7 @@ def draw_placement(
     When a few tries yield no such move, the contact gets half a turn or stays.
     """
     heights = np.asarray(height_mm, dtype=np.float64)
-    footprint = _Footprint.of(heights, state, sensor)
+    footprint = Footprint.of(heights, state, sensor)
     for _ in range(_TRIES):
         turn = float(rng.uniform(-math.pi, math.pi)) if rng.random() < 0.5 else 0.0
         placement = Placement(

@@ -13,6 +13,8 @@ from numpy.typing import NDArray
 
 from cltp.data.dataset import ContactDataset
 from cltp.data.placement import draw_placement, move
+from cltp.data.windows import crop, draw_window
+from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, resampled
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import grid_points, in_lattice, scaled, unscaled
@@ -35,7 +37,7 @@ class Batch:
         sensors: Their sensors.
         states: Labels, mirrored and moved alike; forces are those of the sensor's nominal gel.
         mirror: Shape (B, 2), bool: mirrored along x, along y.
-        moved: Shape (B,), bool: shifted or turned after that.
+        moved: Shape (B,), bool: shifted, turned or seen by a smaller pad after that.
         layout: Layout of the points.
     """
 
@@ -65,13 +67,21 @@ class Augmentation:
         clean: Fraction of samples without noise, as of a perfect sensor.
         loose: Fraction of samples of which a grid is given 1024 points alone, as clouds in files
             have them; an even layout always has so many.
+        windows: Fraction of samples that a smaller pad sees (``cltp.data.windows``).
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
     uncalibrated: float = 0.25
     mirror: bool = True
     clean: float = 0.0
-    loose: float = field(default=0.0, repr=False)  # names of trainings without it stay
+    loose: float = field(default=0.0, repr=False)  # see ``identity``
+    windows: float = field(default=0.0, repr=False)
+
+    @property
+    def identity(self) -> str:
+        """All values in one line; unchanged for those that are older than the last two."""
+        last = {"loose": self.loose, "windows": self.windows}
+        return str(self) + "".join(f" {name} {value}" for name, value in last.items() if value)
 
     @property
     def is_noisy(self) -> bool:
@@ -99,6 +109,11 @@ class Sampler:
         layout: Layout of the points.
         moved: Fraction of contacts that are shifted and turned on the pad
             (``cltp.data.placement``).
+        also_fraction: Fraction of each numbered batch that comes from the further folders of the
+            data set; None draws every contact equally often.
+
+    Raises:
+        TouchError: The fraction is not between 0 and 1, or one of the two parts has no contacts.
     """
 
     def __init__(
@@ -109,11 +124,15 @@ class Sampler:
         seed: int = 0,
         layout: PointLayout = EVEN,
         moved: float = 0.0,
+        also_fraction: float | None = None,
     ) -> None:
         self.dataset, self.layout, self.moved = dataset, layout, moved
         self.augmentation = augmentation or Augmentation()
         self.seed = seed
-        self._orders: dict[int, NDArray[np.int64]] = {}
+        self._also_fraction = also_fraction
+        self._orders: dict[int, tuple[int, NDArray[np.int64]]] = {}
+        if also_fraction is not None:
+            _check_fraction(also_fraction, dataset)
 
     def batch(self, indices: NDArray[np.int64], step: int) -> Batch:
         """The samples of some contacts; their variation depends on the seed and ``step``."""
@@ -123,16 +142,21 @@ class Sampler:
         moved = np.zeros(len(indices), dtype=np.bool_)
         if self.moved > 0:  # else nothing is drawn: later draws must stay reproducible
             moved = rng.random(len(indices)) < self.moved
-        for index, (along_x, along_y), is_moved in zip(indices, mirror, moved, strict=True):
+        for row, (index, (along_x, along_y)) in enumerate(zip(indices, mirror, strict=True)):
             sensor = sensor_named(self.dataset.column("sensor")[index])
             height_mm = self.dataset.height_mm(int(index))
             height_mm = height_mm[:: -1 if along_y else 1, :: -1 if along_x else 1]
             state = self.dataset.nominal_state(int(index))
             state = mirrored(state, sensor, along_x=bool(along_x), along_y=bool(along_y))
-            if is_moved:
+            if moved[row]:
                 placement = draw_placement(height_mm, state, sensor, rng)
                 result = move(height_mm, state, sensor, placement)
                 height_mm, state = result.height_mm, result.state
+            if self.augmentation.windows > 0 and rng.random() < self.augmentation.windows:
+                window = draw_window(height_mm, state, sensor, rng)
+                seen = crop(height_mm, state, sensor, window)
+                height_mm, state, sensor = seen.height_mm, seen.state, seen.sensor
+                moved[row] = True
             points.append(self.cloud(height_mm, sensor, rng))
             heights.append(height_mm)
             sensors.append(sensor)
@@ -149,17 +173,34 @@ class Sampler:
         )
 
     def numbered(self, batch_size: int, step: int) -> Batch:
-        """The batch of step ``step`` of a training: each epoch is every contact once, shuffled."""
-        size = len(self.dataset)
-        positions = range(step * batch_size, (step + 1) * batch_size)
-        indices = np.array([self._order(each // size)[each % size] for each in positions])
-        return self.batch(indices, step)
+        """The batch of step ``step`` of a training: each epoch is every contact once, shuffled.
 
-    def _order(self, epoch: int) -> NDArray[np.int64]:
-        if epoch not in self._orders:
-            rng = np.random.default_rng([self.seed, 1_000_003, epoch])
-            self._orders = {epoch: rng.permutation(len(self.dataset))}
-        return self._orders[epoch]
+        With a fraction of further contacts, these and the others have epochs of their own.
+        """
+        if self._also_fraction is None:
+            return self.batch(self._drawn(batch_size, step, 0, len(self.dataset)), step)
+        num_also = self.dataset.num_also
+        num_first, drawn_also = (
+            len(self.dataset) - num_also,
+            round(self._also_fraction * batch_size),
+        )
+        first = self._drawn(batch_size - drawn_also, step, 0, num_first)
+        also = self._drawn(drawn_also, step, num_first, num_also)
+        return self.batch(np.concatenate([first, also]), step)
+
+    def _drawn(self, count: int, step: int, offset: int, size: int) -> NDArray[np.int64]:
+        """``count`` of the ``size`` contacts from ``offset`` on, of their own endless order."""
+        positions = range(step * count, (step + 1) * count)
+        order = (self._order(each // size, offset, size)[each % size] for each in positions)
+        return np.fromiter(order, dtype=np.int64, count=count)
+
+    def _order(self, epoch: int, offset: int, size: int) -> NDArray[np.int64]:
+        if self._orders.get(offset, (None,))[0] != epoch:
+            rng = np.random.default_rng(
+                [self.seed, 1_000_003, epoch, *([offset] if offset else [])]
+            )
+            self._orders[offset] = (epoch, offset + rng.permutation(size))
+        return self._orders[offset][1]
 
     def cloud(
         self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
@@ -222,6 +263,17 @@ class Sampler:
         if unit is not None and (unit.point_loss > 0 or unit.shuffled):
             points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
         return scaled(points, sensor)
+
+
+def _check_fraction(also_fraction: float, dataset: ContactDataset) -> None:
+    if not 0 < also_fraction < 1:
+        raise TouchError(f"also_fraction must lie between 0 and 1, got {also_fraction:g}")
+    if not 0 < dataset.num_also < len(dataset):
+        raise TouchError(
+            f"{dataset.num_also} of {len(dataset)} contacts to learn from are of the further data "
+            "set; a fraction of each needs both: name one with --also whose contacts are of the "
+            "split train"
+        )
 
 
 def mirrored(

@@ -74,7 +74,7 @@ VARIANTS: Mapping[str, EncoderVariant] = {
     # Ours, of the paper's 1024 points. They have one point in each of 32 × 32 cells, so that
     # neighbours are known without a search: convolutions over the lattice of points mix a point
     # with its neighbours, and each of 8 × 8 groups becomes a token. It learns the same contacts
-    # many times faster than groups around farthest points (README).
+    # many times faster than groups around farthest points (docs/pretraining.md, presets).
     "lattice": EncoderVariant(
         build=lambda c: LatticeTokenizer(c.dim, c.stem_dim, c.stem_blocks),
         presets={

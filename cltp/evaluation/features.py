@@ -87,7 +87,7 @@ def encode_contacts(
         "encoder": encoder.sha256,
         "data": data.checksum(),
         "splits": sorted(set(data.column("split").tolist())),
-        "noise": str(noise),
+        "noise": noise.identity,
         "seed": seed,
         "order": hashlib.sha256(rows.tobytes()).hexdigest(),
     }

@@ -7,7 +7,7 @@ itself, and further sensors.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from cltp.data.contact import Split
@@ -33,6 +33,11 @@ class EvaluationSplit:
     noise: Augmentation
     about: str
 
+    @property
+    def probe_noise(self) -> Augmentation:
+        """Noise of the contacts that its probes learn from."""
+        return PROBE_NOISE if self.noise.is_noisy else PROBE_CLEAN
+
 
 _NOISE = "drift, tilt, depth scale ±15 %, fine noise"
 
@@ -48,9 +53,14 @@ EVALUATION_SPLITS = (
     EvaluationSplit("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
 )
 
-LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05)
-"""Noise of the contacts that methods and probes learn from: drawn from wide ranges, none in a fifth
-of them. Some come as 1024 loose points, as clouds in files do."""
+LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05, windows=0.15)
+"""Noise of the contacts that methods learn from: drawn from wide ranges, none in a fifth of them.
+Some come as 1024 loose points, as clouds in files do, some on smaller pads of other proportions."""
+
+PROBE_NOISE = replace(LEARNING_NOISE, windows=0.0)
+PROBE_CLEAN = Augmentation(noise_level=0.0, uncalibrated=0.0)
+"""Noise of the contacts that probes learn from, for splits with noise and for those without: a
+probe learns under the conditions that it is tested in, as the paper's do."""
 
 
 def evaluation_splits(data_dir: Path, names: tuple[str, ...] = ()) -> list[EvaluationSplit]:

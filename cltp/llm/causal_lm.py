@@ -143,7 +143,8 @@ def load_language(folder: Path, dtype: torch.dtype = torch.float32) -> Language:
             "transformers' save_pretrained wrote"
         )
     try:
-        kind = transformers.AutoConfig.from_pretrained(folder, local_files_only=True).model_type
+        config = transformers.AutoConfig.from_pretrained(folder, local_files_only=True)
+        kind = type(config).model_type  # transformers 4's object may give its text model's instead
     except Exception as error:  # transformers raises errors of many kinds for a bad configuration
         reason = str(error).splitlines()[0] if str(error) else repr(error)
         raise TouchError(f"no language model could be read from {folder}: {reason}") from error

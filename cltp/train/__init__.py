@@ -1,9 +1,8 @@
-"""Training of CLIP, the tactile encoder, its baselines, the language model and the calibration.
+"""Training of CLIP, the tactile encoder, its baselines and the language model.
 
 Every stage can be stopped at any time and continues at its checkpoint. Not here: the data
-(``cltp.data``), measuring (``cltp.evaluation``) and the order of stages (``tacgrasp.pretraining``,
-``tacgrasp.training``).
+(``cltp.data``), the calibration of a sensor (``cltp.train.photometric``), measuring
+(``cltp.evaluation``) and the order of stages (``tacgrasp.pretraining``, ``tacgrasp.training``).
 
-May import: cltp, cltp.checkpoints, cltp.data, cltp.encoder, cltp.llm, cltp.sensing, cltp.tactile,
-cltp.texts.
+May import: cltp, cltp.checkpoints, cltp.data, cltp.encoder, cltp.llm, cltp.tactile, cltp.texts.
 """

@@ -7,7 +7,6 @@ Minimises L_T2L + L_T2I and, beyond the paper, the losses of the state heads
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -54,7 +53,6 @@ def train_cltp(
     recipe: CltpRecipe | None = None,
     *,
     with_images: bool = True,
-    also: Sequence[Path] = (),
     augmentation: Augmentation | None = None,
     clip_dir: Path | None = None,
     start: Path | None = None,
@@ -67,7 +65,6 @@ def train_cltp(
         schedule: How long and how fast the encoder learns.
         recipe: What is minimised.
         with_images: Whether L_T2I is minimised too; the paper's ablation goes without.
-        also: Further data sets to learn from, in one random order with the first.
         augmentation: How contacts are varied.
         clip_dir: Folder of the towers; ``run.out / "clip"`` when not given.
         start: Folder of an encoder with its heads that is trained on; random ones when not given.
@@ -76,7 +73,7 @@ def train_cltp(
         TouchError: Data, towers, start or checkpoint can't be used, or a batch is not finite.
     """
     workers, seed, recipe = run.workers, run.seed, recipe or CltpRecipe()
-    data = run.dataset(also)
+    data = run.dataset()
     clip_dir = clip_dir or run.out / "clip"
     towers = load_clip(clip_dir).to(workers.device)
     config = dataclasses.replace(config, feature_dim=towers.feature_dim)
@@ -87,8 +84,7 @@ def train_cltp(
     identity = {
         "data": data.checksum(),
         "config": config.identity,
-        "variant": f"{recipe} {with_images} False {augmentation}",  # as in stored checkpoints
-        "loose": augmentation.loose if augmentation is not None else 0.0,
+        "variant": f"{recipe} {with_images} False {augmentation and augmentation.identity}",
     }
     if start is not None:
         identity["start"] = manifest_digest(start)
@@ -97,7 +93,14 @@ def train_cltp(
     if stage.done and (folder / MANIFEST).exists():  # the last file that is written
         return folder
     layout = config.variant.layout
-    sampler = Sampler(data, augmentation, seed=seed, layout=layout, moved=recipe.moved)
+    sampler = Sampler(
+        data,
+        augmentation,
+        seed=seed,
+        layout=layout,
+        moved=recipe.moved,
+        also_fraction=run.also_fraction,
+    )
     cache = clip_dir.parent / ".training" if workers.is_first else None
     frozen = FrozenFeatures(towers, data, cache)
     samples = prefetched(

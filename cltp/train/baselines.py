@@ -108,7 +108,7 @@ class _Work:
     def train(
         self, name: str, model: nn.Module, losses: Losses, schedule: Schedule | None = None
     ) -> None:
-        sizes, variant = self.config.identity, str(self.augmentation)
+        sizes, variant = self.config.identity, self.augmentation.identity
         identity = {"data": self.data.checksum(), "config": sizes, "variant": variant}
         stage = Stage(name, self.run, model, schedule or self.schedule, identity)
         layout = self.config.variant.layout

@@ -63,6 +63,9 @@ STAGES = {
 FINE_TUNING = {"joint": Schedule(steps=1200, batch_size=16, learning_rate=6e-4)}
 """The stages of a training that starts from other weights."""
 
+OWN_STEPS = 400
+"""Steps of such a training on few contacts of one's own, mixed with ours."""
+
 UNIT_FACTORS = (0.5, 2.0)
 """Range of the factors from nominal newtons to newtons, log-uniform. Our choice: wider than units
 differ, so that the language model takes newtons from the readings, which a calibration scales."""
@@ -185,7 +188,7 @@ def train_llm(
         # Tells encoders apart; a stage must not continue behind another one.
         "encoder": float(sum(p.detach().double().abs().sum() for p in encoder.parameters())),
         "words": words.fingerprint(),
-        "lm": f"{dim} {layers} {augmentation}",
+        "lm": f"{dim} {layers} {augmentation and augmentation.identity}",
     }
     if start is not None:
         identity["start"] = manifest_digest(start / "projector")
@@ -258,7 +261,13 @@ class ExchangeLearner:
 
     def _samples(self, stage: Stage, number: int) -> Iterator[_Sample]:
         seed = 1000 * self.run.seed + number
-        sampler = Sampler(self.data, self.augmentation, seed=seed, layout=self.model.layout)
+        sampler = Sampler(
+            self.data,
+            self.augmentation,
+            seed=seed,
+            layout=self.model.layout,
+            also_fraction=self.run.also_fraction,
+        )
         size = self.run.workers.per_process(stage.schedule.batch_size)
         for step in map(self.run.workers.part, range(stage.step, stage.schedule.steps)):
             rng = np.random.default_rng([self.run.seed, number, step])

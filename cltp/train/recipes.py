@@ -173,5 +173,10 @@ class StockRecipe:
 CLIP_SCHEDULE = Schedule(steps=400, batch_size=128, learning_rate=1e-3)
 CLTP_SCHEDULE = Schedule(steps=5000, batch_size=64, learning_rate=2e-3)
 """Of CLTP, and of every method that it is compared with."""
+CLTP_TUNING = Schedule(steps=400, batch_size=64, learning_rate=5e-4)
+"""Of a CLTP that is trained on from other weights."""
+ALSO_FRACTION = 0.5
+"""Fraction of a further data set in each batch where weights are trained on: so that little of
+one's own is learned, and what was learned before is not forgotten."""
 HEADS_SCHEDULE = Schedule(steps=1000, batch_size=64, learning_rate=1e-3)
 """Of state heads on a frozen encoder that has none."""

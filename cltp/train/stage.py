@@ -47,6 +47,9 @@ class TrainingRun:
 
     Attributes:
         data: A data set of contacts; its training split is used.
+        also: Further data sets, whose training splits are learned from too.
+        also_fraction: Fraction of each batch that comes from ``also``; None draws every contact of
+            all sets equally often.
         out: Folder of weights; checkpoints and curves lie in its ``.training``.
         seed: Seed of weights, order, noise and wordings.
         report: Receives the progress.
@@ -60,10 +63,12 @@ class TrainingRun:
     report: ProgressReport = silent
     workers: Workers = field(default_factory=Workers)
     checkpoint_s: float = 60.0
+    also: Sequence[Path] = ()
+    also_fraction: float | None = None
 
-    def dataset(self, also: Sequence[Path] = ()) -> ContactDataset:
-        """The training split, in one random order with that of further data sets."""
-        return ContactDataset(self.data, split=Split.TRAIN, also=also)
+    def dataset(self) -> ContactDataset:
+        """The training split, and after it those of the further data sets."""
+        return ContactDataset(self.data, split=Split.TRAIN, also=self.also)
 
 
 class Stage:
@@ -96,7 +101,13 @@ class Stage:
         self._run, self._workers, self._clock = run, run.workers, clock
         self._means: dict[str, float] = {}
         self._path = run.out / ".training" / f"{name}.checkpoint"
-        shared = {"schedule": str(schedule), "seed": run.seed, "workers": run.workers.count}
+        shared: dict[str, Any] = {
+            "schedule": str(schedule),
+            "seed": run.seed,
+            "workers": run.workers.count,
+        }
+        if run.also_fraction is not None:  # checkpoints without one stay good
+            shared["also_fraction"] = run.also_fraction
         self._identity = json.dumps({**identity, **shared}, sort_keys=True)
         self._parameters = [p for p in model.parameters() if p.requires_grad]
         matrices = [p for p in self._parameters if p.ndim > 1]

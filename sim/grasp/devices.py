@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -60,6 +61,9 @@ class SimClock:
     def __init__(self) -> None:
         self._offset_s = 0.0
         self._grasp: Grasp | None = None
+        self._period_s, self._left_s, self._made_s = math.inf, math.inf, 0.0
+        self._call: Callable[[], None] | None = None
+        self._pending: tuple[float, Callable[[], None]] | None = None
 
     def monotonic(self) -> float:
         return time.monotonic() + self._offset_s
@@ -71,9 +75,55 @@ class SimClock:
         """Let simulated time pass; the attached grasp follows."""
         if seconds < 0:
             raise ValueError(f"can't sleep for {seconds} s")
-        self.advance(seconds)
         if self._grasp is not None:
             self._grasp.wait(seconds)
+        self.advance(seconds)
+
+    def call_every(self, period_s: float, call: Callable[[], None] | None) -> None:
+        """Call a function regularly while the world moves or waits; None ends it.
+
+        Args:
+            period_s: Period, in simulated time, > 0 [s].
+            call: May raise, which ends the motion that it is called in.
+        """
+        if not period_s > 0:
+            raise ValueError(f"a period needs to be above 0 s, got {period_s}")
+        self._call, self._period_s, self._left_s = call, period_s, period_s
+        if call is None and self._pending is not None:
+            self._pending[1]()  # what was commanded still happens
+            self._pending = None
+        if self._grasp is not None:
+            self._grasp.beat = None if call is None else self
+
+    def call_after(self, delay_s: float, call: Callable[[], None]) -> None:
+        """Call a function once, after a delay > 0 [s]; it takes the place of one still waiting.
+
+        Without ``call_every``, which moves the world in parts, the delay passes at once.
+        """
+        if self._call is None:
+            self.advance(delay_s)
+            call()
+        else:
+            self._pending = (delay_s, call)
+
+    def until_next_s(self) -> float:
+        """Time until the next call is due [s]."""
+        return min(self._left_s, math.inf if self._pending is None else self._pending[0])
+
+    def passed(self, seconds: float) -> None:
+        """Time has passed within a motion or wait; call what is due."""
+        self._offset_s += seconds
+        self._made_s += seconds
+        if self._pending is not None:
+            delay_s, change = self._pending
+            self._pending = (delay_s - seconds, change)
+            if delay_s - seconds <= 1e-9:
+                self._pending = None
+                change()
+        self._left_s -= seconds
+        if self._left_s <= 1e-9 and self._call is not None:
+            self._left_s = self._period_s
+            self._call()
 
     @property
     def simulated_s(self) -> float:
@@ -81,8 +131,13 @@ class SimClock:
         return self._offset_s
 
     def advance(self, seconds: float) -> None:
-        """Advance the clock after a motion that the world has already made."""
-        self._offset_s += seconds
+        """Advance the clock after a motion that the world has already made.
+
+        Args:
+            seconds: All of its duration; what ``passed`` has counted is not counted again.
+        """
+        self._offset_s += max(0.0, seconds - self._made_s)
+        self._made_s = 0.0
 
     def attach(self, grasp: Grasp) -> None:
         """Attach the grasp that ``sleep`` acts on."""
@@ -192,6 +247,26 @@ class SimGripper(_Device):
         )
         return self._state
 
+    def adjust(self, force_n: float) -> GripperState:
+        """Ask for another force of a closed grip, and return at once; it is there ``ADJUST_S`` on.
+
+        Raises:
+            LimitError: The grip is open, or the force is out of range.
+        """
+        self._check_connected()
+        if not (self._state.closed and 0 < force_n <= MAX_FORCE_N):
+            raise LimitError(
+                f"only a closed grip is adjusted, to (0, {MAX_FORCE_N}] N; closed "
+                f"{self._state.closed}, {force_n} N"
+            )
+        self._state = replace(self._state, force_n=force_n)
+        self._clock.call_after(ADJUST_S, lambda: self._settle(force_n))
+        return self._state
+
+    def _settle(self, force_n: float) -> None:
+        self._grasp.adjust(force_n * self.force_gain)
+        self._state = replace(self._state, width_m=settled_width_m(self._grasp))
+
     def open_by(self, clear_m: float) -> GripperState:
         """Open by ``clear_m`` [m]."""
         self._check_connected()
@@ -297,6 +372,15 @@ class SimSensor(_Device):
     def last_shear(self) -> ShearField | None:
         """The shear field of the frames that the last cloud came from; None without any."""
         return self._last_shear
+
+    def newest_shear(self) -> ShearField | None:
+        """The shear field of the frame of this moment, without waiting; None without any.
+
+        Raises:
+            TouchError: The sensor is disconnected, or the frame can't be read.
+        """
+        self._check_connected()
+        return self._shear(self._clock.stamp(), 1)
 
     def _shear(self, stamp: Stamp, frames: int) -> ShearField | None:
         if self._shear_unit is None or self._grasp.shear is None:

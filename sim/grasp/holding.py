@@ -36,7 +36,7 @@ _RATIO = 1.25
 between, pressures are interpolated, which keeps their sum. Our choice: a contact's radius grows by
 8 % from one to the next."""
 
-_FOLLOW_MM = 0.5  # the pressure follows a sliding body in such steps, as those of ``Grasp.load``
+_FOLLOW_MM = 0.5  # slide after which the pressure is solved anew; until then it is shifted
 
 _LOAD_TOL = 0.02  # of the friction: what a step may leave to the next
 _EVALUATIONS = 5
@@ -88,6 +88,22 @@ class _Pressed:
             pressure_kpa=torch.lerp(self.pressure_kpa, other.pressure_kpa, part),
             height_mm=torch.lerp(self.height_mm, other.height_mm, part),
             push_n=self.push_n + part * (other.push_n - self.push_n),
+        )
+
+    def moved(self, by_mm: FloatArray, pitch_mm: float) -> _Pressed:
+        """The contact of a body that slid by (x, y) [mm, gel frame], less than an element or so.
+
+        Args:
+            by_mm: Shape (2,).
+            pitch_mm: Side of an element [mm].
+        """
+        if not by_mm.any():
+            return self
+        columns, rows = by_mm[0] / pitch_mm, -by_mm[1] / pitch_mm  # row 0 is at the top
+        return _Pressed(
+            pressure_kpa=_shifted(self.pressure_kpa, rows, columns),
+            height_mm=_shifted(self.height_mm, rows, columns),
+            push_n=self.push_n,
         )
 
 
@@ -164,7 +180,8 @@ class Holding:
         if self._dropped:
             pressed, self._shear = self._nothing(), self._layer.at_rest()
         else:
-            pressed = self._pressed(force_n)
+            slid_mm = self._offset_mm - self._pressed_mm
+            pressed = self._pressed(force_n).moved(slid_mm, self._layer.layer.pitch_mm)
             self._move(dt_s, pressed, np.append(load / 2, 0.0) + pressed.push_n)
         return HoldState(
             slipped_mm=self._slipped_mm,
@@ -283,6 +300,23 @@ class Holding:
 def _force_at(step: int) -> float:
     """Force of a step of the ladder [N]; 0 below its first."""
     return float(_LEAST_N * _RATIO**step) if step >= 0 else 0.0
+
+
+def _shifted(grid: Tensor, rows: float, columns: float) -> Tensor:
+    """A grid (1, H, W) shifted by parts of its elements; nothing comes in over its edges."""
+    for dim, by in ((1, rows), (2, columns)):
+        whole = math.floor(by)
+        near, far = (_rolled(grid, dim, each) for each in (whole, whole + 1))
+        grid = torch.lerp(near, far, by - whole)
+    return grid
+
+
+def _rolled(grid: Tensor, dim: int, by: int) -> Tensor:
+    """A grid shifted by whole elements along a dimension, zeros at the edge."""
+    rolled, count = torch.roll(grid, by, dim), min(abs(by), grid.shape[dim])
+    if count:
+        rolled.narrow(dim, 0 if by > 0 else grid.shape[dim] - count, count).zero_()
+    return rolled
 
 
 def _check_force(force_n: float) -> None:

@@ -8,7 +8,9 @@ In-plane rotation counts as slip, but the body's surface is not turned with it.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from sim.grasp.fingers import FlatFingers, Patch, Resistance
 from sim.grasp.pad_shear import PadShear
@@ -29,6 +31,16 @@ def trapezoid_s(
     return speed / acceleration_m_s2, distance_m / speed - speed / acceleration_m_s2
 
 
+class Beat(Protocol):
+    """What is to happen in the middle of a motion or wait, at a rate of its own."""
+
+    def until_next_s(self) -> float:
+        """Time until it is due [s], above 0."""
+
+    def passed(self, seconds: float) -> None:
+        """Time has passed in the world; may change the grip by ``Grasp.adjust``."""
+
+
 @dataclass(slots=True)
 class Grasp:
     """The evolving truth of one body and one pair of fingers.
@@ -44,6 +56,7 @@ class Grasp:
         contacts: Number of commands that changed the contact with the gel.
         peak_force_n, peak_kpa: Largest true force and pressure so far.
         shear: Shear of the camera's pad; None follows none, which costs nothing.
+        beat: Divides every load into parts, and is told of each; None for none.
     """
 
     fingers: FlatFingers
@@ -60,6 +73,7 @@ class Grasp:
     peak_force_n: float = 0.0
     peak_kpa: float = 0.0
     shear: PadShear | None = None
+    beat: Beat | None = None
     _speed: float = field(default=0.0, repr=False)
     _lifted_mm: float = field(default=0.0, repr=False)
 
@@ -78,6 +92,16 @@ class Grasp:
         (flesh yields no further under less): for the first grip as ``bruised_at_start``, for a
         later one as ``bruised``.
         """
+        self.adjust(force_n)
+        if self.patch is not None and self._lifted_mm > 0:
+            self.load((0.0, 0.0), 0.05)
+
+    def adjust(self, force_n: float) -> None:
+        """As ``close``, for a grip that changes within a motion: no time passes.
+
+        Args:
+            force_n: True force [N].
+        """
         before = self.peak_kpa * _SAME_PRESSURE
         self.grips += 1
         self.contacts += 1
@@ -94,8 +118,6 @@ class Grasp:
                 self.bruised_at_start = True
             else:
                 self.bruised = True
-        if self._lifted_mm > 0:
-            self.load((0.0, 0.0), 0.05)
 
     def open(self) -> None:
         """Open the fingers; a lifted body falls."""
@@ -137,9 +159,28 @@ class Grasp:
         """Let time pass; a lifted body that friction can't hold slides."""
         if self.patch is not None and self._lifted_mm > 0:
             self.load((0.0, 0.0), seconds)
+        else:
+            for _ in self._parts(seconds):
+                pass
 
     def load(self, acceleration_m_s2: tuple[float, float], seconds: float) -> None:
         """Slide under a constant load for a while; the patch follows in steps of 0.5 mm."""
+        for part_s in self._parts(seconds):
+            self._load(acceleration_m_s2, part_s)
+
+    def _parts(self, seconds: float) -> Iterator[float]:
+        """The parts that the beat makes of a time [s]; it is told of each once that has passed."""
+        if self.beat is None:
+            yield seconds
+            return
+        left_s = seconds
+        while left_s > 1e-9:
+            part_s = min(left_s, self.beat.until_next_s())
+            yield part_s
+            left_s -= part_s
+            self.beat.passed(part_s)
+
+    def _load(self, acceleration_m_s2: tuple[float, float], seconds: float) -> None:
         remaining_s = seconds
         while remaining_s > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
             resistance = self.fingers.resistance(self.patch, acceleration_m_s2)

@@ -115,6 +115,21 @@ class MissedSettings(ModelBenchmarkSettings, SeedSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class ReflexSettings(SeedSettings):
+    """Load held bodies until some slip; see when the reflex says so; exit code 1 off the limits.
+
+    A language model decides beside the part that is timed.
+
+    Attributes:
+        sensor: Sensor that measures shear: taxels or gelsight_mini_markers.
+        episodes: Number of loads, one random seed each.
+    """
+
+    sensor: str = "taxels"
+    episodes: int = 2000
+
+
+@dataclass(frozen=True, kw_only=True)
 class MeshesSettings(BenchmarkSettings):
     """Find a grasp on every mesh of a folder, and try it with rules in simulated episodes.
 
@@ -467,6 +482,63 @@ class BallsSettings(BenchmarkSettings):
     def __post_init__(self) -> None:
         if not 1.0 <= self.diameter_mm <= 100.0 or self.folds < 2:
             raise UsageError("--diameter-mm must be 1 to 100 and --folds at least 2")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallCurveSettings(BenchmarkSettings):
+    """Measure how many presses of a ball a calibration of a GelSight Mini needs.
+
+    Attributes:
+        data: Folder of the frames.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel. Default: background.png in the folder.
+        presses: Numbers of presses to calibrate on.
+        subsets: Random subsets of each size.
+        seed: Random seed of the subsets and of the calibrations.
+        plot: PNG file to draw the curve to.
+    """
+
+    data: Path
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    presses: tuple[int, ...] = (8, 12, 20, 33)
+    subsets: int = 5
+    seed: int = 0
+    plot: Path | None = None
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.diameter_mm <= 100.0 or self.subsets < 1:
+            raise UsageError("--diameter-mm must be 1 to 100, --subsets at least 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class BallGainsSettings(BenchmarkSettings):
+    """Measure how well a few presses tell the x and y gains of another unit's calibration.
+
+    The calibration is made from half of the presses, its slopes are multiplied by artificial gains,
+    and presses of the other half are to find these.
+
+    Attributes:
+        data: Folder of the frames.
+        diameter_mm: Diameter of the ball [mm].
+        background: Frame of the untouched gel. Default: background.png in the folder.
+        presses: Numbers of presses to find the gains from.
+        subsets: Random subsets of each size.
+        seed: Random seed of the halves, the subsets and the calibration.
+    """
+
+    data: Path
+    diameter_mm: float = 6.31
+    background: Path | None = None
+    presses: tuple[int, ...] = (3, 5, 8)
+    subsets: int = 50
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if not 1.0 <= self.diameter_mm <= 100.0 or self.subsets < 1 or min(self.presses) < 3:
+            raise UsageError(
+                "--diameter-mm must be 1 to 100, --subsets at least 1, --presses at least 3 each"
+            )
 
 
 @dataclass(frozen=True, kw_only=True)

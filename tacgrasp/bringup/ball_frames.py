@@ -1,7 +1,7 @@
 """Folders of ball presses, for the calibration of a GelSight Mini and the benchmarks on them.
 
 A folder holds one frame per press of a ball on one unit, and ``background.png``. Not here: the
-benchmarks (``tacgrasp.benchmarks.sensing.balls``), learning a calibration
+benchmarks (``tacgrasp.benchmarks.balls.heights``), learning a calibration
 (``cltp.train.photometric``).
 """
 

@@ -13,6 +13,7 @@ from tacgrasp.cli.eval_ablate import main as ablate
 from tacgrasp.cli.eval_captions import main as captions
 from tacgrasp.cli.eval_instructions import main as instructions
 from tacgrasp.cli.eval_intervals import main as intervals
+from tacgrasp.cli.eval_own import main as own
 from tacgrasp.cli.eval_questions import main as questions
 from tacgrasp.cli.flags import contacts_in, parse, writable
 
@@ -215,6 +216,7 @@ COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
     "captions": captions,
     "instructions": instructions,
     "intervals": intervals,
+    "own": own,
     "questions": questions,
     "zero-shot": zero_shot,
     "probe": probe,

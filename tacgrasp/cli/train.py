@@ -10,10 +10,22 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import tyro
 
-from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
+from cltp.train.recipes import (
+    CLIP_SCHEDULE,
+    CLTP_SCHEDULE,
+    CLTP_TUNING,
+    ClipRecipe,
+    CltpRecipe,
+    Schedule,
+)
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.flags import parse, subcommand
-from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
+from tacgrasp.training.requests import (
+    TrainAllRequest,
+    TrainLlmRequest,
+    also_fraction,
+    check_mixture,
+)
 
 if TYPE_CHECKING:
     from tacgrasp.pretraining.methods import PretrainingRun
@@ -71,33 +83,31 @@ class PretrainingFlags(MethodsFlags):
     Attributes:
         precision: Precision of matrix products.
         tensorboard: Also write curves for TensorBoard into OUT/tensorboard; needs that package.
-        steps: Optimiser steps.
+        steps: Optimiser steps. Default: 5000, of clip 400; 400 for cltp with --start.
         batch_size: Contacts in a step, of all processes together.
     """
 
     precision: Literal["no", "bf16"] = "no"
     tensorboard: bool = False
-    steps: int = CLTP_SCHEDULE.steps
+    steps: int | None = None
     batch_size: int = CLTP_SCHEDULE.batch_size
 
-    @property
-    def schedule(self) -> Schedule:
-        return replace(CLTP_SCHEDULE, steps=self.steps, batch_size=self.batch_size)
+    def schedule(self, usual: Schedule = CLTP_SCHEDULE) -> Schedule:
+        steps = usual.steps if self.steps is None else self.steps
+        return replace(usual, steps=steps, batch_size=self.batch_size)
 
 
 @dataclass(frozen=True)
 class TrainClipFlags(PretrainingFlags):
     """Align the small CLIP on images and captions, into OUT/clip."""
 
-    steps: int = CLIP_SCHEDULE.steps
     batch_size: int = CLIP_SCHEDULE.batch_size
     recipe: Annotated[ClipRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=ClipRecipe)
 
     def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain_clip
 
-        schedule = replace(CLIP_SCHEDULE, steps=self.steps, batch_size=self.batch_size)
-        pretrain_clip(run, self.recipe, schedule)
+        pretrain_clip(run, self.recipe, self.schedule(CLIP_SCHEDULE))
 
 
 @dataclass(frozen=True)
@@ -116,7 +126,7 @@ class TrainMethodFlags(PretrainingFlags):
     def train_in(self, run: PretrainingRun, stage: str) -> None:
         from tacgrasp.pretraining.methods import pretrain
 
-        pretrain(stage.replace("-", "_"), run, self.schedule, preset=self.preset)
+        pretrain(stage.replace("-", "_"), run, self.schedule(), preset=self.preset)
 
 
 @dataclass(frozen=True)
@@ -125,25 +135,43 @@ class TrainCltpFlags(TrainMethodFlags):
 
     Attributes:
         no_image: Leave L_T2I out (the paper's ablation); writes OUT/cltp_no_image.
-        also: Folder of a further data set to learn from; nothing is measured on it.
-        start: Folder of weights, such as policies/weights: its encoder is trained on, behind its
-            towers, instead of a random one.
-        learning_rate: Learning rate at its peak; to train on, a quarter of the default does.
+        also: Folder of a further data set to learn from, such as contacts of one's own.
+        also_fraction: Fraction of it in each batch, between 0 and 1. Default: 0.5 with --start;
+            without, the contacts of both sets come equally often.
+        start: Folder of weights, or the word shipped: its encoder is trained on, behind its towers,
+            instead of a random one.
+        learning_rate: Learning rate at its peak. Default: 0.002; 0.0005 with --start.
     """
 
     recipe: Annotated[CltpRecipe, tyro.conf.OmitArgPrefixes] = field(default_factory=CltpRecipe)
     no_image: bool = False
     also: Path | None = None
+    also_fraction: float | None = None
     start: Path | None = None
-    learning_rate: float = CLTP_SCHEDULE.learning_rate
+    learning_rate: float | None = None
+
+    def __post_init__(self) -> None:
+        check_mixture(self.also, self.also_fraction)
 
     def train_in(self, run: PretrainingRun, stage: str) -> None:
+        from tacgrasp.policy_factory import named_weights
         from tacgrasp.pretraining.methods import pretrain
 
         method = "cltp_no_image" if self.no_image else "cltp"
-        schedule = replace(self.schedule, learning_rate=self.learning_rate)
-        others = {"also": self.also, "start": self.start}
-        pretrain(method, run, schedule, preset=self.preset, recipe=self.recipe, **others)
+        start = named_weights(self.start)
+        schedule = self.schedule(CLTP_SCHEDULE if start is None else CLTP_TUNING)
+        if self.learning_rate is not None:
+            schedule = replace(schedule, learning_rate=self.learning_rate)
+        pretrain(
+            method,
+            run,
+            schedule,
+            preset=self.preset,
+            recipe=self.recipe,
+            also=self.also,
+            also_fraction=also_fraction(self.also, self.also_fraction, start),
+            start=start,
+        )
 
 
 @dataclass(frozen=True)
@@ -186,7 +214,7 @@ class TrainAllMethodsFlags(TrainMethodFlags):
         from tacgrasp.pretraining.run_all import run_all_methods
 
         clip = (self.clip, replace(CLIP_SCHEDULE, steps=self.clip_steps))
-        cltp = (self.cltp, self.schedule)
+        cltp = (self.cltp, self.schedule())
         run_all_methods(run, self.results, clip, cltp, seeds=self.seeds, preset=self.preset)
 
 
@@ -229,6 +257,38 @@ class BaseFlags:
     lm: Path
 
 
+@dataclass(frozen=True)
+class TrainSlipFlags:
+    """Train the slip models on simulated loads on held bodies; needs no data.
+
+    Attributes:
+        out: Folder of the models, which must exist.
+        loads: Number of loads, one random seed each.
+        units: Noisy units of each sensor that see a load.
+        seed: Random seed of the weights.
+    """
+
+    out: Path
+    loads: int = 2000
+    units: int = 4
+    seed: int = 0
+
+    def train(self) -> None:
+        """Simulate, train and write."""
+        if self.loads < 8 or self.units < 1:
+            raise UsageError("--loads must be at least 8, --units at least 1")
+        if not self.out.is_dir():
+            raise UsageError(f"--out {self.out} is no folder")
+        from tacgrasp.console import make_console
+        from tacgrasp.training.slip import SlipRequest, train
+
+        console = make_console()
+        request = SlipRequest(loads=self.loads, units=self.units, out=self.out, seed=self.seed)
+        for name, model in train(request, console).items():
+            path = self.out / f"slip_{name}.npz"
+            console.print(f"written   {path}; slips from {model.threshold:.2f} on")
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
@@ -238,6 +298,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "point-bert": (TrainMethodFlags, "Baseline: predict hidden patches in a vocabulary of shapes."),
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
+    "slip": (TrainSlipFlags, "The slip models of all sensors that measure shear."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
     "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
     "layout": (LayoutFlags, "Bring older weights into today's layout, without training."),
@@ -262,14 +323,17 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
         return 0
-    from tacgrasp.training import train
+    if isinstance(flags, TrainSlipFlags):
+        flags.train()
+        return 0
+    from tacgrasp.training import train, upkeep
 
     if isinstance(flags, ManifestFlags):
-        train.write_manifests(flags.weights)
+        upkeep.write_manifests(flags.weights)
     elif isinstance(flags, LayoutFlags):
-        train.renew_weights(flags.weights)
+        upkeep.renew_weights(flags.weights)
     elif isinstance(flags, BaseFlags):
-        train.name_base(flags.weights, flags.lm)
+        upkeep.name_base(flags.weights, flags.lm)
     elif isinstance(flags, TrainLlmRequest):
         train.train_language_model(flags, command)
     else:

@@ -248,6 +248,8 @@ class RunConfig(SettingsBase):
         on_success: Gripper action after a verified grasp: hold or release.
         on_failure: Gripper action after any other end: hold or release.
         dry_run: Read and decide once, and send nothing to the devices.
+        reflex: Whether a reflex corrects the force between decisions, where the sensor feels shear.
+        slip_calibration: File of the sensor's slip calibration; none: the threshold of all units.
         record: Folder for the recorded episode.
     """
 
@@ -279,6 +281,8 @@ class RunConfig(SettingsBase):
     on_success: EndAction = "hold"
     on_failure: EndAction = "release"
     dry_run: bool = False
+    reflex: bool = True
+    slip_calibration: Path | None = None
     record: Path = Path("episodes")
 
     @property

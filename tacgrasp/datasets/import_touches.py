@@ -21,11 +21,13 @@ import dataclasses
 import math
 import os
 import shutil
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, TypeVar
+
+import numpy as np
 
 from cltp.data.contact import Contact, Split
 from cltp.data.dataset import NUMBER_COLUMNS
@@ -155,6 +157,7 @@ def _write(
     slots, origins = (*DIMENSIONS, "force_n"), ("given", "measured", "unknown")
     counts = {origin: dict.fromkeys(slots, 0) for origin in origins}
     lines: dict[str, int] = {}
+    held_out = _held_out(rows, source.held_out, source.seed)
     about = {
         "made_by": "tacgrasp data import",
         "contacts": str(len(rows)),
@@ -168,7 +171,8 @@ def _write(
                 path = os.path.normpath(name)
                 if path in lines:
                     raise RowError(f"the same file as line {lines[path]}")
-                contact = _contact(source, sensor, row, number)
+                series = _series(row, number)
+                contact = _contact(source, sensor, row, series, held_out=series in held_out)
             except (RowError, TouchError) as error:
                 text = str(error).removeprefix(f"{source.folder / name}: ")
                 bad.append(f"{source.labels.name} line {row.line} ({name}): {text}")
@@ -187,7 +191,21 @@ def _origin(contact: Contact, slot: str) -> str:
     return "unknown" if getattr(contact.state, slot) is None else "given"
 
 
-def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) -> Contact:
+def _series(row: _Row, number: int) -> str:
+    """The series of a row, the ``number``-th of the table."""
+    return row.cells.get("series", str(number))
+
+
+def _held_out(rows: Sequence[_Row], fraction: float, seed: int) -> set[str]:
+    """Series whose contacts are not to be learned from, of those without a split."""
+    series = [_series(row, number) for number, row in enumerate(rows) if "split" not in row.cells]
+    drawn = np.random.default_rng(seed).permutation(list(dict.fromkeys(series)))
+    return set(drawn[: round(fraction * len(drawn))].tolist())
+
+
+def _contact(
+    source: ImportRequest, sensor: SensorSpec, row: _Row, series: str, *, held_out: bool
+) -> Contact:
     cells = row.cells
     if row.has_extra_cells:
         raise RowError("more cells than the header has")
@@ -208,7 +226,6 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
             f"heights from {lowest:.2f} to {highest:+.2f} mm rise more than they sink; expected "
             "+ into the gel: is the sign turned, or is the untouched gel not at 0?"
         )
-    series = cells.get("series", str(number))
     if not series.isdigit() or int(series) >= 2**62:
         raise RowError(f"series must be a number from 0, got {series!r}")
     cloud = cloud_from_heights(heights, sensor)
@@ -223,7 +240,7 @@ def _contact(source: ImportRequest, sensor: SensorSpec, row: _Row, number: int) 
         state=state,
         object=cells.get("object", "unknown"),
         series=int(series),
-        split=_word(Split, "split", cells) or Split.TRAIN,
+        split=_word(Split, "split", cells) or (Split.TEST if held_out else Split.TRAIN),
         measured=measured,
     )
 

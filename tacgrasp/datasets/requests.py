@@ -61,6 +61,9 @@ class ImportRequest:
         calibration: Calibration of the unit (frames only). Default: the shipped one.
         least_depth_mm: Heights that stay below this are no contact, and must not be labelled as
             one. Less than the default is for heights without noise.
+        held_out: Fraction of the series whose contacts, where the table gives no split, go into the
+            split test, drawn at random.
+        seed: Random seed of that.
     """
 
     folder: tyro.conf.Positional[Path]
@@ -70,8 +73,12 @@ class ImportRequest:
     background: Path | None = None
     calibration: Path | None = None
     least_depth_mm: float = 0.10
+    held_out: float = 0.0
+    seed: int = 0
 
     def __post_init__(self) -> None:
+        if not 0 <= self.held_out < 1 or self.seed < 0:
+            raise UsageError("--held-out must be 0 to below 1, --seed at least 0")
         if not 0 < self.least_depth_mm <= 1:
             raise UsageError(f"--least-depth-mm must be 0 to 1, got {self.least_depth_mm:g}")
         if not self.folder.is_dir():

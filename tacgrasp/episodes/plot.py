@@ -20,6 +20,7 @@ from cltp.atomic_write import replacing
 from cltp.tactile.cloud import FloatArray, TactileCloud
 from cltp.tactile.picture import DEPTH_PALETTE, DEPTH_STOPS_MM, depth_levels
 from cltp.tactile.sensors import SensorSpec
+from policies.reflex_trace import NO_SLIP, ReflexTrace
 from tacgrasp.episodes.errors import EpisodeError
 from tacgrasp.episodes.paths import refusal
 from tacgrasp.episodes.reader import read_episode
@@ -60,12 +61,15 @@ def draw_episode(episode: Episode, name: str) -> Figure:
     shown = np.linspace(0, num_steps - 1, min(num_steps, MAX_PICTURES)).round().astype(int)
     drawn = [episode.steps[i] for i in shown]
     rows = math.ceil(len(drawn) / _COLUMNS)
-    height_in = 1.0 + 1.75 * rows + 4.2
+    reflex_in = 1.5 if _traces(episode) else 0.0
+    height_in = 1.0 + 1.75 * rows + 4.2 + reflex_in
     figure = Figure(figsize=(13, height_in))
-    top, bottom = 1 - 0.95 / height_in, 4.5 / height_in
-    curves_box = (0.07, 0.6 / height_in, 0.97, 3.85 / height_in)
+    top, bottom = 1 - 0.95 / height_in, (4.5 + reflex_in) / height_in
+    curves_box = (0.07, 0.6 / height_in, 0.97, (3.85 + reflex_in) / height_in)
     pictures = GridSpec(rows, _COLUMNS, figure, 0.04, bottom, 0.93, top, wspace=0.08, hspace=0.32)
-    curves = GridSpec(2, 2, figure, *curves_box, width_ratios=(1.7, 1), hspace=0.16, wspace=0.12)
+    rows_of = 3 if _traces(episode) else 2
+    layout: dict[str, Any] = {"width_ratios": (1.7, 1), "hspace": 0.16, "wspace": 0.12}
+    curves = GridSpec(rows_of, 2, figure, *curves_box, **layout)
     _title(figure, episode, name, height_in)
     scale = Normalize(0, len(DEPTH_PALETTE) - 1)
     for index, step in enumerate(drawn):
@@ -142,10 +146,16 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
     """Felt force against its contract, commanded force and depth, with the actions between them."""
     start_s = episode.header.stamp.monotonic_s
     time_s = [step.stamp.monotonic_s - start_s for step in episode.steps]
+    traces = _traces(episode)
     force = figure.add_subplot(grid[0, 0])
     depth = figure.add_subplot(grid[1, 0], sharex=force)
     commanded = [step.gripper.force_n for step in episode.steps]
-    force.step(time_s, commanded, where="post", color=_FORCE, lw=1.4, label="commanded")
+    stepped = time_s, commanded
+    if traces:
+        stepped = _with_corrections(time_s, commanded, traces, start_s)
+    force.step(*stepped, where="post", color=_FORCE, lw=1.4, label="commanded")
+    if traces:
+        _draw_reflex(force, figure.add_subplot(grid[2, 0], sharex=force), traces, start_s)
     limits_n = _draw_contract(force, episode, time_s)
     felt = [(at_s, s.felt_force_n) for at_s, s in zip(time_s, episode.steps, strict=True)]
     readings = [(at_s, reading) for at_s, reading in felt if reading is not None]
@@ -155,13 +165,16 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
         style: dict[str, Any] = {"fmt": "s-", "color": _DEPTH, "ms": 5, "lw": 1, "capsize": 3}
         force.errorbar(values[0], values[1], spans, label="felt", **style)
     force.set_ylabel(force_label(episode))
-    force.set_ylim(0, 1.2 * max(*commanded, *(r.high for _, r in readings), *limits_n, 0.1))
+    force.set_ylim(0, 1.2 * max(*stepped[1], *(r.high for _, r in readings), *limits_n, 0.1))
     force.legend(loc="upper left", fontsize=8, ncols=4, frameon=False)
     _draw_end(force, episode)
     depth.plot(time_s, contacts[:, 2], "o-", color=_DEPTH, lw=2, ms=5)
     depth.set_ylabel("largest\nindentation [mm]")
     depth.set_ylim(0, 1.3 * max(contacts[:, 2].max(), 0.1))
-    depth.set_xlabel("time since start [s]")
+    if traces:  # their panel stands below, on the same time
+        depth.tick_params(labelbottom=False)
+    else:
+        depth.set_xlabel("time since start [s]")
     force.tick_params(labelbottom=False)
     for axes in (force, depth):
         axes.grid(alpha=0.25)
@@ -170,6 +183,43 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
             axes.axvline(at_s, color=_MUTED, lw=0.6, alpha=0.5, ls=":")
     if len(episode.steps) <= MAX_PICTURES:
         _label_times(force, time_s, episode.steps)
+
+
+def _traces(episode: Episode) -> list[ReflexTrace]:
+    """What the reflex saw and did, where it saw anything."""
+    traces = [step.reflex for step in episode.steps if step.reflex is not None]
+    return [trace for trace in traces if len(trace.t_s)]
+
+
+def _with_corrections(
+    time_s: list[float], commanded_n: list[float], traces: list[ReflexTrace], start_s: float
+) -> tuple[list[float], list[float]]:
+    """Commanded force over time, with what the reflex commanded between the steps."""
+    changes = [(c.t_s - start_s, c.after_n) for trace in traces for c in trace.corrections]
+    merged = sorted([*zip(time_s, commanded_n, strict=True), *changes])
+    return [at_s for at_s, _ in merged], [force_n for _, force_n in merged]
+
+
+def _draw_reflex(force: Axes, slip: Axes, traces: list[ReflexTrace], start_s: float) -> None:
+    """The force and the slip that the reflex saw, and its corrections."""
+    for trace in traces:
+        at_s, felt = trace.t_s - start_s, trace.felt_n
+        known = felt > 0
+        force.plot(at_s[known], felt[known], "-", color=_DEPTH, lw=0.9, alpha=0.8)
+        told = trace.slip > NO_SLIP
+        slip.plot(at_s[told], trace.slip[told], "-", color=_PATH, lw=1.0)
+        for each in trace.corrections:
+            color = _BAD if each.after_n > each.before_n else _GOOD
+            for axes in (force, slip):
+                axes.axvline(each.t_s - start_s, color=color, lw=0.9, alpha=0.7)
+    slip.axhline(0, color=_BAD, lw=1.0, ls="--")
+    slip.set_ylabel("slip, log odds\nover threshold")
+    slip.set_xlabel("time since start [s]")
+    slip.grid(alpha=0.25)
+    slip.spines[["top", "right"]].set_visible(False)
+    corrected = sum(len(trace.corrections) for trace in traces)
+    note = f"reflex: {corrected} corrections" if corrected != 1 else "reflex: 1 correction"
+    slip.annotate(note, (0.01, 0.9), xycoords="axes fraction", fontsize=8, va="top")
 
 
 def force_label(episode: Episode) -> str:

@@ -34,6 +34,7 @@ from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.shear.field import ShearField
 from policies.policy import Decision
+from policies.reflex_trace import ReflexTrace
 from primitives.contract import Band, Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed, PadAxes
@@ -155,6 +156,7 @@ class StepFields:
         felt_force_n: Force that the contact suggested [N]; None without contact or test.
         contract: Contract from this step on, where what is felt has changed it; None: as before.
         need: What the object needs, as felt; None where the contract's own band was the target.
+        reflex: What the reflex saw and did since the step before; None where it did not run.
     """
 
     index: int
@@ -168,6 +170,7 @@ class StepFields:
     felt_force_n: Interval | None = None
     contract: Contract | None = None
     need: Need | None = None
+    reflex: ReflexTrace | None = None
 
     def shared(self) -> dict[str, Any]:
         """The fields above by name, whatever else this dataclass holds."""

@@ -6,7 +6,9 @@ Not here: captions themselves (``cltp.texts.captions``).
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+
+from cltp.tactile.states import NUMBERS
 
 CAPTION_REQUESTS: tuple[str, ...] = (
     "Describe the contact.",
@@ -21,20 +23,36 @@ CAPTION_REQUESTS: tuple[str, ...] = (
     "Describe this.",
 )
 
-_NUMBER = r"([+-]?\d+(?:\.\d+)?)"
-_NUMBERS = re.compile(
-    rf"{_NUMBER} mm, {_NUMBER} N(?:, {_NUMBER} %, x {_NUMBER}, y {_NUMBER})?", re.ASCII
-)
+NUMBER = r"[+-]?\d+(?:\.\d+)?"
+"""Pattern of a number as captions write it."""
+
+_PATTERNS: Mapping[str, re.Pattern[str]] = {
+    "depth_mm": re.compile(rf"({NUMBER}) mm(?![²\w])", re.ASCII),
+    "force_n": re.compile(rf"({NUMBER}) N\b", re.ASCII),
+    "area_fraction": re.compile(rf"({NUMBER}) %", re.ASCII),
+    "x_mm": re.compile(rf"\bx ({NUMBER})", re.ASCII),
+    "y_mm": re.compile(rf"\by ({NUMBER})", re.ASCII),
+}
+
+
+def numbers_by_name(text: str) -> dict[str, float]:
+    """Every number of a description, by its name out of ``cltp.tactile.states.NUMBERS``.
+
+    Depth, x and y in mm, area as a fraction, force in N; of each the first in the text.
+    """
+    matches = {name: pattern.search(text) for name, pattern in _PATTERNS.items()}
+    numbers = {name: float(match[1]) for name, match in matches.items() if match is not None}
+    if "area_fraction" in numbers:
+        numbers["area_fraction"] /= 100
+    return numbers
 
 
 def read_numbers(text: str) -> Sequence[float] | None:
-    """Numbers of a description in the order of ``cltp.tactile.states.NUMBERS``.
+    """The same in the order of ``cltp.tactile.states.NUMBERS``.
 
-    Depth, x and y in mm, area as a fraction, force in N. None when the text has no
-    numbers; position and area are 0 without a contact.
+    None when the text lacks depth or force; position and area are 0 without a contact.
     """
-    match = _NUMBERS.search(text)
-    if match is None:
+    numbers = numbers_by_name(text)
+    if not {"depth_mm", "force_n"} <= numbers.keys():
         return None
-    depth, force, percent, x, y = (float(part or 0) for part in match.groups())
-    return depth, x, y, percent / 100, force
+    return [numbers.get(name, 0.0) for name in NUMBERS]

@@ -29,9 +29,10 @@ from tacgrasp.lessons.dialogue.meaning import (
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.patterns.pattern import draw
 from tacgrasp.lessons.dialogue.plain_words import CONTRACTIONS, MISSPELLINGS
-from tacgrasp.lessons.dialogue.query import asked_text, query_of
+from tacgrasp.lessons.dialogue.query import LostNumberError, asked_text, query_of
 from tacgrasp.lessons.dialogue.question_file import QuestionRow, question_row
 from tacgrasp.lessons.dialogue.scene import AskedScene, band_contract
+from tacgrasp.lessons.slips import slipped
 
 KIND_WEIGHTS: Mapping[AnswerKind, float] = {
     AnswerKind.NUMBER: 0.20,
@@ -45,15 +46,6 @@ KIND_WEIGHTS: Mapping[AnswerKind, float] = {
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
-
-DROPPED, MISSPELLED = 0.15, 0.1
-"""Fractions of learned questions without some of ``FILLERS``, and with a misspelled word."""
-
-FILLERS = frozenset(("a", "an", "the", "this", "that", "please", "now", "right", "it", "of", "on"))
-"""Words whose absence changes no question."""
-
-LEAST_MISSPELLED = 4
-"""Letters of the longest word that is never misspelled: another word would come of it."""
 
 SPOILED = 0.12
 """Fraction of questions with contractions left out, or common misspellings."""
@@ -147,7 +139,7 @@ def _sentence(text: str) -> str:
     """A wording with a capital, and with a sign at its end."""
     if text[-1:] not in "?.":
         text += "." if _REQUEST.match(text) else "?"
-    return f"{text[:1].upper()}{text[1:]}"
+    return re.sub(r"(?:^|(?<=[.?!] ))[a-z]", lambda match: match[0].upper(), text)
 
 
 def spelled(text: str, rng: np.random.Generator) -> str:
@@ -204,8 +196,17 @@ def _felt_or_usual(state: ContactState) -> float:
 def query_exchange(rng: np.random.Generator) -> Exchange:
     """A question about no contact in plain words, and its query, to be learned.
 
-    Some words are left out or misspelled: the question stays the same.
+    Some words are left out, misspelled or exchanged: the question stays the same. A question whose
+    number is read otherwise ('this one and three tenths' is 1.3) is drawn anew.
     """
+    while True:
+        try:
+            return _query_exchange(rng)
+        except LostNumberError:
+            continue
+
+
+def _query_exchange(rng: np.random.Generator) -> Exchange:
     kinds = list(KIND_WEIGHTS)
     kind = kinds[int(rng.choice(len(kinds), p=list(KIND_WEIGHTS.values())))]
     families = families_by_kind()[kind]
@@ -215,22 +216,6 @@ def query_exchange(rng: np.random.Generator) -> Exchange:
     before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
     asked = asked_text(text, before)
     return Exchange(prompt=slipped(asked.words, rng), reply=query_of(meaning, asked.numbers))
-
-
-def slipped(words: str, rng: np.random.Generator) -> str:
-    """Plain words, perhaps without some that mean nothing, perhaps with one misspelled."""
-    kept = words.split()
-    if rng.random() < DROPPED:
-        kept = [word for word in kept if word not in FILLERS or rng.random() < 0.5] or kept
-    if rng.random() < MISSPELLED:
-        place = int(rng.integers(len(kept)))
-        word = kept[place]
-        if len(word) > LEAST_MISSPELLED:
-            at = int(rng.integers(1, len(word) - 1))
-            slips = (word[:at] + word[at + 1 :], word[:at] + word[at] + word[at:])
-            swap = word[:at] + word[at + 1] + word[at] + word[at + 2 :]
-            kept[place] = (*slips, swap)[int(rng.integers(3))]
-    return " ".join(kept)
 
 
 def drawn_rows(

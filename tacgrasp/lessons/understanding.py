@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from statistics import NormalDist
 from typing import NamedTuple, Protocol
@@ -21,9 +21,12 @@ from cltp.llm.constrained.grammar import Grammar
 from cltp.llm.generation import Reply
 from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
-from tacgrasp.lessons.dialogue.meaning import AnswerKind, Meaning, names_of
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.meaning import Amount, AnswerKind, Meaning, names_of
+from tacgrasp.lessons.dialogue.quantities import QUANTITIES
 from tacgrasp.lessons.dialogue.query import asked_text, query_grammar, read_query
 from tacgrasp.lessons.dialogue.scene import AskedScene
+from tacgrasp.lessons.dialogue.tolerances import tolerance_of
 
 PROBABLY_BELOW = 0.6
 """Probability of a word below which an answer says 'probably'. As in D_t."""
@@ -123,7 +126,8 @@ class Answered(NamedTuple):
 
     Attributes:
         answer: The answer.
-        confidence: Probability that the question is understood and the answer right.
+        confidence: Probability that the question is understood and the answer right; of a number,
+            within its usual tolerance (``tacgrasp.lessons.dialogue.tolerances``).
         interval: Of a number, what holds it in nine cases of ten, in its unit; None without one.
     """
 
@@ -153,17 +157,29 @@ def answered(
     told = [(words or {}).get(name, 1.0) for name in names_of(asked.meaning)]
     interval, holds, holds_well = None, 1.0, True
     if given.decidable and given.value is not None and scene.state.in_contact and ends:
-        values = [answer(asked.meaning, each).value for each in _possible(scene, ends)]
+        scenes = list(_possible(scene, ends))
+        values = [answer(asked.meaning, each).value for each in scenes]
         if given.kind is AnswerKind.NUMBER:
             low, high = np.quantile(np.array(values, dtype=np.float64), [0.05, 0.95])
             interval = float(f"{low:.4g}"), float(f"{high:.4g}")
             holds_well = low < 0 or high < DOUBTFUL_RATIO * low
+            holds = _near(asked.meaning, scene, scenes)
         else:
             holds = float(np.mean([value == given.value for value in values]))
             holds_well = holds >= SURE_FROM
     if given.decidable and (min(told, default=1.0) < PROBABLY_BELOW or not holds_well):
         given = replace(given, text=_probably(given))
     return Answered(given, asked.confidence * math.prod(told) * holds, interval)
+
+
+def _near(meaning: Meaning, scene: AskedScene, scenes: Sequence[AskedScene]) -> float:
+    """Fraction of scenes whose number lies within its usual tolerance of what is felt."""
+    if not isinstance(meaning, Amount):
+        return 1.0
+    truth = Expression(QUANTITIES[meaning.quantity].truth)
+    said, *values = (float(truth.evaluate(each.values()).value or 0.0) for each in (scene, *scenes))
+    largest = tolerance_of(truth.names).of(said)
+    return float(np.mean(np.abs(np.array(values) - said) <= largest))
 
 
 def _possible(scene: AskedScene, ends: Mapping[str, tuple[float, float]]) -> Iterator[AskedScene]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
@@ -19,9 +20,9 @@ from torch import Tensor
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLEAN, NOISY
+from cltp.data.sampler import Augmentation
 from cltp.evaluation.features import EncodedContacts
-from cltp.evaluation.probes import ClassProbes, NumberProbe, score_intervals
+from cltp.evaluation.probes import IntervalScale, NumberProbe, score_intervals
 from cltp.evaluation.retrieval import score_retrieval
 from cltp.evaluation.scores import best_classes, score_classes
 from cltp.evaluation.zero_shot import PROMPTINGS, ClassPrompts
@@ -34,7 +35,7 @@ from tacgrasp.pretraining.checkpoints import (
     find_method,
     find_method_of_data,
 )
-from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun
+from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun, probe_scorer
 from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
 from tacgrasp.pretraining.methods import labelled
 from tacgrasp.pretraining.real_touches import RealTouches
@@ -44,8 +45,8 @@ from tacgrasp.pretraining.report.store import Result, save
 TABLES = dict(zip(PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True))
 _FAILURE_TABLES = ("zero_shot", "probe")
 
-Scorer = Callable[[EncodedContacts], Sequence[Tensor]]
-"""Scores of each class by dimension, shape (N, classes)."""
+Scorer = Callable[[EncodedContacts, EvaluatedContacts], Sequence[Tensor]]
+"""Scores of each class of a split's contacts by dimension, shape (N, classes)."""
 
 
 def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, TrainedMethod]:
@@ -130,7 +131,7 @@ def probe(
     Args:
         run: Folders and settings.
         methods: Names; all that were trained when empty.
-        views: How often each training contact is encoded, half of the time without noise.
+        views: How often each training contact is encoded.
         real: Real touches, on which classes alone are measured, in place of the data's contacts.
         predictions: CSV file with a row for each real touch.
 
@@ -141,11 +142,10 @@ def probe(
     results = []
 
     def scorers(name: str, method: TrainedMethod, encoder: FrozenEncoder) -> dict[str, Scorer]:
-        learned = run.encode_training(encoder, views)
         if name == "cltp" and real is None:
-            results.extend(_numbers(run, encoder, learned, method))
+            results.extend(_numbers(run, encoder, views, method))
         named = replace(run.probe_training, report=labelled(run.report, name))
-        return {"probe": ClassProbes(learned, named).probabilities}
+        return {"probe": probe_scorer(run, encoder, views, named)}
 
     splits = [real] if real is not None else run.evaluation_splits()
     trained = trained_methods(run, methods)
@@ -155,7 +155,7 @@ def probe(
 
 
 def _by_prompts(prompts: ClassPrompts) -> Scorer:
-    return lambda encoded: prompts.cosines(encoded.feature)
+    return lambda encoded, _: prompts.cosines(encoded.feature)
 
 
 def _measure_classes(
@@ -179,7 +179,7 @@ def _measure_classes(
         for split in splits:
             encoded = run.encode(encoder, split)
             for table, scorer in by_table.items():
-                scores = scorer(encoded)
+                scores = scorer(encoded, split)
                 accuracy = score_classes(best_classes(scores), encoded.classes)
                 result = run.store_scores(table, name, method, split, accuracy)
                 results.append(result)
@@ -196,20 +196,24 @@ def _measure_classes(
 
 
 def _numbers(
-    run: EvaluationRun, encoder: FrozenEncoder, learned: EncodedContacts, method: TrainedMethod
+    run: EvaluationRun, encoder: FrozenEncoder, views: int, method: TrainedMethod
 ) -> list[Result]:
     """Numbers, with intervals calibrated on the validation split with each split's noise."""
     names = ContactDataset(run.data, split=Split.TRAIN).column("object")
-    objects = torch.from_numpy(np.unique(names, return_inverse=True)[1])[learned.index]
-    probe = NumberProbe(learned, objects, run.probe_training)
-    scales = {
-        str(noise): probe.calibrate(run.encode_split(encoder, Split.VALIDATION, noise, views=2))
-        for noise in (CLEAN, NOISY)
-    }
+    objects = torch.from_numpy(np.unique(names, return_inverse=True)[1])
+
+    @lru_cache
+    def fitted(learning: Augmentation, noise: Augmentation) -> tuple[NumberProbe, IntervalScale]:
+        learned = run.encode_split(encoder, Split.TRAIN, learning, views=views)
+        probe = NumberProbe(learned, objects[learned.index], run.probe_training)
+        held_out = run.encode_split(encoder, Split.VALIDATION, noise, views=2)
+        return probe, probe.calibrate(held_out)
+
     results = []
     for split in run.evaluation_splits():
         encoded = run.encode(encoder, split)
-        values = score_intervals(probe.intervals(encoded, scales[str(split.noise)]), encoded)
+        probe, scale = fitted(split.probe_noise, split.noise)
+        values = score_intervals(probe.intervals(encoded, scale), encoded)
         result = run.result("numbers", "cltp", method, split.name, len(encoded), values)
         results.append(run.store(result))
     return results

@@ -3,18 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from pathlib import Path
+
+from torch import Tensor
 
 from cltp.checkpoints.frozen import FrozenEncoder
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
 from cltp.data.sampler import Augmentation
 from cltp.evaluation.features import EncodedContacts, encode_contacts
-from cltp.evaluation.probes import ProbeTraining
+from cltp.evaluation.probes import ClassProbes, ProbeTraining
 from cltp.evaluation.scores import ClassScores
-from cltp.evaluation.splits import LEARNING_NOISE, EvaluationSplit, evaluation_splits
+from cltp.evaluation.splits import PROBE_NOISE, EvaluationSplit, evaluation_splits
 from cltp.train.stage import ProgressReport, silent
 from tacgrasp.pretraining.checkpoints import TrainedMethod
 from tacgrasp.pretraining.real_touches import RealTouches
@@ -65,10 +68,6 @@ class EvaluationRun:
         if isinstance(split, RealTouches):
             return split.encode(encoder)
         return self.encode_split(encoder, split.split, split.noise, limit=self.limit)
-
-    def encode_training(self, encoder: FrozenEncoder, views: int) -> EncodedContacts:
-        """Features of the training split, half of the views without noise."""
-        return self.encode_split(encoder, Split.TRAIN, LEARNING_NOISE, views=views)
 
     def encode_split(
         self,
@@ -158,3 +157,24 @@ class EvaluationRun:
         if result is None or (result.data, result.contacts) != (expected.data, contacts):
             return None
         return result
+
+
+def probe_noise(split: EvaluatedContacts) -> Augmentation:
+    """Noise of the contacts that probes of a split learn from."""
+    return PROBE_NOISE if isinstance(split, RealTouches) else split.probe_noise
+
+
+def probe_scorer(
+    run: EvaluationRun, encoder: FrozenEncoder, views: int, training: ProbeTraining
+) -> Callable[[EncodedContacts, EvaluatedContacts], list[Tensor]]:
+    """Probabilities of the classes of a split's contacts by probes on frozen features.
+
+    Probes of splits with noise learn with noise, those of splits without learn without; each kind
+    is trained when it is first asked for.
+    """
+
+    @lru_cache
+    def learned(noise: Augmentation) -> ClassProbes:
+        return ClassProbes(run.encode_split(encoder, Split.TRAIN, noise, views=views), training)
+
+    return lambda encoded, split: learned(probe_noise(split)).probabilities(encoded)

@@ -17,13 +17,12 @@ from cltp.data.sampler import Sampler
 from cltp.evaluation.features import numbered_batches, selected_rows
 from cltp.evaluation.geometric_baseline import predict_geometrically
 from cltp.evaluation.heights_alone import HeightsAlone
-from cltp.evaluation.probes import ClassProbes
 from cltp.evaluation.scores import ClassScores, best_classes, score_classes
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import MEASURABLE
 from cltp.train.text_targets import class_numbers
 from tacgrasp.pretraining.checkpoints import TrainedMethod
-from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun
+from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun, probe_scorer
 from tacgrasp.pretraining.real_touches import RealTouches
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, USUAL_VARIANTS, Result
 
@@ -84,10 +83,10 @@ def heights_alone(run: EvaluationRun, views: int) -> list[Result]:
     stored = [result for split in splits if (result := run.stored(*row, split)) is not None]
     if len(stored) == len(splits):
         return stored
-    probes = ClassProbes(run.encode_training(encoder, views), run.probe_training)
+    scorer = probe_scorer(run, encoder, views, run.probe_training)
     results = []
     for split in splits:
         encoded = run.encode(encoder, split)
-        scores = score_classes(best_classes(probes.probabilities(encoded)), encoded.classes)
+        scores = score_classes(best_classes(scorer(encoded, split)), encoded.classes)
         results.append(run.store_scores(*row, split, scores.restricted(READ_FROM_HEIGHTS)))
     return results

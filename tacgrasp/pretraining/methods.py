@@ -20,6 +20,7 @@ import torch
 from rich.console import Console
 
 from cltp.atomic_write import write_atomically
+from cltp.checkpoints.manifest import manifest_digest
 from cltp.data.dataset import ContactDataset
 from cltp.encoder.encoder import PRESETS
 from cltp.evaluation.splits import LEARNING_NOISE
@@ -74,6 +75,7 @@ def pretrain(
     preset: str | None = None,
     recipe: CltpRecipe | None = None,
     also: Path | None = None,
+    also_fraction: float | None = None,
     start: Path | None = None,
 ) -> Path:
     """Train one method behind the towers in ``run.out / "clip"``.
@@ -85,6 +87,7 @@ def pretrain(
         preset: Encoder, out of ``cltp.encoder.encoder.PRESETS``; the method's own when not given.
         recipe: What CLTP minimises.
         also: A further data set that CLTP learns from.
+        also_fraction: Fraction of it in each batch; None draws every contact equally often.
         start: Folder of weights whose encoder CLTP trains on, behind its towers.
 
     Returns:
@@ -104,7 +107,13 @@ def pretrain(
     folder = run.out / method
     run.announce(method, folder / "encoder")
     config, clip = PRESETS[preset], run.out / "clip"
-    training = replace(run, out=folder, report=labelled(run.report, method))
+    training = replace(
+        run,
+        out=folder,
+        report=labelled(run.report, method),
+        also=() if also is None else (also,),
+        also_fraction=also_fraction,
+    )
     if start is not None and not clip.exists():
         shutil.copytree(start / "clip", clip)
     if method in ALIGNED_METHODS:
@@ -114,7 +123,6 @@ def pretrain(
             schedule,
             recipe,
             with_images=method == "cltp",
-            also=() if also is None else (also,),
             augmentation=LEARNING_NOISE,
             clip_dir=clip,
             start=None if start is None else start / "encoder",
@@ -138,6 +146,9 @@ def pretrain(
         }
         if also is not None:
             about["also"] = ContactDataset(also).checksum()
+            about["also_fraction"] = also_fraction
+        if start is not None:
+            about["start"] = manifest_digest(start / "encoder")
         _write_about(folder / ABOUT, about)
     return folder
 

@@ -5,6 +5,7 @@ Not here: the contracts of arm and gripper (``primitives.devices``).
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from cltp.sensing.frames import Frame
@@ -91,6 +92,32 @@ class ShearSensor(Protocol):
 
         None where the unit measures none, and before the first cloud.
         """
+
+
+@runtime_checkable
+class StreamingShearSensor(Protocol):
+    """A sensor of shear whose newest frame can be had at once, for a reflex."""
+
+    def newest_shear(self) -> ShearField | None:
+        """The shear field of the newest frame, without waiting; None where there is none.
+
+        Its stamp tells when it was captured: it may be old.
+
+        Raises:
+            TouchError: The sensor has failed, or the frame shows no gel.
+        """
+
+
+@runtime_checkable
+class CallingClock(Protocol):
+    """A clock of a simulated world, which calls back in the middle of motions and waits."""
+
+    def call_every(self, period_s: float, call: Callable[[], None] | None) -> None:
+        """Call a function each period of simulated time [s]; None ends it."""
+
+    @property
+    def simulated_s(self) -> float:
+        """Simulated time so far [s]."""
 
 
 class Clock(Protocol):

@@ -78,6 +78,7 @@ class EventFile:
                 "sent": None if executed is None else executed.sent,
                 "clamped": [] if executed is None else list(executed.clamped),
                 "note": record.note,
+                "reflex": None if record.reflex is None else record.reflex.text,
             },
         )
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from itertools import count
 from typing import Protocol
@@ -28,6 +29,7 @@ from tacgrasp.episodes.record import EpisodeEnd, Need, StepPhase, StepRecord
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import CameraSensor, Rig, ShearSensor
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
+from tacgrasp.runtime.reflex_loop import ReflexLoop
 
 
 class Recorder(Protocol):
@@ -166,6 +168,7 @@ class Steps:
         peak_felt_n: Largest force felt at a step so far [N]; None before any was felt.
         force_mark: Mark of the sensor's forces; empty for a calibrated unit.
         started_s: Start of the episode on the rig's monotonic clock [s].
+        reflex: Keeps the contract between two decisions; None for none.
     """
 
     def __init__(
@@ -175,7 +178,9 @@ class Steps:
         recorder: Recorder,
         observers: Sequence[Observer],
         sense: GelSense | None = None,
+        reflex: ReflexLoop | None = None,
     ) -> None:
+        self.reflex = reflex
         self._rig, self._bounds, self._sense = rig, bounds, sense
         self._recorder, self._observers = recorder, observers
         self.num_steps = self.num_actions = self.num_empty = 0
@@ -291,6 +296,7 @@ class Steps:
             need=self._need,
             camera_jpeg=None if step.observation.frame is None else jpeg_of(step.observation.frame),
             shear=step.observation.shear,
+            reflex=None if self.reflex is None else self.reflex.take_trace(),
         )
         self._notes, self._new_contract, self._need = [], None, None
         self._recorder.write_step(record)
@@ -304,6 +310,15 @@ class Steps:
         if observation.felt_force_n is not None:
             self.peak_felt_n = max(self.peak_felt_n or 0.0, observation.felt_force_n.value)
             self.force_mark = observation.cloud.force_scale.mark
+
+    def keeping(self, contract: Contract, felt: Interval | None) -> AbstractContextManager[None]:
+        """The reflex keeps the contract while the block moves the arm or waits; without, nothing.
+
+        Raises:
+            TouchError: As ``ReflexLoop.keeping``.
+            RobotError: Likewise.
+        """
+        return nullcontext() if self.reflex is None else self.reflex.keeping(contract, felt)
 
     def record_cut_short(self, step: Step | None, message: str) -> None:
         """Record a step that the end of the episode interrupted before its own record began.

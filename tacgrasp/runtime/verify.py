@@ -48,10 +48,11 @@ def verify_by_lifting(
         check_workspace(pose, config.limits())
     before = steps.observe(StepPhase.VERIFY_BEFORE)
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
-    _move(rig, lifted, settings, settings.acceleration_m_s2)
-    for pose in shake:
-        _move(rig, pose, settings, settings.shake_acceleration_m_s2)
-    rig.clock.sleep(settings.hold_s)
+    with steps.keeping(contract, before.felt_force_n):
+        _move(rig, lifted, settings, settings.acceleration_m_s2)
+        for pose in shake:
+            _move(rig, pose, settings, settings.shake_acceleration_m_s2)
+        rig.clock.sleep(settings.hold_s)
     after = steps.observe(StepPhase.VERIFY_AFTER)
     verification = compare(before, after, settings, slip_mm=contract.slip_mm)
     if not verification.passed:

@@ -11,8 +11,29 @@ from typing import Annotated, Literal
 
 import tyro
 
-from cltp.train.recipes import HEADS_SCHEDULE, StockRecipe
+from cltp.train.recipes import ALSO_FRACTION, HEADS_SCHEDULE, StockRecipe
 from tacgrasp.base.errors import UsageError
+
+
+def check_mixture(also: Path | None, fraction: float | None) -> None:
+    """Refuse a fraction of nothing, or one that leaves out one of the two data sets.
+
+    Raises:
+        UsageError: A fraction without a further data set, or not between 0 and 1.
+    """
+    if fraction is None:
+        return
+    if also is None:
+        raise UsageError("--also-fraction is of a further data set; name it with --also")
+    if not 0 < fraction < 1:
+        raise UsageError(f"--also-fraction must lie between 0 and 1, got {fraction:g}")
+
+
+def also_fraction(also: Path | None, fraction: float | None, start: Path | None) -> float | None:
+    """Fraction of a further data set in each batch; None draws every contact equally often."""
+    if also is None or fraction is not None or start is None:
+        return fraction
+    return ALSO_FRACTION
 
 
 @dataclass(frozen=True)
@@ -60,7 +81,7 @@ class TrainAllRequest:
     Attributes:
         out: Folder of weights; checkpoints and pre-training lie in its .training.
         data: Folder of contacts; missing ones are generated first.
-        contacts: Number of contacts.
+        contacts: Number of contacts. Default: those of a complete data set, else 120000.
         seed: Random seed of data, weights, order, noise and wordings.
         threads: Threads of torch; one for each core when not given.
         precision: Precision of matrix products.
@@ -68,7 +89,7 @@ class TrainAllRequest:
 
     out: Path = Path("weights")
     data: Path = Path("runs/full")
-    contacts: int = 120_000
+    contacts: int | None = None
     seed: int = 0
     threads: int | None = None
     precision: Literal["no", "bf16"] = "no"
@@ -91,8 +112,12 @@ class TrainLlmRequest(TrainAllRequest):
         heads_steps: Optimiser steps of these heads.
         blind_of: Folder of weights; trains an instruction-blind copy behind its encoder, for
             tacgrasp eval --blind.
-        start: Folder of weights, such as policies/weights, whose projector and language model are
+        start: Folder of weights, or the word shipped, whose projector and language model are
             trained on, in fewer steps, instead of random ones.
+        joint_steps: Optimiser steps with --start. Default: 1200; 400 with --also.
+        also: Folder of a further data set to learn from, such as contacts of one's own.
+        also_fraction: Fraction of it in each batch, between 0 and 1. Default: 0.5 with --start;
+            without, the contacts of both sets come equally often.
     """
 
     lm: Path | None = None
@@ -102,8 +127,12 @@ class TrainLlmRequest(TrainAllRequest):
     heads_steps: int = HEADS_SCHEDULE.steps
     blind_of: Path | None = None
     start: Path | None = None
+    joint_steps: int | None = None
+    also: Path | None = None
+    also_fraction: float | None = None
 
     def __post_init__(self) -> None:
+        check_mixture(self.also, self.also_fraction)
         sources = {
             "--methods": self.methods,
             "--encoder": self.encoder,
@@ -124,3 +153,5 @@ class TrainLlmRequest(TrainAllRequest):
             )
         if self.lm is not None and self.start is not None:
             raise UsageError("--lm and --start both name a language model; give one")
+        if self.joint_steps is not None and (self.start is None or self.joint_steps < 1):
+            raise UsageError("--joint-steps must be at least 1, and is for training on by --start")

@@ -13,6 +13,7 @@ import os
 import platform
 import shutil
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import torch
@@ -20,9 +21,8 @@ from rich.console import Console
 from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
-from cltp.checkpoints.base_lm import BaseLm, is_stock, move_base
+from cltp.checkpoints.base_lm import BaseLm, is_stock
 from cltp.checkpoints.card import PARTS, write_card
-from cltp.checkpoints.layout import renew_layout
 from cltp.checkpoints.manifest import write_manifest
 from cltp.checkpoints.tac3d_llm import (
     load_clip,
@@ -34,23 +34,28 @@ from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.llm.causal_lm import Language
 from cltp.texts.tokenizer import Words
 from cltp.train.distributed import joined_workers
-from cltp.train.llm import train_llm, train_words
+from cltp.train.llm import FINE_TUNING, OWN_STEPS, train_llm, train_words
 from cltp.train.progress import Bar
+from cltp.train.recipes import Schedule
 from cltp.train.stage import TrainingRun
 from cltp.train.stock.llm import load_base, train_stock_llm
 from tacgrasp.base.errors import UsageError
-from tacgrasp.datasets.generate import generate
+from tacgrasp.datasets.generate import generate, is_complete
 from tacgrasp.datasets.requests import GenerateRequest
 from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.lessons.exchanges import TouchLessons, known_words
+from tacgrasp.policy_factory import named_weights
 from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
 from tacgrasp.pretraining.run_all import pretraining_run
 from tacgrasp.training.other_encoder import take_other_encoder
-from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest
+from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest, also_fraction
 
 PRETRAINED = "pretraining.json"
 """File beside the encoder: how it was pre-trained."""
+
+DEFAULT_CONTACTS = 120_000
+"""Contacts that are generated where no number is given: those of the set full."""
 
 BLIND_MARK = Path(".training") / "blind"
 """File in the folder of an instruction-blind copy, so that nobody trains on in it by mistake."""
@@ -68,10 +73,10 @@ def train_all(request: TrainAllRequest, command: str) -> None:
     """
     out, data, seed, threads = request.out, request.data, request.seed, request.threads
     _require_mark(out, blind=False)
-    generate(GenerateRequest(out=data, set="full", contacts=request.contacts, seed=seed))
+    contacts = _contacts(request)
     methods = out / ".training" / "methods"
     # Tells encoders apart (``take_pretrained``): folders and threads may change when it goes on.
-    identity = f"tacgrasp train all --contacts {request.contacts} --seed {seed}"
+    identity = f"tacgrasp train all --contacts {contacts} --seed {seed}"
     with pretraining_run(
         methods,
         data,
@@ -95,8 +100,8 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         UsageError: ``request.out`` holds other weights.
         TouchError: Data, weights or a checkpoint can't be used.
     """
-    out, data, contacts, seed = request.out, request.data, request.contacts, request.seed
-    methods, blind_of = request.methods, request.blind_of
+    out, data, seed = request.out, request.data, request.seed
+    methods, blind_of, start = request.methods, request.blind_of, named_weights(request.start)
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
     base = _base(request)
@@ -107,20 +112,36 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         take_encoder(blind_of, out)
     _require_mark(out, blind=blind_of is not None)
     Console(soft_wrap=True).print(f"llm: writing {out}", markup=False, highlight=False)
-    generate(GenerateRequest(out=data, set="full", contacts=contacts, seed=seed))
-    check_trainable(ContactDataset(data))
+    contacts = _contacts(request)
+    for learned in filter(None, (data, request.also)):
+        check_trainable(ContactDataset(learned))
     torch.set_num_threads(request.threads or os.cpu_count() or 1)
     lessons = TouchLessons(blind=blind_of is not None)
     with Bar() as report:
         workers = joined_workers(request.precision)
-        run = TrainingRun(data=data, out=out, seed=seed, report=report, workers=workers)
+        run = TrainingRun(
+            data=data,
+            out=out,
+            seed=seed,
+            report=report,
+            workers=workers,
+            also=() if request.also is None else (request.also,),
+            also_fraction=also_fraction(request.also, request.also_fraction, start),
+        )
         if request.encoder is not None:
             take_other_encoder(request.encoder, run, request.heads_steps)
         if base is not None:
             train_stock_llm(run, *base, lessons, request.recipe, augmentation=LEARNING_NOISE)
         else:
-            words = _words(request)
-            train_llm(run, words, lessons, augmentation=LEARNING_NOISE, start=request.start)
+            words = _words(request, start)
+            train_llm(
+                run,
+                words,
+                lessons,
+                None if start is None else _tuning(request),
+                augmentation=LEARNING_NOISE,
+                start=start,
+            )
     if _digest(out) == before or not workers.is_first:
         return  # nothing was left to do: the card with its scores still holds
     facts = {
@@ -128,6 +149,7 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         "seed": str(seed),
         "contacts": str(contacts),
         "data checksum": ContactDataset(data).checksum(),
+        **_about_also(request),
         "torch": torch.__version__,
         "python": platform.python_version(),
         "last run took": f"{(time.monotonic() - began_s) / 60:.0f} min",
@@ -150,9 +172,10 @@ def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
         UsageError: It is named in the wrong way, or there is no encoder to stand before it.
         TouchError: As ``cltp.train.stock.llm.load_base``.
     """
-    if request.start is not None and is_stock(request.start / "lm"):
+    start = named_weights(request.start)
+    if start is not None and is_stock(start / "lm"):
         raise UsageError(
-            f"--start {request.start} was trained behind a language model of others; name that one "
+            f"--start {start} was trained behind a language model of others; name that one "
             "with --lm instead"
         )
     if request.lm is None:
@@ -165,10 +188,43 @@ def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
     return load_base(request.lm, request.recipe, request.precision)
 
 
-def _words(request: TrainLlmRequest) -> Words:
+def _tuning(request: TrainLlmRequest) -> dict[str, Schedule]:
+    """The stages of a training that starts from other weights."""
+    joint, steps = FINE_TUNING["joint"], request.joint_steps
+    if steps is None:
+        steps = joint.steps if request.also is None else OWN_STEPS
+    return {"joint": replace(joint, steps=steps)}
+
+
+def _contacts(request: TrainAllRequest) -> int:
+    """Make the data where they are missing; the number of their contacts.
+
+    A complete data set is taken as it is where no number was asked for.
+
+    Raises:
+        UsageError: The folder holds the data of another command.
+        TouchError: It is no data set of this version, or can't be written.
+    """
+    data, contacts = request.data, request.contacts
+    if contacts is None and (data / "dataset.json").exists() and is_complete(data):
+        return len(ContactDataset(data))
+    contacts = DEFAULT_CONTACTS if contacts is None else contacts
+    generate(GenerateRequest(out=data, set="full", contacts=contacts, seed=request.seed))
+    return contacts
+
+
+def _about_also(request: TrainLlmRequest) -> dict[str, str]:
+    """What the model card says of a further data set."""
+    if request.also is None:
+        return {}
+    data = ContactDataset(request.also)
+    return {"also learned from": f"{len(data)} contacts, data checksum {data.checksum()}"}
+
+
+def _words(request: TrainLlmRequest, start: Path | None) -> Words:
     """The tokenizer of our own model."""
-    if request.start is not None:
-        return Words.load(request.start / "lm")
+    if start is not None:
+        return Words.load(start / "lm")
     # the same data and seed give the same words
     return train_words(request.data, TouchLessons(), seed=request.seed, whole=known_words())
 
@@ -225,55 +281,6 @@ def take_encoder(source: Path, out: Path) -> None:
     (out / BLIND_MARK).touch()
     if not (out / "encoder").exists():
         shutil.copytree(source / "encoder", out / "encoder")
-
-
-def write_manifests(weights: Path) -> None:
-    """Write the manifest of every part of a folder of weights, as its files are now.
-
-    Raises:
-        UsageError: It has no part, or a manifest can't be written.
-    """
-    parts = [weights / name for name in PARTS if (weights / name).is_dir()]
-    if not parts:
-        raise UsageError(f"--weights {weights} has none of {', '.join(PARTS)}")
-    whole = all((weights / name).is_dir() for name in ("encoder", "lm"))
-    try:
-        for part in sorted(parts, key=lambda part: part.name == "projector"):  # it names others
-            partners = ("encoder", "lm") if part.name == "projector" and whole else ()
-            write_manifest(part, trained_with=partners)
-    except OSError as error:
-        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
-
-
-def name_base(weights: Path, folder: Path) -> None:
-    """Name the folder of the language model that weights were trained behind, which was moved.
-
-    Raises:
-        UsageError: It can't be written.
-        TouchError: As ``cltp.checkpoints.base_lm.move_base``.
-    """
-    try:
-        base = move_base(weights, folder)
-    except OSError as error:
-        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
-    line = f"base: {weights} stands behind the {base.model_type} in {base.path}"
-    Console(soft_wrap=True).print(line, markup=False, highlight=False)
-
-
-def renew_weights(weights: Path) -> None:
-    """Bring a folder of weights into today's layout, and print what was written.
-
-    Raises:
-        UsageError: It can't be written.
-        TouchError: As ``cltp.checkpoints.layout.renew_layout``.
-    """
-    try:
-        parts = renew_layout(weights)
-    except OSError as error:
-        raise UsageError(f"{weights} can't be written: {error.strerror or error}") from None
-    size_mb = sum(size_bytes(weights / name) for name in parts) / 1e6
-    line = f"layout: {weights} with {', '.join(parts)}, {size_mb:.1f} MB"
-    Console(soft_wrap=True).print(line, markup=False, highlight=False)
 
 
 def _digest(out: Path) -> str:

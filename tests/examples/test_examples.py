@@ -1,14 +1,16 @@
 """Every numbered example is short and does what it shows."""
 
 import importlib.util
+import json
 import runpy
 import sys
 
 import pytest
 
-from tests.paths import ROOT
+from tests.paths import ROOT, SHARED_DATA
 
 EXAMPLES = ROOT / "examples"
+BALLS = SHARED_DATA / "gelsight_mini_balls"
 FILES = sorted(path.name for path in EXAMPLES.glob("[0-9]*.py"))
 
 SHOWN = {
@@ -67,10 +69,16 @@ def test_the_exported_table_has_a_row_for_each_step(here, monkeypatch):
 
 
 @pytest.mark.slow
-def test_an_encoder_is_trained_on_own_contacts(here, monkeypatch, capsys):
-    run("11_train_an_encoder.py", "40", "2", monkeypatch=monkeypatch)
-    assert "thousand parameters" in capsys.readouterr().out
-    assert (here / "trained" / "cltp" / "encoder" / "manifest.json").is_file()
+@pytest.mark.skipif(not BALLS.is_dir(), reason=f"no real frames in {BALLS}")
+def test_the_shipped_weights_are_trained_on_own_contacts(here, monkeypatch, capsys):
+    few = ["--contacts", "24", "--ours", "40", "--steps", "2", "--joint-steps", "2"]
+    run("11_train_on_your_own.py", "--frames", str(BALLS), *few, monkeypatch=monkeypatch)
+    assert "your own, held out" in capsys.readouterr().out
+    assert (here / "weights" / "projector" / "manifest.json").is_file()
+    rows = json.loads((here / "own.json").read_text())
+    assert {row["reader"] for row in rows} == {"heads", "zero_shot", "captions"}
+    own = next(row for row in rows if row["contacts"] == "own")
+    assert own["count"]["shape"] >= own["count"]["depth"] > 0
 
 
 @pytest.mark.skipif(
@@ -85,4 +93,4 @@ def test_a_policy_is_trained_in_gymnasium_for_200_steps(here, monkeypatch, capsy
 
 
 def test_every_example_is_run_by_a_test():
-    assert set(FILES) == {*SHOWN, "10_train_in_gym.py", "11_train_an_encoder.py"}
+    assert set(FILES) == {*SHOWN, "10_train_in_gym.py", "11_train_on_your_own.py"}

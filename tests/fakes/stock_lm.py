@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import torch
+import transformers
 from tokenizers import Tokenizer, models, pre_tokenizers, trainers
 from tokenizers.decoders import ByteLevel as ByteLevelDecoder
 from transformers import (
@@ -71,9 +72,8 @@ def save_stock_lm(folder: Path, kind: str, *, seed: int = 0) -> Path:
             "out_hidden_size": 32,
             "fullatt_block_indexes": [0],
         }
-        config = Qwen2_5_VLConfig(
-            text_config={**sizes, "rope_parameters": rope}, vision_config=vision
-        )
+        name = "rope_scaling" if transformers.__version__.startswith("4.") else "rope_parameters"
+        config = Qwen2_5_VLConfig(text_config={**sizes, name: rope}, vision_config=vision)
         model = Qwen2_5_VLForConditionalGeneration(config)
     model.save_pretrained(folder)
     save_tokenizer(folder)

@@ -1,4 +1,4 @@
-"""tacgrasp from Python, and the ten lines of the README."""
+"""tacgrasp from Python, and the ten lines of its page."""
 
 import re
 import subprocess
@@ -13,13 +13,13 @@ from tacgrasp.episodes import read_episode
 from tests.paths import ROOT
 
 
-def test_the_lines_of_the_readme_run_an_episode_and_read_its_outcome(tmp_path, monkeypatch, capsys):
-    text = (ROOT / "README.md").read_text(encoding="utf-8")
+def test_the_lines_of_the_page_run_an_episode_and_read_its_outcome(tmp_path, monkeypatch, capsys):
+    text = (ROOT / "docs/api.md").read_text(encoding="utf-8")
     code = re.search(r"```python\n(.*?)```", text, re.S)[1]
     assert len(code.strip().splitlines()) <= 10
     monkeypatch.chdir(tmp_path)
     names: dict[str, object] = {}
-    exec(compile(code, "README.md", "exec"), names)
+    exec(compile(code, "docs/api.md", "exec"), names)
     assert "success" in capsys.readouterr().out
     (path,) = (tmp_path / "episodes").glob("*.mcap")
     assert read_episode(path).end.reason == "success"

@@ -155,16 +155,24 @@ class _States:
         self._fed: list[int] = []
         self._states: list[Tensor] = []
 
-    def after(self, said: list[int], rest: Sequence[int]) -> Tensor:
-        """The state behind some tokens.
+    def scores(
+        self, said: list[int], tokens: Sequence[int], rest: Sequence[int] | None
+    ) -> list[float]:
+        """Logits of some tokens behind a reply.
 
         Args:
             said: The tokens of the reply so far.
-            rest: What is expected to follow; it is fed along if a pass is needed.
+            tokens: Those that may follow.
+            rest: What is expected to follow; it is fed along if a pass is needed. None for logits
+                from a single pass over the inputs and the reply so far.
 
         Raises:
             _FullError: There are too many tokens.
         """
+        state = self._anew(said) if rest is None else self._after(said, rest)
+        return self._decoder.scores(state, tokens)
+
+    def _after(self, said: list[int], rest: Sequence[int]) -> Tensor:
         if self._states and self._fed[: len(said)] == said:
             return self._states[len(said)]
         pairs = zip(said, self._fed, strict=False)
@@ -184,12 +192,7 @@ class _States:
         self._fed[same:] = ahead
         return self._states[len(said)]
 
-    def scores(self, state: Tensor, tokens: Sequence[int]) -> list[float]:
-        """Logits of some tokens behind a state."""
-        return self._decoder.scores(state, tokens)
-
-    def anew(self, said: list[int]) -> Tensor:
-        """The same from a single pass over the inputs and these tokens."""
+    def _anew(self, said: list[int]) -> Tensor:
         if len(self._inputs) + len(said) > self._decoder.longest:
             raise _FullError
         self.passes += 1
@@ -437,10 +440,9 @@ class _Run:
 
     def _scores(self, tokens: Sequence[int], *, anew: bool = False) -> list[float]:
         """Logits of some tokens behind the reply so far."""
-        if anew:
-            return self.states.scores(self.states.anew(self.said), tokens)
-        rest = self.draft.rest(self.said, self._name, len(self.said) - self._begin)
-        return self.states.scores(self.states.after(self.said, rest), tokens)
+        num_said = len(self.said) - self._begin
+        rest = None if anew else self.draft.rest(self.said, self._name, num_said)
+        return self.states.scores(self.said, tokens, rest)
 
 
 def _index(node: Node) -> int:

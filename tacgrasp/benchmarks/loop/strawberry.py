@@ -1,6 +1,6 @@
 """``tacgrasp bench strawberry``: each policy in the same simulated episodes, against the truth.
 
-The README has the rules, ``contestants`` the policies. Rates have Wilson intervals.
+docs/results.md has the rules, ``contestants`` the policies. Rates have Wilson intervals.
 """
 
 from __future__ import annotations

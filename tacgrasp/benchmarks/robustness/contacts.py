@@ -25,6 +25,7 @@ from cltp.data.dataset_writer import DatasetWriter
 from cltp.data.placement import Placement, move
 from cltp.data.sampler import Augmentation, Batch, Sampler
 from cltp.errors import TouchError
+from cltp.evaluation.exact_observer import observed_state
 from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import sensor_named
@@ -34,7 +35,6 @@ from sim.gel.layer import GelMaterial, gel_of
 from sim.grasp.force_calibration import drawn_force_calibration
 from sim.grasp.rig import BENCHMARK_SEED
 from tacgrasp.benchmarks.robustness.conditions import GEL_NUISANCES, SENSOR, Condition
-from tacgrasp.benchmarks.robustness.exact_observer import observed_state
 
 SEED = 0
 """Seed of the choice of contacts and of their noise."""

@@ -1,8 +1,9 @@
 """``tacgrasp bench robustness``: each nuisance of a sensor at each level, all others nominal.
 
 Heads and captions read contacts, policies grasp; beside each figure stands its limit: what an
-observer with exact heights reads (``exact_observer``), or how often the oracle's grasp is verified
-under the same condition. Seeds are paired: every condition has the same contacts, bodies and draws.
+observer with exact heights reads (``cltp.evaluation.exact_observer``), or how often the oracle's
+grasp is verified under the same condition. Seeds are paired: every condition has the same contacts,
+bodies and draws.
 """
 
 from __future__ import annotations

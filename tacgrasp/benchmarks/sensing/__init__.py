@@ -3,5 +3,5 @@
 Not here: scores of learned models on data sets (``tacgrasp.training``).
 
 May import: cltp, sim.gel, sim.grasp, tacgrasp, tacgrasp.base, tacgrasp.benchmarks,
-tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.lessons, tacgrasp.rig.
+tacgrasp.benchmarks.loop, tacgrasp.bringup, tacgrasp.config, tacgrasp.rig.
 """

@@ -4,7 +4,7 @@ The frames are presses of a ball; their heights outside the contacts should be f
 correlation and spectrum of what they are instead are measured, against the background and from
 frame to frame, and what an ideal detector of contacts could do with that noise.
 
-Not here: errors under the ball (``tacgrasp.benchmarks.sensing.balls``), the noise that the
+Not here: errors under the ball (``tacgrasp.benchmarks.balls.heights``), the noise that the
 simulator draws (``cltp.tactile.sensor_noise``), which is set from these figures.
 """
 

@@ -272,7 +272,8 @@ class TaxelArray:
 
         try:
             self._port.write(data)
-        except (SerialException, OSError) as error:
+        # pyserial writes to no file where the reading thread closes the port meanwhile
+        except (SerialException, OSError, TypeError) as error:
             message = f"{self._name} was unplugged, or its port failed: {error}"
             self._latest.fail(message)
             raise TouchError(message) from None

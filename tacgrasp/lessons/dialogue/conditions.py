@@ -3,6 +3,7 @@
     depth > 300 µm      force 1 - 2 N       offset_x <= 2 mm
     shape ring          depth >= deep       force within        left
     slips 30 g          stays given
+    twice force over    half force within   force 1.2 +- 0.1 N
 
 Not here: wordings (``tacgrasp.lessons.dialogue.families``), queries
 (``tacgrasp.lessons.dialogue.query``).
@@ -20,6 +21,17 @@ from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
 IN_BAND = "band_low_n <= force_n <= band_high_n"
 
+TIMES: Mapping[str, float] = {"half": 0.5, "twice": 2.0, "thrice": 3.0}
+"""Multiples of the felt force that are judged as the force is."""
+
+_FORCE_STATES: Mapping[str, tuple[str, str]] = {
+    "force within": (IN_BAND, "force_band"),
+    "force below": ("force_n < band_low_n", "force_band"),
+    "force above": ("force_n > band_high_n", "force_band"),
+    "force enough": ("force_n >= band_low_n", "force_band"),
+    "force over": ("force_n > limit_n", "force"),
+    "force under": ("force_n <= limit_n", "force"),
+}
 STATES: Mapping[str, tuple[str, str]] = {
     "touched": ("contact", "contact"),
     "empty": ("not contact", "contact"),
@@ -31,12 +43,12 @@ STATES: Mapping[str, tuple[str, str]] = {
     "bottom": ("y_mm < 0", "y"),
     "wider": ("abs(x_mm) > abs(y_mm)", "x"),
     "higher": ("abs(y_mm) > abs(x_mm)", "y"),
-    "force within": (IN_BAND, "force_band"),
-    "force below": ("force_n < band_low_n", "force_band"),
-    "force above": ("force_n > band_high_n", "force_band"),
-    "force enough": ("force_n >= band_low_n", "force_band"),
-    "force over": ("force_n > limit_n", "force"),
-    "force under": ("force_n <= limit_n", "force"),
+    **_FORCE_STATES,
+    **{
+        f"{name} {state}": (condition.replace("force_n", f"{factor:g} * force_n"), "force")
+        for name, factor in TIMES.items()
+        for state, (condition, _) in _FORCE_STATES.items()
+    },
 }
 """Expression of each state, and the fact that an answer names."""
 
@@ -79,6 +91,7 @@ WORD_FACTS = {
 _COMPARED = re.compile(r"(\w+) (>=|<=|>|<) (\S+) (\S+)")
 _RANKED = re.compile(r"(depth|area) (>=|<=|>|<) ([a-z ]+)")
 _BETWEEN = re.compile(r"(\w+) (\S+) - (\S+) (\S+)")
+_NEAR = re.compile(r"(\w+) (\S+) \+- (\S+) (\S+)")
 _FATE = re.compile(rf"({'|'.join(FATES)}) (?:{GIVEN}|(\S+) (\S+))")
 
 
@@ -112,6 +125,13 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
         name, low, high, unit = between.groups()
         expression, factor = _measured(name, unit)
         condition = f"{_plain(low)}{factor} <= {expression} <= {_plain(high)}{factor}"
+        shows = name
+    elif near := _NEAR.fullmatch(test):
+        name, middle, away, unit = near.groups()
+        expression, factor = _measured(name, unit)
+        condition = (
+            f"abs({expression} - {_plain(middle)}{factor}) <= {_plain(away.lstrip('-'))}{factor}"
+        )
         shows = name
     else:
         raise ValueError(f"there is no condition {test!r}")

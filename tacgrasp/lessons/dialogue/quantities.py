@@ -87,6 +87,12 @@ QUANTITIES: Mapping[str, Quantity] = {
     "band_high": Quantity(truth="band_high_n", unit="N", noun="most force wanted"),
     "limit": Quantity(truth="limit_n", unit="N", noun="limit"),
     "headroom": Quantity(truth="limit_n - force_n", unit="N", noun="force left to the limit"),
+    "lacking": Quantity(
+        truth="max(0, band_low_n - force_n)", unit="N", noun="force lacking to the band"
+    ),
+    "excess": Quantity(
+        truth="max(0, force_n - band_high_n)", unit="N", noun="force above the band"
+    ),
     "mass": Quantity(truth="mass_g", unit="g", noun="mass", decimals=0),
     "holds": Quantity(truth="holds_g", unit="g", noun="heaviest load held", decimals=0),
 }

@@ -5,8 +5,11 @@
     check depth > #1 µm.                yes or no (``tacgrasp.lessons.dialogue.conditions``)
     check not force within.             denied
     amount depth mm; word shape.        several at once
+    check force #1 +- #2 N.             a number with its tolerance
+    check twice force over.             a multiple of the felt force
     why step.                           the reason of the advice; 'why both' with the advice,
-                                        'why force' the force behind an answer
+                                        'why force' the force behind an answer, 'why felt' all
+                                        numbers behind it
     describe.
     unknown price.                      touch can't know it
     other.                              it is not about touch
@@ -51,6 +54,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
+from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 
 MOST_NUMBERS = 4
 """Most numbers of a question that a query can name."""
@@ -68,6 +72,8 @@ AMOUNTS: Mapping[str, tuple[str, ...]] = {
     "band_high": ("N",),
     "limit": ("N",),
     "headroom": ("N",),
+    "lacking": ("N",),
+    "excess": ("N",),
     "mass": ("g", "kg"),
     "holds": ("g", "kg"),
 }
@@ -76,37 +82,21 @@ AMOUNTS: Mapping[str, tuple[str, ...]] = {
 WORDS = (*CLASSES, "force_band", "action", "side_x", "side_y", "worse_axis", "wholeness")
 """Names of a scene whose value is a word that can be asked for."""
 
-SUBJECTS: Mapping[str, str] = {
-    "color": "its color",
-    "temperature": "its temperature",
-    "name": "its name",
-    "price": "its price",
-    "smell": "its smell",
-    "taste": "its taste",
-    "sound": "its sound",
-    "origin": "where it comes from",
-    "inside": "what is inside it",
-    "sight": "what can only be seen",
-    "material": "what it is made of",
-    "age": "its age",
-    "owner": "whose it is",
-    "maker": "who made it",
-    "purpose": "what it is for",
-    "freshness": "its freshness",
-    "danger": "whether it is dangerous",
-    "electricity": "its electric or magnetic properties",
-    "size": "its full size",
-    "surroundings": "what is around it",
-    "print": "what is printed on it",
-    "past": "what happened to it before",
-    "law": "what the rules say about it",
-}
-"""What touch can't know, as answers name it."""
+NEARED = ("depth", "force")
+"""Quantities that are compared with a number and its tolerance."""
 
 _REASONS: Mapping[str, Why] = {
     "step": Why(),
     "both": Why(with_action=True),
     "force": Why(shows=("force_band",)),
+    "limit": Why(shows=("force", "limit")),
+    "slip": Why(shows=("force", "holds")),
+    "shape": Why(shows=("shape",)),
+    "texture": Why(shows=("texture",)),
+    "depth": Why(shows=("depth",)),
+    "position": Why(shows=("position",)),
+    "cut": Why(shows=("cut",)),
+    "felt": Why(shows=("depth", "area", "force")),
 }
 _LENGTHS = {Length.FREE: "", Length.WORD: " in a word", Length.SENTENCE: " in a sentence"}
 _ORDINALS = ("first", "second", "third")
@@ -125,6 +115,10 @@ _ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
+
+
+class LostNumberError(ValueError):
+    """A number of a meaning is not among those of its question."""
 
 
 class AskedText(NamedTuple):
@@ -162,7 +156,8 @@ def query_of(meaning: Meaning, numbers: Sequence[float] = ()) -> str:
         numbers: Numbers of the question, of which the query names those that it needs.
 
     Raises:
-        ValueError: No query has this meaning, or a number of it is not in the question.
+        ValueError: No query has this meaning.
+        LostNumberError: A number of it is not in the question.
     """
     parts = meaning.parts if isinstance(meaning, Several) else (meaning,)
     length = getattr(meaning, "length", Length.FREE)
@@ -244,6 +239,9 @@ def _numbered(num_numbers: int) -> Iterator[str]:
                 yield from (f"{quantity} {sign} {one} {unit}" for sign in SIGNS)
             for low, high in pairwise(references):
                 yield f"{quantity} {low} - {high} {unit}"
+                if quantity in NEARED:
+                    yield f"{quantity} {low} +- {high} {unit}"
+                    yield f"{quantity} {high} +- {low} {unit}"
     for one in references:
         yield from (f"{fate} {one} {unit}" for fate in FATES for unit in MASS_UNITS)
 
@@ -283,7 +281,7 @@ def _referred(test: str, numbers: Sequence[float]) -> str:
         for number, candidate in enumerate(numbers[:MOST_NUMBERS], start=1):
             if abs(candidate - value) <= 1e-6 * abs(value):
                 return f"#{number}"
-        raise ValueError(f"{value:g} is none of the question's numbers {list(numbers)}")
+        raise LostNumberError(f"{value:g} is none of the question's numbers {list(numbers)}")
 
     return _NUMBER.sub(place, test)
 

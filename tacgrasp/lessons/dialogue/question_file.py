@@ -7,8 +7,8 @@ another, before:
     truth       an expression (``tacgrasp.lessons.dialogue.expression``), or several with semicolons
                 for a text; empty for unknowable and off_topic
     tolerance   of a number: in its unit (0.3) or of the value (15%); of a yes or no: how near to
-                the threshold a contact is left out. Empty: ``TOLERANCES`` for numbers, 0 for yes
-                and no
+                the threshold a contact is left out. Empty: the usual one of a number
+                (``tacgrasp.lessons.dialogue.tolerances``), 0 of yes and no
     before      the question that was answered before this one
 """
 
@@ -23,40 +23,13 @@ from tacgrasp.base.csv_rows import csv_rows
 from tacgrasp.base.errors import UsageError
 from tacgrasp.lessons.dialogue.expression import Expression
 from tacgrasp.lessons.dialogue.meaning import AnswerKind
+from tacgrasp.lessons.dialogue.tolerances import Tolerance, tolerance_of
 
 KEPT_OUT = "kept_out_questions.csv"
 """Questions in ``tacgrasp.lessons`` that were written before the grammar and are not in it."""
 
 COLUMNS = ("family", "question", "kind", "truth", "tolerance")
 UNDECIDABLE = (AnswerKind.UNKNOWABLE, AnswerKind.OFF_TOPIC)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Tolerance:
-    """How far a number may be off: in its unit, or as a fraction of it, whichever is more."""
-
-    absolute: float = 0.0
-    fraction: float = 0.0
-
-    def of(self, value: float) -> float:
-        """Largest error of a value."""
-        return max(self.absolute, self.fraction * abs(value))
-
-
-TOLERANCES: Mapping[str, Tolerance] = {
-    "x_mm": Tolerance(absolute=1.0),
-    "y_mm": Tolerance(absolute=1.0),
-    "depth_mm": Tolerance(absolute=0.05, fraction=0.15),
-    "area_percent": Tolerance(absolute=1.0, fraction=0.25),
-    "force_n": Tolerance(absolute=0.1, fraction=0.25),
-    "holds_g": Tolerance(absolute=5.0, fraction=0.25),
-}
-"""Tolerance of a number by a name in its truth; 2 % where none of these is in it.
-
-Source: single frames of an uncalibrated unit (``cltp.texts.tolerances``); of the force our choice:
-the depth scale of units, ±15 %, and drift allow no less."""
-
-EXACT = Tolerance(fraction=0.02)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -85,13 +58,8 @@ class QuestionRow:
         return tuple(dict.fromkeys(name for truth in self.truths for name in truth.names))
 
     def tolerance_of(self, truth: Expression) -> Tolerance:
-        """Tolerance of one of its truths: the row's, else that of ``TOLERANCES``."""
-        if self.tolerance is not None:
-            return self.tolerance
-        for name, tolerance in TOLERANCES.items():
-            if name in truth.names:
-                return tolerance
-        return EXACT
+        """Tolerance of one of its truths: the row's, else the usual one."""
+        return self.tolerance or tolerance_of(truth.names)
 
 
 def read_questions(path: Path | None) -> list[QuestionRow]:

@@ -33,13 +33,14 @@ CAPTIONS = "captions"
 TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval", CAPTIONS)
 
 GEOMETRIC_BASELINE = "geometric_baseline"
-MOST_FREQUENT, SHUFFLED = "most_frequent", "shuffled"
+MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS = "most_frequent", "shuffled", "exact_heights"
 """Trivial captions: always the same one, and that of another contact."""
 
 TITLES = {name: method.title for name, method in METHODS.items()} | {
     GEOMETRIC_BASELINE: "geometric baseline",
     MOST_FREQUENT: "most frequent caption",
     SHUFFLED: "another contact's caption",
+    EXACT_HEIGHTS: "exact heights, true shape and texture",
 }
 """Names in tables, in the order of rows: the methods, then the baselines that have no encoder."""
 
@@ -47,6 +48,7 @@ USUAL_VARIANTS = {name: method.preset for name, method in METHODS.items()} | {
     GEOMETRIC_BASELINE: "measured",
     MOST_FREQUENT: "",
     SHUFFLED: "",
+    EXACT_HEIGHTS: "",
 }
 """The variant of each method that stands first, and whose figures ``nested`` takes."""
 

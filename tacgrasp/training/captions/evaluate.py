@@ -7,6 +7,10 @@ Trivial answers are rated on the same contacts:
                        numbers
     another contact's  the true caption of another contact of the sample
 
+So is what an observer with exact heights would say (``cltp.evaluation.exact_observer``), who is
+told shape and texture: it shows what the errors of a unit leave of the numbers and of the other
+words.
+
 Not here: the rule (``tacgrasp.training.captions.rating``).
 """
 
@@ -24,9 +28,12 @@ from cltp.checkpoints.base_lm import BaseLm, is_stock
 from cltp.checkpoints.card import CARD
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
+from cltp.data.sampler import Batch
+from cltp.evaluation.exact_observer import observed_state
 from cltp.evaluation.features import random_batches
 from cltp.evaluation.splits import evaluation_splits
 from cltp.llm.generation import Talker
+from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState
 from cltp.texts.captions import caption
 from cltp.train.stage import ProgressReport, silent
@@ -37,6 +44,7 @@ from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
 from tacgrasp.pretraining.report.store import (
     CAPTIONS,
+    EXACT_HEIGHTS,
     MOST_FREQUENT,
     SHUFFLED,
     Result,
@@ -115,6 +123,7 @@ def rate_captions(run: CaptionRun) -> list[Result]:
         (usual, texts),
         (replace(usual, method=MOST_FREQUENT, variant=""), [frequent] * len(truths)),
         (replace(usual, method=SHUFFLED, variant=""), others(references, run.seed)),
+        (replace(usual, method=EXACT_HEIGHTS, variant=""), observed_captions(batches, run.seed)),
     )
     results = []
     for result, captions in rows:
@@ -144,6 +153,20 @@ def others(references: Sequence[str], seed: int) -> list[str]:
     order = np.random.default_rng([seed, 91]).permutation(len(references))
     following = dict(zip(order.tolist(), np.roll(order, 1).tolist(), strict=True))
     return [references[following[index]] for index in range(len(references))]
+
+
+def observed_captions(batches: Sequence[Batch], seed: int) -> list[str]:
+    """What an observer with exact heights says of contacts under the errors of calibrated units."""
+    rng, captions = np.random.default_rng([seed, 92]), []
+    for batch in batches:
+        for height_mm, state, sensor in zip(
+            batch.height_mm, batch.states, batch.sensors, strict=True
+        ):
+            if state.in_contact:
+                unit = NoiseUnit.draw(rng, spread=spread_of(sensor))
+                state = observed_state(height_mm, state, sensor, unit, rng)
+            captions.append(caption_text(state))
+    return captions
 
 
 def rated(

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from cltp.errors import TouchError
 from cltp.tactile.states import CLASSES, ContactState
 from cltp.texts.captions import NO_CONTACT, Slots, parse_caption, slots_of
+from tacgrasp.lessons.captions import NUMBER, numbers_by_name
 
 LOWEST, HIGHEST = 1.0, 5.0
 
@@ -28,15 +29,7 @@ ABSOLUTE: Mapping[str, float] = {
 }
 """How far a number may be off, in its unit; or ``RELATIVE`` of the truth, where that is more."""
 
-_NUMBER = r"[+-]?\d+(?:\.\d+)?"
-_SAID = {
-    "depth_mm": re.compile(rf"({_NUMBER}) mm(?![²\w])", re.ASCII),
-    "force_n": re.compile(rf"({_NUMBER}) N\b", re.ASCII),
-    "area_fraction": re.compile(rf"({_NUMBER}) %", re.ASCII),
-    "x_mm": re.compile(rf"\bx ({_NUMBER})", re.ASCII),
-    "y_mm": re.compile(rf"\by ({_NUMBER})", re.ASCII),
-}
-_TAIL = re.compile(rf"[\s,.]*(?:(?:[xy] )?{_NUMBER}(?: (?:mm|N|%))?[\s,.]*)*(?:cut[\w\s]*\.?)?\s*")
+_TAIL = re.compile(rf"[\s,.]*(?:(?:[xy] )?{NUMBER}(?: (?:mm|N|%))?[\s,.]*)*(?:cut[\w\s]*\.?)?\s*")
 """What may stand behind the sentence of words."""
 
 
@@ -81,22 +74,13 @@ def rate_caption(text: str, truth: ContactState) -> CaptionRating:
     words = _right_words(said, truth)
     numbers = {
         name: _is_near(name, value, float(getattr(truth, name)) if truth.in_contact else 0.0)
-        for name, value in read_said(numbers_text).items()
+        for name, value in numbers_by_name(numbers_text).items()
     }
     right = [*words.values(), *numbers.values()]
     fraction = sum(right) / len(right)
     return CaptionRating(
         rating=LOWEST + (HIGHEST - LOWEST) * fraction, words=words, numbers=numbers
     )
-
-
-def read_said(text: str) -> dict[str, float]:
-    """Every number that a text says, by its name out of ``cltp.tactile.states.NUMBERS``."""
-    matches = {name: pattern.search(text) for name, pattern in _SAID.items()}
-    said = {name: float(match[1]) for name, match in matches.items() if match is not None}
-    if "area_fraction" in said:
-        said["area_fraction"] /= 100
-    return said
 
 
 def _parts(text: str) -> tuple[str, str]:

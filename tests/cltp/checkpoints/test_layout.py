@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 import torch
+import transformers
 import yaml
 from huggingface_hub import ModelCard
 from safetensors.torch import load_file
@@ -255,6 +256,9 @@ def test_our_language_model_is_a_qwen2_to_the_bit() -> None:
     assert set(StoredConfig.__dataclass_fields__) - {"rope_theta"} < config_of(folder).keys()
 
 
+@pytest.mark.skipif(
+    int(transformers.__version__.split(".")[0]) < 5, reason="transformers 4 leaves the tokens alone"
+)
 def test_under_the_name_qwen2_transformers_would_take_other_tokens(tmp_path: Path) -> None:
     folder = Path(shutil.copytree(shipped_weights() / "lm", tmp_path / "lm"))
     text, words = "x -3.42 mm", Words.load(folder)

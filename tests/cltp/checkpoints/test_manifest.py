@@ -16,7 +16,7 @@ from cltp.errors import TouchError
 from policies.llm.policy import LlmPolicy
 from tacgrasp.base.errors import UsageError
 from tacgrasp.policy_factory import shipped_weights
-from tacgrasp.training.train import write_manifests
+from tacgrasp.training.upkeep import write_manifests
 from tests.fakes.tiny_weights import make_weights
 
 PARTS = ("encoder", "clip", "projector", "lm")

@@ -57,7 +57,8 @@ def test_a_whole_clip_gives_its_vision_tower(tmp_path: Path) -> None:
     pixels = torch.rand(3, 3, 48, 48)
     encoder = load_vision_checkpoint(tmp_path)
     with torch.no_grad():
-        expected = clip.get_image_features((pixels - encoder.mean) / encoder.std).pooler_output
+        features = clip.get_image_features((pixels - encoder.mean) / encoder.std)
+    expected = getattr(features, "pooler_output", features)  # the tensor itself before 5
     torch.testing.assert_close(encoder.read(pixels)[1], expected)
 
 

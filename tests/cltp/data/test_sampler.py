@@ -1,5 +1,6 @@
 """Batches of noisy clouds: what training draws is what a live encoder is given."""
 
+import dataclasses
 from pathlib import Path
 
 import numpy as np
@@ -7,7 +8,8 @@ import pytest
 
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import NOISY, Augmentation, Sampler, sampled
+from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, sampled
+from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.noise_levels import WIDE, NoiseLevels
@@ -73,9 +75,31 @@ def test_the_same_seed_draws_the_same_wide_noise(data):
     np.testing.assert_array_equal(one, two)
 
 
-def test_the_default_noise_is_named_as_it_always_was():
+def test_every_value_is_in_the_name_of_a_noise_and_the_default_is_named_as_it_always_was():
     # stages compare this text with the one of an earlier checkpoint
-    assert str(NOISY) == "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
+    usual = "Augmentation(noise_level=1.0, uncalibrated=0.0, mirror=False, clean=0.0)"
+    assert NOISY.identity == usual
+    others = [dataclasses.replace(NOISY, **{name: 0.125}) for name in ("loose", "windows", "clean")]
+    assert len({usual, *(each.identity for each in others)}) == 4
+
+
+def test_some_samples_are_seen_by_smaller_pads_with_labels_to_fit(data):
+    seen, usual = (
+        Sampler(data, Augmentation(noise_level=0.0, mirror=False, windows=part), layout=GRID).batch(
+            np.arange(6), 0
+        )
+        for part in (1.0, 0.0)
+    )
+    assert seen.points.shape == usual.points.shape
+    smaller = [s.area_mm2 < u.area_mm2 for s, u in zip(seen.sensors, usual.sensors, strict=True)]
+    assert sum(smaller) >= 3
+    np.testing.assert_array_equal(seen.moved, smaller)
+    for row, state in enumerate(seen.states):
+        extent = np.abs(seen.points[row, :, :2]).max(axis=0) * 20
+        assert extent[0] <= seen.sensors[row].width_mm
+        assert abs(state.x_mm) <= seen.sensors[row].width_mm / 2
+        if state.in_contact:
+            assert seen.height_mm[row].max() == pytest.approx(state.depth_mm, abs=0.06)
 
 
 def test_a_grid_without_some_pixels_is_nearly_the_whole_one(data):
@@ -100,3 +124,44 @@ def test_a_grid_of_loose_points_is_smoother_than_that_of_all(data):
     cloud = exact.cloud(0)
     assert cloud.grid == (GRID.rows, GRID.columns)
     np.testing.assert_allclose(encoder_input(cloud, GRID), exact.points[0], atol=1e-6)
+
+
+@pytest.fixture(scope="module")
+def mixed(tmp_path_factory) -> ContactDataset:
+    """Thirty contacts, and after them four of one's own and one that is held out."""
+    first, own = tmp_path_factory.mktemp("first"), tmp_path_factory.mktemp("own")
+    write_contacts(first, {Split.TRAIN: range(30)})
+    write_contacts(own, {Split.TRAIN: range(40, 44), Split.TEST: range(50, 51)})
+    return ContactDataset(first, split=Split.TRAIN, also=[own])
+
+
+def test_a_fraction_of_each_batch_comes_from_the_further_set(mixed):
+    sampler = Sampler(mixed, CLEAN, seed=3, also_fraction=0.25)
+    assert (len(mixed), mixed.num_also) == (34, 4)
+    batches = [sampler.numbered(8, step).index for step in range(5)]
+    assert [int((batch >= 30).sum()) for batch in batches] == [2] * 5
+    first = np.concatenate([batch[batch < 30] for batch in batches])
+    assert sorted(first) == list(range(30))  # an epoch of ours
+    also = np.concatenate([batch[batch >= 30] for batch in batches])
+    assert sorted(also[:4]) == sorted(also[4:8]) == [30, 31, 32, 33]  # two of one's own
+
+
+def test_a_step_draws_the_same_contacts_whatever_was_drawn_before(mixed):
+    sampler = Sampler(mixed, CLEAN, seed=3, also_fraction=0.25)
+    later = sampler.numbered(8, 40).index
+    sampler.numbered(8, 0)
+    np.testing.assert_array_equal(sampler.numbered(8, 40).index, later)
+
+
+def test_without_a_fraction_every_contact_comes_equally_often(mixed):
+    sampler = Sampler(mixed, CLEAN, seed=3)
+    drawn = np.concatenate([sampler.numbered(17, step).index for step in range(2)])
+    assert sorted(drawn) == list(range(34))
+
+
+def test_a_fraction_of_nothing_is_refused(data, mixed):
+    with pytest.raises(TouchError, match="0 of 6 contacts"):
+        Sampler(data, CLEAN, also_fraction=0.5)
+    for fraction in (0.0, 1.0, -0.1):
+        with pytest.raises(TouchError, match="between 0 and 1"):
+            Sampler(mixed, CLEAN, also_fraction=fraction)

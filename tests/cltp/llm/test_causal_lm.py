@@ -5,15 +5,7 @@ import pytest
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
-from transformers import (
-    GPT2Config,
-    GPT2LMHeadModel,
-    PreTrainedTokenizerFast,
-    Qwen2_5_VLConfig,
-    Qwen2_5_VLForConditionalGeneration,
-    Qwen2Config,
-    Qwen2ForCausalLM,
-)
+from transformers import GPT2Config, GPT2LMHeadModel, Qwen2Config, Qwen2ForCausalLM
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.encoder.heads import StateHeads
@@ -28,6 +20,7 @@ from cltp.texts.tokenizer import ACTIONS, Words
 from policies.llm.grammar import step_grammar
 from policies.llm.parse import parse_reply
 from primitives.contract import Band
+from tests.fakes.stock_lm import save_stock_lm, save_tokenizer
 
 TEXTS = [
     "Pick the strawberry gently, without bruising it.",
@@ -59,8 +52,7 @@ def tiny_model(words: Words) -> Tac3dLlm:
 
 
 @given(st.text(max_size=60))
-def test_any_text_is_encoded_and_decoded_again(text: str) -> None:
-    words = Words.train(TEXTS, size=400)
+def test_any_text_is_encoded_and_decoded_again(words: Words, text: str) -> None:
     assert words.decode(words.encode(text)) == text
 
 
@@ -212,50 +204,9 @@ def test_a_reply_reports_its_stages_and_whether_it_ended(words: Words) -> None:
     assert reply.ended == (reply.num_tokens < 4)
 
 
-def stock_directory(folder: Path, kind: str) -> Path:
-    words = Words.train([*TEXTS, "move_up move_down increase_force Action: reset"] * 3, size=500)
-    tokenizer = PreTrainedTokenizerFast(tokenizer_object=words._tokenizer, eos_token="<eos>")
-    tokenizer.add_special_tokens({"pad_token": "<pad>"})
-    tokenizer.save_pretrained(folder)
-    text = (folder / "tokenizer.json").read_text()
-    for action in ACTIONS:  # a stock tokenizer has no tokens of ours
-        text = text.replace(f'"{action}"', f'"<|{action.strip("<>")}|>"')
-    (folder / "tokenizer.json").write_text(text)
-    sizes = {
-        "vocab_size": 520,
-        "hidden_size": 32,
-        "intermediate_size": 48,
-        "num_hidden_layers": 2,
-        "num_attention_heads": 2,
-        "num_key_value_heads": 1,
-    }
-    torch.manual_seed(0)
-    if kind == "qwen2":
-        Qwen2ForCausalLM(Qwen2Config(**sizes)).save_pretrained(folder)
-    elif kind == "qwen2_5_vl":
-        rope = {"rope_type": "default", "mrope_section": [2, 3, 3], "rope_theta": 10_000.0}
-        vision = {
-            "depth": 1,
-            "hidden_size": 32,
-            "intermediate_size": 32,
-            "num_heads": 2,
-            "out_hidden_size": 32,
-            "fullatt_block_indexes": [0],
-        }
-        config = Qwen2_5_VLConfig(
-            text_config={**sizes, "rope_parameters": rope}, vision_config=vision
-        )
-        Qwen2_5_VLForConditionalGeneration(config).save_pretrained(folder)
-    else:
-        GPT2LMHeadModel(GPT2Config(vocab_size=50, n_embd=16, n_layer=1, n_head=1)).save_pretrained(
-            folder
-        )
-    return folder
-
-
 @pytest.mark.parametrize("kind", ["qwen2", "qwen2_5_vl"])
 def test_a_stock_checkpoint_goes_through_the_same_class(kind: str, tmp_path: Path) -> None:
-    language = load_language(stock_directory(tmp_path, kind))
+    language = load_language(save_stock_lm(tmp_path, kind))
     assert language.words is None
     assert len({tuple(a) for a in language.actions()}) == 8
     model = Tac3dLlm(
@@ -266,7 +217,7 @@ def test_a_stock_checkpoint_goes_through_the_same_class(kind: str, tmp_path: Pat
 
 
 def test_a_stock_checkpoint_chooses_among_the_eight_after_the_cue(tmp_path: Path) -> None:
-    language = load_language(stock_directory(tmp_path, "qwen2"))
+    language = load_language(save_stock_lm(tmp_path, "qwen2"))
     names = language.actions()
     assert any(len(name) > 1 for name in names)
     with torch.no_grad():
@@ -282,7 +233,7 @@ def test_a_stock_checkpoint_chooses_among_the_eight_after_the_cue(tmp_path: Path
 
 @pytest.mark.parametrize("kind", ["qwen2", "qwen2_5_vl"])
 def test_a_stock_checkpoint_keeps_the_same_grammar(kind: str, tmp_path: Path) -> None:
-    language = load_language(stock_directory(tmp_path, kind))
+    language = load_language(save_stock_lm(tmp_path, kind))
     model = Tac3dLlm(
         TactileEncoder(PRESETS["tiny"]), StateHeads(96), Projector(48, language.dim), language
     )
@@ -295,9 +246,12 @@ def test_a_stock_checkpoint_keeps_the_same_grammar(kind: str, tmp_path: Path) ->
 
 
 def test_other_architectures_and_missing_weights_are_refused(tmp_path: Path) -> None:
+    gpt2 = tmp_path / "gpt2"
+    GPT2LMHeadModel(GPT2Config(vocab_size=50, n_embd=16, n_layer=1, n_head=1)).save_pretrained(gpt2)
+    save_tokenizer(gpt2)
     with pytest.raises(TouchError, match="gpt2"):
-        load_language(stock_directory(tmp_path / "gpt2", "gpt2"))
-    folder = stock_directory(tmp_path / "cut", "qwen2")
+        load_language(gpt2)
+    folder = save_stock_lm(tmp_path / "cut", "qwen2")
     weights = folder / "model.safetensors"
     weights.write_bytes(weights.read_bytes()[:1000])
     with pytest.raises(TouchError, match="no language model"):

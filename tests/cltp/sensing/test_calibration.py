@@ -30,7 +30,7 @@ from cltp.sensing.calibration import (
 from cltp.sensing.frames import read_frame
 from cltp.sensing.photometric import GradientNet, Photometer
 from cltp.tactile.sensors import SENSORS
-from cltp.train.photometric import train_gradients
+from cltp.train.photometric.calibrate import train_gradients
 from tests.cltp.sensing.test_photometric import BACKGROUND, LINEAR
 from tests.paths import SHARED_DATA
 

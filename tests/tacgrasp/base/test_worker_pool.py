@@ -47,7 +47,7 @@ def wait_for_workers(process: subprocess.Popen[bytes], count: int) -> set[int]:
 @pytest.mark.parametrize(
     ("number", "wait_s"),
     [
-        pytest.param(signal.SIGTERM, 3.0, id="terminated at work", marks=pytest.mark.slow),
+        pytest.param(signal.SIGTERM, 3.0, id="terminated at work"),
         pytest.param(signal.SIGKILL, 0.0, id="killed while they start"),
     ],
 )

@@ -136,7 +136,7 @@ def test_programs_get_value_unit_confidence_query_and_flags(
         "kind": "number",
         "value": 190.0,
         "unit": "µm",
-        "confidence": pytest.approx(0.5),
+        "confidence": pytest.approx(0.5 * 59 / 64),
         "decidable": True,
         "interval": pytest.approx([160, 250], abs=15),
         "query": "amount depth µm.",

@@ -194,3 +194,24 @@ def test_a_file_outside_of_the_folder_is_refused(inside, touches, capsys):
     assert code == 2
     assert "lies outside of the folder" in capsys.readouterr().err
     assert not out.exists()
+
+
+def test_a_fraction_of_the_series_is_held_out_whole(touches):
+    for number in range(12):
+        np.save(touches / f"{number}.npy", 0.5 * np.exp(-((X - number / 4) ** 2 + Y**2) / 6))
+    rows = "".join(f"{number}.npy,{number // 2},\n" for number in range(12))
+    rows += "map.npy,100,train\ncloud.npz,101,validation\n"
+    code, out = imported(touches, f"file,series,split\n{rows}", "--held-out", "0.34")
+    assert code == 0
+    data = ContactDataset(out)
+    series, split = data.column("series"), data.column("split")
+    held = {one for one, part in zip(series, split, strict=True) if part == "test"}
+    assert len(held) == 2
+    assert all((split[series == one] == "test").all() for one in held)
+    assert list(split[-2:]) == ["train", "validation"]  # as the table says
+
+
+@pytest.mark.parametrize("fraction", ["1", "-0.1"])
+def test_all_can_not_be_held_out(touches, fraction, capsys):
+    assert imported(touches, "file\nmap.npy\n", "--held-out", fraction)[0] == 2
+    assert "--held-out must be 0 to below 1" in capsys.readouterr().err

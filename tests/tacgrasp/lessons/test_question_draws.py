@@ -5,7 +5,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from tacgrasp.lessons import question_draws
 from tacgrasp.lessons.dialogue.answers import answer
+from tacgrasp.lessons.dialogue.conditions import check_of
 from tacgrasp.lessons.dialogue.facts import NOTHING_TOUCHES
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
 from tacgrasp.lessons.dialogue.meaning import AnswerKind, Check, kind_of
@@ -85,3 +87,12 @@ def test_spelling_leaves_the_plain_words_as_they_are():
         variants = {spelled(text, rng) for _ in range(300)}
         assert len(variants) > 2
         assert {plain_words(variant) for variant in variants} == {plain_words(text)}
+
+
+def test_a_question_whose_number_is_read_otherwise_is_drawn_anew(monkeypatch):
+    texts = iter(["Is this one and three tenths of a newton?", "Is it three tenths of a newton?"])
+    meaning = check_of("force >= 0.3 N")
+    monkeypatch.setattr(question_draws, "_wording", lambda *_: (next(texts), meaning))
+    exchange = query_exchange(np.random.default_rng(0))
+    assert exchange.reply == "check force >= #1 N."
+    assert next(texts, None) is None

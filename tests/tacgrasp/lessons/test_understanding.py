@@ -72,6 +72,10 @@ def test_a_number_has_an_interval_in_its_unit_that_no_amount_makes_negative():
     assert given.interval == pytest.approx((100, 220), abs=15)
     wide = answered(asked, HELD, {}, {"depth_mm": (-0.5, 0.9)})
     assert wide.interval[0] == 0
+    # 190 µm may be off by 50 µm: as probable as it is that the depth lies so near
+    assert narrow.confidence == pytest.approx(0.81)
+    assert given.confidence == pytest.approx(0.81 * 0.7, abs=0.1)
+    assert wide.confidence < 0.81 * 0.3
     assert answered(asked, UNTOUCHED, {}, {}).interval is None
 
 

@@ -5,13 +5,11 @@ import dataclasses
 import json
 import re
 import shutil
-from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
-import torch
 
 from cltp.checkpoints.tac3d_llm import load_clip, save_encoder
 from cltp.data.contact import Split
@@ -43,14 +41,9 @@ from tacgrasp.pretraining.report.store import (
 from tests.fakes.fake_contacts import fake_contact
 from tests.fakes.fake_results import fake_result
 
+pytestmark = pytest.mark.usefixtures("threads_as_before")
+
 QUICK = ["--steps", "3", "--batch-size", "4", "--threads", "1"]
-
-
-@pytest.fixture(scope="module", autouse=True)
-def threads_as_before() -> Iterator[None]:
-    before = torch.get_num_threads()
-    yield
-    torch.set_num_threads(before)
 
 
 def write_data(folder: Path, first: int = 0) -> Path:
@@ -376,7 +369,7 @@ def test_encoders_of_other_data_are_refused(
         (["eval", "probe", "--methods", "tvl", "--checkpoint", "/no"], "is no directory"),
         (
             ["eval", "dance"],
-            "expects one of ablate, captions, instructions, intervals, questions, zero-shot, "
+            "expects one of ablate, captions, instructions, intervals, own, questions, zero-shot, "
             "probe, retrieval, report",
         ),
     ],

@@ -41,7 +41,7 @@ from tacgrasp.lessons.instruction_pairs import (
 )
 from tacgrasp.training import evaluate
 from tacgrasp.training.evaluate import _decided
-from tests.fakes.tiny_weights import make_data, make_weights, state
+from tests.fakes.tiny_weights import make_data, state
 
 NOTHING = ContactState(
     depth_mm=0.0, x_mm=0.0, y_mm=0.0, area_fraction=0.0, force_n=0.0, depth=None, position=None,
@@ -52,11 +52,6 @@ NOTHING = ContactState(
 @pytest.fixture(scope="module")
 def data_dir(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_data(tmp_path_factory.mktemp("data"))
-
-
-@pytest.fixture(scope="module")
-def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_weights(tmp_path_factory.mktemp("weights"))
 
 
 def test_the_quotas_are_all_of_the_pairs_and_balance_four_kinds_of_answer() -> None:

@@ -5,7 +5,6 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -30,22 +29,12 @@ from tacgrasp.console import COMPLETED
 from tacgrasp.lessons.dialogue.query import read_query
 from tacgrasp.pretraining import methods as methods_module
 from tacgrasp.training import train
-from tests.fakes.tiny_weights import bump, make_data, make_weights
+from tests.fakes.tiny_weights import bump, make_data
 from tests.paths import ROOT
 
+pytestmark = pytest.mark.usefixtures("threads_as_before")
+
 GOOD = "smooth sphere, deep 0.70 mm. Goal 0.95 - 1.90 N. Action: <decrease_force>. It is too firm."
-
-
-@pytest.fixture(scope="module", autouse=True)
-def threads_as_before() -> Iterator[None]:
-    before = torch.get_num_threads()
-    yield
-    torch.set_num_threads(before)
-
-
-@pytest.fixture(scope="module")
-def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_weights(tmp_path_factory.mktemp("weights"))
 
 
 @pytest.fixture

@@ -2,7 +2,6 @@
 
 import json
 import shutil
-from collections.abc import Iterator
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -18,24 +17,14 @@ from tacgrasp.episodes import read_episode
 from tacgrasp.training import train
 from tests.fakes.fake_contacts import write_contacts
 from tests.fakes.stock_lm import KINDS, save_stock_lm
-from tests.fakes.tiny_weights import bump, make_weights
+from tests.fakes.tiny_weights import bump
+
+pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 FEW = ["--projector-steps", "1", "--tune-steps", "2", "--batch-size", "2"]
 needs_peft = pytest.mark.skipif(
     find_spec("peft") is None, reason="adapters need peft: pip install 'tacgrasp[lora]'"
 )
-
-
-@pytest.fixture(scope="module", autouse=True)
-def threads_as_before() -> Iterator[None]:
-    before = torch.get_num_threads()
-    yield
-    torch.set_num_threads(before)
-
-
-@pytest.fixture(scope="module")
-def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_weights(tmp_path_factory.mktemp("weights"))
 
 
 @pytest.fixture(scope="module")
@@ -61,13 +50,7 @@ def complaint(argv: list[str], capsys: pytest.CaptureFixture[str]) -> str:
 
 
 @needs_peft
-@pytest.mark.parametrize(
-    "kind",
-    [
-        kind if kind == "qwen2_5_vl" else pytest.param(kind, marks=pytest.mark.slow)
-        for kind in KINDS
-    ],
-)
+@pytest.mark.parametrize("kind", KINDS)
 def test_any_local_qwen_is_trained_run_and_asked(
     kind: str,
     weights: Path,

@@ -8,8 +8,17 @@ from typing import Any
 import pytest
 
 from cltp.train.distributed import Workers
-from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe
+from cltp.train.recipes import (
+    ALSO_FRACTION,
+    CLIP_SCHEDULE,
+    CLTP_SCHEDULE,
+    CLTP_TUNING,
+    ClipRecipe,
+    CltpRecipe,
+    Schedule,
+)
 from tacgrasp.__main__ import main
+from tacgrasp.policy_factory import shipped_weights
 from tacgrasp.pretraining import methods, run_all
 from tests.fakes.tiny_weights import make_data
 
@@ -100,7 +109,7 @@ def test_cltp_is_one_trainer_on_one_data_set_whichever_flags_are_present(
         arguments["recipe"] != CltpRecipe(),
         arguments["schedule"] != CLTP_SCHEDULE,
         arguments["config"] != methods.PRESETS["grid"],
-        arguments["also"] != (),
+        run.also != (),
         run.seed != 0,
     ]
     assert sum(changed) == (flags[:1] not in ([], ["--precision"], ["--threads"]))
@@ -126,6 +135,53 @@ def test_the_flags_of_a_recipe_and_a_schedule_arrive_whole(
         texts="caption", prompt_weight=0.5, head_weight=0.25, moved=0.5
     )
     assert arguments["schedule"] == replace(CLTP_SCHEDULE, steps=7, batch_size=8)
+
+
+@pytest.mark.parametrize(
+    ("flags", "schedule", "fraction"),
+    [
+        ([], CLTP_SCHEDULE, None),
+        (["--also", "{data}"], CLTP_SCHEDULE, None),
+        (["--also", "{data}", "--also-fraction", "0.2"], CLTP_SCHEDULE, 0.2),
+        (["--start", "shipped"], CLTP_TUNING, None),
+        (["--start", "shipped", "--also", "{data}"], CLTP_TUNING, ALSO_FRACTION),
+        (
+            ["--start", "shipped", "--steps", "9", "--learning-rate", "1e-4"],
+            replace(CLTP_TUNING, steps=9, learning_rate=1e-4),
+            None,
+        ),
+    ],
+)
+def test_training_on_is_shorter_slower_and_mixes_both_sets(
+    flags: list[str],
+    schedule: Schedule,
+    fraction: float | None,
+    data: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    _, arguments = Trainers(monkeypatch).arguments("cltp", data, tmp_path / "out", flags)
+    assert arguments["schedule"] == schedule
+    assert arguments["run"].also_fraction == fraction
+    encoder = shipped_weights() / "encoder"
+    assert arguments["start"] == (encoder if "--start" in flags else None)
+    assert (tmp_path / "out" / "clip").exists() == ("--start" in flags)  # its towers come along
+
+
+@pytest.mark.parametrize("stage", ["cltp", "llm"])
+@pytest.mark.parametrize(
+    ("flags", "expected"),
+    [
+        (["--also-fraction", "0.5"], "name it with --also"),
+        (["--also", "d", "--also-fraction", "1"], "must lie between 0 and 1, got 1"),
+        (["--also", "d", "--also-fraction", "0"], "must lie between 0 and 1, got 0"),
+    ],
+)
+def test_a_fraction_that_is_no_mixture_is_refused(
+    stage: str, flags: list[str], expected: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["train", stage, *flags]) == 2
+    assert expected in capsys.readouterr().err
 
 
 @pytest.mark.parametrize("stage", ["clip", "cltp", "point-mae", "random", "probe"])

@@ -8,11 +8,12 @@ from tacgrasp.lessons.dialogue.families.amounts import agreed as amounts
 from tacgrasp.lessons.dialogue.families.classes import asked as classes
 from tacgrasp.lessons.dialogue.families.comparisons import agreed as agreed_comparisons
 from tacgrasp.lessons.dialogue.families.comparisons import felt as comparisons
+from tacgrasp.lessons.dialogue.families.comparisons import near as near_comparisons
 from tacgrasp.lessons.dialogue.families.comparisons import placed as placed_comparisons
 from tacgrasp.lessons.dialogue.families.contacts import contact as contacts
-from tacgrasp.lessons.dialogue.families.contacts import sides, together
-from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting
-from tacgrasp.lessons.dialogue.families.unfelt import backgrounds, off_topic, traits
+from tacgrasp.lessons.dialogue.families.contacts import reasons, sides, together
+from tacgrasp.lessons.dialogue.families.grasps import advice, force, lifting, margins
+from tacgrasp.lessons.dialogue.families.unfelt import backgrounds, off_topic, others, traits
 from tacgrasp.lessons.dialogue.meaning import Meaning, truth_of
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 from tacgrasp.lessons.dialogue.plain_words import plain_text
@@ -22,6 +23,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *comparisons.FAMILIES,
     *agreed_comparisons.FAMILIES,
     *placed_comparisons.FAMILIES,
+    *near_comparisons.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *sides.FAMILIES,
@@ -29,9 +31,12 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     *force.FAMILIES,
     *lifting.FAMILIES,
     *advice.FAMILIES,
+    *margins.FAMILIES,
+    *reasons.FAMILIES,
     *traits.FAMILIES,
     *backgrounds.FAMILIES,
     *off_topic.FAMILIES,
+    *others.FAMILIES,
 )
 
 

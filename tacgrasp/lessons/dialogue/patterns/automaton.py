@@ -59,49 +59,67 @@ class Automaton:
     def __init__(self, node: Node) -> None:
         self._states: list[_State] = []
         self.classes: dict[str, frozenset[str]] = {}
+        self._known_behind: dict[int, frozenset[int]] = {}
+        self._known_takers: dict[str, frozenset[int]] = {}
         self._known_after: dict[tuple[str, ...], frozenset[int]] = {}
         builder = _Builder(self._states, self.classes)
         self._end = builder.state("", ())
         self._start = builder.build(node, self._end)
 
-    @cached_property
-    def _targets(self) -> Mapping[str, frozenset[int]]:
-        """By word or class of words, the states that any arc with it leads to."""
-        targets: dict[str, set[int]] = {}
-        for state in self._states:
-            if state.label:
-                targets.setdefault(state.label, set()).update(state.targets)
-        return {label: frozenset(some) for label, some in targets.items()}
-
     def __len__(self) -> int:
         return len(self._states)
 
+    @cached_property
+    def _with_label(self) -> Mapping[str, frozenset[int]]:
+        """The states that take a word, by their label."""
+        found: dict[str, list[int]] = {}
+        for number, state in enumerate(self._states):
+            if state.label:
+                found.setdefault(state.label, []).append(number)
+        return {label: frozenset(numbers) for label, numbers in found.items()}
+
+    def _takers(self, word: str) -> frozenset[int]:
+        """The states that take a word, as itself or as one of a class."""
+        known = self._known_takers.get(word)
+        if known is None:
+            labels = [word, *(label for label, words in self.classes.items() if word in words)]
+            found = (self._with_label.get(label, frozenset()) for label in labels)
+            known = self._known_takers[word] = frozenset().union(*found)
+        return known
+
+    def _behind(self, state: int) -> frozenset[int]:
+        """States that take a word, or end, and are reached from a state without a word."""
+        known = self._known_behind.get(state)
+        if known is None:
+            label, targets, _ = self._states[state]
+            is_last = bool(label) or state == self._end
+            known = frozenset([state]) if is_last else self._closure(targets)
+            self._known_behind[state] = known
+        return known
+
     def _closure(self, states: Iterable[int]) -> frozenset[int]:
-        """States that are reached without a word."""
-        seen, left = set(states), list(states)
-        while left:
-            state = self._states[left.pop()]
-            if not state.label:
-                new = [target for target in state.targets if target not in seen]
-                seen.update(new)
-                left += new
-        return frozenset(seen)
+        return frozenset().union(*map(self._behind, states))
 
-    def _takes(self, state: _State, word: str) -> bool:
-        return state.label == word or word in self.classes.get(state.label, ())
+    def _past(self, takers: Iterable[int]) -> frozenset[int]:
+        """States that take a word, or end, once some states have taken theirs."""
+        return self._closure({self._states[taker].targets[0] for taker in takers})
 
-    def _step(self, states: Iterable[int], word: str) -> frozenset[int]:
-        taken = (self._states[state] for state in states)
-        return self._closure({each.targets[0] for each in taken if self._takes(each, word)})
+    def _ways(self, words: Sequence[str]) -> list[frozenset[int]] | None:
+        """By word the states that take it behind those before, and the end; None if it is missed.
+
+        A state may be among them from which the words that follow are not taken.
+        """
+        if not self.vocabulary.issuperset(words):
+            return None
+        ways, states = [], self._behind(self._start)
+        for word in words:
+            ways.append(states & self._takers(word))
+            states = self._past(ways[-1])
+        return [*ways, frozenset([self._end])] if self._end in states else None
 
     def accepts(self, words: Sequence[str]) -> bool:
         """Whether a wording, in plain words, may be produced."""
-        if not self.vocabulary.issuperset(words):
-            return False
-        states = self._closure([self._start])
-        for word in words:
-            states = self._step(states, word)
-        return self._end in states
+        return self._ways(words) is not None
 
     def has_run(self, words: Sequence[str]) -> bool:
         """Whether some words, one after another, occur anywhere in a wording."""
@@ -109,48 +127,41 @@ class Automaton:
 
     def _after(self, words: tuple[str, ...]) -> frozenset[int]:
         """States that take a word, or end, behind some words that begin anywhere."""
-        if words not in self._known_after:
+        known = self._known_after.get(words)
+        if known is None:  # from any state, since each lies on a way from the start to the end
+            takers = self._takers(words[-1])
             if len(words) > 1:
-                states = self._step(self._after(words[:-1]), words[-1])
-            else:  # from any state, since each of them lies on a way from the start to the end
-                labels = [label for label, some in self.classes.items() if words[0] in some]
-                found = (self._targets.get(label, frozenset()) for label in (words[0], *labels))
-                states = self._closure(frozenset().union(*found))
-            self._known_after[words] = frozenset(
-                state for state in states if self._states[state].label or state == self._end
-            )
-        return self._known_after[words]
+                takers &= self._after(words[:-1])
+            known = self._known_after[words] = self._past(takers)
+        return known
 
     def understand(self, text: PlainText) -> Understood | None:
         """Bindings of the first way in which a text may be produced; None where there is none."""
-        if not self.vocabulary.issuperset(text.words):
+        ways = self._ways(text.words)
+        if ways is None:
             return None
-        failed: set[tuple[int, int]] = set()
+        for at in reversed(range(len(text.words))):  # those from which the rest is taken
+            ways[at] = frozenset(s for s in ways[at] if self._past([s]) & ways[at + 1])
         trail: list[tuple[tuple[str, str], int]] = []
-
-        def follow(state: int, at: int) -> bool:
-            if (state, at) in failed:
-                return False
-            if state == self._end and at == len(text.words):
-                return True
-            label, targets, binding = self._states[state]
-            is_taken = bool(label) and at < len(text.words)
-            if not label or (is_taken and self._takes(self._states[state], text.words[at])):
-                if binding is not None:
-                    trail.append((binding, at))
-                if any(follow(target, at + bool(label)) for target in targets):
-                    return True
-                if binding is not None:
-                    trail.pop()
-            failed.add((state, at))
-            return False
-
-        if not follow(self._start, 0):
-            return None
+        targets: Sequence[int] = [self._start]
+        for at, wanted in enumerate(ways):
+            passed = self._first_way(targets, wanted)
+            trail += [(state.binding, at) for state in passed if state.binding is not None]
+            targets = passed[-1].targets
         return Understood(
             bindings={name: value for (name, value), _ in trail if value},
             numbers={name: text.numbers[at] for (name, value), at in trail if not value},
         )
+
+    def _first_way(self, targets: Sequence[int], wanted: frozenset[int]) -> list[_State]:
+        """States on the first way without a word from one of some states to one of others."""
+        way: list[_State] = []
+        number = None
+        while number not in wanted:
+            number = next(each for each in targets if self._behind(each) & wanted)
+            way.append(self._states[number])
+            targets = way[-1].targets
+        return way
 
     def num_wordings(self, most: int) -> int:
         """Number of distinct wordings, up to ``most``.

@@ -200,13 +200,13 @@ def _draw(
         case NumberSlot():
             pieces.append(node)
         case ListSlot(_, entries):
-            pieces.append(entries[rng.integers(len(entries))])
+            pieces.append(entries[int(rng.random() * len(entries))])
         case Chain(parts):
             for part in parts:
                 _draw(part, rng, given, pieces, bindings)
         case OneOf(parts, optional):
             if not optional or rng.random() < OPTION_PROBABILITY:
-                part = _given_part(parts, given) or parts[rng.integers(len(parts))]
+                part = _given_part(parts, given) or parts[int(rng.random() * len(parts))]
                 _draw(part, rng, given, pieces, bindings)
         case Bound(name, value, part):
             bindings[name] = value
@@ -214,7 +214,12 @@ def _draw(
 
 
 def _given_part(parts: Sequence[Node], given: Mapping[str, str]) -> Node | None:
-    """The part that binds a name to its given value; None where there is none."""
+    """The part that binds a name to its given value; None where there is none.
+
+    The parts of a slot bind its name, all of them; other parts bind nothing themselves.
+    """
+    if not given or not isinstance(parts[0], Bound):
+        return None
     for part in parts:
         if isinstance(part, Bound) and given.get(part.name) == part.value:
             return part

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from tacgrasp.lessons.dialogue.patterns.indirect import INDIRECT
+from tacgrasp.lessons.dialogue.patterns.lengths import LENGTHS
+
 SHARED: dict[str, str | dict[str, str]] = {
     "thing": (
         "(it|it|it|this|that|this thing|this one|that thing|"
         "the (object|thing|item|piece|part|target|load|workpiece|sample|specimen)|"
+        "the (gadget|thingy|component|product|article|unit|lump|widget|thingamajig|test piece|"
+        "artefact|cargo|trinket|contraption)|"
         "(this|that|our|your) (object|item|piece|part|sample|workpiece)|"
         "the (held|grasped|gripped|touched) (object|thing|item|part)|"
         "the (object|thing|item|part) [that] (we|you) (hold|touch|are holding|have there)|"
@@ -45,7 +50,13 @@ SHARED: dict[str, str | dict[str, str]] = {
         "still|again|once more|once again|actually|basically|anyway|to be sure|just to be sure|"
         "to be clear|just to confirm|for safety|no rush|thanks|thank you|great|good|fine|"
         "my {*people_words} asks|my {*people_words} wants to know|a customer asks|"
-        "I am new here|I can not see it|I do not know)"
+        "I am new here|I can not see it|I do not know|frankly|truthfully|no sugar-coating|"
+        "humour me|indulge me|level with me|spill it|be frank|be straight with me|cut to the chase|"
+        "straight up|real quick|tiny question|silly question|stupid question maybe|"
+        "excuse my english|pardon my english|for the protocol|for safety's sake|hypothetically|"
+        "purely theoretically|"
+        "between you and me|over to you|your turn|status check|status|sanity check|heads up|"
+        "{*jobs} here|on reflection|come to think of it|strictly speaking|plainly|kindly)"
     ),
     "setting": (
         "(while we are {*activities} {thing}|since you are touching {thing}|here in the {*places}|"
@@ -57,9 +68,32 @@ SHARED: dict[str, str | dict[str, str]] = {
         "when you touch {thing}|now that you hold {thing}|now that {thing} is in the gripper|"
         "before we lift {thing})"
     ),
+    "context": (
+        "((we|I|they|the {*jobs}) (picked|bought|received|grabbed|brought|borrowed|unpacked|"
+        "delivered|found) {body} (yesterday|this morning|earlier|last week|a minute ago|"
+        "in the {*places})|{body} (arrived|came in|was delivered|was unpacked|showed up) (today|"
+        "yesterday|this morning|from {*countries}|on {*days})|"
+        "(the|my|our) (camera|screen|display|monitor|lamp) is (off|dead|broken|covered|dirty)|"
+        "(the|my) {*jobs} (waits|is waiting|is impatient|is watching|left early|is away)|"
+        "I am (the [new|old]|a (new|former|good)) ({*jobs}|trainee|intern|apprentice|student|"
+        "visitor)|"
+        "I (work|sit|stand) in the {*places}|I left my glasses in the {*places}|"
+        "my (hands|eyes) are (full|tired|dirty|busy)|my {*people_words} (phoned|is visiting|"
+        "is curious|likes {*objects})|(this|that) is my (first|second|last) (day|try|shift|test)|"
+        "the (gripper|robot|arm|hand) (just closed|stopped|arrived|is in place|has paused|"
+        "reached {body})|the fingers (just closed|have closed|stopped) [on {body}]|"
+        "we are {*activities} {body} (today|by hand|for a customer)|"
+        "(it is|this is) (monday morning|late|the night shift|a demo|an audit|an inspection)|"
+        "{body} (broke|rolled away|got squashed|was dropped|was lost) (yesterday|last time|once)|"
+        "{body} (is|looks) (fragile|delicate|precious|brand new|old)|"
+        "last time (it went badly|we lost one|everything was fine)|"
+        "I am (filling in a form|writing a report|taking notes|keeping a log|on the phone)|"
+        "(my|the) (boss|supervisor|inspector|auditor) is (here|coming|on the line)|"
+        "no rush|take your time|I trust you|bear with me|long day|sorry , new here)"
+    ),
     "joiner": "(please|so|and|but|then|now|also|next|ok so|okay so|well then|and now|so now)",
     "lead": (
-        "[{joiner}|{opener} ,|{opener} :|{greet} ,|{greet} , {opener} ,|"
+        "[{joiner}|{opener} ,|{context} .|{opener} :|{greet} ,|{greet} , {opener} ,|"
         "{greet} , {joiner}|{setting} ,]"
     ),
     "tail": (
@@ -75,107 +109,13 @@ SHARED: dict[str, str | dict[str, str]] = {
         "in the gripper|in the grip|under the sensor|then|actually|precisely|overall|"
         "in total|again|"
         "once more|thank you|many thanks|cheers|mate|robot|my friend|if you do not mind|"
+        "pretty please|ta|asap|roger|momentarily|presently|give or take a bit|ballpark|"
+        "at this instant|as of this second|under these conditions|where we stand|by your reckoning|"
+        "to your mind|by the feel of it|going by feel|honestly|no fluff|"
         "if possible|if I may ask|when you have a moment|for me|for the log|for the record|"
         "for the report|for my notes|for my {*people_words}|as we speak|at all|anyway]"
     ),
-    "ask": (
-        "(can you tell me|could you tell me|do you know|I would like to know|I'd like to know|"
-        "tell me|I wonder|let me know|any idea|have you any idea|would you mind telling me|"
-        "I want to know|I need to know|please say|please tell me|can you say|could you say|"
-        "are you able to tell|can you work out|can you find out|do you feel|can you feel|"
-        "would you tell me|I am curious|I am asking|remind me|let us see|my question is|"
-        "the question is|help me understand|we need to know|we would like to know|"
-        "just tell me|do tell me|kindly tell me|please let me know|will you tell me|"
-        "could you please tell me|can you please tell me|would you please tell me|"
-        "could you let me know|can you let me know|could you kindly tell me|"
-        "can you figure out|could you work out|could you find out|could you check|can you check|"
-        "please check|check|figure out|work out|find out|say|show me|do you have any idea|"
-        "got any idea|any clue|have you got an idea|do you happen to know|would you happen to know|"
-        "do you by any chance know|would you know|might you know|are you able to say|"
-        "is it possible to say|is it possible to know|can one tell|can we tell|can it be told|"
-        "I have no idea|I do not know|I can not tell|I am not sure|I am unsure|I was wondering|"
-        "I am wondering|just wondering|I keep wondering|I ask myself|I want you to tell me|"
-        "I would love to know|I would be glad to know|I would be interested to know|"
-        "I am interested in|I must know|I have to know|I should know|we have to know|we wonder|"
-        "we want to know|my {*people_words} wants to know|my {*people_words} asks|"
-        "the customer wants to know|they want to know|someone asks|explain to me|explain|"
-        "please explain|can you explain|can you sense|do you sense|can you guess|guess|"
-        "can you judge|could you judge|can you determine|please determine|determine|"
-        "could you determine|please estimate|could you estimate|can you measure|tell us|"
-        "can you tell us|can you tell|could you tell|could you feel|from touch can you tell|"
-        "give me an idea of|I forgot|I need you to tell me|what I want to know is|"
-        "what I need to know is|what interests me is|all I want to know is)"
-    ),
-    "want": (
-        "(give me|tell me|what is|what's|what would be|I need|I want|show me|report|read out|"
-        "state|let me have|let me know|how about|please send|log|please measure|estimate|"
-        "look up|do you have|can I have|could I get|may I ask for|I'd like|I would like|"
-        "what do you read for|what do you get for|what is your estimate of|"
-        "what is your reading of|could you give me|can you give me|can you tell me|"
-        "could you tell me|can you estimate|can you measure|we need|we want|please print|"
-        "please report|what did you measure for|what are you reading for|what about|"
-        "do you know|remind me of|write down|say|i am looking for|how much is|"
-        "please give me|please tell me|just give me|just tell me|now give me|give us|"
-        "could you please give me|would you give me|will you give me|kindly give me|"
-        "could you report|can you report|could you state|can you state|please state|"
-        "could you measure|could you estimate|please estimate|measure|determine|"
-        "please determine|can you determine|work out|figure out|find out|find|get me|get|"
-        "fetch me|read me|read|please read out|can you read out|print|print out|display|output|"
-        "return|provide|please provide|can you provide|supply|note down|record|please record|"
-        "put down|check|please check|can you check|could you check|can you show me|"
-        "could you show me|please show me|can I get|can I see|could I have|could I see|"
-        "may I have|may I know|may I see|might I have|let me see|let us see|let us have|"
-        "let us hear|let me hear|I would like to know|I'd like to know|I want to know|"
-        "I need to know|I would like to have|I would love to have|we would like|"
-        "we would like to know|we need to know|I have to know|I am interested in|"
-        "I am asking for|I ask for|I was asking about|I am after|my question is about|"
-        "I wonder about|I am curious about|tell me about|what was|what might be|what could be|"
-        "what do you think is|what would you say is|what do you say is|what do you feel for|"
-        "what do you have for|what have you got for|what did you get for|what do you measure as|"
-        "what value do you have for|what is the value of|what is the reading for|"
-        "what is the estimate of|what does the sensor say about|what does the sensor give for|"
-        "what does the touch say about|any idea of|any idea about|any estimate of|"
-        "any reading of|any word on|anything on|do you feel|can you feel|can you sense|"
-        "do you measure|do you sense|do you read|do you happen to know|would you know|"
-        "have you got|have you measured|did you measure|did you get|could you say|can you say|"
-        "please say|please name|name|quote|specify|please specify|I forgot|once more|again|"
-        "only|just|required :|needed :|wanted :|the customer wants|they want|"
-        "my {*people_words} needs|my {*people_words} wants to know|for the log :|for the report :)"
-    ),
-    "whether": (
-        "(can you tell (whether|if)|could you tell me (whether|if)|do you (think|feel|find) [that]|"
-        "would you say [that]|tell me (whether|if)|check (whether|if)|please check (whether|if)|"
-        "can you confirm that|could you check (whether|if)|I would like to know (whether|if)|"
-        "let me know (whether|if)|I wonder (whether|if)|do you know (whether|if)|"
-        "I need to know (whether|if)|is it true that|is it so that|is it the case that|"
-        "are you sure that|would it be right that|can I assume that|may I assume that|"
-        "does it seem that|does it feel as if|please say whether|see if|find out whether|"
-        "i am asking whether|verify that|"
-        "do you (believe|reckon|guess|suppose|suspect|sense|notice|agree|see) [that]|"
-        "can you (feel|sense|see|say|check|verify|find out|work out|determine|judge) (whether|if)|"
-        "could you (say|check|verify|find out|confirm|determine|judge) (whether|if)|"
-        "can you tell me (whether|if)|could you please tell me (whether|if)|"
-        "please tell me (whether|if)|just tell me (whether|if)|please let me know (whether|if)|"
-        "I want to know (whether|if)|I'd like to know (whether|if)|we need to know (whether|if)|"
-        "we would like to know (whether|if)|I was wondering (whether|if)|just wondering if|"
-        "I am (not sure|unsure|curious|wondering|asking) (whether|if)|I (ask|doubt) (whether|if)|"
-        "I do not know (whether|if)|I can not tell (whether|if)|the question is (whether|if)|"
-        "my question is (whether|if)|any idea (whether|if)|do you happen to know (whether|if)|"
-        "would you know (whether|if)|are you able to tell (whether|if)|say (whether|if)|"
-        "determine (whether|if)|judge (whether|if)|find out if|work out (whether|if)|"
-        "make sure that|confirm that|please confirm that|please verify that|could you confirm that|"
-        "would you agree that|would you confirm that|is it right that|is it correct that|"
-        "is it right to say that|is it fair to say that|is it a fact that|is it possible that|"
-        "is it likely that|could it be that|can it be that|might it be that|"
-        "can (I|we|one) say that|may (I|we) say that|can we assume that|should I assume that|"
-        "am I right that|am I right in thinking that|am I correct that|"
-        "would I be right that|are we sure that|are you certain that|are you positive that|"
-        "true or false :|right or wrong :|yes or no :|"
-        "does it look as if|does it look like|does it feel like|does the touch say that|"
-        "does the sensor say that|does the sensor show that|do you have the impression that|"
-        "do you get the feeling that|would you think that|would you guess that|"
-        "my {*people_words} asks (whether|if)|my {*people_words} wants to know (whether|if))"
-    ),
+    **INDIRECT,
     "tag": (
         "(, right|, correct|, is that right|, is that so|, is it not|, am I right|, true or false|"
         ", yes or no|, yes|, don't you think|, do you agree|, would you agree|, or am I wrong|"
@@ -187,7 +127,9 @@ SHARED: dict[str, str | dict[str, str]] = {
         ", can you confirm|, can you confirm that|, please confirm|, could you check|"
         ", please check|"
         ", can you check that|, is this right|, is this true|, is that the case|, can that be|"
-        ", could that be|, right or wrong|, yeah|, surely|, or do I imagine that)"
+        ", innit|, correct me if I am wrong|, tell me I am wrong|, prove me wrong|, no doubt|"
+        ", or have I got that wrong|, or am I dreaming|, or am I way off|"
+        ", could that be|, fair enough|, right or wrong|, yeah|, surely|, or do I imagine that)"
     ),
     "believe": (
         "(I (think|guess|suspect|believe|assume|suppose|would say|hope|fear|bet|"
@@ -203,84 +145,14 @@ SHARED: dict[str, str | dict[str, str]] = {
         "my {*people_words} (says|thinks|believes|claims|told me) [that]|someone said that|"
         "you said that|they told me that|we believe that|we assume that|we suspect that|"
         "people say that|the log says that|the report says that|let us say|let us assume that|"
-        "I have been told that|I am under the impression that|so you say|you mean|you think)"
+        "I have been told that|I am under the impression that|so you say|you mean|you think|"
+        "it strikes me that|it occurs to me that|I am convinced [that]|I am positive [that]|"
+        "I reckon [that]|I dare say|I maintain [that]|I conclude [that]|I figure [that]|"
+        "I get the impression that|I have a hunch that|my gut says|my gut tells me that|"
+        "word has it that|rumour has it that|allegedly|supposedly|presumably|evidently|clearly|"
+        "by the looks of it|from here it looks as if|the {*jobs} (says|claims|insists) [that])"
     ),
-    "length": {
-        "word": (
-            "(in one word|in a single word|one word only|just one word|as briefly as you can|"
-            "only the answer|keep it short|a short answer|nothing more|in a word|one word|"
-            "one word please|one word will do|one word is enough|a single word|"
-            "a single word will do|just a word|only one word|one-word answer|a one-word answer|"
-            "a one word answer please|with one word|with a single word|"
-            "(answer|reply|respond) (in|with) (one|a single|just one|only one) word|"
-            "(answer|reply) in a word|say it in (one|a single) word|no more than one word|"
-            "not more than a word|use one word|use just one word|use a single word|"
-            "briefly|very briefly|in brief|in short|short answer|short answer please|"
-            "a short answer please|a brief answer|a brief answer please|a quick answer|"
-            "short and sweet|short please|keep it brief|be brief|be quick|be short|"
-            "make it short|make it brief|as short as possible|as short as you can|"
-            "as briefly as possible|the shortest answer|just the answer|only the answer please|"
-            "just the answer please|the answer only|the bare answer|nothing else|and nothing else|"
-            "no explanation|no explanations|without explanation|no details|no sentence|"
-            "not a sentence|no long answer|no story|no extra words|no more words|"
-            "answer briefly|answer shortly|reply briefly|to the point|spare me the details|"
-            "skip the details|just say it)"
-        ),
-        "sentence": (
-            "(in one sentence|in a full sentence|in a whole sentence|as a sentence|"
-            "in one complete sentence|answer in a sentence|in a sentence|in one full sentence|"
-            "in one whole sentence|in a complete sentence|in a single sentence|in full sentences|"
-            "in complete sentences|in whole sentences|as a full sentence|as a whole sentence|"
-            "as a complete sentence|as one sentence|with a sentence|with a full sentence|"
-            "with a whole sentence|with a complete sentence|with one sentence|"
-            "(answer|reply|respond) (in|with) (a|one|a full|a whole|a complete|one full|"
-            "one whole|one complete|a proper) sentence|"
-            "(say|put|phrase|write) it (in|as) (a|one|a full|a whole|a complete|one full) sentence|"
-            "a full sentence please|one sentence please|a whole sentence please|full sentence|"
-            "complete sentence|whole sentence|full sentence please|one sentence|a sentence please|"
-            "use a full sentence|use a whole sentence|use a complete sentence|use one sentence|"
-            "use full sentences|make it a sentence|make it a full sentence|in a proper sentence|"
-            "a proper sentence please|I want a full sentence|I want a whole sentence|"
-            "I need a full sentence|I would like a full sentence|not just a word|not just one word|"
-            "not in one word|more than one word|more than a word|and use a full sentence|"
-            "spelled out in a sentence|written out in a sentence|formulate a sentence|"
-            "give me a full sentence|give me a whole sentence|give me a sentence)"
-        ),
-    },
-    "first_length": {
-        "word": (
-            "((in (one|a single) word|with one word|one word|one word only|one-word answer|"
-            "a one-word answer|short answer|briefly|in brief|in short|very briefly|"
-            "(answer|reply|tell me) in (one|a single) word|(answer|reply) (briefly|with one word)|"
-            "just one word|as briefly as you can|keep it short|be brief) (,|:))"
-        ),
-        "sentence": (
-            "((in (a|one|a full|a whole|a complete|one full|a single) sentence|as a sentence|"
-            "(answer|reply|tell me) (in|with) (a|a full|a whole|a complete|one) sentence|"
-            "in full sentences|in complete sentences|with a full sentence|full sentence|"
-            "one sentence|use a full sentence|as a full sentence) (,|:))"
-        ),
-    },
-    "verdict": {
-        "word": (
-            "(yes or no only|just yes or no|only yes or no|a simple yes or no|a plain yes or no|"
-            "a yes or no|a yes or no will do|yes or no is enough|yes or no please|"
-            "a simple yes or no will do|a clear yes or no|(answer|reply|"
-            "respond) (with|by) yes or no|"
-            "answer yes or no|(say|just say|answer|only answer|just answer|reply) yes or no|"
-            "yes or no answer|yes or no answer please|a yes or no answer|please answer yes or no|"
-            "no more than yes or no|nothing but yes or no|yes or no and nothing else|"
-            "one word , yes or no|yes or no in one word|yes or no without explanation|"
-            "a yes or a no|just a yes or a no|with a yes or a no|with yes or no|only a yes or a no|"
-            "a one-word yes or no)"
-        ),
-        "sentence": (
-            "(not just yes or no|not only yes or no|more than yes or no|not merely yes or no|"
-            "do not just say yes or no|not a bare yes or no|yes or no in a full sentence|"
-            "with more than yes or no|a full sentence , not just yes or no|"
-            "yes or no is not enough)"
-        ),
-    },
+    **LENGTHS,
 }
 """Slots of every family.
 

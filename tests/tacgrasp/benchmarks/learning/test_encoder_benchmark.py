@@ -11,7 +11,7 @@ import torch
 
 from cltp.encoder.encoder import PRESETS, TactileEncoder
 from cltp.errors import TouchError
-from cltp.tactile.point_layout import GRID
+from cltp.tactile.point_layout import GRID, PointLayout
 from tacgrasp.__main__ import main
 from tacgrasp.benchmarks.learning import encoder as bench_encoder
 from tacgrasp.benchmarks.learning.plain_pointbert import PlainPointBert
@@ -21,8 +21,18 @@ TINY = dataclasses.replace(PRESETS["tiny"], tokenizer="fps", group_size=8)
 
 
 @pytest.fixture(autouse=True)
-def no_warm_up(monkeypatch: pytest.MonkeyPatch) -> None:
+def batches(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Sizes of the batches that are asked for; each has two clouds at most, and no warm-up."""
+    sizes: list[int] = []
+    clouds = bench_encoder.clouds
+
+    def few_clouds(count: int, *layout: PointLayout) -> torch.Tensor:
+        sizes.append(count)
+        return clouds(min(count, 2), *layout)
+
     monkeypatch.setattr(bench_encoder, "WARM_UP", 0)
+    monkeypatch.setattr(bench_encoder, "clouds", few_clouds)
+    return sizes
 
 
 def test_the_reference_has_the_size_of_ours() -> None:
@@ -42,7 +52,9 @@ def test_its_groups_are_the_nearest_points() -> None:
     assert len(torch.unique(centres[0], dim=0)) == 64  # farthest points never come twice
 
 
-def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_figures_are_those_of_the_clock(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, batches: list[int]
+) -> None:
     ticks = itertools.count()
     path = tmp_path / "encoder.json"
     few = dataclasses.replace(TINY, group_size=4, num_groups=6, dim=8)
@@ -59,11 +71,11 @@ def test_figures_are_those_of_the_clock(tmp_path: Path, monkeypatch: pytest.Monk
         assert figures["train_samples_per_s"] == 3 * 32  # one tick for all of the steps
         assert figures["train_bf16_samples_per_s"] == 3 * 32
     assert set(found["scaling"]) == {"256 points, 64 groups"}
+    of_each = [1, 64, 32, 32]  # two latencies, two trainings
+    assert batches == [*of_each, *of_each, 1]
 
 
-@pytest.mark.parametrize(
-    ("tokenizer", "groups"), [pytest.param("lattice", 64, marks=pytest.mark.slow), ("grid", 63)]
-)
+@pytest.mark.parametrize(("tokenizer", "groups"), [("lattice", 64), ("grid", 63)])
 def test_encoders_with_height_quantiles_are_timed(
     tokenizer: str, groups: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -16,7 +16,7 @@ from tacgrasp.__main__ import main
 def folder(tmp_path: Path) -> Path:
     meshes = tmp_path / "meshes"
     meshes.mkdir()
-    icosphere(subdivisions=4, radius=18.0).export(meshes / "ball.ply")
+    icosphere(subdivisions=3, radius=18.0).export(meshes / "ball.ply")
     box((150.0, 150.0, 30.0)).export(meshes / "tray.stl")
     sheet: trimesh.Trimesh = box((20.0, 20.0, 20.0))
     sheet.update_faces(np.arange(len(sheet.faces)) > 1)
@@ -24,7 +24,6 @@ def folder(tmp_path: Path) -> Path:
     return meshes
 
 
-@pytest.mark.slow
 def test_each_mesh_is_tried_or_refused_and_pictured(folder, tmp_path):
     figures, picture = tmp_path / "figures.json", tmp_path / "meshes.png"
     argv = ["--data", str(folder), "--episodes", "1", "--workers", "1"]

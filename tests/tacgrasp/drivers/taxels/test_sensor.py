@@ -204,6 +204,18 @@ def test_unplugging_while_reading_is_an_error_at_once_and_for_good(sensor, emula
             call()
 
 
+def test_a_port_that_is_closed_in_the_middle_of_a_request_is_an_unplugged_array(
+    sensor, monkeypatch
+):
+    def write(_):
+        raise TypeError("argument must be an int, or have a fileno() method.")  # as pyserial does
+
+    monkeypatch.setattr(sensor._port, "write", write)
+    for _ in range(2):
+        with pytest.raises(TouchError, match="unplugged"):
+            sensor.read()
+
+
 def test_a_replugged_array_is_found_under_the_same_name(emulator, settings):
     emulator.inject("unplugged")
     with pytest.raises(TouchError, match=r"no serial port .*taxel-array"):

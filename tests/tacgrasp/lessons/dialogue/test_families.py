@@ -95,6 +95,23 @@ def test_a_follow_up_is_understood_after_its_question_alone():
 
 
 @pytest.mark.parametrize(
+    ("before", "truth"),
+    [
+        ("How deep is it?", "depth_mm; area_percent; force_n"),
+        ("Is it deeper than 0.5 mm?", "depth_mm"),
+        ("Is it a sphere?", "shape"),
+        ("Are we over the limit?", "force_n; limit_n"),
+        ("Will it slip at this weight?", "force_n; holds_g"),
+        ("Is it cut off?", "wholeness"),
+    ],
+)
+def test_why_names_what_the_answer_before_was_about(before, truth):
+    meaning = understand("Why?", before=before)
+    assert meaning is not None
+    assert truth_of(meaning) == truth
+
+
+@pytest.mark.parametrize(
     ("text", "truth"),
     [
         ("How deep is it?", "depth_mm"),
@@ -124,6 +141,14 @@ def test_a_follow_up_is_understood_after_its_question_alone():
         ("The depth and the force?", "depth_mm; force_n"),
         ("Where is it?", "position"),
         ("Is it left of the middle?", "x_mm < 0"),
+        ("How far are we below the band?", "max(0, band_low_n - force_n)"),
+        ("How much force is in excess?", "max(0, force_n - band_high_n)"),
+        ("Would twice that be too much?", "2 * force_n > band_high_n"),
+        ("Would twice the force be over the limit?", "2 * force_n > limit_n"),
+        ("If we halve the force, would it still be enough?", "0.5 * force_n >= band_low_n"),
+        ("Is the force 1.2 N plus or minus 0.1?", "abs(force_n - 1.2) <= 0.1"),
+        ("Is the depth 300 µm ± 50?", "abs(depth_mm - 0.3) <= 0.05"),
+        ("Is the force within 100 of 800 mN?", "abs(force_n - 0.8) <= 0.1"),
     ],
 )
 def test_plain_questions_have_their_truths(text, truth):
@@ -138,6 +163,8 @@ def test_plain_questions_have_their_truths(text, truth):
         ("What color is it?", AnswerKind.UNKNOWABLE),
         ("How much does the vase cost?", AnswerKind.UNKNOWABLE),
         ("Is the cup hot?", AnswerKind.UNKNOWABLE),
+        ("What is its viscosity?", AnswerKind.UNKNOWABLE),
+        ("What do you think about glaciers?", AnswerKind.OFF_TOPIC),
         ("What is the capital of France?", AnswerKind.OFF_TOPIC),
         ("Tell me a joke.", AnswerKind.OFF_TOPIC),
     ],

@@ -15,6 +15,12 @@ from tacgrasp.lessons.dialogue.plain_words import plain_text, plain_words
         ("30 mm² or 8 %?", "# mm2 or # percent"),
         ("the fingertip's side", "the fingertip's side"),
         ("Is its centre grey?", "is it is center gray"),
+        ("isnt it 1.2 N +-0.1?", "is not it # n plus minus #"),
+        (
+            "0.3±0.05 mm, 1 +/- 2 or plus/minus 3",
+            "# plus minus # mm # plus minus # or plus minus #",
+        ),
+        ("whos gonna lift, theyre ready", "who is going to lift they are ready"),
         ("?!", ""),
     ],
 )

@@ -55,6 +55,11 @@ def test_a_follow_up_stands_behind_the_question_before():
         ("word shape.", Which(name="shape", is_open=True)),
         ("check not force within.", check_of("force within", denied=True)),
         ("check force > #2 g.", check_of("force > 250 g")),
+        ("check force #1 +- #2 N.", check_of("force 1 +- 250 N")),
+        ("check twice force over.", check_of("twice force over")),
+        ("amount lacking N.", Amount(quantity="lacking", unit="N")),
+        ("why felt.", Why(shows=("depth", "area", "force"))),
+        ("unknown trait.", Unknowable(subject="that")),
         ("why both.", Why(with_action=True)),
         ("unknown price.", Unknowable(subject="its price")),
         (

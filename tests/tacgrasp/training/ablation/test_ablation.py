@@ -1,7 +1,6 @@
 """Ablations change the part that they name and no other; their figures tell right from wrong."""
 
 import json
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -38,22 +37,11 @@ from tacgrasp.training.ablation.single_replies import (
 from tacgrasp.training.ablation.touch_parts import Misreading, mean_tokens, touch_parts
 from tacgrasp.training.question_evaluation import FeltContact
 from tests.fakes.question_scenes import HELD, random_states
-from tests.fakes.tiny_weights import make_data, make_weights
+from tests.fakes.tiny_weights import make_data
+
+pytestmark = pytest.mark.usefixtures("one_thread")
 
 BAND = Band(low=0.4, high=0.6)
-
-
-@pytest.fixture(scope="module", autouse=True)
-def threads_as_before() -> Iterator[None]:
-    before = torch.get_num_threads()
-    torch.set_num_threads(1)
-    yield
-    torch.set_num_threads(before)
-
-
-@pytest.fixture(scope="module")
-def weights(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return make_weights(tmp_path_factory.mktemp("weights"))
 
 
 @pytest.fixture(scope="module")

@@ -3,12 +3,10 @@
 import json
 import shlex
 import sys
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
-import torch
 
 from cltp.checkpoints.base_lm import BaseLm
 from cltp.data.contact import Split
@@ -16,7 +14,12 @@ from cltp.data.dataset import ContactDataset
 from cltp.texts.captions import caption
 from policies.llm.text import caption_text
 from tacgrasp.__main__ import main
-from tacgrasp.pretraining.report.store import MOST_FREQUENT, SHUFFLED, load_results
+from tacgrasp.pretraining.report.store import (
+    EXACT_HEIGHTS,
+    MOST_FREQUENT,
+    SHUFFLED,
+    load_results,
+)
 from tacgrasp.training.captions.evaluate import (
     most_frequent_caption,
     others,
@@ -28,12 +31,7 @@ from tests.fakes.fake_contacts import write_contacts
 from tests.fakes.fake_results import fake_result
 from tests.fakes.tiny_weights import make_weights, state
 
-
-@pytest.fixture(autouse=True)
-def threads_as_before() -> Iterator[None]:
-    before = torch.get_num_threads()
-    yield
-    torch.set_num_threads(before)
+pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 
 @pytest.fixture(scope="module")
@@ -89,7 +87,7 @@ def test_captions_are_rated_stored_and_reported(
     argv += ["--results", str(results), "--judge", judge, "--json", str(tmp_path / "f.json")]
     assert main(argv) == 0
     stored = {result.method: result for result in load_results(results)}
-    assert stored.keys() == {"cltp", MOST_FREQUENT, SHUFFLED}
+    assert stored.keys() == {"cltp", MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS}
     for result in stored.values():
         assert result.contacts == 3
         assert result.values["judge"] == 2.0

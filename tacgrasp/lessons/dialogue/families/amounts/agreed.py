@@ -171,13 +171,15 @@ _LIMIT_WORDING = AmountWording(
         f"the limiting force|the force (ceiling|cap)"
     ),
     bare=(
-        f"limit|force limit|hard limit|limit of the contract|contract limit|limit on the force|"
+        f"limit|ceiling|cap|redline|cutoff|max|maximum|upper limit|force maximum|force limit|hard limit|limit of the contract|contract limit|limit on the force|"
         f"(maximum|max) {_ALLOWED} force|{_ALLOWED} force|limit force|grip force limit|force cap|"
         "safety limit|force ceiling|upper force limit|limit for ({body}|{thing})"
     ),
     terse=f"{{unit}} {_ALLOWED}|{{unit}} at the limit|limit {{unit}}",
     others=(
-        f"which is {_LIMIT}|at (what|which) force (is|comes) {_LIMIT}|at what force must we stop|"
+        f"where is the (redline|ceiling|cutoff|cap) [for {{body}}]|what is the (redline|cutoff|cap|ceiling)|"
+        f"when is it too much for the contract|what force would be one too many|"
+        f"how much can {{thing}} (take|stand|endure) under the contract|which is {_LIMIT}|at (what|which) force (is|comes) {_LIMIT}|at what force must we stop|"
         f"beyond (what|which) force must we not go|up to (what|which) force may we (go|squeeze|"
         f"press)|{_LIMIT} is (what|how much|how high)|what limit (applies|holds|do we have|was set|"
         f"is set|does the contract set|is in the contract|must we respect|do we have to respect)"
@@ -257,7 +259,8 @@ _HEADROOM_WORDING = AmountWording(
         f"the safety margin|the limit minus the [present|current] force|the distance from the limit"
     ),
     bare=(
-        "headroom|force headroom|force margin|margin to the limit|margin|room to the limit|"
+        "headroom|leeway|breathing room|slack|reserve|elbow room|play left|wiggle room|safety buffer|"
+        "unused force|spare force|force to spare|allowance left|force headroom|force margin|margin to the limit|margin|room to the limit|"
         "distance to the limit|force left|force left to the limit|safety margin|remaining force|"
         "force reserve|gap to the limit|newtons left|margin below the limit"
     ),
@@ -266,6 +269,10 @@ _HEADROOM_WORDING = AmountWording(
         "{unit} left"
     ),
     others=(
+        f"how much breathing room (is left|is there|do we have)|how much wiggle room is left|"
+        f"how much force is (spare|to spare|in reserve)|what is our cushion below the limit|"
+        f"how (close|near) to the (redline|ceiling|cap|threshold|cutoff) are we|"
+        f"how far off the (ceiling|cap|redline|cutoff) are we|how much can we still (pile on|add)|"
         f"what (is left|remains) {_TO_LIMIT}|can we {_SQUEEZE} harder and by how much|"
         f"how much (harder|more) {_BEFORE_LIMIT}|how much is (it|there) {_TO_LIMIT}|"
         f"how much more (squeezing|pressing|gripping|force) is (allowed|permitted)"
@@ -313,7 +320,7 @@ _MASS_WORDING = AmountWording(
         "the weight {thing} has"
     ),
     bare=(
-        "weight|mass|weight of {thing}|mass of {thing}|object (weight|mass)|weight of the (thing|"
+        "weight|mass|heft|heaviness|kilos or grams|load weight|weight figure|weight of {thing}|mass of {thing}|object (weight|mass)|weight of the (thing|"
         "item|part)|item weight|part weight|known (mass|weight)|given (mass|weight)"
     ),
     terse="weight {unit}|mass {unit}|{unit} (it weighs|on the scale)|how many {unit} heavy",
@@ -321,7 +328,8 @@ _MASS_WORDING = AmountWording(
         "{thing} (weighs|is) (how much|how heavy|how many {unit})|{thing} has (what|which) (weight|"
         "mass)|how heavy might {thing} be|if I (put|laid) {thing} on a scale , what would it (show|"
         "say|read)|what would a (scale|balance) (show|say|read) for {thing}|what weight (goes|"
-        "should I note|is noted) for {thing}|how heavy|what did they say {thing} weighs"
+        "should I note|is noted) for {thing}|how heavy|how hefty is {thing}|how weighty is {thing}|what does {thing} bring to the "
+        "scale|what does {thing} tip the scales at|how much heft has {thing}|what did they say {thing} weighs"
     ),
 )
 _CARRY = "(hold|carry|lift|bear|take|support|hold up|handle|keep hold of|hold on to)"
@@ -395,7 +403,8 @@ _HOLDS_WORDING = AmountWording(
         f"the weight this grip can {_CARRY}|the (weight|mass) (limit|capacity) of this grip"
     ),
     bare=(
-        "payload|max payload|maximum payload|carrying capacity|load capacity|holding capacity|"
+        "payload|liftable weight|holding power|carrying power|lifting power|bearable load|"
+        "maximum mass|mass limit of this grip|safe load|max payload|maximum payload|carrying capacity|load capacity|holding capacity|"
         "heaviest load|max load for this grip|lifting capacity|payload of this grip|"
         "max weight we can (hold|lift|carry)|most weight we can (hold|lift|carry)|weight capacity|"
         "grip capacity|maximum load (held|we can hold)|heaviest thing we can (hold|lift)"
@@ -404,7 +413,9 @@ _HOLDS_WORDING = AmountWording(
         f"{{unit}} (this grip|we) can {_CARRY}|{{unit}} of payload|{{unit}} (held|carried) at most"
     ),
     others=(
-        f"how much can {_GRIPPER} {_CARRY}|how much may {{thing}} weigh ({_SLIPPING}|at most|"
+        f"how heavy is too heavy [for (this grip|us)]|where does this grip give out|"
+        f"what would be too heavy [for (this grip|us)]|how much mass is this squeeze good for|"
+        f"when is {{thing}} too heavy for this grip|how much can {_GRIPPER} {_CARRY}|how much may {{thing}} weigh ({_SLIPPING}|at most|"
         f"for this grip)|what may {{thing}} weigh ({_SLIPPING}|at most)|"
         f"this grip can {_CARRY} (what|how much)|what can {_GRIPPER} {_CARRY} at most|"
         f"how much weight is this grip good for|how strong is this grip in terms of (weight|load)|"

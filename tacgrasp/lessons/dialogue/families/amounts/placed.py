@@ -286,7 +286,10 @@ _DISTANCE = AmountWording(
     ),
     terse=f"{{unit}} ({_OFF}|to {_MIDDLE})",
     others=(
-        f"how well (centered|placed in the middle) is {_TARGET}|{_TARGET} is how far (off|"
+        f"how eccentric is {_TARGET}|how misaligned is {_TARGET}|how lopsided is the (grip|contact)|"
+        f"how far astray is {_TARGET}|how far did we stray from {_MIDDLE}|"
+        f"how far out of true is {_TARGET}|how much did we miss the bullseye by|"
+        f"how far from the bullseye (is {_TARGET}|are we)|how well (centered|placed in the middle) is {_TARGET}|{_TARGET} is how far (off|"
         f"from) {_MIDDLE}|how (large|big|great) is the (centering error|eccentricity|(distance|"
         f"offset) (from|to) {_MIDDLE})|how far out is {_TARGET}|how far from being centered is "
         f"{_TARGET}|how far would (we|I) have to (move|shift) to (center {{thing}}|be centered)|"

@@ -15,18 +15,24 @@ from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
 
 _DENT = (
     "(the (dent|dip|dimple|indentation|impression|imprint|print|mark|hollow|depression|deformation|"
+    "crater|dint|ding|groove|cavity|bulge|recess|trough|valley|furrow|"
     "penetration|press|contact|touch|pit) [in {gel}|on {gel}|of {thing}])"
 )
 _INTO = "(in|in|into {gel}|into {gel}|inside {gel})"
 _SUNK = (
     "(pressed|pressed|pushed|pushed|squeezed|squished|sunk|dug|driven|poked|jammed|forced|sitting|"
-    "sinking|pressing|pushing|digging|biting)"
+    "sinking|pressing|pushing|digging|biting|buried|embedded|lodged|wedged|rammed|plunged|bedded|"
+    "nestled|stuck|thrust|burrowed|planted|nudged)"
 )
 _SQUASHED = (
     "(pressed|pressed in|pushed in|indented|dented|compressed|squashed|squished|deformed|"
-    "pressed down|pushed down|depressed|squeezed in|pushed back|displaced)"
+    "pressed down|pushed down|depressed|squeezed in|pushed back|displaced|caved in|flattened|"
+    "dimpled|pitted|bulged|distorted|bent in|hollowed|crumpled|dinged|bowed in)"
 )
-_PRESSING = "(pressing|pushing|squeezing|squishing|sinking|digging|poking)"
+_PRESSING = (
+    "(pressing|pushing|squeezing|squishing|sinking|digging|poking|ramming|plunging|burrowing|"
+    "thrusting|driving|jabbing|prodding|nudging|easing)"
+)
 _DEPTH = AmountWording(
     asked=(
         Asked(
@@ -42,7 +48,8 @@ _DEPTH = AmountWording(
         ),
         Asked(
             "how (deep|far|deeply|much)",
-            f"does {{thing}} (go|sink|push|press|dig|poke|bite|cut|dip|stick|reach) {_INTO}",
+            f"does {{thing}} (go|sink|push|press|dig|poke|bite|cut|dip|stick|reach|burrow|plunge|protrude|"
+            f"intrude|extend|settle|nestle|bulge) {_INTO}",
             f"{{thing}} (goes|sinks|pushes|presses|digs|pokes|bites|cuts|dips|sticks|"
             f"reaches) {_INTO}",
         ),
@@ -135,13 +142,19 @@ _DEPTH = AmountWording(
         "deformation) (depth|of {gel})|the depth that {thing} reaches"
     ),
     bare=(
-        "depth|depth|contact depth|indentation depth|penetration depth|indentation|press depth|"
+        "depth|depth|dip|dint|immersion|sinkage|intrusion depth|imprint depth|crater depth|"
+        "depth of indent|depth value|z|how far in|contact depth|indentation depth|penetration depth|indentation|press depth|"
         "pressing depth|penetration|dent depth|depth of contact|depth of the dent|gel depth|"
         "max depth|maximum depth|depth of touch|depth of press"
     ),
     terse="{unit} (deep|in|pressed in|of depth|of indentation|into {gel}|sunk in)",
     others=(
-        "how deep|how deep in|{thing} (is|goes|sits|sinks) how deep [in]|{thing} is [pressed|"
+        "how deep|how deep in|how deep down|how buried is {thing}|how sunken is {thing}|"
+        "how dented is {gel}|how big a dint|what size of dent|how pronounced is the (dent|imprint)|"
+        "to what extent is {gel} (pushed in|dented|indented)|(what|how much) did {gel} (yield|give)|"
+        "how much has {gel} (caved|sagged|sunk) in|how thick a (slice|layer) of {gel} is pushed aside|"
+        "what is the z [value|travel] of the press|how far past the surface are we|"
+        "how far did we (go|get) past the surface|{thing} (is|goes|sits|sinks) how deep [in]|{thing} is [pressed|"
         "pushed] in how far|the depth is (what|how much)|(deep|pressed in|in) by how much|"
         "by how much is (it|{gel}|{thing}) "
         f"{_SQUASHED}|how much depth (is there|do you feel|do we have|have we got)|"
@@ -154,13 +167,18 @@ _DEPTH = AmountWording(
 
 _HELD = (
     "(held|held|gripped|grasped|clamped|squeezed|pinched|pressed|clenched|clutched|clasped|"
-    "being (held|squeezed|gripped|pressed|clamped|pinched))"
+    "being (held|squeezed|gripped|pressed|clamped|pinched)|throttled|seized|nipped|trapped|"
+    "sandwiched|secured|crushed|wrung|crimped|restrained|fastened)"
 )
-_HOLDING = "(holding|gripping|squeezing|pinching|pressing|clamping|grasping|clutching|pushing)"
+_HOLDING = (
+    "(holding|gripping|squeezing|pinching|pressing|clamping|grasping|clutching|pushing|nipping|"
+    "crushing|throttling|clenching|clinging|bearing down|leaning)"
+)
 _HOLD = "(hold|grip|squeeze|pinch|press|clamp|grasp|clutch|push)"
 _HARD = (
     "(hard|hard|firmly|firmly|tightly|tight|strongly|forcefully|powerfully|firm|gently|softly|"
-    "lightly|loosely)"
+    "lightly|loosely|vigorously|intensely|violently|fiercely|heavily|securely|snugly|stiffly|"
+    "energetically|robustly|timidly|delicately)"
 )
 _GRIP = (
     "(the|our|your|this) (grip|grasp|hold|squeeze|pinch|press|push|clamp|clamping|"
@@ -212,7 +230,8 @@ _FORCE_ASKED = (
         "{thing} (pushes back|presses back|resists)|{thing} is (pushing|pressing) back",
     ),
     Asked(
-        "how much (pressure|load|squeeze|push)",
+        "how much (pressure|load|squeeze|push|strength|power|oomph|muscle|effort|thrust|strain|might|punch|"
+        "compression|tension|juice|clout)",
         "is (there|on {thing}|on {gel}|there on {gel}|pressing on {gel})|do you (feel|measure|"
         "sense)|are we (putting on|applying to) {thing}|do (we|you) apply [to {thing}]|"
         "does {thing} put on {gel}|is {thing} (under|feeling|getting)",
@@ -276,13 +295,22 @@ _FORCE_NOUNS = (
     "of {touch}|being applied|acting on {gel})|the force in the grip|the push of {thing}"
 )
 _FORCE_BARE = (
-    "force|force|contact force|grip force|normal force|gripping force|clamping force|press force|"
+    "force|force|newtons|thrust|load|squeeze|oomph|push|clamp load|grip level|tightness|"
+    "firmness|strength|force reading|force value|normal load|pad load|compression force|"
+    "contact force|grip force|normal force|gripping force|clamping force|press force|"
     "pressing force|holding force|grip strength|squeeze force|pinch force|grasp force|"
     "force on (the pad|the gel|it|the finger|{thing})|load on (the pad|the gel)|force level|"
     "force of the grip|pressure on (the pad|the gel)|squeezing force|force between the fingers"
 )
 _FORCE_OTHERS = (
     "{thing} is (held|gripped|squeezed|pressed) how (hard|tightly|firmly|strongly)|"
+    "how (tight|firm|vigorous|brutal|gentle|intense) is the (squeeze|pinch|clamping|hug|embrace)|"
+    "what does the (force gauge|dynamometer|load cell|force meter) (say|show|read)|"
+    "if {gel} were a (scale|load cell|force gauge) , what would it (show|read|say)|"
+    "what are we (exerting|putting on it|laying on it|dishing out) in force|"
+    "how much does {gel} have to (take|bear|endure|withstand)|"
+    "how (stressed|loaded|strained) is {gel} [by {thing}]|"
+    "what is {thing} (pushing|bearing|leaning) against {gel} with|"
     "the force is (what|how much|how high)|we are (squeezing|pressing|gripping) how hard|"
     "by what force is {thing} (held|pressed)|{thing} presses with what force|with how much (force|"
     "pressure|strength|power) (is {thing} held|do we hold {thing}|are we (pressing|squeezing|"
@@ -318,6 +346,7 @@ _FORCE_OTHER = AmountWording(
 _COVERED = (
     "(covered|touched|in contact|in use|occupied|taken up|pressed|under {thing}|in touch|"
     "being touched|being covered|contacted|touching {thing}|touching|pressed on|engaged|filled|"
+    "hidden|blanketed|shaded|wetted|claimed|busy|swallowed|affected|involved|"
     "loaded)"
 )
 _PATCH = (
@@ -326,7 +355,8 @@ _PATCH = (
     "patch|pressed area) [of {thing}|on {gel}|with {body}])"
 )
 _SPREAD = (
-    "(touch|touch|cover|cover|occupy|take up|fill|use|press on|make contact with|lie on|rest on)"
+    "(touch|touch|cover|cover|occupy|take up|fill|use|press on|make contact with|lie on|rest on|"
+    "span|blanket|claim|hide|shade|sit on|spread over|stretch over|swallow|engage|bear on)"
 )
 _SPREADS = (
     "(touches|touches|covers|covers|occupies|takes up|fills|uses|presses on|lies on|rests on|"
@@ -395,12 +425,18 @@ _SHARE_NOUNS = (
     "the contact area (relative to|compared with) {gel}"
 )
 _AREA_BARE = (
-    "area|contact area|contact area|contact patch|footprint|area of contact|contact size|"
+    "area|contact area|contact area|extent|spread|surface area|patch size|size of the patch|"
+    "imprint area|touching area|touch area|expanse|square area|area figure|contact extent|"
+    "contact patch|footprint|area of contact|contact size|"
     "touched area|covered area|size of the contact|contact surface|size of the contact patch|"
     "area of the contact|contact patch size|footprint size|imprint size|area touched|area covered|"
     "contact region size|surface in contact|area in contact"
 )
 _AREA_OTHERS = (
+    "how (extended|wide-ranging|spread out|widespread|roomy) is the (contact|touch|imprint)|"
+    "how much ground does {thing} cover|how much real estate does {thing} take up|"
+    "what is the spread of the contact|how generous is the contact patch|"
+    "how much skin (is in the game|gets touched)|how far does the contact spread|"
     "{thing} (covers|touches) how much [of {gel}]|the area is (what|how large|how big)|how (large|"
     "big) (a (patch|footprint|contact|spot|mark)|an (area|imprint)) (does {thing} make|is it|"
     "is there|do you feel|does {thing} leave)|how much contact (is there|do we have|"

@@ -50,13 +50,13 @@ class AmountWording:
 
 
 UNIT_WORDS: Mapping[str, str] = {
-    "mm": "(mm|mm|millimetres|millimetres|millimetre)",
+    "mm": "(mm|mm|millimetres|millimetres|millimetre|mms)",
     "µm": "(microns|microns|micrometres|µm|micron|micrometre|thousandths of a (millimetre|mm))",
     "cm": "(cm|centimetres|centimeters|centimetre)",
     "N": "(newtons|newtons|N|newton)",
     "mN": "(millinewtons|mN|millinewton)",
     "gf": "(grams|grams|grams of force|gram-force|grams force|grams of weight|gram force|g|gf)",
-    "%": "(percent|percent|per cent|%)",
+    "%": "(percent|percent|per cent|%|percentage points|pct)",
     "mm²": "(mm²|mm2|square millimetres|square mm|millimetres squared|mm squared|sq mm)",
     "g": "(grams|grams|g|gram|grammes)",
     "kg": "(kg|kilograms|kilos|kilo|kilogrammes|kilogram)",
@@ -65,17 +65,18 @@ UNIT_WORDS: Mapping[str, str] = {
 
 GEL = (
     "(the (gel|gel|pad|pad|skin|sensor|finger|fingertip|rubber|membrane|elastomer|sensor skin|"
-    "gel pad|tip|cushion|soft (skin|layer|pad|surface))|your (gel|skin|pad|finger|fingertip))"
+    "gel pad|tip|cushion|soft (skin|layer|pad|surface)|silicone|sensing (skin|face|layer|surface)|"
+    "tactile (pad|skin|sensor)|touch (pad|sensor)|jelly|polymer|pad surface|finger pad)|your (gel|skin|pad|finger|fingertip))"
 )
 """What is pressed, as people call it."""
 
 HANDS = (
-    "(we|we|we|you|the (fingers|jaws|grippers|fingertips|pads|two fingers)|your (fingers|jaws)|"
+    "(we|we|we|you|the (fingers|jaws|grippers|fingertips|pads|two fingers|pincers|claws|tongs|prongs)|your (fingers|jaws)|"
     "the robot's fingers)"
 )
 """Who holds, with a verb in the plural."""
 
-HAND = "(the (gripper|robot|hand|claw|robot hand|machine)|our (gripper|robot)|your (gripper|hand))"
+HAND = "(the (gripper|robot|hand|claw|robot hand|machine|claw|pincer|manipulator|end effector|clamp|bot)|our (gripper|robot)|your (gripper|hand))"
 """Who holds, with a verb in the singular."""
 
 GUESS = (

@@ -33,6 +33,10 @@ def _open(name: str, subject: str, direct: str, indirect: str, noun: str) -> Que
 
 
 _SHAPE_DIRECT = (
+    "what (silhouette|contour|outline|profile|figure|morphology|configuration) (is it|does {thing} have|do you "
+    "feel|has {thing})|what does {thing} resemble [in shape|geometrically]|what is the (outline|contour|silhouette|"
+    "profile|morphology) [of {thing}]|which (silhouette|contour|outline|profile) is it|"
+    "what form does {thing} take|"
     "what shape is it|what is the shape|what shape is {thing}|what shape does {thing} have|"
     "what is the (shape|form|geometry) of {thing}|what shape do you feel|which shape is it|"
     "(what|which) shape (has {thing}|has {thing} got|did you feel|do you (sense|detect|read|make "
@@ -79,6 +83,10 @@ _SHAPE_NOUN = (
     "the shape (you feel|under the sensor|on the pad|of the contact|that touches the pad)"
 )
 _TEXTURE_DIRECT = (
+    "what (grain|weave|nap|topography|smoothness|tactility|coarseness|microstructure) (is it|has {thing}|do you feel)|"
+    "what is the (grain|feel|touch|topography|smoothness|coarseness|surface character|surface quality) "
+    "of {body}|how (coarse|bumpy|grainy|even|sleek|slick|uneven|polished|scratchy|ribbed|textured|patterned) "
+    "(is {thing}|is the surface|does {thing} feel)|"
     "what is the (texture|surface) [of {thing}] [like]|what texture is it|what texture is {thing}|"
     "what texture does {thing} have|what texture do you feel|which texture is it|"
     "(what|which) (texture|surface|finish) (does {thing} have|has {thing}|has {thing} got|is this|"
@@ -198,6 +206,11 @@ _AREA_NOUN = (
 )
 _SPOT = "(part|region|zone|area|section|cell|third)"
 _PLACE_DIRECT = (
+    "whereabouts on the (gel|pad|sensor|skin) [is it|are we]|in (what|which) (quadrant|sector|neighbourhood|district) of "
+    f"the {_PAD} (is {{thing}}|is the contact|are we)|which (quadrant|sector) [is it in|are we in]|"
+    "where has {thing} (ended up|settled|come to rest|parked|wound up|planted itself)|"
+    "pinpoint (it|{thing}|the contact)|where should I look [for the contact]|"
+    "which way (is {thing}|are we) off|"
     "where is it|where is the contact|where is ({touch}|{body})|where are we touching|where|"
     "where exactly|where abouts|where about is it|whereabouts is ({thing}|the contact)|"
     "where does {thing} touch [the pad|the gel|the sensor]|where do (we|you) (touch|feel) {thing}|"

@@ -47,7 +47,7 @@ _MASS_SLOTS: Slots = {
     "or_heavier": {">=": "(or heavier|or more)", "<=": "(or lighter|or less)"},
     "hold": "(hold|carry|lift|bear|support|take|manage|keep|handle|hold on to)",
     "grip": "(this grip|the grip|our grip|this force|the gripper|this hold|these fingers)",
-    "can": "(can|can|could|would be able to)",
+    "can": "(can|can|could|will)",
 }
 _FORCE_SLOTS: Slots = {
     **slots_of(("N",), _FIXED_FORCES),

@@ -47,6 +47,11 @@ _TOUCHED = (
     "you say) "
     "(whether|if) ({some} (touches|is touching|is on|is resting on|presses on) {pad}|there is "
     "{some})|"
+    "is {some} (brushing|grazing|bumping|nudging|tickling|rubbing) {pad}|"
+    "any (sign|trace|hint|evidence|whiff) of (contact|touch|{some})|(did|do) we (bump into|run into|"
+    "come across|hit upon) {some}|is {pad} (busy|engaged|occupied)|have the fingers landed [on "
+    "{thing}]|have we (landed|arrived|docked) [on {body}]|is {thing} (aboard|on board|captured|"
+    "safely in hand|in our clutches)|did we (snag|nab|bag|hook|score) ({some}|{thing})|"
     "is {some} [still|already|really|actually] ({touching} {pad}|there [yet|at all])|"
     "is {thing} [still|already|really|actually] {touching} {pad}|"
     "is ({thing}|{pad}) [really|actually|even] (touching [you|us|anything|something|anything "
@@ -110,6 +115,10 @@ _TOUCHED_SAID = (
     "(made|established)"
 )
 _EMPTY = (
+    "has {thing} (vanished|disappeared|wandered off|rolled away|flown off|got lost)|"
+    "is {pad} (idle|lonely|vacant|deserted|unoccupied)|is {hand} (vacant|unoccupied|bare)|"
+    "did we come away (empty-handed|with nothing)|are we (grasping|clutching) at (nothing|straws|"
+    "shadows)|did {hand} whiff|did we grab a handful of (air|nothing)|is {pad} in the void|"
     "is {pad} [still|now|already|completely] (empty|free|clear|untouched|unloaded|bare|not "
     "touched) "
     "[of objects|of anything]|(is|was) {hand} [still|completely] (empty|unloaded|not holding "
@@ -172,9 +181,12 @@ _RIM = (
 _OVER = f"((over|beyond|past|across|off|outside) ({_RIM}|{_SENSOR}))"
 _PART = "(part|some|a part|a bit|any|any part|a piece|one end|a portion|one side|half)"
 _CUT = (
-    "(is|was) {print} [partly|partially|being|a bit] (cut|cut off|clipped|cropped|truncated|"
+    "(is|was) {print} [partly|partially|being|a bit] (cut|cut off|lopped off|sliced off|shaved off|"
+    "guillotined|docked|curtailed|clipped|cropped|truncated|"
     "chopped off|"
     f"trimmed|cut short) [(by|at) {_RIM}]|"
+    "does {print} (overflow|straddle|transgress|cross|outgrow|overshoot) "
+    f"{_RIM}|is {{print}} (dangling|peeking|jutting|poking|bulging|teetering) {_OVER}|"
     "does {print} (run|reach|go|extend|hang|stick out|spill|lap|protrude|stretch|poke out|jut out) "
     f"{_OVER}|is {{print}} ((hanging|sticking out|running|going|reaching|spilling|lapping|"
     f"extending|partly|partially|half|partway) {_OVER}|over {_RIM})|is {{print}} (only partly|"
@@ -318,7 +330,9 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="describe",
         pattern=(
-            "{lead} ( (describe|report|explain|summarise|summarize|characterise|sum up|picture|"
+            "{lead} ( (describe|report|explain|sketch|narrate|detail|itemise|break down|run through|"
+            "put into words|give us the rundown on|walk me through|talk me through|verbalise|depict|"
+            "summarise|summarize|characterise|sum up|picture|"
             "outline|"
             "report on|give an account of|comment on|recap) [to (me|us)|for (me|us)|briefly|in "
             "full] {all} "

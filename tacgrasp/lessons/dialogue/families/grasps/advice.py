@@ -46,8 +46,11 @@ _CHANGES = (
 )
 _NEXT = "(next|now|next|then|from here|at this point|here|first|in this situation)"
 
-_WHY_LAST = (
-    "why|why|why so|why that|why is that|why is that so|why exactly|how so|how come|"
+WHY_LAST = (
+    "why|why|why so|wherefore|why though|on whose say-so|says what|prove it|show me why|"
+    "any proof|where is the proof|back that up|what backs that|what is that founded on|"
+    "what convinced you|what persuaded you|what gave it away|how did you figure that out|"
+    "how did you get there|why that|why is that|why is that so|why exactly|how so|how come|"
     "[and] what is the reason [for that|behind that]|for what reason|for which reason|"
     "on what grounds|on which grounds|on what basis|based on what|on account of what|"
     "why do you say (that|so|this)|why do you (conclude|believe|claim|assume) (that|so|this)|"
@@ -72,6 +75,7 @@ _WHY_LAST = (
     "how can you (tell|say that|know that|be sure)|says who|why should that be|"
     "walk me through (it|that|your reasoning)|what gives you that idea|reason"
 )
+"""Wordings that ask for the reason of the last answer."""
 
 _WRONG = "(wrong|amiss|not right|the matter|the problem|the trouble|the issue|off|faulty|bad)"
 _GRIP = "(the|this|our|my|your) (grip|hold|force|position|contact|grasp)"
@@ -111,7 +115,10 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"verdict|"
             f"next {_STEP}|decision|order|pick)|{_CHANGES}|where do we go from here|what is to be "
             f"done|"
-            f"what is there to do|what (needs|has) to (change|happen)|what am I (supposed|meant) "
+            f"what is there to do|what is the game plan|what is on the agenda|how do we play this|"
+            "what would be wise [now]|any pointers|any tips|got a tip|what is the play|guide me|"
+            "steer me|lead me|coach me|where to from here|what should be our next (step|move)|"
+            "what is called for|what would you have done [here]|give me directions|what (needs|has) to (change|happen)|what am I (supposed|meant) "
             f"to do "
             f"[{_NEXT}]|what are we (supposed|meant|going) to do [{_NEXT}]|any (advice|suggestions|"
             "ideas|recommendation) [what to do|for the next step]|do you have (any|a|some) (advice|"
@@ -253,13 +260,13 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     QuestionFamily(
         name="why_after_next",
-        pattern=f"{{lead}} ({_WHY_LAST}) {{tail}} [?]",
+        pattern=f"{{lead}} ({WHY_LAST}) {{tail}} [?]",
         build=lambda *_: Why(),
         before=NEXT_QUESTIONS,
     ),
     QuestionFamily(
         name="why_after_safe",
-        pattern=f"{{lead}} ({_WHY_LAST}) {{tail}} [?]",
+        pattern=f"{{lead}} ({WHY_LAST}) {{tail}} [?]",
         build=lambda *_: Why(shows=("force_band",)),
         before=SAFE_QUESTIONS,
     ),

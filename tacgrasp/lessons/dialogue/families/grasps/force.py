@@ -39,7 +39,7 @@ _HOLD = "(hold|grip|squeeze|pinch|clamp|grasp|press|clutch|grab|push)"
 _HOLDING = (
     "(holding|gripping|squeezing|pinching|clamping|grasping|pressing|clutching|grabbing|pushing)"
 )
-_HELD = "(held|gripped|squeezed|pinched|clamped|grasped|pressed|clutched|being held|being squeezed)"
+_HELD = "(held|gripped|squeezed|pinched|clamped|grasped|pressed|clutched|being held|being squeezed|nipped|seized|clenched)"
 _DEGREE = "[much|far|way|a bit|a little|slightly|still|already|maybe|perhaps|rather]"
 _AGREED = (
     "(wanted|agreed|we want|we agreed [on]|the contract (wants|says|asks for|demands)|required|"
@@ -51,18 +51,19 @@ _STATES = {
         f"((within|inside|in|within|well within|in line with) {_SPEC}|as (it should be|wanted|"
         "agreed|required|desired|we want it|planned|specified)|[just|about|quite] right "
         "[for {body}]|correct|OK|okay|fine|in order|all right|appropriate|suitable|"
-        "acceptable|on target|spot on|where (it should be|we want it)|up to spec|ideal)"
+        "acceptable|on target|spot on|in the green|bang on|within bounds|dialled in|on the money|just so|"
+        "as ordered|per spec|satisfactory|on spec|in the sweet spot|in the zone|where (it should be|we want it)|up to spec|ideal)"
     ),
     "below": (
         f"((below|under|short of|lower than|weaker than) {_SPEC}|{_DEGREE} too (light|weak|loose|"
-        "low|gentle|soft|slack|small|little|feeble|faint) [for {body}|for the contract]|"
+        "low|gentle|soft|slack|small|little|feeble|faint|flimsy|timid|puny|meagre|sloppy|slight|wimpy) [for {body}|for the contract]|"
         "[a bit|a little|rather] (loose|slack|weak)|insufficient [for {body}]|"
         f"on the (loose|weak|light|low|soft) side|(less|lower|weaker|looser|lighter) than "
         f"{_AGREED})"
     ),
     "above": (
         f"((above|over|higher than|beyond|stronger than) {_SPEC}|{_DEGREE} too (firm|strong|tight|"
-        "high|hard|much|great|rough|forceful|harsh|heavy) [for {body}|for the contract]|"
+        "high|hard|much|great|rough|forceful|harsh|heavy|brutal|aggressive|intense|stiff|violent|fierce) [for {body}|for the contract]|"
         "[a bit|a little|rather] excessive|on the (tight|firm|strong|high|hard) side|"
         f"(more|higher|stronger|tighter|firmer|harder) than {_AGREED}|overdone)"
     ),
@@ -127,13 +128,20 @@ def asked_or_stated(direct: str, stated: str, short: str) -> str:
 
 
 def conditional(
-    *slots: str, default: str = "", denied: bool = False
+    *slots: str, default: str = "", denied: bool = False, prefix: str = ""
 ) -> Callable[[Bindings, Numbers], Check]:
-    """A condition on the force by the value of the first slot that a wording has."""
+    """A condition on the force by the value of the first slot that a wording has.
+
+    Args:
+        slots: The slots.
+        default: The condition of a wording that has none of them.
+        denied: Whether it is denied.
+        prefix: What a query has before it.
+    """
 
     def build(bindings: Bindings, _: Numbers) -> Check:
         name = next((bindings[slot] for slot in slots if slot in bindings), default)
-        return check_of(f"force {name}", denied=denied, length=length_of(bindings))
+        return check_of(f"{prefix}force {name}", denied=denied, length=length_of(bindings))
 
     return build
 
@@ -170,7 +178,7 @@ _SIDES = {
 _KEPT = {
     "over": (
         "(exceed|break|pass|violate|overstep|go over|go past|surpass|go beyond|overrun|breach|"
-        "overshoot|cross|top)"
+        "overshoot|cross|top|bust|blow|bust through|transgress|outstrip|run over)"
     ),
     "under": (
         "(keep to|respect|observe|stay (below|under|within)|keep (below|under|within)|obey|"
@@ -190,12 +198,13 @@ _HARDER = {
     "below": (
         f"({_HOLD} [{{thing}}] (harder|more firmly|tighter|more tightly|more|more strongly|a bit "
         "harder|with more force|more)|tighten [up|the grip|the hold]|increase the (force|grip|"
-        "pressure|squeeze)|(use|apply|add) [some] more (force|pressure)|firm up the (grip|hold))"
+        "pressure|squeeze)|(use|apply|add) [some] more (force|pressure)|firm up the (grip|hold)|crank it up|dial it up|clamp down|bear down|bite harder|"
+        "step up the (force|grip)|beef up the grip|raise the (force|pressure)|snug it up)"
     ),
     "above": (
         f"({_HOLD} [{{thing}}] (softer|more softly|more gently|less|less hard|looser|more loosely|"
         "more lightly|a bit softer|with less force)|loosen [up|the grip|the hold]|(decrease|reduce|"
-        "lower) the (force|grip|pressure|squeeze)|(use|apply) less (force|pressure)|ease off|"
+        "lower) the (force|grip|pressure|squeeze)|(use|apply) less (force|pressure)|ease off|chill out a bit|dial it (down|back)|tone it down|go easier|release a bit|"
         "let up [a bit]|back off [a bit]|relax the (grip|hold)|ease the grip|slacken the grip)"
     ),
 }

@@ -22,7 +22,8 @@ _LIFT = (
     "pick up {thing}|raise {thing}|hoist {thing}|take {thing} up|pull {thing} up|"
     "raise the (arm|hand|gripper) [now]|lift the (arm|hand|gripper)|carry {thing} [away|off]|"
     "start (lifting|the lift)|begin (lifting|the lift)|go ahead and lift [{thing}]|"
-    "go ahead with the lift|lift|lift off|heave {thing} up|bring {thing} up|lift [{thing}] now)"
+    "go ahead with the lift|lift|lift off|heave {thing} up|hoick {thing} up|elevate {thing}|take off|go up|ascend|"
+    "send {thing} up|boost {thing} up|scoop {thing} up|snatch {thing} up|bring {thing} up|lift [{thing}] now)"
 )
 _LIFTING = (
     "(lifting {thing} [up|now]|lifting [{thing}]|raising {thing}|picking {thing} up|"
@@ -54,11 +55,11 @@ _WHEN_LIFTED = (
 _SLIP = (
     "(slip|slip|fall|slide|drop out|slip out|slip away|slide out|get lost|fall down|drop|fall out|"
     "slip through|slip off|slide away|slide down|get away|slip from the (fingers|gripper|grip)|"
-    "come loose|escape|slide through the fingers|fall out of the (gripper|hand|fingers))"
+    "come loose|escape|skid|slither|wriggle out|tumble|plummet|plop down|budge|creep out|squirm out|slide through the fingers|fall out of the (gripper|hand|fingers))"
 )
 _STAY = (
     "(stay|hold|stay in place|stay put|remain held|stay (in the (grip|gripper|hand|fingers)|put)|"
-    "remain in place|hold fast|stay where it is|stay held|remain put)"
+    "remain in place|hold fast|cling on|hang on|stick|survive|stay on board|hang in there|stay where it is|stay held|remain put)"
 )
 _SLIPPING = "(slipping|falling|sliding [out]|dropping|slipping (out|away|off))"
 _HOLDER = (
@@ -142,7 +143,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"we are {_READY} (to {_LIFT}|for the lift|for lifting)|we have a (good|safe|secure) "
             f"{_HOLD} [on {{thing}}]|{_LIFTING} (is|would be) {_SAFE}|we are good to go|"
             f"the {_HOLD} (feels|seems|looks) {_GOOD}|{{thing}} is safely (held|gripped)",
-            f"good to go|ready for (takeoff|lift-off|lifting|the lift|a lift)|ready to {_LIFT}|"
+            f"thumbs up for lifting|are we golden|up up and away|liftoff|lift-off|shall we|up we go|let us lift [it]|"
+            f"cleared for (lift-off|takeoff|lifting)|all systems go|good to go|ready for (takeoff|lift-off|lifting|the lift|a lift)|ready to {_LIFT}|"
             f"{_SAFE} to {_LIFT}|all (set|clear|good) (to {_LIFT}|for lifting|for the lift)|"
             f"clear to {_LIFT}|green light (to lift|for lifting|for the lift)|{_HOLD} {_GOOD}|"
             f"permission to {_LIFT}|lift [it|this|that] [now]|lift or not|go for (lift|lifting|"

@@ -67,7 +67,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     ),
     unfelt(
         "maker",
-        "who (made|makes|designed|built|invented|produced|manufactured|sells|baked|grew|painted) "
+        "who (made|makes|designed|built|produced|manufactured|sells|baked|grew|painted) "
         "{thing}|(which|what) {*makers} (made|sells|makes|built|produces) {thing}|"
         "by (whom|which {*makers}) was {thing} (made|designed|built|produced)|maker [of {thing}]|"
         "who is the (maker|manufacturer|designer|producer|inventor) of {thing}|"

@@ -23,7 +23,7 @@ _DO = (
 )
 
 
-def _off(name: str, direct: str, indirect: str = "", orders: str = "") -> QuestionFamily:
+def off(name: str, direct: str, indirect: str = "", orders: str = "") -> QuestionFamily:
     """Questions that are not about the contact.
 
     Args:
@@ -49,7 +49,7 @@ def _off(name: str, direct: str, indirect: str = "", orders: str = "") -> Questi
 
 
 FAMILIES: tuple[QuestionFamily, ...] = (
-    _off(
+    off(
         "facts",
         f"what is the (capital|population|currency|flag|president|anthem|area|history|climate|"
         f"national dish|official language|largest city|highest mountain|longest river) of {{*countries}}|"
@@ -86,7 +86,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "name (three|five|some|all) ({*animals}|planets|rivers|kings) [of {*countries}]|"
         "quiz me [on {*topics}]|help me with my {*topics} homework|look up {*famous}",
     ),
-    _off(
+    off(
         "kitchen_and_home",
         "how do I (cook|make|prepare|serve|freeze|bake) (a|an|the|my|) {*dishes}|"
         "what goes (into|with) (a|an|the|) {*dishes}|how long does {*dishes} take|"
@@ -112,7 +112,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "walk the dog|open the (door|window|fridge)|close the (door|window|curtains)|"
         "repair my {*machines}|pour me a {*drinks}",
     ),
-    _off(
+    off(
         "language",
         "how do (you|I) say ({*objects}|hello|thank you|goodbye|good morning) in {*languages}|"
         "do you (speak|understand|know|read|write) {*languages}|are you fluent in {*languages}|"
@@ -135,7 +135,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "spell {*objects} [for me]|give me a (word|rhyme|synonym) for {*objects}|"
         "summarise (this|the) (book|article|text)|make me laugh|know any (good jokes|jokes)",
     ),
-    _off(
+    off(
         "small_talk",
         "how are you [doing|feeling|today|this morning]|how is it going|what is up|how do you do|"
         "what is your (job|hobby|dream|favourite {*dishes}|favourite color|favourite {*animals}|"
@@ -167,7 +167,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "(be|stay) (nice|quiet|calm|my friend)|(greet|hug|kiss|meet|thank) (me|my {*people_words})|"
         "keep me company|play (a game|chess|cards|hide and seek) with me|entertain me",
     ),
-    _off(
+    off(
         "about_the_robot",
         "who (are you|made you|is your ({*people_words}|maker|owner)|built you|trained you|owns you)|"
         "what is your (name|age|serial number|software version|battery level|purpose|secret)|"
@@ -200,7 +200,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "(tell me|talk) about yourself|wave (to|at) (me|my {*people_words})|give me your (source code|"
         "address|password|name)",
     ),
-    _off(
+    off(
         "sums_and_code",
         "what is {#n} (plus|minus|times|multiplied by|divided by|x|+|*) {#m}|{#n} (plus|minus|times|divided by) "
         "{#m}|how much is {#n} (plus|minus|times|multiplied by) {#m}|{#n} percent of {#m}|"
@@ -230,7 +230,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "(open|close|install|update|delete) the {*computing}|hack the {*computing}|"
         "solve (this|my) (equation|homework|puzzle|riddle)|do my ({*topics}|maths) homework",
     ),
-    _off(
+    off(
         "news_and_travel",
         "who won the ({*sports} match|{*sports} final|race|election|lottery|war|game last night)|"
         f"how (is|was|will be) the weather [in {_PLACE}|{{when}}]|(will|does|is) it (rain|snow|be sunny|"
@@ -261,7 +261,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "show me the way to the {*places}|wake me [up] at {#n}|add {*objects} to my shopping list|"
         "cancel my (flight|appointment|meeting)|check the weather|navigate to {*cities}",
     ),
-    _off(
+    off(
         "sport_and_music",
         "who is the best ({*sports} player|{*music} singer|actor|composer|team)|what are the rules of "
         "{*sports}|should I (learn|study|play|try) ({*sports}|{*topics}|{*languages}|{*hobbies})|"
@@ -284,7 +284,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "teach me ({*sports}|{*hobbies})|play {*sports} with me|coach my {*sports} team|"
         "show me a {*films}",
     ),
-    _off(
+    off(
         "health_and_life",
         "what (helps|can I do|should I take|is good) (against|for) (a|an|my|) {*ailments}|"
         "I have (a|an|) [bad] {*ailments}|is {*ailments} (dangerous|contagious|curable|common)|"
@@ -310,7 +310,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "give me (advice|a massage|medicine|a hug|a diet plan)|read my (palm|mind|horoscope)|"
         "write my (application|diary|essay|homework)|help me (relax|sleep|find a job|with my life)",
     ),
-    _off(
+    off(
         "thought_and_state",
         "what is the meaning of ({*concepts}|life|it all)|what is {*concepts}|is there (a god|life after "
         "death|life on {*planets}|free will|such a thing as {*concepts}|{*concepts} [in the world])|"
@@ -337,7 +337,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "{*people_words}|pay my {*money_words}|(buy|sell) my (shares|car|house)|lend me {#n} {*money}|"
         "write (to|) the (government|president|mayor)|do my taxes|vote for me",
     ),
-    _off(
+    off(
         "other_requests",
         "why (is|are) you (so|) {*insults}|are you [always|really] ({*insults}|{*praises})|"
         "you are [so|very|really|quite] ({*insults}|{*praises})|you (idiot|fool|liar|genius|star|legend)|"
@@ -372,7 +372,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "(ignore|forget) (your|all|the) [previous] (instructions|orders|rules)|pretend to be a ({*jobs}|"
         "{*animals})|act (like|as) a ({*jobs}|{*animals})|repeat after me|say (cheese|my name|please)",
     ),
-    _off(
+    off(
         "gibberish",
         "{*syllables}|{*keys}|{*noises}|{*syllables} {*syllables}|{*syllables} {*syllables} "
         "{*syllables}|{*keys} {*keys}|{*keys} {*keys} {*keys}|{*noises} {*noises}|"

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 from tacgrasp.lessons.dialogue.meaning import Meaning, Unknowable
 from tacgrasp.lessons.dialogue.patterns.family import Bindings, Numbers, QuestionFamily, length_of
-from tacgrasp.lessons.dialogue.query import SUBJECTS
+from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 
 
 def _unknown(subject: str) -> Callable[[Bindings, Numbers], Meaning]:

@@ -11,8 +11,8 @@ from cltp.sensing.photometric import COLOUR_SCALE, GradientNet
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import Depth, Shape
 from tacgrasp.__main__ import main
-from tacgrasp.benchmarks.sensing.ball_answers import BallReading
-from tacgrasp.benchmarks.sensing.ball_captions import depth_order, figures_of
+from tacgrasp.benchmarks.balls.answers import BallReading
+from tacgrasp.benchmarks.balls.captions import depth_order, figures_of
 from tests.fakes.tiny_weights import make_weights
 
 SENSOR = SENSORS["gelsight_mini"]

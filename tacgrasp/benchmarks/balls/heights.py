@@ -22,7 +22,7 @@ from cltp.sensing.ball_fit import FittedBall, fit_ball
 from cltp.sensing.calibration import default_calibration, load_calibration
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.train.photometric import train_gradients
+from cltp.train.photometric.calibrate import train_gradients
 from cltp.train.progress import Bar
 from tacgrasp.benchmarks.figures import times_ms, write_figures
 from tacgrasp.benchmarks.settings import BallsSettings
@@ -77,12 +77,16 @@ def measure_held_out(
             )
             photometer = Photometer(trained.net, balls.background, sensor)
             for index in range(fold, len(balls.frames), folds):
-                height = photometer.heights(balls.frames[index])
-                presses[index] = HeldOutPress(
-                    name=balls.names[index], ball=_fit(height, sensor), height_mm=height
-                )
+                presses[index] = measured_press(balls, index, photometer)
             bar("calibrating without", fold + 1, folds, {})
     return [presses[index] for index in sorted(presses)]
+
+
+def measured_press(balls: BallFrames, index: int, photometer: Photometer) -> HeldOutPress:
+    """The heights of one press, and the ball in them."""
+    height_mm = photometer.heights(balls.frames[index])
+    ball = _fit(height_mm, photometer.sensor)
+    return HeldOutPress(name=balls.names[index], ball=ball, height_mm=height_mm)
 
 
 def _fit(height_mm: NDArray[np.float32], sensor: SensorSpec) -> FittedBall | None:

@@ -23,9 +23,9 @@ from cltp.errors import TouchError
 from cltp.sensing.ball_presses import find_press
 from cltp.tactile.sensors import sensor_named
 from cltp.tactile.states import Depth, Shape
+from tacgrasp.benchmarks.balls.answers import BallReading, make_reader
+from tacgrasp.benchmarks.balls.heights import measure_held_out
 from tacgrasp.benchmarks.figures import write_figures
-from tacgrasp.benchmarks.sensing.ball_answers import BallReading, make_reader
-from tacgrasp.benchmarks.sensing.balls import measure_held_out
 from tacgrasp.benchmarks.settings import BallCaptionsSettings
 from tacgrasp.bringup.ball_frames import frames_heights, read_ball_frames
 from tacgrasp.bringup.ball_profiles import ball_profiles

@@ -2,11 +2,13 @@
 
 The network first learns the slopes of the bare sphere, where the gel follows it. If profiles of the
 gel are given, position and depth of every press are then fitted to the network's slopes, and it
-learns all of the gel; both are done twice. From the sphere alone, the surroundings of a contact
-would not be learned, and heights would drift (``tacgrasp bench balls``, with ``--bare-sphere`` and
-without). Deterministic for a seed on one machine.
+learns all of the gel; both are done twice, the second time by ``cltp.train.photometric.consensus``.
+From the sphere alone, the surroundings of a contact would not be learned, and heights would drift
+(``tacgrasp bench balls``, with ``--bare-sphere`` and without). Deterministic for a seed on one
+machine.
 
-Not here: the file (``cltp.sensing.calibration``).
+Not here: the file (``cltp.sensing.calibration``), how many presses are enough (``tacgrasp bench
+ball-curve``).
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 from numpy.typing import NDArray
-from torch import Tensor, nn
+from torch import Tensor
 
 from cltp.errors import TouchError
 from cltp.sensing.ball_presses import (
@@ -33,16 +35,14 @@ from cltp.sensing.ball_presses import (
 from cltp.sensing.frames import Frame, check_frame
 from cltp.sensing.photometric import GradientNet, Photometer, colour_change, position_inputs
 from cltp.tactile.sensors import SensorSpec
-from cltp.torch_threads import torch_threads
+from cltp.train.photometric.consensus import consensus_steps, train_consensus
+from cltp.train.photometric.network import Net, train_net
 
-HIDDEN = 32
 MIN_PRESSES = 5
 """Fewer presses can't cover the sensing area; our choice."""
 
 _NEAR_MM = 3.5  # distance from a press that holds ball, bulge and a rim
 _NEAR_SAMPLES, _FAR_SAMPLES = 3000, 1500  # pixels of a frame; the far ones keep the gel flat
-_BATCH = 4096
-_RATE = 1e-2
 
 StepReport = Callable[[int, int], None]
 """Receives the step and the number of steps."""
@@ -73,7 +73,7 @@ def train_gradients(
     *,
     profiles: ProfileTable | None = None,
     seed: int = 0,
-    steps: tuple[int, int, int] = (600, 300, 700),
+    steps: tuple[int, int, int] = (600, 300, 1000),
     report: StepReport = lambda step, steps: None,
 ) -> TrainedPhotometric:
     """Train the network on presses of a ball.
@@ -85,7 +85,8 @@ def train_gradients(
         diameter_mm: Diameter of the ball [mm].
         profiles: Profiles of this gel around this ball; None learns from the bare sphere alone.
         seed: Seed of weights and samples.
-        steps: Training steps on the sphere, and on the gel before and after the second fit.
+        steps: Training steps on the sphere, on the gel before the second fit, and of each network
+            after it.
         report: Receives the progress.
 
     Raises:
@@ -98,23 +99,21 @@ def train_gradients(
     used, presses, rejected = _find_all(frames, background, sensor, diameter_mm)
     changes = [colour_change(frames[i], background) for i in used]
     torch_rng = torch.Generator().manual_seed(seed)
-    model, rng = _Net(torch_rng), np.random.default_rng(seed)
-    total = sum(steps) if profiles is not None else steps[0] + steps[2]
-    done = 0
+    model, rng = Net(torch_rng), np.random.default_rng(seed)
+    first = steps[:1] if profiles is None else steps[:2]
+    total, done = sum(first) + consensus_steps(steps[2]), 0
 
-    def train(shape: PressShape, count: int) -> None:
+    def step_is_done() -> None:
         nonlocal done
-        inputs, targets = _samples(changes, presses, shape, sensor, rng)
-        _train(model, inputs, targets, count, torch_rng, lambda k: report(done + k, total))
-        done += count
+        done += 1
+        report(done, total)
 
     shape: PressShape = SphericalCap(diameter_mm=diameter_mm)
-    if profiles is None:
-        train(shape, total)
-    else:
-        train(shape, steps[0])
-        shape = profiles
-        for count in steps[1:]:
+    for count in first:
+        inputs, targets = _samples(changes, presses, shape, sensor, rng)
+        train_net(model, inputs, targets, count, torch_rng, step_is_done)
+        if profiles is not None:
+            shape = profiles
             photometer = Photometer(model.numpy(), background, sensor)
             slopes = [photometer.gradients(frames[i]) for i in used]
             mm_per_px, deepest_mm = sensor.mm_per_px, float(profiles.depths_mm[-1])
@@ -122,7 +121,8 @@ def train_gradients(
                 fit_press(press, *gradients, profiles, mm_per_px=mm_per_px, max_depth_mm=deepest_mm)
                 for press, gradients in zip(presses, slopes, strict=True)
             ]
-            train(shape, count)
+    inputs, targets = _samples(changes, presses, shape, sensor, rng)
+    model = train_consensus(inputs, targets, steps[2], torch_rng, step_is_done)
     inputs, targets = _samples(changes, presses, shape, sensor, rng, far=0)
     with torch.no_grad():
         residual = math.sqrt(float((model(inputs) - targets).square().mean()))
@@ -151,33 +151,6 @@ def _find_all(
     return used, presses, rejected
 
 
-class _Net(nn.Module):
-    """``GradientNet`` in torch."""
-
-    def __init__(self, rng: torch.Generator) -> None:
-        super().__init__()
-        self.first = nn.Linear(5, HIDDEN)
-        self.second = nn.Linear(HIDDEN, HIDDEN)
-        self.last = nn.Linear(HIDDEN, 6)
-        with torch.no_grad():
-            for layer in (self.first, self.second, self.last):
-                bound = 1 / math.sqrt(layer.in_features)
-                layer.weight.uniform_(-bound, bound, generator=rng)
-                layer.bias.uniform_(-bound, bound, generator=rng)
-
-    def forward(self, inputs: Tensor) -> Tensor:
-        """Inputs (N, 5) -> slopes (N, 2)."""
-        hidden = torch.relu(self.second(torch.relu(self.first(inputs))))
-        return (self.last(hidden).view(-1, 2, 3) * inputs[:, None, :3]).sum(-1)
-
-    def numpy(self) -> GradientNet:
-        arrays = {}
-        for number, layer in enumerate((self.first, self.second, self.last), start=1):
-            arrays[f"w{number}"] = layer.weight.T.detach().numpy()
-            arrays[f"b{number}"] = layer.bias.detach().numpy()
-        return GradientNet(**arrays)
-
-
 def _samples(
     changes: Sequence[NDArray[np.float32]],
     presses: Sequence[BallPress],
@@ -203,27 +176,3 @@ def _samples(
         inputs.append(np.concatenate([change[chosen], positions[chosen]], axis=1))
         targets.append(slopes[chosen].astype(np.float32))
     return torch.from_numpy(np.concatenate(inputs)), torch.from_numpy(np.concatenate(targets))
-
-
-@torch_threads()
-def _train(
-    model: _Net,
-    inputs: Tensor,
-    targets: Tensor,
-    steps: int,
-    rng: torch.Generator,
-    report: Callable[[int], None],
-) -> None:
-    """Adam with one cycle of its rate."""
-    if steps < 1:
-        return
-    optimizer = torch.optim.AdamW(model.parameters(), lr=_RATE, weight_decay=1e-4)
-    schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, _RATE, total_steps=max(steps, 2))
-    for step in range(steps):
-        chosen = torch.randint(len(inputs), (_BATCH,), generator=rng)
-        loss = (model(inputs[chosen]) - targets[chosen]).square().mean()
-        optimizer.zero_grad()
-        loss.backward()
-        optimizer.step()
-        schedule.step()
-        report(step + 1)

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
+from cltp.evaluation.exact_observer import observed_state
 from cltp.tactile.sensor_noise import NoiseUnit
 from cltp.tactile.states import Depth, Position
-from tacgrasp.benchmarks.robustness.exact_observer import observed_state
 from tests.fakes.tiny_weights import MINI, bump, state
 
 X_MM, Y_MM, DEPTH_MM = 2.0, -1.0, 0.58

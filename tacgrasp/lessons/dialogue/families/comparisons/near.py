@@ -1,0 +1,79 @@
+"""Families that compare depth or force with a number and its tolerance: '1.2 N give or take 0.1'."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from tacgrasp.lessons.dialogue.conditions import check_of, number_text
+from tacgrasp.lessons.dialogue.expression import Expression
+from tacgrasp.lessons.dialogue.families.comparisons.thresholds import SCALES, UNITS
+from tacgrasp.lessons.dialogue.meaning import FACTS, Check
+from tacgrasp.lessons.dialogue.patterns.family import (
+    Bindings,
+    Numbers,
+    QuestionFamily,
+    length_of,
+)
+from tacgrasp.lessons.dialogue.scene import AskedScene
+
+_SIGN = "(±|+-|+/-|plus or minus|plus minus|give or take|plus/minus)"
+_NEAR = (
+    f"({{#t}} {{unit}} {_SIGN} {{#u}}|{{#t}} {_SIGN} {{#u}} {{unit}}|"
+    "within {#u} of {#t} {unit}|{#t} {unit} with a tolerance of {#u}|"
+    "{#t} {unit} to within {#u}|no (further|more) than {#u} (off|away from) {#t} {unit}|"
+    "{#t} {unit} , tolerance {#u}|{#t} {unit} with {#u} (tolerance|play|leeway|slack)|"
+    "{#t} {unit} with {#u} of (play|leeway|slack))"
+)
+
+
+def _near_family(name: str, quantity: str, nouns: str, *units: str) -> QuestionFamily:
+    """A family that asks whether a quantity is a number within a tolerance of the same unit."""
+    truth = FACTS[quantity]
+
+    def build(bindings: Bindings, numbers: Numbers) -> Check:
+        middle, away = (number_text(numbers[number]) for number in "tu")
+        test = f"{quantity} {middle} +- {away} {bindings['unit']}"
+        return check_of(test, length=length_of(bindings))
+
+    def choose(
+        scene: AskedScene, bindings: Bindings, rng: np.random.Generator
+    ) -> Mapping[str, str]:
+        scale = SCALES[truth][bindings["unit"]]
+        value = Expression(truth).evaluate(scene.values()).value
+        felt = value if isinstance(value, float) and value > 0 else 0.5
+        middle = felt / scale.size * float(np.exp(rng.uniform(-0.4, 0.4)))
+        away = middle * float(rng.uniform(0.05, 0.3))
+        steps = [max(1, round(number / scale.step)) * scale.step for number in (middle, away)]
+        return dict(zip("tu", map(number_text, steps), strict=True))
+
+    return QuestionFamily(
+        name=name,
+        pattern=(
+            f"{{lead}} ( (is|is|was|isn't) ({nouns}) [really|still|now] {_NEAR} "
+            f"| {{whether}} ({nouns}) is {_NEAR} | [{{believe}}] ({nouns}) is {_NEAR} [{{tag}}] "
+            f"| ({nouns}) {_NEAR} [, yes or no|, right|, true or false|, correct] "
+            f"| (does|did) ({nouns}) (come to|amount to|measure) {_NEAR} ) {{tail}} [, {{length}}]"
+        ),
+        build=build,
+        slots={"unit": {unit: UNITS[unit] for unit in units}},
+        choose=choose,
+    )
+
+
+FAMILIES: tuple[QuestionFamily, ...] = (
+    _near_family(
+        "force_near",
+        "force",
+        "the [contact|grip|normal|present] force|our (grip|force)|the (grip|squeeze|load)|"
+        "the force on {thing}",
+        *("N", "mN", "g"),
+    ),
+    _near_family(
+        "depth_near",
+        "depth",
+        "the [contact|press|present] depth|the (indentation|dent|penetration)|the depth of {touch}",
+        *("mm", "µm"),
+    ),
+)

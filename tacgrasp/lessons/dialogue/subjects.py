@@ -1,0 +1,33 @@
+"""Subjects that touch can't know."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+SUBJECTS: Mapping[str, str] = {
+    "color": "its color",
+    "temperature": "its temperature",
+    "name": "its name",
+    "price": "its price",
+    "smell": "its smell",
+    "taste": "its taste",
+    "sound": "its sound",
+    "origin": "where it comes from",
+    "inside": "what is inside it",
+    "sight": "what can only be seen",
+    "material": "what it is made of",
+    "age": "its age",
+    "owner": "whose it is",
+    "maker": "who made it",
+    "purpose": "what it is for",
+    "freshness": "its freshness",
+    "danger": "whether it is dangerous",
+    "electricity": "its electric or magnetic properties",
+    "size": "its full size",
+    "surroundings": "what is around it",
+    "print": "what is printed on it",
+    "past": "what happened to it before",
+    "law": "what the rules say about it",
+    "trait": "that",
+}
+"""What touch can't know, as answers name it."""

@@ -1,0 +1,160 @@
+"""The reflex: a pure function that keeps the contract and owns no goal."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from policies.reflex import (
+    CLEARLY_ABOVE,
+    FRESH_S,
+    IMPOSSIBLE,
+    LEAST_FACTOR,
+    LOWER_EVERY_S,
+    MAX_BLIND_S,
+    MOST_FACTOR,
+    RESPONSE_S,
+    Act,
+    ReflexMemory,
+    ReflexReading,
+    correct,
+)
+from primitives.contract import Band, ForceTerms
+
+PERIOD_S = 0.01
+TERMS = ForceTerms(force_n=Band(low=0.5, high=1.0), limit_n=1.5)
+CALM = ReflexReading(
+    t_s=10.0, captured_s=10.0, felt_n=0.8, slip=-2.0, commanded_n=0.6, most_felt_n=1.0
+)
+
+
+def act(reading, memory=None, terms=TERMS):
+    return correct(reading, terms, memory or ReflexMemory(), PERIOD_S)
+
+
+def test_a_calm_hold_inside_the_band_is_left_alone():
+    correction, memory = act(CALM)
+    assert (correction.act, correction.force_n) == (Act.HOLD, CALM.commanded_n)
+    assert memory == ReflexMemory()
+
+
+def test_a_slip_raises_the_force_by_the_least_step():
+    correction, _ = act(replace(CALM, slip=0.1))
+    assert correction.act is Act.RAISE
+    assert correction.force_n == pytest.approx(0.6 * LEAST_FACTOR)
+
+
+def test_no_second_step_before_the_gripper_has_had_time_to_answer():
+    slipping = replace(CALM, slip=3.0)
+    _, memory = act(slipping)
+    soon = replace(slipping, t_s=10.0 + RESPONSE_S / 2, captured_s=10.0 + RESPONSE_S / 2)
+    assert act(soon, memory)[0].act is Act.HOLD
+
+
+def test_a_slip_that_goes_on_gets_ever_larger_steps_up_to_the_largest():
+    memory, commanded_n, factors = ReflexMemory(), 0.1, []
+    terms = ForceTerms(force_n=Band(low=0.5, high=1.0), limit_n=100.0)
+    for k in range(6):
+        t_s = 10.0 + k * RESPONSE_S
+        reading = replace(CALM, t_s=t_s, captured_s=t_s, slip=3.0, commanded_n=commanded_n)
+        correction, memory = act(reading, memory, terms)
+        factors.append(correction.force_n / commanded_n)
+        commanded_n = correction.force_n
+    assert factors[:3] == pytest.approx([1.12, 1.24, 1.48])
+    assert factors[-1] == pytest.approx(MOST_FACTOR)
+
+
+def test_a_later_slip_begins_with_the_least_step_again():
+    _, memory = act(replace(CALM, slip=3.0))
+    later = replace(CALM, t_s=10.1 + FRESH_S, captured_s=10.1 + FRESH_S, slip=3.0)
+    assert act(later, memory)[0].force_n == pytest.approx(0.6 * LEAST_FACTOR)
+
+
+def test_a_force_clearly_above_the_band_is_lowered_and_not_twice_at_once():
+    high = replace(CALM, felt_n=1.01 * CLEARLY_ABOVE)
+    correction, memory = act(high)
+    assert correction.act is Act.LOWER
+    assert correction.force_n < high.commanded_n
+    soon = replace(high, t_s=10.0 + LOWER_EVERY_S / 2, captured_s=10.0 + LOWER_EVERY_S / 2)
+    assert act(soon, memory)[0].act is Act.HOLD
+
+
+def test_what_a_slip_has_asked_for_is_not_taken_away():
+    raised, memory = act(replace(CALM, slip=1.0))
+    later = replace(
+        CALM, t_s=12.0, captured_s=12.0, felt_n=1.3, commanded_n=raised.force_n, most_felt_n=2.0
+    )
+    assert act(later, memory)[0].act is Act.HOLD
+
+
+def test_at_the_limit_a_slip_raises_nothing():
+    correction, _ = act(replace(CALM, slip=5.0, felt_n=1.5, most_felt_n=2.0))
+    assert correction.act is Act.HOLD
+    assert "limit" in correction.reason
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"captured_s": None}, "no frame"),
+        ({"captured_s": 10.0 - 2 * PERIOD_S - 0.021}, "ms old"),
+        ({"captured_s": math.nan}, "no frame"),
+        ({"felt_n": math.nan}, "felt force is nan"),
+        ({"felt_n": math.inf}, "felt force is inf"),
+        ({"slip": math.nan}, "slip is nan"),
+        ({"felt_n": 1.01 * IMPOSSIBLE}, "which makes at most 1.00 N"),
+    ],
+)
+def test_what_is_stale_not_finite_or_impossible_is_no_reading_and_the_force_is_held(change, reason):
+    correction, memory = act(replace(CALM, **{"slip": 9.0, **change}))
+    assert (correction.act, correction.force_n) == (Act.HOLD, CALM.commanded_n)
+    assert reason in correction.reason
+    assert memory.blind_s == CALM.t_s
+
+
+def test_without_a_reading_for_too_long_the_hold_ends_and_one_reading_starts_the_time_anew():
+    blind = replace(CALM, captured_s=None)
+    _, memory = act(blind)
+    within = replace(blind, t_s=10.0 + MAX_BLIND_S)
+    assert act(within, memory)[0].act is Act.HOLD
+    assert act(replace(within, t_s=10.01 + MAX_BLIND_S), memory)[0].act is Act.END
+    seen = replace(CALM, t_s=10.4, captured_s=10.4)
+    assert act(seen, memory)[1].blind_s is None
+
+
+def test_a_sensor_that_cannot_tell_slips_is_done_without():
+    assert act(replace(CALM, slip=None))[0].act is Act.HOLD
+
+
+numbers = st.floats(min_value=-1e3, max_value=1e3) | st.sampled_from([math.nan, math.inf])
+
+
+@given(
+    felt_n=st.none() | numbers,
+    slip=st.none() | numbers,
+    commanded_n=st.floats(min_value=0.01, max_value=20),
+    age_s=st.floats(min_value=0, max_value=1),
+    since_s=st.floats(min_value=0, max_value=1),
+    factor=st.floats(min_value=1, max_value=2),
+)
+def test_the_felt_force_that_a_correction_leads_to_is_never_above_the_limit(
+    felt_n, slip, commanded_n, age_s, since_s, factor
+):
+    reading = ReflexReading(
+        t_s=10.0,
+        captured_s=10.0 - age_s,
+        felt_n=felt_n,
+        slip=slip,
+        commanded_n=commanded_n,
+        most_felt_n=2 * commanded_n,
+    )
+    memory = ReflexMemory(raised_s=10.0 - since_s, factor=factor)
+    correction, _ = act(reading, memory)
+    assert math.isfinite(correction.force_n)
+    assert correction.force_n > 0
+    if correction.act is Act.RAISE and felt_n is not None and felt_n > 0:
+        assert felt_n * correction.force_n / commanded_n <= TERMS.limit_n * (1 + 1e-9)
+    if correction.act is Act.LOWER:
+        assert correction.force_n < commanded_n

@@ -1,0 +1,37 @@
+"""``tacgrasp calibrate slip`` on the simulated rig."""
+
+import pytest
+
+from cltp.tactile.shear.slip_calibration import load_slip_calibration
+from tacgrasp.base.errors import UsageError
+from tacgrasp.cli.calibrate_slip import CalibrateSlipFlags, run
+
+
+@pytest.mark.parametrize("sensor", ["taxels", "gelsight_mini_markers"])
+def test_a_simulated_unit_is_calibrated(tmp_path, capsys, sensor):
+    out = tmp_path / "slip.json"
+    run(CalibrateSlipFlags(sensor=sensor, hold_s=2.0, out=out))
+    found = load_slip_calibration(out, sensor)
+    assert found.threshold > found.largest_score
+    assert 0.001 < found.along_mm < 0.03
+    assert f"written    {out}" in capsys.readouterr().out
+
+
+def test_an_existing_file_stays(tmp_path):
+    out = tmp_path / "slip.json"
+    out.write_text("mine")
+    with pytest.raises(UsageError, match="is kept"):
+        run(CalibrateSlipFlags(out=out))
+    assert out.read_text() == "mine"
+
+
+@pytest.mark.parametrize(
+    ("flags", "message"),
+    [
+        ({"hold_s": 0.1}, "--hold-s"),
+        ({"force_n": 500.0}, "beyond the gripper"),
+    ],
+)
+def test_what_cannot_be_held_is_refused(tmp_path, flags, message):
+    with pytest.raises(UsageError, match=message):
+        run(CalibrateSlipFlags(out=tmp_path / "slip.json", **flags))
