@@ -33,6 +33,7 @@ from cltp.train.recipes import CltpRecipe, Schedule
 from cltp.train.stage import TrainingRun
 from tests.cltp.train.killed_training import train_a_little
 from tests.fakes.fake_contacts import write_contacts
+from tests.fakes.same_training import assert_same_curves, assert_same_weights
 from tests.paths import ROOT
 
 HERE = Path(__file__).resolve().parent
@@ -74,6 +75,11 @@ def killed(data: Path, weights: Path, last_step: int) -> int:
     return training(data, weights, last_step).wait(200)
 
 
+def assert_same_training(whole: Path, cut: Path) -> None:
+    assert_same_weights(whole / "encoder/model.safetensors", cut / "encoder/model.safetensors")
+    assert_same_curves(whole / ".training/cltp.csv", cut / ".training/cltp.csv")
+
+
 KILLS, STEPS = 20, 400
 """Kills of the long test; steps of its training, more than are done between two kills."""
 
@@ -109,9 +115,7 @@ def test_a_training_killed_twenty_times_ends_with_the_same_curve_and_weights(
     assert 0 < reached[0] < reached[-1] < STEPS  # every resumption was in the middle
     for name in ("whole", "cut"):
         train_a_little(data_dir, tmp_path / name, steps=STEPS)
-    for part in ("encoder/model.safetensors", "encoder/manifest.json", ".training/cltp.csv"):
-        whole, cut = ((tmp_path / name / part).read_bytes() for name in ("whole", "cut"))
-        assert whole == cut
+    assert_same_training(tmp_path / "whole", tmp_path / "cut")
 
 
 def test_a_training_killed_hard_ends_with_the_same_curve_and_weights(
@@ -122,9 +126,7 @@ def test_a_training_killed_hard_ends_with_the_same_curve_and_weights(
     assert killed(data_dir, tmp_path / "cut", 10) == -signal.SIGKILL
     for name in ("whole", "cut"):
         train_a_little(data_dir, tmp_path / name)
-    for part in ("encoder/model.safetensors", ".training/cltp.csv"):
-        whole, cut = ((tmp_path / name / part).read_bytes() for name in ("whole", "cut"))
-        assert whole == cut
+    assert_same_training(tmp_path / "whole", tmp_path / "cut")
     curves = read_curves(tmp_path / "cut/.training/cltp.csv")
     assert curves["step"].tolist() == list(range(1, 17))
     assert {"t2l", "t2i", "prompt_shape", "temperature"} <= set(curves)
