@@ -15,6 +15,9 @@ BIN := .venv/bin
 STAMPS := .venv/stamps
 PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar off
 
+# the processes that tests start share compiled modules
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: run test test-all docs test-lerobot test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:
 
