@@ -3,12 +3,12 @@ import os
 # Models this small lose by sharing a step among threads. Before torch, and for every child process.
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-import signal  # noqa: E402
-from collections.abc import Iterator  # noqa: E402
+import signal
+from collections.abc import Iterator
 
-import pytest  # noqa: E402
-import torch  # noqa: E402
-from hypothesis import settings  # noqa: E402
+import pytest
+import torch
+from hypothesis import settings
 
 # A busy machine fails no test. The same code meets the same examples: a red test is the change's.
 settings.register_profile("repeatable", deadline=None, derandomize=True)
