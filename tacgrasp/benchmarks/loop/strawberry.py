@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Sequence
+from collections import defaultdict
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from statistics import median
@@ -38,6 +39,9 @@ from tacgrasp.episodes.record import StepRecord
 from tacgrasp.policy_factory import default_weights
 from tacgrasp.run import run_unrecorded
 from tacgrasp.runtime.verify import accelerations
+
+ROUND = 40
+"""Seeds between two looks at a sweep: a force that is clearly worse than the best one leaves it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -171,6 +175,27 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
     return figures
 
 
+def num_verified(results: Sequence[EpisodeResult]) -> int:
+    """Number of verified episodes."""
+    return sum(result.verified for result in results)
+
+
+def still_running(
+    results: Mapping[PolicyAndForce, Sequence[EpisodeResult]], running: Sequence[PolicyAndForce]
+) -> list[PolicyAndForce]:
+    """Contestants without the forces whose interval ends below that of their sweep's best one.
+
+    Args:
+        results: Episodes of each contestant; those in ``running`` have equally many.
+        running: Contestants that have come so far.
+    """
+    bounds = {each: wilson(num_verified(results[each]), len(results[each])) for each in running}
+    best_low: dict[str, float] = defaultdict(float)
+    for (name, _), (low, _) in bounds.items():
+        best_low[name] = max(best_low[name], low)
+    return [each for each in running if bounds[each][1] >= best_low[each[0]]]
+
+
 def run(settings: StrawberrySettings) -> None:
     """Run the benchmark, print its table and write its figures.
 
@@ -190,33 +215,38 @@ def run(settings: StrawberrySettings) -> None:
         forces = swept_forces_n(config) if name in SWEPT else (None,)
         contestants += [(name, force_n) for force_n in forces]
     console, store = make_table_console(), _store(settings, config, policies)
-    function = partial(run_seed, config, contestants)
-    by_seed = store.map_seeds(console, "episodes", list[EpisodeResult], function, settings.seeds)
-    results = {
-        contestant: [each[i] for each in by_seed] for i, contestant in enumerate(contestants)
-    }
+    results: dict[PolicyAndForce, list[EpisodeResult]] = {each: [] for each in contestants}
+    running = contestants
+    for first in range(0, len(settings.seeds), ROUND):
+        function, seeds = partial(run_seed, config, running), settings.seeds[first : first + ROUND]
+        by_seed = store.map_seeds(console, "episodes", list[EpisodeResult], function, seeds)
+        for i, contestant in enumerate(running):
+            results[contestant] += [each[i] for each in by_seed]
+        running = still_running(results, running)
     figures: dict[str, Any] = {}
     details: dict[str, list[dict[str, Any]]] = {}
     sweeps: dict[str, dict[str, float]] = {}
     for name in policies:
-        by_force = {force_n: results[name, force_n] for n, force_n in contestants if n == name}
-        best = max(by_force.values(), key=lambda episodes: sum(e.verified for e in episodes))
+        by_force = {force_n: each for (n, force_n), each in results.items() if n == name}
+        # the best of a sweep has never left it, so that the longest list is among its equals
+        best = max(by_force.values(), key=lambda each: (len(each), num_verified(each)))
         figures[name], details[name] = summary(best), [_flat(result) for result in best]
         if name in SWEPT:
             sweeps[name] = {
-                f"{f:g}": sum(e.verified for e in each) / len(each) for f, each in by_force.items()
+                f"{f:g}": num_verified(each) / len(each) for f, each in by_force.items()
             }
+            figures[name]["sweep_episodes"] = {f"{f:g}": len(each) for f, each in by_force.items()}
     report = {
         "task": config.task,
         "object": config.object,
         "instruction": config.instruction,
         "first_seed": settings.first_seed,
-        "episodes": len(by_seed),
+        "episodes": len(settings.seeds),
         "policies": figures,
         "sweeps_n": sweeps,
         "episodes_by_policy": details,
     }
-    _print(console, figures, sweeps, len(by_seed), settings.first_seed)
+    _print(console, figures, sweeps, len(settings.seeds), settings.first_seed)
     store.write(report)
 
 
@@ -234,6 +264,7 @@ def _store(settings: StrawberrySettings, config: RunConfig, policies: list[str])
         "first_seed": settings.first_seed,
         "episodes": len(settings.seeds),
         "policies": policies,
+        "round": ROUND,
         "weights": weights_sum(config.weights_folder or default_weights())
         if "llm" in policies
         else None,
@@ -304,5 +335,10 @@ def _print(
         )
     console.print(table)
     for name, sweep in sweeps.items():
-        rates = ", ".join(f"{force} N {100 * rate:.0f} %" for force, rate in sweep.items())
+        counts = figures[name]["sweep_episodes"]
+        rates = ", ".join(
+            f"{force} N {100 * rate:.0f} %"
+            + (f" of {counts[force]}" if counts[force] < episodes else "")
+            for force, rate in sweep.items()
+        )
         console.print(f"{name} is the best of a sweep (verified): {rates}")

@@ -2,11 +2,14 @@
 
 import json
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
 
 from tacgrasp.__main__ import main
+from tacgrasp.benchmarks.loop import strawberry
 from tacgrasp.benchmarks.loop.contestants import SWEEP, swept_forces_n
+from tacgrasp.benchmarks.loop.strawberry import still_running
 from tacgrasp.benchmarks.settings import StrawberrySettings, VerifierSettings
 from tacgrasp.config.layers import load
 from tests.fakes.contracts import BERRY
@@ -77,3 +80,32 @@ def test_a_sweep_reaches_beyond_the_band_of_its_task(task, ends):
     assert (forces[0], forces[-1]) == ends
     ratios = [after / before for before, after in pairwise(forces)]
     assert max(ratios) / min(ratios) < 1.01
+
+
+def test_only_a_force_that_is_clearly_worse_than_the_best_leaves_its_sweep():
+    verified, failed = SimpleNamespace(verified=True), SimpleNamespace(verified=False)
+    shares = {
+        ("true_force", 0.3): 20,
+        ("true_force", 0.6): 14,
+        ("true_force", 0.9): 5,
+        ("fixed_force", 0.9): 5,
+        ("rules", None): 0,
+    }
+    results = {each: [verified] * n + [failed] * (40 - n) for each, n in shares.items()}
+    assert still_running(results, list(results)) == [
+        ("true_force", 0.3),
+        ("true_force", 0.6),
+        ("fixed_force", 0.9),
+        ("rules", None),
+    ]
+
+
+def test_a_sweep_says_how_many_episodes_each_force_ran(tmp_path, monkeypatch):
+    monkeypatch.setattr(strawberry, "ROUND", 1)
+    monkeypatch.setattr(strawberry, "swept_forces_n", lambda config: (0.3, 0.6, 3.0))
+    monkeypatch.setattr(strawberry, "still_running", lambda results, running: running[:1])
+    report = figures(tmp_path, "--policies", "true_force", "--episodes", "2")
+    counts = report["policies"]["true_force"]["sweep_episodes"]
+    assert counts == {"0.3": 2, "0.6": 1, "3": 1}
+    assert report["policies"]["true_force"]["episodes"] == 2
+    assert len(report["episodes_by_policy"]["true_force"]) == 2
