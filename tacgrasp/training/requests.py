@@ -106,7 +106,7 @@ class TrainLlmRequest(TrainAllRequest):
             behind instead of our own small model; nothing is downloaded, and it is not changed.
         recipe: How it is trained; only with --lm.
         methods: Folder of pre-training from which the encoder and CLIP are copied into OUT first.
-        encoder: Folder with an encoder in it, of weights (policies/weights) or of one method
+        encoder: Folder with an encoder in it, of weights (or the word shipped) or of one method
             (runs/methods/point_mae), which is copied into OUT first; state heads are fitted on one
             that has none.
         heads_steps: Optimiser steps of these heads.

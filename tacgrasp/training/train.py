@@ -101,7 +101,8 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
         TouchError: Data, weights or a checkpoint can't be used.
     """
     out, data, seed = request.out, request.data, request.seed
-    methods, blind_of, start = request.methods, request.blind_of, named_weights(request.start)
+    methods, blind_of = request.methods, request.blind_of
+    start, encoder = named_weights(request.start), named_weights(request.encoder)
     disable_progress_bar()  # of reading and writing weights, over in milliseconds
     began_s = time.monotonic()
     base = _base(request)
@@ -128,8 +129,8 @@ def train_language_model(request: TrainLlmRequest, command: str) -> None:
             also=() if request.also is None else (request.also,),
             also_fraction=also_fraction(request.also, request.also_fraction, start),
         )
-        if request.encoder is not None:
-            take_other_encoder(request.encoder, run, request.heads_steps)
+        if encoder is not None:
+            take_other_encoder(encoder, run, request.heads_steps)
         if base is not None:
             train_stock_llm(run, *base, lessons, request.recipe, augmentation=LEARNING_NOISE)
         else:
@@ -183,7 +184,7 @@ def _base(request: TrainLlmRequest) -> tuple[BaseLm, Language] | None:
     sources = (request.methods, request.encoder, request.blind_of)
     if not any(sources) and not (request.out / "encoder").exists():
         raise UsageError(
-            f"{request.out} has no encoder to train behind; take one by --encoder policies/weights"
+            f"{request.out} has no encoder to train behind; take one by --encoder shipped"
         )
     return load_base(request.lm, request.recipe, request.precision)
 

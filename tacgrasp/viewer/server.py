@@ -40,7 +40,7 @@ def require_rerun() -> None:
     if importlib.util.find_spec("rerun") is None:
         raise UsageError(
             "the viewer needs rerun, which is not installed; install it: pip install "
-            "'tacgrasp[view]' (in this folder: .venv/bin/pip install -e '.[view]')"
+            "'tacgrasp[view]', or pip install -e '.[view]' in a copy of the repository"
         )
 
 

@@ -100,7 +100,10 @@ def test_the_folder_of_the_language_model_is_named_once(
 @pytest.mark.parametrize(
     ("argv", "expected"),
     [
-        (["--lm", "nowhere"], "weights has no encoder to train behind; take one by --encoder"),
+        (
+            ["--lm", "nowhere"],
+            "weights has no encoder to train behind; take one by --encoder shipped",
+        ),
         (["--lm", "nowhere", "--encoder", "w"], "nowhere: it is not a directory"),
         (["--lm", "m", "--start", "w"], "--lm and --start both name a language model"),
         (["--tune", "all"], "--tune is for a language model of others; name its directory"),
@@ -120,10 +123,15 @@ def test_wrong_use_is_told_in_one_line(
 
 
 def test_a_moved_base_is_named_by_a_command(
-    weights: Path, made: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    weights: Path,
+    made: list[str],
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     base, out = save_stock_lm(tmp_path / "base", "qwen2"), tmp_path / "out"
-    argv = ["train", "llm", "--lm", str(base), "--encoder", str(weights), "--out", str(out)]
+    monkeypatch.setattr(policy_factory, "shipped_weights", lambda: weights)
+    argv = ["train", "llm", "--lm", str(base), "--encoder", "shipped", "--out", str(out)]
     assert main([*argv, *made, "--tune", "projector"]) == 0
     capsys.readouterr()
     onto = ["train", "llm", "--start", str(out), "--out", str(tmp_path / "new")]
