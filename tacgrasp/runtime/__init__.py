@@ -1,4 +1,4 @@
-"""Parts of the loop: steps and their bounds, verification by lifting, the reflex, ends, the safe shutdown.
+"""Parts of the loop: steps and their bounds, verification, the reflex, ends, the safe shutdown.
 
 Not here: the order of a step's stages (``tacgrasp.loop``), the devices (``tacgrasp.rig``).
 
