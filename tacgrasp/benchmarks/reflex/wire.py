@@ -202,13 +202,14 @@ class _AnyLoad:
     """The world of the present load, for devices that stay the same from load to load."""
 
     def __init__(self, world: LoadWorld) -> None:
-        self.world = world
+        self.world = self._seen = world
 
     def height_mm(self) -> NDArray[np.float32]:
-        return self.world.height_mm()
+        self._seen = self.world
+        return self._seen.height_mm()
 
     def along_mm(self) -> NDArray[np.float32]:
-        return self.world.along_mm()
+        return self._seen.along_mm()  # of the same frame, also where the world has just changed
 
     def width_under(self, force_n: float) -> float:
         return self.world.width_under(force_n)
