@@ -148,7 +148,8 @@ class ReflexLoop:
         else:
             slip = NO_SLIP if reading.slip is None else reading.slip
             felt_n = 0.0 if reading.felt_n is None else reading.felt_n
-            self._samples.append((self._now_s(), felt_n, reading.commanded_n, slip))
+            at_s = self._began_s + reading.t_s
+            self._samples.append((at_s, felt_n, reading.commanded_n, slip))
         if correction.act is Act.END:
             raise TouchError(f"the reflex was blind: {correction.reason}; the grip was kept")
         if correction.act in (Act.RAISE, Act.LOWER):

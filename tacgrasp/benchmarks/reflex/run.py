@@ -187,6 +187,7 @@ def wire_figures(wire: Sequence[WireResult], results: Sequence[LoadResult]) -> d
         "wire_slides": sum(each.slid for each in wire),
         "wire_slip_to_command_ms": _quantiles([each.delay_ms or 0.0 for each in delayed]),
         "wire_without_ms": _quantiles(both),
+        "wire_command_ms": _quantiles([ms for each in wire for ms in each.command_ms]),
         "wire_step_ms": _quantiles([each.largest_step_ms for each in wire]),
         "wire_blind": sum(each.num_blind for each in wire),
     }
@@ -241,7 +242,7 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
     }
     names = ["rate_hz", "command_ms", "late_ms", "slip_to_command_ms"]
     if figures["wire_loads"]:
-        names += ["wire_slip_to_command_ms", "wire_without_ms", "wire_step_ms"]
+        names += [f"wire_{each}_ms" for each in ("slip_to_command", "without", "command", "step")]
     for name in names:
         cells = ["-" if v is None else f"{v:.1f}" for v in figures[name].values()]
         times.add_row(name, *cells, f"{limits[name]:g}" if name in limits else "")
@@ -250,7 +251,8 @@ def _print(console: Console, settings: ReflexSettings, figures: dict[str, Any]) 
         console.print(
             f"through the wire: {figures['wire_loads']} loads, {figures['wire_slides']} slid, "
             f"{figures['wire_blind']} moments without a reading; wire_without_ms: the same loads "
-            "without a wire; wire_step_ms: the longest step of each emulated body"
+            "without a wire; wire_command_ms: from a frame to the registers; wire_step_ms: the "
+            "longest step of each emulated body"
         )
     became = figures["kept"]
     console.print(

@@ -65,6 +65,8 @@ class WireResult:
         delay_ms: From the begin of the slide to that [ms]; None without both.
         largest_step_ms: Longest step of the emulated body: its time is real on the whole [ms].
         num_blind: Moments without a reading.
+        command_ms: From each frame that led to a correction, as the driver had it, to the gripper's
+            confirmation of the registers [ms].
     """
 
     seed: int
@@ -73,6 +75,7 @@ class WireResult:
     delay_ms: float | None
     largest_step_ms: float
     num_blind: int = 0
+    command_ms: tuple[float, ...] = ()
 
 
 def run_wire(seeds: Sequence[int], track: Callable[[int], None]) -> list[WireResult]:
@@ -114,7 +117,13 @@ def _follow(
     assert isinstance(result, WireResult)
     trace = reflex.take_trace()
     rig.commands()
-    return result if trace is None else replace(result, num_blind=trace.num_blind)
+    if trace is None:
+        return result
+    taken_s = [trace.t_s[trace.t_s <= each.t_s].max() for each in trace.corrections]
+    command_ms = tuple(
+        1e3 * float(each.t_s - at_s) for each, at_s in zip(trace.corrections, taken_s, strict=True)
+    )
+    return replace(result, num_blind=trace.num_blind, command_ms=command_ms)
 
 
 def _contract(config: RunConfig, force_n: float) -> Contract:

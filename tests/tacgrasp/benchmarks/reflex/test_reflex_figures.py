@@ -118,7 +118,13 @@ def test_a_load_that_slips_and_one_that_holds():
 
 def through_wire(seed, delay_ms):
     return WireResult(
-        seed=seed, slid=True, called=True, delay_ms=delay_ms, largest_step_ms=12.0, num_blind=1
+        seed=seed,
+        slid=True,
+        called=True,
+        delay_ms=delay_ms,
+        largest_step_ms=12.0,
+        num_blind=1,
+        command_ms=(2.0, 3.0),
     )
 
 
@@ -126,6 +132,7 @@ def test_times_through_the_wire_stand_beside_those_of_the_same_loads():
     figures = wire_figures([through_wire(0, 18.0), through_wire(9, 40.0)], RESULTS)
     assert figures["wire_slip_to_command_ms"]["p50"] == pytest.approx(29.0)
     assert figures["wire_without_ms"]["p50"] == pytest.approx(10.0)
+    assert figures["wire_command_ms"]["p50"] == pytest.approx(2.5)
     assert (figures["wire_loads"], figures["wire_slides"], figures["wire_blind"]) == (2, 2, 2)
     assert wire_figures([], RESULTS)["wire_slip_to_command_ms"] == {"p50": None, "p99": None}
 
@@ -146,3 +153,4 @@ def test_a_slip_comes_through_the_emulated_wire_to_the_registers_and_a_hold_does
     assert slipped.delay_ms is not None and slipped.delay_ms > 0
     assert not held.called and not held.slid and held.delay_ms is None
     assert slipped.num_blind == held.num_blind == 0
+    assert len(slipped.command_ms) >= 1 and min(slipped.command_ms) > 0
