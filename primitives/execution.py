@@ -31,6 +31,7 @@ from primitives.contract import Band, Contract
 from primitives.devices import Arm, Gripper, GripperState, Pose
 from primitives.errors import LimitError
 from primitives.force_guard import GuardedGripper
+from primitives.gain import GainEstimate
 from primitives.limits import (
     Limits,
     check_travel,
@@ -246,9 +247,9 @@ class Executor:
         return self._force_n
 
     @property
-    def gain(self) -> Interval | None:
-        """Ratio of felt to commanded force; None before anything was felt."""
-        return self._gripper.gain
+    def gain(self) -> GainEstimate | None:
+        """Ratio of felt to commanded force over all grips; None before anything was felt."""
+        return self._gripper.gain_estimate
 
     def feel(self, felt: Interval | None) -> bool | None:
         """Learn from the force that is felt under the present grip.

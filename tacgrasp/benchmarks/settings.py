@@ -143,6 +143,21 @@ class ReflexSettings(SeedSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class GainSettings(SeedSettings):
+    """Estimate the gripper's force gain over some grips; exit code 1 off the limits.
+
+    Attributes:
+        task: Task whose object is gripped.
+        sensor: Sensor that feels it.
+        episodes: Number of rigs, one random seed each.
+    """
+
+    task: str = "strawberry"
+    sensor: str = "gelsight_mini"
+    episodes: int = 100
+
+
+@dataclass(frozen=True, kw_only=True)
 class MeshesSettings(BenchmarkSettings):
     """Find a grasp on every mesh of a folder, and try it with rules in simulated episodes.
 
