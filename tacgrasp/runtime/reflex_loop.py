@@ -34,6 +34,10 @@ QUIET_FRAMES = 10
 """Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
 tenth of a second with taxels."""
 
+DECISION_S = 0.3
+"""Time that a decision takes in a simulated world, where the reflex runs meanwhile [s]. Our choice:
+about that of the language model on a core or two."""
+
 
 class ReflexLoop:
     """The reflex of one episode.
@@ -58,6 +62,30 @@ class ReflexLoop:
         self._num_blind, self._blind, self._ran = 0, "", False
 
     @contextmanager
+    def deciding(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
+        """Keep the contract while the block lets a policy decide; nothing else is commanded.
+
+        A decision takes ``DECISION_S`` in a simulated world. Without contact, and where there is no
+        reflex, the block runs as it is.
+
+        Args:
+            contract: The contract.
+            felt: Force that is felt now; None without contact.
+
+        Raises:
+            TouchError: The reflex had no reading for too long.
+            RobotError: The gripper failed.
+        """
+        if felt is None or self._executor.force_n <= 0 or self._is_absent():
+            yield
+            return
+        with self._beating(self._hold(contract, felt)):
+            yield
+            if isinstance(self._rig.clock, CallingClock):
+                self._rig.clock.sleep(DECISION_S)
+        self._ran = self._ran or bool(self._samples or self._num_blind)
+
+    @contextmanager
     def keeping(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
         """Keep the contract while the block moves the arm or waits; the object is held at rest.
 
@@ -70,15 +98,21 @@ class ReflexLoop:
             RobotError: The gripper failed, likewise.
         """
         self._ran = True
-        self.absent = self.absent or _unit_absence(self._rig)
-        if self.absent:
+        if self._is_absent():
             yield
             return
-        spec = self._rig.sensor.spec
-        judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
-        with self._beating(_Hold(contract, felt, judge)):
+        with self._beating(self._hold(contract, felt)):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
             yield
+
+    def _is_absent(self) -> bool:
+        self.absent = self.absent or _unit_absence(self._rig)
+        return bool(self.absent)
+
+    def _hold(self, contract: Contract, felt: Interval | None) -> _Hold:
+        spec = self._rig.sensor.spec
+        judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
+        return _Hold(contract, felt, judge)
 
     @contextmanager
     def _beating(self, hold: _Hold) -> Iterator[None]:

@@ -319,6 +319,17 @@ class Steps:
             self.force_mark = observation.cloud.force_scale.mark
             self.force_residual = observation.cloud.force_scale.spread
 
+    def deciding(self, contract: Contract, seen: Readings) -> AbstractContextManager[None]:
+        """The reflex keeps the contract while the block lets a policy decide; without, nothing.
+
+        Raises:
+            TouchError: As ``ReflexLoop.deciding``.
+            RobotError: Likewise.
+        """
+        if self.reflex is None:
+            return nullcontext()
+        return self.reflex.deciding(contract, seen.felt_force_n)
+
     def keeping(self, contract: Contract, felt: Interval | None) -> AbstractContextManager[None]:
         """The reflex keeps the contract while the block moves the arm or waits; without, nothing.
 
