@@ -61,7 +61,8 @@ class ReflexTrace:
             return f"reflex: none, {self.absent}"
         parts = [f"reflex: {len(self.t_s)} readings"]
         if self.num_blind:
-            parts.append(f"{self.num_blind} moments without one ({self.blind})")
+            moments = "1 moment" if self.num_blind == 1 else f"{self.num_blind} moments"
+            parts.append(f"{moments} without one ({self.blind})")
         ups = [each for each in self.corrections if each.after_n > each.before_n]
         downs = [each for each in self.corrections if each.after_n < each.before_n]
         for name, some in (("raised", ups), ("lowered", downs)):

@@ -19,6 +19,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.shear.contact_shear import ShearCues, ShearWatch
 from cltp.tactile.shear.field import ShearField
+from cltp.tactile.shear.held_volume import HeldVolume
 from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
 from policies.reflex import Act, Correction, ReflexMemory, ReflexReading, correct
@@ -215,8 +216,8 @@ class ReflexLoop:
     ) -> ReflexReading:
         commanded_n, felt_n, slip = self._executor.force_n, None, None
         cues = None if field is None else hold.see(field)
-        if cues is not None:
-            felt_n, slip = hold.force_of(cues), hold.judge.see(cues.values)
+        if field is not None and cues is not None:
+            felt_n, slip = hold.force_of(field), hold.judge.see(cues.values)
         return ReflexReading(
             t_s=now_s,
             captured_s=captured_s,
@@ -250,7 +251,7 @@ class _Hold:
         self._felt_n = None if felt is None else felt.value
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
-        self._volume_mm3 = 0.0
+        self._volume: HeldVolume | None = None
 
     def see(self, field: ShearField) -> ShearCues | None:
         """Cues of a frame; None while the hold is quiet and its noise is measured."""
@@ -262,20 +263,20 @@ class _Hold:
         self._watch = ShearWatch(field.sensor, *noise_of(self._quiet))
         for each in self._quiet:
             cues = self._watch.see(each)
-        if cues is not None:
-            self._volume_mm3 = cues.volume_mm3
+        self._volume = HeldVolume(self._quiet)
         return cues
 
     def renew(self) -> None:
         """A correction was commanded: the contact will change."""
         if self._watch is not None:
             self._watch.renew()
+        if self._volume is not None:
+            self._volume.renew()
 
-    def force_of(self, cues: ShearCues) -> float | None:
+    def force_of(self, field: ShearField) -> float | None:
         """Force felt in a frame [N]: that felt before the hold, times the indentation's growth."""
-        if self._felt_n is None or self._volume_mm3 <= 0:
-            return None
-        return self._felt_n * cues.volume_mm3 / self._volume_mm3
+        growth = None if self._volume is None else self._volume.growth(field)
+        return None if growth is None or self._felt_n is None else self._felt_n * growth
 
 
 def _absence(rig: Rig) -> str:
