@@ -320,23 +320,12 @@ class Steps:
             self.force_residual = observation.cloud.force_scale.spread
 
     def deciding(self, contract: Contract, seen: Readings) -> AbstractContextManager[None]:
-        """The reflex keeps the contract while the block lets a policy decide; without, nothing.
-
-        Raises:
-            TouchError: As ``ReflexLoop.deciding``.
-            RobotError: Likewise.
-        """
-        if self.reflex is None:
-            return nullcontext()
-        return self.reflex.deciding(contract, seen.felt_force_n)
+        """``ReflexLoop.deciding``, which raises as it does; without a reflex, nothing."""
+        felt = seen.felt_force_n
+        return nullcontext() if self.reflex is None else self.reflex.deciding(contract, felt)
 
     def keeping(self, contract: Contract, felt: Interval | None) -> AbstractContextManager[None]:
-        """The reflex keeps the contract while the block moves the arm or waits; without, nothing.
-
-        Raises:
-            TouchError: As ``ReflexLoop.keeping``.
-            RobotError: Likewise.
-        """
+        """``ReflexLoop.keeping``, which raises as it does; without a reflex, nothing."""
         return nullcontext() if self.reflex is None else self.reflex.keeping(contract, felt)
 
     def record_cut_short(self, step: Step | None, message: str) -> None:
