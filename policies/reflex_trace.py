@@ -59,9 +59,11 @@ class ReflexTrace:
         """All of it in one line, for people."""
         if self.absent:
             return f"reflex: none, {self.absent}"
-        parts = [f"reflex: {len(self.t_s)} readings"]
+        readings = "1 reading" if len(self.t_s) == 1 else f"{len(self.t_s)} readings"
+        parts = [f"reflex: {readings}"]
         if self.num_blind:
-            parts.append(f"{self.num_blind} moments without one ({self.blind})")
+            moments = "1 moment" if self.num_blind == 1 else f"{self.num_blind} moments"
+            parts.append(f"{moments} without one ({self.blind})")
         ups = [each for each in self.corrections if each.after_n > each.before_n]
         downs = [each for each in self.corrections if each.after_n < each.before_n]
         for name, some in (("raised", ups), ("lowered", downs)):

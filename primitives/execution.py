@@ -31,6 +31,7 @@ from primitives.contract import Band, Contract
 from primitives.devices import Arm, Gripper, GripperState, Pose
 from primitives.errors import LimitError
 from primitives.force_guard import GuardedGripper
+from primitives.gain import GainEstimate
 from primitives.limits import (
     Limits,
     check_travel,
@@ -238,6 +239,7 @@ class Executor:
         self._open_width_m = 0.0
         self._dry_run = dry_run
         self._force_n = 0.0
+        self._read_under_n = 0.0  # command of the last reading, where a reflex changed it since
         self._travel_mm = 0.0
 
     @property
@@ -246,9 +248,9 @@ class Executor:
         return self._force_n
 
     @property
-    def gain(self) -> Interval | None:
-        """Ratio of felt to commanded force; None before anything was felt."""
-        return self._gripper.gain
+    def gain(self) -> GainEstimate | None:
+        """Ratio of felt to commanded force over all grips; None before anything was felt."""
+        return self._gripper.gain_estimate
 
     def feel(self, felt: Interval | None) -> bool | None:
         """Learn from the force that is felt under the present grip.
@@ -258,6 +260,7 @@ class Executor:
             may object to; None before, and where it may not.
         """
         self._gripper.feel(felt)
+        self._read_under_n = 0.0
         contract = self._contract
         if contract is None or contract.soft is None or felt is None:
             return None
@@ -345,6 +348,7 @@ class Executor:
         if self._dry_run or self._force_n <= 0:
             raise LimitError("nothing is gripped: there is no force to correct")
         state = self._gripper.adjust(clamp_force(force_n, self._limits).value)
+        self._read_under_n = self._read_under_n or self._force_n
         self._force_n = state.force_n
         return state
 
@@ -407,7 +411,7 @@ class Executor:
         factor = force_factor(increase=increase, felt=felt, goal_n=band)
         if self._may_be_soft():
             factor = min(factor, INCREASE_FACTOR)  # small steps until it is known to be hard
-        request_n = force_n or before * factor
+        request_n = force_n or (self._read_under_n or before) * factor
         force = clamp_force(request_n, self._limits)
         allowed_n = min(force.value, self._gripper.most_n)
         unchanged = math.isclose(allowed_n, before, rel_tol=1e-9) or (

@@ -1,9 +1,9 @@
 """The hard limit of a contract, kept where a command to the gripper is written.
 
 A contract speaks of felt newtons, a gripper is sent commanded ones. The ratio between them is
-hidden until something is felt; from then on it is known within an interval. A command is sent only
-if it, times the upper end of that interval, stays within the limit. Policy, jog and replay all
-command through the same ``GuardedGripper``.
+hidden until something is felt; from then on it is known within an interval (``primitives.gain``). A
+command is sent only if it, times the upper end of that interval, stays within the limit. Policy,
+jog and replay all command through the same ``GuardedGripper``.
 """
 
 from __future__ import annotations
@@ -14,15 +14,8 @@ from dataclasses import replace
 
 from primitives.devices import AdjustableGripper, Gripper, GripperState
 from primitives.errors import LimitError
+from primitives.gain import GainEstimate, GainEstimator
 from primitives.sense import Interval
-
-LEAST_FELT_N = 0.2
-"""Felt force from which the ratio is learned [N]. Our choice: below it the drift of the gel can be
-as large as what is felt; at 0.3 a weak gripper under a limit of 1.2 N never learned it, and stopped
-short of its band."""
-
-TRUSTED_N = 0.5
-"""Felt force from which a ratio above the rig's own bound is believed [N]. Our choice, likewise."""
 
 
 class GuardedGripper:
@@ -46,8 +39,7 @@ class GuardedGripper:
             )
         self._gripper = gripper
         self._limit_n, self._max_gain = limit_n, max_gain
-        self._gain: Interval | None = None
-        self._spread = math.inf  # upper bound over value of the felt force behind it
+        self._gains = GainEstimator(max_gain)
         self.open_by, self.stop = gripper.open_by, gripper.stop  # passed through
         self.disconnect = gripper.disconnect
 
@@ -58,35 +50,28 @@ class GuardedGripper:
 
     @property
     def gain(self) -> Interval | None:
-        """Ratio of felt to commanded force; None before anything was felt."""
-        return self._gain
+        """Ratio of felt to commanded force, of the clearest reading; None before any was felt."""
+        return self._gains.bound
+
+    @property
+    def gain_estimate(self) -> GainEstimate | None:
+        """The same of all grips so far; None before anything was felt."""
+        return self._gains.estimate
 
     @property
     def most_n(self) -> float:
         """Largest command that is sent [N]."""
-        return self._limit_n / (self._max_gain if self._gain is None else self._gain.high)
+        return self._limit_n / (self._max_gain if self.gain is None else self.gain.high)
 
     def keep_to(self, limit_n: float) -> None:
         """Set another limit of felt force [N]; the executor alone does so, from its contract."""
         self._limit_n = limit_n
 
     def feel(self, felt: Interval | None) -> None:
-        """Learn the ratio from the force that is felt under the present command.
-
-        The narrowest interval of the episode is kept, the later one of two: the ratio belongs to
-        the gripper, and a contact on the edge of the pad tells less than one in the middle.
-        """
+        """Learn the ratio from the force that is felt under the present command."""
         state = self._gripper.state()
-        if felt is None or not state.closed or state.force_n <= 0 or felt.value < LEAST_FELT_N:
-            return
-        spread = felt.high / felt.value
-        if spread > 1.01 * self._spread:
-            return
-        most = math.inf if felt.value >= TRUSTED_N else self._max_gain
-        low, value, high = (
-            min(most, force_n / state.force_n) for force_n in (felt.low, felt.value, felt.high)
-        )
-        self._gain, self._spread = Interval(value=value, low=low, high=high), spread
+        if felt is not None and state.closed:
+            self._gains.feel(felt, state.force_n)
 
     def state(self) -> GripperState:
         """State of the gripper."""
@@ -116,6 +101,7 @@ class GuardedGripper:
         """Send a command, lowered to ``most_n``."""
         if not (math.isfinite(force_n) and force_n > 0):
             raise LimitError(f"a grip needs a finite force above 0 N, got {force_n}")
+        self._gains.new_grip()
         if force_n <= self.most_n * (1 + 1e-9):
             return send(force_n)
         most_n = self.most_n

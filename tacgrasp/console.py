@@ -24,7 +24,7 @@ from primitives.execution import Executed
 from tacgrasp.base.printable import printable
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes.record import PHASE_LABELS, StepRecord, TruthFacts
-from tacgrasp.runtime.end_text import end_text
+from tacgrasp.runtime.end_text import end_text, gain_text
 from tacgrasp.runtime.outcome import Outcome
 
 COMPLETED = "Grasp completed successfully"
@@ -262,6 +262,7 @@ def end_lines(outcome: Outcome, config: RunConfig, width: int = COLUMNS) -> list
             f"{outcome.safe_state}",
             "",
         ),
+        *([(gain_text(outcome), "")] if outcome.gain is not None else []),
         *([(f"truth: {truth_text(outcome.truth)}", "")] if outcome.truth is not None else []),
         (end_text(outcome, config), "bold"),
     ]

@@ -18,7 +18,8 @@ on nothing are followed by the runtime's own ``reset``, without asking the polic
 with no contact in between ends the episode with ``contact_lost``.
 
 A declared success is then checked by lifting (``tacgrasp.runtime.verify``); only that makes a
-``success``. While it is lifted the reflex keeps the contract (``tacgrasp.runtime.reflex_loop``).
+``success``. While it is lifted, and while a policy decides, the reflex keeps the contract
+(``tacgrasp.runtime.reflex_loop``).
 """
 
 from __future__ import annotations
@@ -89,7 +90,9 @@ def run_episode(
                         contract = steps.hear_objection(executor, observation, contract)
                         seen = observation.for_policy(steps.elapsed_s)
                         aimed = steps.aim(executor, seen, contract)
-                        decision = within(aimed, policy.decide(seen, aimed), seen)
+                        with steps.deciding(contract, observation):
+                            decision = policy.decide(seen, aimed)
+                        decision = within(aimed, decision, seen)
                     break
                 except (TouchError, PolicyError) as error:
                     steps.survive(error, attempt)

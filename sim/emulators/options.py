@@ -25,7 +25,7 @@ class RigOptions:
         object_young_mpa: Young's modulus of the mesh [MPa]; by default the object's
         object_bruise_n: force that bruises the mesh [N]; by default the object's
         seed: random seed of the object, its pose, the gripper and the sensor noise
-        sensor: sensor whose sensing area the taxels cover
+        sensor: sensor whose sensing area the taxels cover; taxels sends displacements too
         first_force_n: largest commanded force until something is felt [N]; by default 1.0
         held: start with the object gripped between the fingers
         centred: start with the object in the middle of the pad

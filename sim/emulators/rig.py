@@ -18,6 +18,7 @@ from primitives.errors import RobotError
 from sim.emulators.dynamixel.bus_process import DynamixelEmulator
 from sim.emulators.dynamixel.fingers import Linkage
 from sim.emulators.dynamixel.options import ServoOptions
+from sim.emulators.live_world import LiveWorld, sends_shear
 from sim.emulators.options import RigOptions
 from sim.emulators.process.lifetime import WORLD_PRIORITY, request_real_time, serve
 from sim.emulators.taxels.array import TaxelEmulator
@@ -66,13 +67,23 @@ def run(options: RigOptions) -> None:
         # From here on for all threads: one that holds Python's lock while ordinary work has the
         # processor keeps the devices from answering, by more than a second on a busy machine.
         request_real_time(priority=WORLD_PRIORITY)
-        world = stack.enter_context(closing(SharedWorld(simulated)))
+        spec = simulated.sensor.spec
+        live = LiveWorld(simulated) if sends_shear(spec) else None
+        world = stack.enter_context(closing(live or SharedWorld(simulated)))
         arm = stack.enter_context(closing(_arm(options.host, world)))
         gripper = stack.enter_context(closing(DynamixelEmulator(world, GRIPPER, FINGERS)))
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="tacgrasp-rig-"))
         link = Path(folder) / "taxel-array"
         taxels = stack.enter_context(
-            closing(TaxelEmulator(world, link=link, rate_hz=TAXEL_RATE_HZ, seed=options.seed))
+            closing(
+                TaxelEmulator(
+                    world,
+                    link=link,
+                    along_mm=None if live is None else live.along_mm,
+                    rate_hz=TAXEL_RATE_HZ if live is None else spec.frame_hz,
+                    seed=options.seed,
+                )
+            )
         )
         serve(
             {"ur": arm, "dynamixel": gripper, "taxels": taxels, "world": world},
@@ -108,11 +119,12 @@ def _scanned(options: RigOptions) -> ScannedObject | None:
 
 def _arm(host: str | None, world: SharedWorld) -> UrChild:
     """An arm in a process of its own, at the given address or at the first free one."""
+    begin = world.begin if isinstance(world, LiveWorld) else None
     if host is not None:
-        return UrChild(host, world.follow)
+        return UrChild(host, world.follow, begin)
     for address in addresses(os.getpid()):
         try:
-            return UrChild(address, world.follow)
+            return UrChild(address, world.follow, begin)
         except OSError:
             continue
     raise RobotError(f"none of {_MAX_ATTEMPTS} loopback addresses has the ports of a UR free")

@@ -29,7 +29,7 @@ from sim.grasp.world import trapezoid_s
 T = TypeVar("T")
 
 SLIDE_PERIOD_S = 0.02
-"""Period at which a sliding body is updated while nothing is commanded [s]."""
+"""Longest period at which a sliding body is updated while nothing is commanded [s]."""
 
 ANSWER_S = 10.0
 """Longest wait for the solver [s]; a contact takes about 10 ms on an idle core."""
@@ -45,6 +45,7 @@ class SharedWorld:
     def __init__(self, rig: SimRig, clock: Callable[[], float] = time.monotonic) -> None:
         """Take over a new simulated rig; its own devices must not be used any more."""
         self._rig, self._clock = rig, clock
+        self.slide_period_s = SLIDE_PERIOD_S
         self._began_s = self._solved_until_s = clock()
         self._base_from_tcp = Rotation.from_rotvec(np.array(rig.start_pose.rotvec_rad))
         self._published = (0, 0.0)
@@ -59,11 +60,7 @@ class SharedWorld:
             RobotError: The solver failed or does not answer.
         """
         ended_s = self._clock()
-        axes = (self._rig.pad_x_in_tcp, self._rig.pad_y_in_tcp)
-        x_mm, y_mm = (
-            float(1000 * self._base_from_tcp.apply(axis) @ segment.by_base_m) for axis in axes
-        )
-        self._base_from_tcp = Rotation.from_rotvec(segment.rotvec_rad) * self._base_from_tcp
+        x_mm, y_mm = self._on_pad(segment, turns=True)
         distance_m = math.hypot(x_mm, y_mm) / 1000
         if distance_m == 0:
             return
@@ -76,6 +73,16 @@ class SharedWorld:
             self._solved_until_s = max(self._solved_until_s, ended_s)
 
         self._solve(move)
+
+    def _on_pad(self, segment: MotionSegment, *, turns: bool = False) -> tuple[float, float]:
+        """Displacement of a segment along the pad's axes [mm]; notes that the tool has turned."""
+        axes = (self._rig.pad_x_in_tcp, self._rig.pad_y_in_tcp)
+        x_mm, y_mm = (
+            float(1000 * self._base_from_tcp.apply(axis) @ segment.by_base_m) for axis in axes
+        )
+        if turns:
+            self._base_from_tcp = Rotation.from_rotvec(segment.rotvec_rad) * self._base_from_tcp
+        return x_mm, y_mm
 
     def width_under(self, force_n: float) -> float:
         """Close, or adjust a grip, with a commanded force [N].
@@ -93,10 +100,14 @@ class SharedWorld:
 
         def close() -> float:
             self._wait_until(at_s)
-            self._rig.grasp.close(force_n * self._rig.gripper.force_gain)
+            self._press(force_n * self._rig.gripper.force_gain)
             return settled_width_m(self._rig.grasp)
 
         return self._solve(close)
+
+    def _press(self, force_n: float) -> None:
+        """Close, or adjust a grip, with a true force [N]; called by the solver."""
+        self._rig.grasp.close(force_n)
 
     def release(self) -> None:
         """Open the fingers; returns at once."""
@@ -115,7 +126,7 @@ class SharedWorld:
         """
         now_s = self._clock()
         is_holding = self._rig.grasp.patch is not None
-        if is_holding and self._last.done() and now_s - self._solved_until_s > SLIDE_PERIOD_S:
+        if is_holding and self._last.done() and now_s - self._solved_until_s > self.slide_period_s:
             self._submit(lambda: self._wait_until(now_s))
         return self._rig.sensor.frame_mm(self._surface_mm, now_s - self._began_s)
 
@@ -155,20 +166,27 @@ class SharedWorld:
 
     def _submit(self, change: Callable[[], T]) -> Future[T]:
         """Queue a change and publish the gel after it. Changes happen in the order of calls."""
+        return self._submit_now(change)
+
+    def _submit_now(self, change: Callable[[], T]) -> Future[T]:
         if self._last.done():
             self._last.result()  # raises an error of the solver
 
         def run() -> T:
             result = change()
-            version = (self._rig.grasp.contacts, self._rig.grasp.slip_mm)
-            if version != self._published:
-                self._surface_mm = self._rig.sensor.surface_mm()
-                self._published = version
+            self._publish()
             return result
 
         future = self._solver.submit(run)
         self._last = future
         return future
+
+    def _publish(self) -> None:
+        """Show the gel as it is now; called by the solver."""
+        version = (self._rig.grasp.contacts, self._rig.grasp.slip_mm)
+        if version != self._published:
+            self._surface_mm = self._rig.sensor.surface_mm()
+            self._published = version
 
     def _wait_until(self, at_s: float) -> None:
         if at_s > self._solved_until_s:

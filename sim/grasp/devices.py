@@ -363,7 +363,7 @@ class SimSensor(_Device):
         heights_mm = self._mean_of(frames) - self._reference
         stamp = self._clock.stamp()
         if self._spec.markers is not None:
-            heights_mm = _at_cells(heights_mm, self._spec, *self._spec.markers)
+            heights_mm = at_cells(heights_mm, self._spec, *self._spec.markers)
         cloud = cloud_of_pixels(heights_mm, self._spec, stamp=stamp, force_scale=self._force_scale)
         self._last_shear = self._shear(stamp, frames)
         points = self._noise.received(cloud.points_mm, self._frame_rng)
@@ -383,13 +383,18 @@ class SimSensor(_Device):
         return self._shear(self._clock.stamp(), 1)
 
     def _shear(self, stamp: Stamp, frames: int) -> ShearField | None:
-        if self._shear_unit is None or self._grasp.shear is None:
+        if self._grasp.shear is None:
             return None
-        field = self._grasp.shear.field(stamp)
+        return self.shear_frame(self._grasp.shear.field(stamp), frames)
+
+    def shear_frame(self, field: ShearField, frames: int = 1) -> ShearField | None:
+        """A true shear field as this unit reads it; None for a unit that measures none."""
+        if self._shear_unit is None:
+            return None
         return self._shear_unit.apply(field, self._shear_rng, frames=frames)
 
 
-def _at_cells(
+def at_cells(
     height_mm: NDArray[np.float32], spec: SensorSpec, rows: int, columns: int
 ) -> NDArray[np.float32]:
     """Heights in the middle of equal cells, (rows, columns) [mm]."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -183,6 +183,50 @@ class LoadFrame:
         return self.slipped_mm > 0 and self.stick_fraction <= SLIDING_STICK
 
 
+class LoadStepper:
+    """The body of a drawn load, held at rest under what it carries, then stepped through the load.
+
+    Args:
+        drawn: The load.
+
+    Attributes:
+        frame: The body now; at time 0 before the load comes on.
+
+    Raises:
+        ValueError: The pads don't reach the body.
+    """
+
+    def __init__(self, drawn: DrawnLoad) -> None:
+        self._drawn = drawn
+        self._holding = Holding(drawn.fingers, drawn.force_n, offset_mm=drawn.offset_mm)
+        steps = _CARRY_STEPS if drawn.carried_n.any() else 2
+        for k in range(steps):
+            part = min(1.0, (k + 1) / (_CARRY_STEPS - 3))
+            state = self._holding.step(STEP_S, drawn.force_n, part * drawn.carried_n)
+        self._before_mm = state.slipped_mm
+        self.frame = self._frame(0.0, state, drawn.force_n)
+
+    @property
+    def is_lost(self) -> bool:
+        """Whether the body is no longer worth following."""
+        return self.frame.state.dropped or self.frame.slipped_mm > FOLLOWED_MM
+
+    def step(self, dt_s: float, t_s: float, force_n: float) -> LoadFrame:
+        """The body a time ``dt_s`` later [s], at ``t_s`` of the load [s], under a force [N]."""
+        state = self._holding.step(dt_s, force_n, self._drawn.load_n(t_s))
+        self.frame = self._frame(t_s, state, force_n)
+        return self.frame
+
+    def _frame(self, t_s: float, state: HoldState, force_n: float) -> LoadFrame:
+        return LoadFrame(
+            t_s=t_s,
+            state=state,
+            stick_fraction=state.stick_fraction,
+            slipped_mm=state.slipped_mm - self._before_mm,
+            force_n=force_n,
+        )
+
+
 def follow(
     drawn: DrawnLoad,
     *,
@@ -199,28 +243,11 @@ def follow(
     Raises:
         ValueError: The pads don't reach the body.
     """
-    holding = Holding(drawn.fingers, drawn.force_n, offset_mm=drawn.offset_mm)
-    steps = _CARRY_STEPS if drawn.carried_n.any() else 2
-    for k in range(steps):
-        part = min(1.0, (k + 1) / (_CARRY_STEPS - 3))
-        state = holding.step(STEP_S, drawn.force_n, part * drawn.carried_n)
-    before_mm = state.slipped_mm
+    stepper = LoadStepper(drawn)
     for k in range(quiet):
-        yield _frame((k - quiet) * STEP_S, state, before_mm, drawn.force_n)
+        yield replace(stepper.frame, t_s=(k - quiet) * STEP_S)
     for k in range(math.ceil(drawn.duration_s / STEP_S)):
         t_s = (k + 1) * STEP_S
-        force = drawn.force_n if force_n is None else force_n(t_s)
-        state = holding.step(STEP_S, force, drawn.load_n(t_s))
-        yield _frame(t_s, state, before_mm, force)
-        if state.dropped or state.slipped_mm - before_mm > FOLLOWED_MM:
+        yield stepper.step(STEP_S, t_s, drawn.force_n if force_n is None else force_n(t_s))
+        if stepper.is_lost:
             return
-
-
-def _frame(t_s: float, state: HoldState, before_mm: float, force_n: float) -> LoadFrame:
-    return LoadFrame(
-        t_s=t_s,
-        state=state,
-        stick_fraction=state.stick_fraction,
-        slipped_mm=state.slipped_mm - before_mm,
-        force_n=force_n,
-    )

@@ -143,17 +143,21 @@ class Grasp:
             return 0.0
         ux, uy = by_mm[0] / 1000 / distance, by_mm[1] / 1000 / distance
         ramp, cruise = trapezoid_s(distance, speed_m_s, acceleration_m_s2)
+        self.displace(by_mm)
+        if self.patch is not None and self._lifted_mm > 0:
+            push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
+            self.load(push, ramp)
+            self.load((0.0, 0.0), cruise)
+            self.load((-push[0], -push[1]), ramp)
+        return 2 * ramp + cruise
+
+    def displace(self, by_mm: tuple[float, float]) -> None:
+        """Put the fingers, and a held body with them, elsewhere; no time passes."""
         self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
         if self.patch is not None:
             self.body_xy_mm = (self.body_xy_mm[0] + by_mm[0], self.body_xy_mm[1] + by_mm[1])
             rise_mm = by_mm[0] * self.fingers.up[0] + by_mm[1] * self.fingers.up[1]
             self._lifted_mm = max(0.0, self._lifted_mm + rise_mm)
-            if self._lifted_mm > 0:
-                push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
-                self.load(push, ramp)
-                self.load((0.0, 0.0), cruise)
-                self.load((-push[0], -push[1]), ramp)
-        return 2 * ramp + cruise
 
     def wait(self, seconds: float) -> None:
         """Let time pass; a lifted body that friction can't hold slides."""

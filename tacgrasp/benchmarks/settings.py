@@ -123,10 +123,38 @@ class ReflexSettings(SeedSettings):
     Attributes:
         sensor: Sensor that measures shear: taxels or gelsight_mini_markers.
         episodes: Number of loads, one random seed each.
+        wire: Number of loads, of the first seeds, that are followed through emulated serial wires
+            too, in real time; 0 for none. Of taxels alone.
     """
 
     sensor: str = "taxels"
     episodes: int = 2000
+    wire: int = 100
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.wire < 0:
+            raise UsageError(f"--wire must be 0 or more, got {self.wire}")
+
+    @property
+    def wire_seeds(self) -> range:
+        """Seeds of the loads through the wire."""
+        return self.seeds[: self.wire] if self.sensor == "taxels" else range(0)
+
+
+@dataclass(frozen=True, kw_only=True)
+class GainSettings(SeedSettings):
+    """Estimate the gripper's force gain over some grips; exit code 1 off the limits.
+
+    Attributes:
+        task: Task whose object is gripped.
+        sensor: Sensor that feels it.
+        episodes: Number of rigs, one random seed each.
+    """
+
+    task: str = "strawberry"
+    sensor: str = "gelsight_mini"
+    episodes: int = 100
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -131,6 +131,12 @@ class HardwareConfig(SettingsBase):
         }
 
     @property
+    def names_sensor(self) -> bool:
+        """Whether the file names the sensor; an emulated taxel array else has the run's."""
+        section = self.sensor
+        return not isinstance(section, TaxelSettings) or "sensor" in section.model_fields_set
+
+    @property
     def ur_arm(self) -> UrSettings:
         """The arm, for what works with a UR alone.
 

@@ -331,7 +331,8 @@ class RunConfig(SettingsBase):
         if self.hardware is not None:
             self._check_driver(self.hardware.arm)
             name = self.hardware.sensor.sensor_name
-            if self.sensor != name:
+            is_free = self.devices == "emulated" and not self.hardware.names_sensor
+            if self.sensor != name and not is_free:
                 raise ValueError(f"sensor {self.sensor} is not what hardware.sensor is: {name}")
         return self
 

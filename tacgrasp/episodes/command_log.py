@@ -10,9 +10,10 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import TypeVar
 
-from primitives.devices import Arm, Gripper, GripperState, Pose
+from primitives.devices import AdjustableGripper, Arm, Gripper, GripperState, Pose
 
 T = TypeVar("T")
 
@@ -110,14 +111,22 @@ class LoggedArm:
 
 
 class LoggedGripper:
-    """A gripper whose commands are logged; a ``primitives.devices.Gripper``."""
+    """A gripper whose commands are logged; a ``primitives.devices.Gripper``.
+
+    It has ``adjust`` where the gripper is an ``AdjustableGripper``.
+    """
 
     def __init__(self, gripper: Gripper, log: CommandLog, sent: Callable[[], str]) -> None:
         self._gripper, self._log, self._sent = gripper, log, sent
+        if isinstance(gripper, AdjustableGripper):
+            self.adjust = partial(self._adjust, gripper)
         self.state, self.disconnect = gripper.state, gripper.disconnect  # passed through
 
     def grip(self, force_n: float) -> GripperState:
         return self._run(f"grip with {force_n:.4g} N", lambda: self._gripper.grip(force_n))
+
+    def _adjust(self, gripper: AdjustableGripper, force_n: float) -> GripperState:
+        return self._run(f"adjust to {force_n:.4g} N", lambda: gripper.adjust(force_n))
 
     def open_by(self, clear_m: float) -> GripperState:
         request = f"open by {1000 * clear_m:.4g} mm"

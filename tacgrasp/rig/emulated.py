@@ -108,7 +108,7 @@ def settings_for(
             "arm": hardware.ur_arm.for_emulator(host=str(ready["host"])),
             "gripper": hardware.dynamixel_gripper.for_emulator(**gripper),
             "sensor": hardware.sensor.for_emulator(
-                port=str(ready["sensor_port"]), force_calibration=force
+                port=str(ready["sensor_port"]), sensor=config.sensor, force_calibration=force
             ),
         }
     )

@@ -27,6 +27,19 @@ def end_text(outcome: Outcome, config: RunConfig) -> str:
     return " ".join(filter(None, sentences))
 
 
+def gain_text(outcome: Outcome) -> str:
+    """The gripper's force gain, and how far the force that it is measured by is calibrated."""
+    gain = outcome.gain
+    if gain is None:
+        return ""
+    grips = "1 grip" if gain.num_grips == 1 else f"{gain.num_grips} grips"
+    residual = outcome.force_mark or f"calibrated to {outcome.force_residual or 0.0:.0%}"
+    return (
+        f"gripper: presses {gain.value:.2f} times its command ({gain.low:.2f}-{gain.high:.2f}, "
+        f"{grips}), felt force {residual}"
+    )
+
+
 def _lift_text(outcome: Outcome, verify: VerifyConfig) -> str:
     if outcome.verified is None:
         return "the lift was not completed" if outcome.declared else "not lifted"

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 
+from primitives.gain import GainEstimate
 from tacgrasp.episodes.record import StepRecord, TruthFacts, end_label
 
 
@@ -62,6 +63,8 @@ class Outcome:
             where it was not computed.
         peak_felt_n: Largest force felt at a step [N]; None when none was.
         force_mark: Mark of the sensor's forces; empty for a calibrated unit.
+        force_residual: Relative residual of their calibration; None where none was felt.
+        gain: The gripper's force gain, relative to the sensor's force; None where none was felt.
     """
 
     reason: EndReason
@@ -76,6 +79,8 @@ class Outcome:
     slip_minimum_n: float | None = None
     peak_felt_n: float | None = None
     force_mark: str = ""
+    force_residual: float | None = None
+    gain: GainEstimate | None = None
 
     @property
     def label(self) -> str:

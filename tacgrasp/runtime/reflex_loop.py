@@ -1,7 +1,8 @@
 """Drives the reflex between two decisions: newest frame in, corrected force out.
 
 In a simulated world the clock calls it in the middle of motions and waits, once a frame of the
-sensor; time of this computer does not count there.
+sensor; time of this computer does not count there. On a rig in real time it runs in a thread beside
+the motion (``tacgrasp.runtime.reflex_thread``).
 
 Not here: what it decides (``policies.reflex``), when the loop lets it run (``tacgrasp.runtime``).
 """
@@ -10,13 +11,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
+from functools import partial
 
 import numpy as np
 
 from cltp.errors import TouchError
 from cltp.tactile.shear.contact_shear import ShearCues, ShearWatch
 from cltp.tactile.shear.field import ShearField
+from cltp.tactile.shear.held_volume import HeldVolume
 from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
 from policies.reflex import Act, Correction, ReflexMemory, ReflexReading, correct
@@ -26,10 +29,15 @@ from primitives.execution import Executor
 from primitives.sense import Interval
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.rig.protocols import CallingClock, Rig, StreamingShearSensor
+from tacgrasp.runtime.reflex_thread import beside_motion
 
 QUIET_FRAMES = 10
 """Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
 tenth of a second with taxels."""
+
+DECISION_S = 0.3
+"""Time that a decision takes in a simulated world, where the reflex runs meanwhile [s]. Our choice:
+about that of the language model on a core or two."""
 
 
 class ReflexLoop:
@@ -45,7 +53,6 @@ class ReflexLoop:
     def __init__(self, rig: Rig, executor: Executor, threshold: float | None = None) -> None:
         self._rig, self._executor, self._threshold = rig, executor, threshold
         self.absent = _absence(rig)
-        self._judge: SlipJudge | None = None
         self._began_s = 0.0
         self._period_s = 1.0 / rig.sensor.spec.frame_hz
         self._forget()
@@ -54,6 +61,30 @@ class ReflexLoop:
         self._samples: list[tuple[float, float, float, float]] = []
         self._corrections: list[ForceCorrection] = []
         self._num_blind, self._blind, self._ran = 0, "", False
+
+    @contextmanager
+    def deciding(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
+        """Keep the contract while the block lets a policy decide; nothing else is commanded.
+
+        A decision takes ``DECISION_S`` in a simulated world. Without contact, and where there is no
+        reflex, the block runs as it is.
+
+        Args:
+            contract: The contract.
+            felt: Force that is felt now; None without contact.
+
+        Raises:
+            TouchError: The reflex had no reading for too long.
+            RobotError: The gripper failed.
+        """
+        if felt is None or self._executor.force_n <= 0 or self._is_absent():
+            yield
+            return
+        with self._beating(self._hold(contract, felt)):
+            yield
+            if isinstance(self._rig.clock, CallingClock):
+                self._rig.clock.sleep(DECISION_S)
+        self._ran = self._ran or bool(self._samples or self._num_blind)
 
     @contextmanager
     def keeping(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
@@ -67,18 +98,36 @@ class ReflexLoop:
             TouchError: The reflex had no reading for too long, out of the motion or wait.
             RobotError: The gripper failed, likewise.
         """
-        clock = self._rig.clock
         self._ran = True
-        if self.absent or not isinstance(clock, CallingClock):
+        if self._is_absent():
             yield
             return
-        spec = self._rig.sensor.spec
-        self._judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
-        self._began_s = self._rig.clock.monotonic() - clock.simulated_s
-        hold = _Hold(contract, felt)
-        clock.call_every(self._period_s, lambda: self._beat(hold))
-        try:
+        with self._beating(self._hold(contract, felt)):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
+            yield
+
+    def _is_absent(self) -> bool:
+        self.absent = self.absent or _unit_absence(self._rig)
+        return bool(self.absent)
+
+    def _hold(self, contract: Contract, felt: Interval | None) -> _Hold:
+        spec = self._rig.sensor.spec
+        judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
+        return _Hold(contract, felt, judge)
+
+    @contextmanager
+    def _beating(self, hold: _Hold) -> Iterator[None]:
+        """Run the reflex of a hold for each frame while the block moves the arm or waits."""
+        clock, sensor = self._rig.clock, self._rig.sensor
+        assert isinstance(sensor, StreamingShearSensor)
+        if not isinstance(clock, CallingClock):
+            beat = partial(self._beat_now, hold)
+            with beside_motion(sensor, self._period_s, beat, self._rig.arm.stop):
+                yield
+            return
+        self._began_s = clock.monotonic() - clock.simulated_s
+        clock.call_every(self._period_s, lambda: self._beat_simulated(hold, clock, sensor))
+        try:
             yield
         finally:
             clock.call_every(self._period_s, None)
@@ -103,20 +152,39 @@ class ReflexLoop:
         self._forget()
         return trace
 
-    def _beat(self, hold: _Hold) -> None:
-        """One frame: read, decide, command.
+    def _beat_now(self, hold: _Hold, field: ShearField | None, captured_s: float | None) -> None:
+        self._beat(hold, self._reading(hold, field, self._rig.clock.monotonic(), captured_s))
+
+    def _beat_simulated(
+        self, hold: _Hold, clock: CallingClock, sensor: StreamingShearSensor
+    ) -> None:
+        began_s, now_s = self._rig.clock.monotonic(), clock.simulated_s
+        _ = self._executor.gripper_state  # raises where the gripper has failed
+        captured_s = None
+        try:
+            field = sensor.newest_shear()
+        except TouchError:
+            field = None
+        if field is not None:
+            captured_s = now_s
+            if field.stamp is not None:  # the time that the simulator computes is no age
+                captured_s = now_s - max(0.0, began_s - field.stamp.monotonic_s)
+        self._beat(hold, self._reading(hold, field, now_s, captured_s))
+
+    def _beat(self, hold: _Hold, reading: ReflexReading) -> None:
+        """One frame: decide, command.
 
         Raises:
             TouchError: There was no reading for too long.
         """
-        reading = self._reading(hold)
         correction, hold.memory = correct(reading, hold.contract.terms, hold.memory, self._period_s)
         if hold.memory.blind_s is not None:
             self._num_blind, self._blind = self._num_blind + 1, correction.reason
         else:
             slip = NO_SLIP if reading.slip is None else reading.slip
             felt_n = 0.0 if reading.felt_n is None else reading.felt_n
-            self._samples.append((self._now_s(), felt_n, reading.commanded_n, slip))
+            at_s = self._began_s + reading.t_s
+            self._samples.append((at_s, felt_n, reading.commanded_n, slip))
         if correction.act is Act.END:
             raise TouchError(f"the reflex was blind: {correction.reason}; the grip was kept")
         if correction.act in (Act.RAISE, Act.LOWER):
@@ -137,29 +205,19 @@ class ReflexLoop:
             )
 
     def _now_s(self) -> float:
-        """Time of the hold's readings [s]: of the world, from the hold's begin on."""
+        """Time of the hold's readings [s]: in a simulated world of that, from its begin on."""
         clock = self._rig.clock
-        assert isinstance(clock, CallingClock)
-        return self._began_s + clock.simulated_s
+        if isinstance(clock, CallingClock):
+            return self._began_s + clock.simulated_s
+        return clock.monotonic()
 
-    def _reading(self, hold: _Hold) -> ReflexReading:
-        clock, sensor = self._rig.clock, self._rig.sensor
-        assert isinstance(clock, CallingClock) and isinstance(sensor, StreamingShearSensor)
-        began_s, now_s = clock.monotonic(), clock.simulated_s
-        commanded_n = self._executor.gripper_state.force_n
-        try:
-            field = sensor.newest_shear()
-        except TouchError:
-            field = None
-        captured_s, felt_n, slip = None, None, None
-        if field is not None:
-            captured_s = now_s
-            if field.stamp is not None:  # the time that the simulator computes is no age
-                captured_s = now_s - max(0.0, began_s - field.stamp.monotonic_s)
-            cues = hold.see(field)
-            if cues is not None:
-                felt_n = hold.force_of(cues)
-                slip = None if self._judge is None else self._judge.see(cues.values)
+    def _reading(
+        self, hold: _Hold, field: ShearField | None, now_s: float, captured_s: float | None
+    ) -> ReflexReading:
+        commanded_n, felt_n, slip = self._executor.force_n, None, None
+        cues = None if field is None else hold.see(field)
+        if field is not None and cues is not None:
+            felt_n, slip = hold.force_of(field), hold.judge.see(cues.values)
         return ReflexReading(
             t_s=now_s,
             captured_s=captured_s,
@@ -188,12 +246,12 @@ def make_reflex(rig: Rig, executor: Executor, config: RunConfig) -> ReflexLoop |
 class _Hold:
     """One hold: its contract, what the frames tell of it, and the reflex's memory."""
 
-    def __init__(self, contract: Contract, felt: Interval | None) -> None:
-        self.contract, self.memory = contract, ReflexMemory()
+    def __init__(self, contract: Contract, felt: Interval | None, judge: SlipJudge) -> None:
+        self.contract, self.judge, self.memory = contract, judge, ReflexMemory()
         self._felt_n = None if felt is None else felt.value
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
-        self._volume_mm3 = 0.0
+        self._volume: HeldVolume | None = None
 
     def see(self, field: ShearField) -> ShearCues | None:
         """Cues of a frame; None while the hold is quiet and its noise is measured."""
@@ -205,20 +263,20 @@ class _Hold:
         self._watch = ShearWatch(field.sensor, *noise_of(self._quiet))
         for each in self._quiet:
             cues = self._watch.see(each)
-        if cues is not None:
-            self._volume_mm3 = cues.volume_mm3
+        self._volume = HeldVolume(self._quiet)
         return cues
 
     def renew(self) -> None:
         """A correction was commanded: the contact will change."""
         if self._watch is not None:
             self._watch.renew()
+        if self._volume is not None:
+            self._volume.renew()
 
-    def force_of(self, cues: ShearCues) -> float | None:
+    def force_of(self, field: ShearField) -> float | None:
         """Force felt in a frame [N]: that felt before the hold, times the indentation's growth."""
-        if self._felt_n is None or self._volume_mm3 <= 0:
-            return None
-        return self._felt_n * cues.volume_mm3 / self._volume_mm3
+        growth = None if self._volume is None else self._volume.growth(field)
+        return None if growth is None or self._felt_n is None else self._felt_n * growth
 
 
 def _absence(rig: Rig) -> str:
@@ -228,6 +286,14 @@ def _absence(rig: Rig) -> str:
         return f"{spec.name} measures no shear"
     if not isinstance(rig.sensor, StreamingShearSensor):
         return "the sensor gives no newest frame of shear"
-    if not isinstance(rig.clock, CallingClock):
-        return "it runs in simulated worlds alone so far"
+    return ""
+
+
+def _unit_absence(rig: Rig) -> str:
+    """Why there can be none on this unit, on a rig in real time; '' where there can."""
+    if isinstance(rig.clock, CallingClock) or not isinstance(rig.sensor, StreamingShearSensor):
+        return ""
+    with suppress(TouchError):  # a sensor that has failed is one that the reflex is blind with
+        if rig.sensor.newest_shear() is None:
+            return "the unit sends no displacements along its gel"
     return ""

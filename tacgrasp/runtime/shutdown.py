@@ -84,6 +84,8 @@ def close(ending: Ending) -> Outcome:
             truth=truth,
             peak_felt_n=steps.peak_felt_n,
             force_mark=steps.force_mark,
+            force_residual=steps.force_residual,
+            gain=steps.gain,
         )
         refusals = _refusals(lambda: ending.recorder.finish(_episode_end(rig, outcome)))
     if refusals and outcome.reason is not EndReason.FAULT:

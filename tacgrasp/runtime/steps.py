@@ -23,6 +23,7 @@ from primitives import Primitive
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
 from primitives.execution import Executed, Executor
+from primitives.gain import GainEstimate
 from primitives.sense import Interval
 from tacgrasp.config.schema import LoopConfig
 from tacgrasp.episodes.record import EpisodeEnd, Need, StepPhase, StepRecord
@@ -167,6 +168,8 @@ class Steps:
         num_empty: Closings on nothing in a row, each followed by the runtime's own reset.
         peak_felt_n: Largest force felt at a step so far [N]; None before any was felt.
         force_mark: Mark of the sensor's forces; empty for a calibrated unit.
+        force_residual: Relative residual of their calibration; None before any was felt.
+        gain: The gripper's force gain over the grips so far; None before anything was felt.
         started_s: Start of the episode on the rig's monotonic clock [s].
         reflex: Keeps the contract between two decisions; None for none.
     """
@@ -186,6 +189,8 @@ class Steps:
         self.num_steps = self.num_actions = self.num_empty = 0
         self.peak_felt_n: float | None = None
         self.force_mark = ""
+        self.force_residual: float | None = None
+        self.gain: GainEstimate | None = None
         self.started_s = rig.clock.monotonic()
         self._num_blanks = 0
         self._last: Step | None = None
@@ -216,7 +221,9 @@ class Steps:
         self, executor: Executor, observation: Readings, contract: Contract
     ) -> Contract:
         """The contract after what is felt: a soft contact is held to the terms of soft ones."""
-        if not executor.feel(observation.felt_force_n):
+        is_soft = executor.feel(observation.felt_force_n)
+        self.gain = executor.gain
+        if not is_soft:
             return contract
         held = softened(contract)
         executor.keep(held)
@@ -310,14 +317,15 @@ class Steps:
         if observation.felt_force_n is not None:
             self.peak_felt_n = max(self.peak_felt_n or 0.0, observation.felt_force_n.value)
             self.force_mark = observation.cloud.force_scale.mark
+            self.force_residual = observation.cloud.force_scale.spread
+
+    def deciding(self, contract: Contract, seen: Readings) -> AbstractContextManager[None]:
+        """``ReflexLoop.deciding``, which raises as it does; without a reflex, nothing."""
+        felt = seen.felt_force_n
+        return nullcontext() if self.reflex is None else self.reflex.deciding(contract, felt)
 
     def keeping(self, contract: Contract, felt: Interval | None) -> AbstractContextManager[None]:
-        """The reflex keeps the contract while the block moves the arm or waits; without, nothing.
-
-        Raises:
-            TouchError: As ``ReflexLoop.keeping``.
-            RobotError: Likewise.
-        """
+        """``ReflexLoop.keeping``, which raises as it does; without a reflex, nothing."""
         return nullcontext() if self.reflex is None else self.reflex.keeping(contract, felt)
 
     def record_cut_short(self, step: Step | None, message: str) -> None:

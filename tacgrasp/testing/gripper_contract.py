@@ -10,7 +10,7 @@ import math
 import pytest
 
 from primitives import LimitError
-from primitives.devices import Gripper
+from primitives.devices import AdjustableGripper, Gripper
 
 
 class GripperContract:
@@ -38,6 +38,20 @@ class GripperContract:
         gripper.grip(self.force_n)
         assert gripper.grip(1.5 * self.force_n).force_n == pytest.approx(1.5 * self.force_n)
         assert gripper.grip(0.65 * self.force_n).force_n == pytest.approx(0.65 * self.force_n)
+
+    def test_a_gripper_that_adjusts_at_once_takes_a_closed_grip_alone(
+        self, gripper: Gripper
+    ) -> None:
+        if not isinstance(gripper, AdjustableGripper):
+            pytest.skip("this gripper has no adjust")
+        with pytest.raises(LimitError):
+            gripper.adjust(self.force_n)
+        gripper.grip(self.force_n)
+        assert gripper.adjust(1.2 * self.force_n).force_n == pytest.approx(1.2 * self.force_n)
+        for refused in (self.too_much_n, math.nan, 0.0):
+            with pytest.raises(LimitError):
+                gripper.adjust(refused)
+        assert gripper.state().force_n == pytest.approx(1.2 * self.force_n)
 
     def test_opening_frees_the_object_by_as_much_as_asked(self, gripper: Gripper) -> None:
         closed = gripper.grip(self.force_n)

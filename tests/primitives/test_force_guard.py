@@ -7,7 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from primitives import LimitError
-from primitives.force_guard import LEAST_FELT_N, GuardedGripper
+from primitives.force_guard import GuardedGripper
+from primitives.gain import LEAST_FELT_N
 from primitives.sense import Interval
 from tests.fakes.hidden_gain import HiddenGainGripper
 

@@ -64,7 +64,7 @@ class ShearWatch:
 
     def __init__(self, sensor: SensorSpec, along_mm: float, depth_mm: float) -> None:
         self._sensor, self._noise_mm = sensor, (along_mm, depth_mm)
-        self._grid = _grid_of(sensor)
+        self._grid = grid_of(sensor)
         self._height_mm: FloatArray | None = None
         self._counts = np.zeros(self._grid.count)
         self._along: deque[FloatArray] = deque(maxlen=2 * LAG + 1)
@@ -157,7 +157,7 @@ def _mean(values: FloatArray, weight: FloatArray) -> float:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Grid:
+class PointGrid:
     """Points of a sensor: rows × columns, positions (N,) [mm], from the top left row by row."""
 
     rows: int
@@ -186,10 +186,11 @@ class _Grid:
 
 
 @lru_cache
-def _grid_of(sensor: SensorSpec) -> _Grid:
+def grid_of(sensor: SensorSpec) -> PointGrid:
+    """The points of a sensor that measures shear."""
     rows, columns = sensor.shear_grid or (0, 0)
     x, y = (axis.ravel() for axis in np.meshgrid(*grid_axes_mm(sensor, rows, columns)))
-    return _Grid(
+    return PointGrid(
         rows=rows,
         columns=columns,
         x=x,
@@ -204,7 +205,7 @@ def _grid_of(sensor: SensorSpec) -> _Grid:
 class _Shape:
     """Shape of an indentation: its middle, rings about it, its ellipse, its slopes."""
 
-    grid: _Grid
+    grid: PointGrid
     depth_mm: float
     volume_mm3: float
     height_mm: FloatArray
@@ -217,7 +218,7 @@ class _Shape:
     axes: tuple[float, float]  # (difference of the second moments over their sum) × (cos, sin) 2θ
 
     @classmethod
-    def of(cls, height_mm: FloatArray, grid: _Grid) -> _Shape | None:
+    def of(cls, height_mm: FloatArray, grid: PointGrid) -> _Shape | None:
         """The shape of mean heights; None where nothing is indented."""
         level = float(np.median(height_mm))
         height = height_mm - min(level, 0.0)

@@ -33,6 +33,9 @@ FOLLOW_S = 120.0
 Follow = Callable[[MotionSegment], None]
 """Function of a world that follows a segment; returns when it is solved."""
 
+Begin = Callable[[MotionSegment], None]
+"""Function of a world that is told of the plan of a line that begins; returns at once."""
+
 
 class RemoteWorld:
     """The child's side: it sends segments to the parent's world."""
@@ -53,15 +56,26 @@ class RemoteWorld:
         Raises:
             OSError: The parent is gone, or its world failed.
         """
+        self._send("ended", segment)
+        if self._answers.readline() != b"followed\n":
+            raise OSError("the world that follows this arm is gone")
+
+    def begin(self, plan: MotionSegment) -> None:
+        """Send the plan of a line that begins.
+
+        Raises:
+            OSError: The parent is gone.
+        """
+        self._send("begins", plan)
+
+    def _send(self, event: str, segment: MotionSegment) -> None:
         numbers = [
             segment.by_base_m.tolist(),
             segment.rotvec_rad.tolist(),
             segment.speed_m_s,
             segment.acceleration_m_s2,
         ]
-        self._socket.sendall(json.dumps(numbers).encode() + b"\n")
-        if self._answers.readline() != b"followed\n":
-            raise OSError("the world that follows this arm is gone")
+        self._socket.sendall(json.dumps([event, *numbers]).encode() + b"\n")
 
 
 class UrChild:
@@ -71,8 +85,10 @@ class UrChild:
         host: Loopback address of the controller.
     """
 
-    def __init__(self, host: str, follow: Follow) -> None:
+    def __init__(self, host: str, follow: Follow, begin: Begin | None = None) -> None:
         """Start it; ``follow`` is called with every segment, in a thread of its own.
+
+        ``begin`` is called in that thread too, with the plan of every line.
 
         Raises:
             OSError: The ports are taken on this address.
@@ -83,7 +99,7 @@ class UrChild:
                 probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
                 probe.bind((host, port))
         self.host = host
-        self._follow = follow
+        self._follow, self._begin = follow, begin
         with socket.create_server(("127.0.0.1", 0)) as listener:
             listener.settimeout(CALL_S)
             port = listener.getsockname()[1]
@@ -116,9 +132,13 @@ class UrChild:
         # When the world fails, the connection closes, and the move in the child never ends.
         with self._connection, self._connection.makefile("rb") as lines:
             for line in lines:
-                by_base_m, rotvec_rad, *limits = json.loads(line)
+                event, by_base_m, rotvec_rad, *limits = json.loads(line)
                 segment = MotionSegment(np.array(by_base_m), np.array(rotvec_rad), *limits)
                 try:
+                    if event == "begins":
+                        if self._begin is not None:
+                            self._begin(segment)
+                        continue
                     self._follow(segment)
                 except Exception:
                     log.exception("the emulated world could not follow the arm")

@@ -17,7 +17,7 @@ import numpy as np
 
 from sim.emulators.process.control import Facts
 from sim.emulators.process.lifetime import request_real_time, serve
-from sim.emulators.ur.child import Follow, RemoteWorld
+from sim.emulators.ur.child import Begin, Follow, RemoteWorld
 from sim.emulators.ur.controller import ROBOT_STOP, SAFEGUARD, Controller
 from sim.emulators.ur.motion import MotionSegment
 from sim.emulators.ur.options import UrOptions
@@ -30,7 +30,9 @@ _REGISTERS = [f"input_int_register_{i}" for i in range(24)]
 class UrEmulator:
     """One emulated controller; an ``Emulated`` device of the control channel."""
 
-    def __init__(self, options: UrOptions, follow: Follow | None = None) -> None:
+    def __init__(
+        self, options: UrOptions, follow: Follow | None = None, begin: Begin | None = None
+    ) -> None:
         """Listen on the host of the options and serve.
 
         Args:
@@ -38,6 +40,7 @@ class UrEmulator:
             follow: Function of a world that follows a segment of the tool that has ended (arrived,
                 or was cut short by a stop). It may take its time: the controller goes on, and
                 reports the end of the move when the world has followed.
+            begin: Function of that world that is told of a line that begins; returns at once.
 
         Raises:
             OSError: The ports are taken on this address.
@@ -46,11 +49,10 @@ class UrEmulator:
         major, minor = (int(part) for part in options.version.split("."))
         self._version = (major, minor)
         self._injected_s: float | None = None
-        self._segments: queue.SimpleQueue[tuple[MotionSegment, threading.Event] | None] = (
-            queue.SimpleQueue()
-        )
+        self._reports: queue.SimpleQueue[Callable[[], None] | None] = queue.SimpleQueue()
+        self._follow = follow
         if follow is not None:
-            threading.Thread(target=self._run_world, args=(follow,), daemon=True).start()
+            threading.Thread(target=self._run_world, daemon=True).start()
         self.controller = Controller(
             np.array(options.start_tcp),
             np.array(options.tcp_offset),
@@ -58,6 +60,8 @@ class UrEmulator:
             time.monotonic,
         )
         self.controller.unlock_after_s = options.unlock_after_s
+        if begin is not None:
+            self.controller.robot.on_begin = lambda plan: self._reports.put(lambda: begin(plan))
         self.server = Server(options.host, self.controller, self._version, options.stream_hz)
         self._faults: dict[str, Callable[..., None]] = {
             "mute": lambda: self._link(mute=True),
@@ -79,7 +83,7 @@ class UrEmulator:
 
     def close(self) -> None:
         self.server.close()
-        self._segments.put(None)
+        self._reports.put(None)
 
     def inject(self, fault: str, **details: float | str) -> None:
         """Start a fault now.
@@ -169,22 +173,27 @@ class UrEmulator:
         self.controller.robot.contact = np.array([0.0, 0.0, float(force_n), 0.0, 0.0, 0.0])
 
     def _queue_segment(self, segment: MotionSegment) -> Callable[[], bool]:
-        followed = threading.Event()
-        self._segments.put((segment, followed))
-        return followed.is_set
+        followed, follow = threading.Event(), self._follow
+        assert follow is not None  # else nobody listens
 
-    def _run_world(self, follow: Follow) -> None:
-        while (entry := self._segments.get()) is not None:
-            segment, followed = entry
+        def report() -> None:
             try:
                 follow(segment)
             finally:
                 followed.set()
 
+        self._reports.put(report)
+        return followed.is_set
+
+    def _run_world(self) -> None:
+        while (report := self._reports.get()) is not None:
+            report()
+
 
 def run(options: UrOptions) -> None:
     """Run one emulated controller, until the process is to end."""
     request_real_time()  # control channel too: a thread that waits for it must not wait long
-    follow = None if options.world_port is None else RemoteWorld(options.world_port).follow
-    with closing(UrEmulator(options, follow)) as emulator:
+    world = None if options.world_port is None else RemoteWorld(options.world_port)
+    follow, begin = (None, None) if world is None else (world.follow, world.begin)
+    with closing(UrEmulator(options, follow, begin)) as emulator:
         serve({"ur": emulator}, {"host": options.host})

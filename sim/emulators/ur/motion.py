@@ -73,8 +73,8 @@ class MotionSegment:
     """A straight motion of the tool centre point from rest to rest.
 
     Attributes:
-        by_base_m: Actual displacement, shape (3,) [m, base].
-        rotvec_rad: Actual rotation, shape (3,) [rad, base].
+        by_base_m: Displacement, shape (3,) [m, base]: planned when it begins, actual when it ended.
+        rotvec_rad: Rotation, shape (3,) [rad, base], likewise.
         speed_m_s, acceleration_m_s2: As commanded when it began.
     """
 
@@ -134,6 +134,11 @@ class Line:
         self._top = min(speed, math.sqrt(self._length * acceleration))
         self._ramp_s = self._top / acceleration
         self.duration_s = self._length / self._top + self._ramp_s if self._length > 0 else 0.0
+
+    @property
+    def path(self) -> Floats:
+        """Planned displacement and rotation vector, (6,) [m, rad, base]."""
+        return self._by
 
     def at(self, t_s: float) -> ToolState:
         if t_s >= self.duration_s:

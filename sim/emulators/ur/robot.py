@@ -1,7 +1,7 @@
 """The body of an emulated UR: tool state, motions, joints and force sensor.
 
-Each segment from rest to rest is reported to a listener, so that a simulated world can follow. Not
-here: commands and programs, safety, the wire.
+Each segment from rest to rest is reported to a listener, so that a simulated world can follow; a
+line also when it begins. Not here: commands and programs, safety, the wire.
 """
 
 from __future__ import annotations
@@ -26,6 +26,7 @@ from sim.emulators.ur.kinematics import (
 )
 from sim.emulators.ur.motion import (
     AT_REST,
+    Line,
     Motion,
     MotionSegment,
     Rest,
@@ -63,6 +64,7 @@ class Robot:
         tcp_offset: Flange to tool centre point, UR pose (6,) [m, rad].
         contact: External wrench on the tool (6,) [N, N m, base].
         speed_fraction: Speed slider, 0 to 1; it scales the speed of motions.
+        on_begin: Called with the plan of each line that begins from rest; None for nobody.
         out_of_reach: A motion led to where no posture is; the arm stands, and must be stopped. A
             real one stops itself there (a protective stop).
     """
@@ -83,6 +85,7 @@ class Robot:
         self._bias = np.array(FORCE_BIAS_N)
         self._zeroed = np.zeros(6)
         self._listener = listener
+        self.on_begin: Callable[[MotionSegment], None] | None = None
         self._motion: Motion = Rest(self.tool)
         self._since_s, self._now_s, self._stopping = 0.0, now_s, False
         self._segment_start: tuple[ToolState, float, float] | None = None
@@ -113,6 +116,9 @@ class Robot:
         if self._segment_start is None:
             self._segment_start = (self.tool, speed_m_s, acceleration)
             self._peak_m_s = 0.0
+            if isinstance(motion, Line) and self.on_begin is not None:
+                path = motion.path
+                self.on_begin(MotionSegment(path[:3], path[3:], speed_m_s, acceleration))
         self._motion, self._since_s, self._stopping = motion, 0.0, False
         self.advance(self._now_s)
 

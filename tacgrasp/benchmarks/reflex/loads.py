@@ -171,7 +171,7 @@ def run_seed(sensor_name: str, seed: int) -> LoadResult | None:
         seed=seed,
         kind=drawn.kind.value,
         object=drawn.object_name,
-        noise_mm=_unit(drawn, seed).along_mm,
+        noise_mm=unit_of(drawn, seed).along_mm,
         slips=slid_mm >= SLIP_MM,
         holds=least_stick >= HELD_STICK,
         called=called,
@@ -201,19 +201,20 @@ def onset_s(frames: Sequence[LoadFrame]) -> float | None:
 def noisy_frames(drawn: DrawnLoad, seed: int) -> Iterator[ShearField]:
     """Steps of a load without any correction, with the noise of the seed's unit."""
     rng = np.random.default_rng([seed, 28])
-    unit, sensor = _unit(drawn, seed), drawn.fingers.sensor
+    unit, sensor = unit_of(drawn, seed), drawn.fingers.sensor
     for frame in follow(drawn, quiet=QUIET_FRAMES + 3):
         yield unit.apply(frame.field_of(sensor), rng)
 
 
-def _unit(drawn: DrawnLoad, seed: int) -> ShearUnit:
+def unit_of(drawn: DrawnLoad, seed: int) -> ShearUnit:
+    """The unit of the sensor that a seed draws."""
     return ShearUnit.draw(np.random.default_rng([seed, 27]), drawn.fingers.sensor)
 
 
 def _pass(drawn: DrawnLoad, seed: int, *, acts: bool) -> _Run:
     """Follow a load at every step of the dynamics; the reflex sees the sensor's frames alone."""
     rng, sensor = np.random.default_rng([seed, 28]), drawn.fingers.sensor
-    unit, period_s = _unit(drawn, seed), 1.0 / sensor.frame_hz
+    unit, period_s = unit_of(drawn, seed), 1.0 / sensor.frame_hz
     every = round(period_s / STEP_S)
     first = int(rng.integers(every))
     run = _Run(Keeper(sensor, drawn.force_n))

@@ -72,12 +72,7 @@ class ServoFingers:
             RobotError: The current is beyond ``max_current_ma`` (nothing is sent), the fingers do
                 not come to rest in time, or the gripper has a fault.
         """
-        if not 0 < current_ma <= self.settings.max_current_ma:
-            raise RobotError(
-                f"a current must lie in (0, {self.settings.max_current_ma:g}] mA, got "
-                f"{current_ma:g}"
-            )
-        units = max(1, round(current_ma / self.unit_ma))
+        units = self._units(current_ma)
         goals = [servo.closed_ticks for servo in self.settings.servos]
         number = self._send(units, goals)
 
@@ -87,6 +82,28 @@ class ServoFingers:
             return at_goal or abs(abs(sample.current) - units) <= tolerance
 
         return self._settled(number, presses, f"to press with {current_ma:.0f} mA")
+
+    def press(self, current_ma: float) -> float:
+        """Press closed fingers with another current, and return at once.
+
+        Returns:
+            Opening at the last poll [m].
+
+        Raises:
+            RobotError: The current is beyond ``max_current_ma`` (nothing is sent), the servos do
+                not confirm the command, or the gripper has a fault.
+        """
+        self._send(self._units(current_ma), [servo.closed_ticks for servo in self.settings.servos])
+        return self._width_m([servo.position for servo in self.poller.next_sample(0).servos])
+
+    def _units(self, current_ma: float) -> int:
+        """A current in units of the register."""
+        if not 0 < current_ma <= self.settings.max_current_ma:
+            raise RobotError(
+                f"a current must lie in (0, {self.settings.max_current_ma:g}] mA, got "
+                f"{current_ma:g}"
+            )
+        return max(1, round(current_ma / self.unit_ma))
 
     def open_to(self, width_m: float) -> float:
         """Open to a width within the travel, or a little beyond it; returns the width [m].

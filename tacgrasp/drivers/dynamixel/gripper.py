@@ -87,18 +87,35 @@ class DynamixelGripper:
         return self._state(self._fingers.width_m())
 
     def grip(self, force_n: float) -> GripperState:
+        current_ma = self._current_ma(force_n)
+        # from here on an object may be held, also after an error
+        self._force_n, self._closed = force_n, True
+        return self._state(self._fingers.squeeze(current_ma))
+
+    def adjust(self, force_n: float) -> GripperState:
+        """As ``primitives.devices.AdjustableGripper``: returns once the registers are written."""
+        current_ma = self._current_ma(force_n)
+        if not self._closed:
+            raise LimitError("only a closed grip is adjusted; close it with grip first")
+        self._force_n = force_n
+        return self._state(self._fingers.press(current_ma))
+
+    def _current_ma(self, force_n: float) -> float:
+        """Current of a force [N].
+
+        Raises:
+            LimitError: The force is out of range.
+            RobotError: The gripper has a fault.
+        """
         self._fingers.sent = ""
         if not (math.isfinite(force_n) and 0 < force_n <= self.max_force_n * (1 + 1e-9)):
             raise LimitError(
                 f"force must lie in (0, {self.max_force_n:.2f}] N (calibrated range, and "
                 f"max_current_ma {self._fingers.settings.max_current_ma:g}), got {force_n}"
             )
-        current_ma = self._calibration.current_ma(force_n)
         if self.fault:
             raise RobotError(self.fault)
-        # from here on an object may be held, also after an error
-        self._force_n, self._closed = force_n, True
-        return self._state(self._fingers.squeeze(max(self._fingers.unit_ma, current_ma)))
+        return max(self._fingers.unit_ma, self._calibration.current_ma(force_n))
 
     def open_by(self, clear_m: float) -> GripperState:
         self._fingers.sent = ""

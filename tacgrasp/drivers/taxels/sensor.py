@@ -21,7 +21,6 @@ from cltp.errors import TouchError
 from cltp.sensing.taxel_packets import (
     DISPLACEMENTS,
     HEIGHTS,
-    UM_LIMIT,
     PacketParser,
     SequenceCount,
     TaxelFrame,
@@ -36,16 +35,12 @@ from tacgrasp.drivers.check import EMULATOR_ADVICE
 from tacgrasp.drivers.latest import STALE_MARGIN_S, Latest
 from tacgrasp.drivers.scheduling import request_priority
 from tacgrasp.drivers.stamps import real_stamp
-from tacgrasp.drivers.taxels.displacements import displacement_mm, shear_of
+from tacgrasp.drivers.taxels.displacements import displacement_mm, problem_of, shear_of
 from tacgrasp.drivers.taxels.intervals import FrameIntervals
 from tacgrasp.drivers.taxels.settings import TaxelSettings
 
 if TYPE_CHECKING:
     from serial import Serial
-
-SATURATED_FRACTION = 0.2
-"""Largest fraction of taxels at the end of their range in a valid frame. Our choice: a deeper
-contact would destroy the gel first."""
 
 REFERENCE_FRAMES = 5
 """Frames that a reference is the mean of. Our choice: its noise is less than half that of a frame,
@@ -117,6 +112,7 @@ class TaxelArray:
         self._mark = 0
         self._reference_mm: FloatArray | None = None
         self._last_shear: ShearField | None = None
+        self._newest: tuple[_StampedFrame, ShearField | None] | None = None
         self._opened_s = time.monotonic()
         self._thread = threading.Thread(target=self._capture, name="taxel array", daemon=True)
         self._thread.start()
@@ -168,14 +164,7 @@ class TaxelArray:
 
     def read(self, frames: int = 1) -> TactileCloud:
         fresh, moved_mm = self._mean_of(frames)
-        reference_mm = self._reference_mm
-        if reference_mm is not None:
-            if moved_mm.shape != reference_mm.shape:
-                raise TouchError(
-                    f"{self._name} sends a grid of {moved_mm.shape} taxels and numbers, its "
-                    f"reference has {reference_mm.shape}: was it exchanged? Connect it again"
-                )
-            moved_mm = moved_mm - reference_mm
+        moved_mm = self._relative(moved_mm)
         heights_mm = moved_mm[:, :, -1].astype(np.float32)
         cloud = cloud_of_pixels(
             heights_mm, self._spec, stamp=fresh.stamp, force_scale=self._force_scale
@@ -186,6 +175,34 @@ class TaxelArray:
     def last_shear(self) -> ShearField | None:
         """The shear field of the frames that the last cloud came from; None in version 1."""
         return self._last_shear
+
+    def newest_shear(self) -> ShearField | None:
+        """The shear field of the newest frame, at once; the same object while none is newer.
+
+        Raises:
+            TouchError: As ``read``, but for the wait.
+        """
+        newest = self._latest.newest()
+        if newest is None:
+            return None
+        if newest.problem:
+            raise TouchError(f"{self._name}: {newest.problem}")
+        if self._newest is None or self._newest[0] is not newest:
+            moved_mm = self._relative(displacement_mm(newest.frame))
+            self._newest = newest, shear_of(moved_mm, self._spec, newest.stamp)
+        return self._newest[1]
+
+    def _relative(self, moved_mm: FloatArray) -> FloatArray:
+        """Displacements relative to the last reference, if there was one."""
+        reference_mm = self._reference_mm
+        if reference_mm is None:
+            return moved_mm
+        if moved_mm.shape != reference_mm.shape:
+            raise TouchError(
+                f"{self._name} sends a grid of {moved_mm.shape} taxels and numbers, its "
+                f"reference has {reference_mm.shape}: was it exchanged? Connect it again"
+            )
+        return moved_mm - reference_mm
 
     def take_reference(self) -> None:
         """Subtract the mean of ``REFERENCE_FRAMES`` fresh frames from all later ones.
@@ -317,27 +334,10 @@ class TaxelArray:
                     if isinstance(packet, TaxelFrame) and self._numbers.is_new(packet.sequence):
                         stamp = real_stamp()
                         self._intervals.add(packet, stamp.monotonic_s)
-                        self._latest.put(_StampedFrame(packet, stamp, _problem(packet)))
+                        self._latest.put(_StampedFrame(packet, stamp, problem_of(packet)))
             reason = "it is disconnected"
         except (SerialException, OSError) as error:
             reason = f"it was unplugged, or its port failed: {error}; plug it in and start again"
         finally:
             self._latest.fail(f"{self._name}: {reason}")
             self._port.close()
-
-
-def _problem(frame: TaxelFrame) -> str:
-    """Reason why a frame shows no gel; empty for none."""
-    counts = frame.counts_um
-    if int(counts.min()) == int(counts.max()):
-        return (
-            f"all taxels read {int(counts[0, 0])} µm; expected a gel, whose noise alone is some "
-            "µm: the sensing element is dead or dark, check its light and supply"
-        )
-    at_end = np.abs(counts.astype(np.int32)) > UM_LIMIT
-    if frame.along_um is not None:
-        at_end |= (np.abs(frame.along_um.astype(np.int32)) > UM_LIMIT).any(axis=2)
-    saturated = float(at_end.mean())
-    if saturated > SATURATED_FRACTION:
-        return f"{saturated:.0%} of the taxels are at the end of their range: check its supply"
-    return ""

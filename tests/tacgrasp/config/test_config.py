@@ -10,6 +10,7 @@ import pytest
 from tacgrasp.base.errors import UsageError
 from tacgrasp.cli.run import configure
 from tacgrasp.config.layers import load, names
+from tests.paths import ROOT
 
 MINIMAL = """
 instruction: hold it
@@ -236,3 +237,15 @@ def test_a_limit_that_the_rigs_file_leaves_to_its_default_can_not_be_widened_eit
     )
     message = usage_error(["--rig", str(rig), "--arm.max-travel-mm", "130"])
     assert "at most the rig's hard limit 120" in message
+
+
+def test_an_emulated_array_has_the_sensor_of_the_run_unless_its_file_names_one(
+    tmp_path: Path,
+) -> None:
+    config, _, _ = configure(["--rig", "emulated", "--sensor", "taxels"])
+    assert config.sensor == "taxels"
+    shipped = (ROOT / "tacgrasp/rigs/emulated.yaml").read_text()
+    named = tmp_path / "named.yaml"
+    named.write_text(shipped.replace("kind: taxels", "kind: taxels\n    sensor: gelsight_mini"))
+    with pytest.raises(UsageError, match=r"sensor taxels is not what hardware\.sensor is"):
+        configure(["--rig", str(named), "--sensor", "taxels"])

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from primitives.gain import GainEstimate
 from tacgrasp.cli.run import EXIT_CODES
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
@@ -118,3 +119,15 @@ def test_no_line_of_the_end_is_wider_than_a_hundred_columns(config: RunConfig) -
     lines = printed(long, config)
     assert max(map(len, lines)) <= COLUMNS
     assert " ".join(line.strip() for line in lines).count("the sensor gave no frame;") == 20
+
+
+def test_the_gain_of_the_gripper_stands_with_the_residual_of_the_force_it_is_known_by(
+    config: RunConfig,
+) -> None:
+    gain = GainEstimate(value=1.56, low=1.46, high=1.67, num_grips=2)
+    known = replace(GOOD, gain=gain, force_residual=0.04)
+    line = "gripper: presses 1.56 times its command (1.46-1.67, 2 grips), felt force "
+    assert line + "calibrated to 4%" in printed(known, config)
+    raw = replace(known, force_mark="uncalibrated, -26 to +35 %")
+    assert line + "uncalibrated, -26 to +35 %" in " ".join(printed(raw, config))
+    assert not any("times its command" in each for each in printed(GOOD, config))

@@ -8,7 +8,7 @@ import pytest
 
 from cltp.errors import TouchError
 from policies.reflex import MAX_BLIND_S
-from primitives import RobotError
+from primitives import Primitive, RobotError
 from primitives.devices import Pose
 from primitives.sense import Interval
 from sim.grasp.devices import ADJUST_S, SimClock
@@ -17,7 +17,8 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
-from tacgrasp.runtime.reflex_loop import QUIET_FRAMES, ReflexLoop
+from tacgrasp.runtime.reflex_loop import DECISION_S, QUIET_FRAMES, ReflexLoop
+from tests.fakes.contracts import contract as bands
 
 SEED, HEAVY = 3, 9
 """Seeds of a berry of 8 g, and of one of 36 g."""
@@ -168,3 +169,52 @@ def test_the_limit_holds_for_a_correction_too():
     assert state.clamped
     assert math.isclose(executor.force_n, state.force_n)
     assert executor.most_felt_n(state.force_n) <= 3.2
+
+
+def test_while_a_policy_decides_a_force_above_the_band_is_lowered_and_time_passes():
+    rig, executor, _ = hold()
+    before_n, before_s = executor.force_n, rig.clock.simulated_s
+    above = bands(0.1, 0.5 * rig.truth().force_n, 3.0)
+    reflex = ReflexLoop(rig, executor)
+    with reflex.deciding(above, felt(rig)):
+        assert executor.force_n == before_n
+    assert rig.clock.simulated_s - before_s == pytest.approx(DECISION_S)
+    trace = reflex.take_trace()
+    assert len(trace.t_s) == round(DECISION_S * 100)
+    assert executor.force_n == pytest.approx(0.9 * before_n)
+    assert "above" in trace.text
+
+
+def test_a_good_hold_is_left_alone_while_a_policy_decides():
+    rig, executor, contract = hold()
+    reflex = ReflexLoop(rig, executor)
+    with reflex.deciding(contract, felt(rig)):
+        pass
+    assert reflex.take_trace().text == "reflex: 30 readings, force kept"
+
+
+@pytest.mark.parametrize("sensor", ["taxels", "gelsight_mini"])
+def test_without_contact_or_shear_a_decision_takes_no_time_and_leaves_no_trace(sensor):
+    rig, executor, contract = hold(sensor)
+    before_s, reflex = rig.clock.simulated_s, ReflexLoop(rig, executor)
+    with reflex.deciding(contract, None if sensor == "taxels" else felt(rig)):
+        pass
+    assert rig.clock.simulated_s == before_s
+    assert reflex.take_trace() is None
+
+
+def test_a_decided_change_is_made_of_the_force_that_was_felt_not_of_a_corrected_one():
+    forces = []
+    for corrects in (False, True):
+        _, executor, _ = hold()
+        executor.feel(Interval(value=1.0, low=0.8, high=1.2))
+        if corrects:
+            executor.correct_force(0.9 * executor.force_n)
+        executor.execute(Primitive.DECREASE_FORCE)
+        forces.append(executor.force_n)
+        executor.correct_force(0.9 * executor.force_n)
+        executor.feel(Interval(value=0.6, low=0.5, high=0.7))
+        before_n = executor.force_n
+        executor.execute(Primitive.DECREASE_FORCE)
+        assert executor.force_n == pytest.approx(0.65 * before_n)
+    assert forces[0] == pytest.approx(forces[1])

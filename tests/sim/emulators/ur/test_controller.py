@@ -433,3 +433,16 @@ def test_the_unmodified_library_connects_sets_up_and_moves(version):
     assert (flange @ as_frame(np.array(TCP_OFFSET)))[:3, 3] == pytest.approx(target[:3], abs=1e-6)
     assert facts["payload_kg"] == 0.7
     assert facts["num_programs"] == 1
+
+
+def test_a_line_is_reported_with_its_plan_when_it_begins_and_a_stop_is_not():
+    clock, plans = Clock(), []
+    machine = controller(clock, lambda segment: lambda: True)
+    machine.robot.on_begin = plans.append
+    machine.start_program()
+    moved_line(machine, clock, speed=0.3, acceleration=2.5)
+    assert [plan.by_base_m.round(9).tolist() for plan in plans] == [[0, 0, 0.1]]
+    assert (plans[0].speed_m_s, plans[0].acceleration_m_s2) == (0.3, 2.5)
+    machine.protective_stop()
+    wait(machine, clock, 1)
+    assert len(plans) == 1

@@ -6,7 +6,14 @@ import pytest
 
 from tacgrasp.benchmarks.reflex.loads import LoadResult, onset_s, run_seed
 from tacgrasp.benchmarks.reflex.pace import Pace
-from tacgrasp.benchmarks.reflex.run import best_threshold, by_noise, delay_limit_ms, summary
+from tacgrasp.benchmarks.reflex.run import (
+    best_threshold,
+    by_noise,
+    delay_limit_ms,
+    summary,
+    wire_figures,
+)
+from tacgrasp.benchmarks.reflex.wire import WireResult, run_wire
 
 SLIPS, HOLDS = 103, 101
 """Seeds of a load that friction can't hold, and of one that it can."""
@@ -107,3 +114,43 @@ def test_a_load_that_slips_and_one_that_holds():
     assert held.slid_mm == held.slid_kept_mm == 0
     assert held.delay_ms is None
     assert run_seed("taxels", HOLDS).largest_ratio == held.largest_ratio
+
+
+def through_wire(seed, delay_ms):
+    return WireResult(
+        seed=seed,
+        slid=True,
+        called=True,
+        delay_ms=delay_ms,
+        largest_step_ms=12.0,
+        num_blind=1,
+        command_ms=(2.0, 3.0),
+    )
+
+
+def test_times_through_the_wire_stand_beside_those_of_the_same_loads():
+    figures = wire_figures([through_wire(0, 18.0), through_wire(9, 40.0)], RESULTS)
+    assert figures["wire_slip_to_command_ms"]["p50"] == pytest.approx(29.0)
+    assert figures["wire_without_ms"]["p50"] == pytest.approx(10.0)
+    assert figures["wire_command_ms"]["p50"] == pytest.approx(2.5)
+    assert (figures["wire_loads"], figures["wire_slides"], figures["wire_blind"]) == (2, 2, 2)
+    assert wire_figures([], RESULTS)["wire_slip_to_command_ms"] == {"p50": None, "p99": None}
+
+
+def test_a_wire_that_is_too_slow_keeps_no_limit():
+    good = [result(0, slips=True, called=True, delay_ms=10.0), result(1, slips=False, called=False)]
+    assert summary("taxels", good, PACE, [through_wire(0, 44.0)])["keeps_limits"]
+    assert not summary("taxels", good, PACE, [through_wire(0, 46.0)])["keeps_limits"]
+
+
+@pytest.mark.slow
+def test_a_slip_comes_through_the_emulated_wire_to_the_registers_and_a_hold_does_not():
+    pytest.importorskip("dynamixel_sdk")
+    done = []
+    slipped, held = run_wire([SLIPS, HOLDS], done.append)
+    assert done == [SLIPS, HOLDS]
+    assert slipped.called and slipped.slid
+    assert slipped.delay_ms is not None and slipped.delay_ms > 0
+    assert not held.called and not held.slid and held.delay_ms is None
+    assert slipped.num_blind == held.num_blind == 0
+    assert len(slipped.command_ms) >= 1 and min(slipped.command_ms) > 0

@@ -1,5 +1,7 @@
 """Shear of a taxel array: from the gel, over the line, to the field that a policy is given."""
 
+import time
+
 import numpy as np
 import pytest
 
@@ -11,6 +13,7 @@ from sim.emulators.taxels.array import TaxelEmulator
 from tacgrasp.drivers.taxels.connect import check, connect_taxels
 from tacgrasp.drivers.taxels.displacements import displacement_mm, shear_of
 from tacgrasp.drivers.taxels.settings import TaxelSettings
+from tests.fakes.waiting import poll
 
 TAXELS = SENSORS["taxels"]
 NOW = Stamp(monotonic_s=1.0, wall_s=2.0)
@@ -115,3 +118,33 @@ def test_another_grid_than_that_of_the_sensor_is_refused(tmp_path):
             connect_taxels(settings(emulator))
     finally:
         emulator.close()
+
+
+def is_plugged(sensor):
+    try:
+        return "unplugged" not in str(sensor.check_alive())
+    except TouchError as error:
+        return "unplugged" not in str(error)
+
+
+def test_the_newest_field_is_there_at_once_the_same_until_another_frame_comes(array, gel):
+    sensor = connect_taxels(settings(array))
+    try:
+        sensor.take_reference()
+        gel.along = (0.3, -0.1)
+        first = sensor.newest_shear()
+        poll(lambda: np.allclose(sensor.newest_shear().displacement_mm[:, 0], 0.1, atol=1e-6))
+        assert sensor.newest_shear().stamp.monotonic_s > first.stamp.monotonic_s
+        array.inject("stall")
+        time.sleep(0.1)
+        held = sensor.newest_shear()
+        assert sensor.newest_shear() is held
+        array.clear()
+        array.inject("black")
+        with pytest.raises(TouchError, match="dead or dark"):
+            poll(lambda: sensor.newest_shear() is None)
+        array.inject("unplugged")
+        with pytest.raises(TouchError, match="unplugged"):
+            poll(lambda: not is_plugged(sensor) and sensor.newest_shear() is None)
+    finally:
+        sensor.disconnect()
