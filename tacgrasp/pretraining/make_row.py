@@ -34,7 +34,7 @@ from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
 from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip, pretraining_run
 from tacgrasp.pretraining.report.row_file import RowFile, measured, save_row
-from tacgrasp.pretraining.report.rows import CLIP, ROWS, RowRecipe, row_command
+from tacgrasp.pretraining.report.rows import BUDGET, CLIP, ROWS, RowRecipe, row_command
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, Result
 
 VIEWS = 2
@@ -95,8 +95,9 @@ class RowRequest:
 
     @property
     def group(self) -> Path:
-        """Folder of the rows with the same towers."""
-        return self.out / f"{self.recipe.towers}-seed{self.seed}"
+        """Folder of the rows with the same towers; what is tried out has one of its own."""
+        tried = "" if self.samples is None else f"-{self.samples}-samples"
+        return self.out / f"{self.recipe.towers}-seed{self.seed}{tried}"
 
     @property
     def folder(self) -> Path:
@@ -226,8 +227,8 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
 
 
 def _clip_schedule(request: RowRequest) -> Schedule:
-    """CLIP's own, or as small a part of it as the encoder's samples are of theirs."""
-    part = request.samples_seen / request.recipe.samples
+    """CLIP's own; where a row is tried out, the same part of it as of the budget."""
+    part = 1.0 if request.samples is None else request.samples / BUDGET
     return replace(CLIP, steps=max(1, round(CLIP.steps * part)))
 
 

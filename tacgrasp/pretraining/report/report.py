@@ -121,6 +121,7 @@ def describe_run(results: Sequence[Result], groups: Groups) -> str:
         for count, names in sorted(methods.items())
     )
     return (
-        f"{device}. Encoders: {', '.join(presets) or 'none'}; {learned} of pre-training; "
+        f"{device}. Encoders: {'; '.join(presets) or 'none'}. "
+        f"{learned[0].upper() + learned[1:]} of pre-training; "
         f"{spread or 'no spread over seeds was measured'}."
     )

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Sequence
 from itertools import product
 
 from cltp.evaluation.splits import EVALUATION_SPLITS
+from cltp.tactile.cloud import NUM_POINTS
 from cltp.tactile.states import CLASSES
-from cltp.train.methods import ALIGNED_METHODS
+from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS
 from tacgrasp.pretraining.report.pages import PageSection, PageTable
 from tacgrasp.pretraining.report.paper_numbers import PAPER, PAPER_TABLES
 from tacgrasp.pretraining.report.row_status import points_text
@@ -40,7 +41,9 @@ def paper_tables(groups: Groups) -> Iterator[PageSection]:
             rows += _our_rows(of_method, TITLES[method])
             if any((table, method, split) in PAPER for split in COLUMNS):
                 cells = [_joined(PAPER.get((table, method, split), ())) for split in COLUMNS]
-                rows.append([f"– the paper's {TITLES[method]}", *cells, "", "1,024", "", ""])
+                rows.append(
+                    [f"– the paper's {TITLES[method]}", *cells, "", *_papers_effort(method)]
+                )
         yield PageSection(
             title=title,
             text=[f"{_DIMENSIONS}, % right; – where nothing was measured."],
@@ -62,6 +65,11 @@ def _our_rows(groups: dict[tuple[str, str], Sequence[Result]], title: str) -> li
         first = next(same[0] for (of, _), same in groups.items() if of == variant)
         rows.append([title, *cells, variant, *_effort(first)])
     return rows or [[title, *["–"] * len(COLUMNS), "not measured", *["–"] * len(_EFFORT)]]
+
+
+def _papers_effort(method: str) -> list[str]:
+    """Cells of ``_EFFORT``; the paper states no samples and no minutes."""
+    return [points_text(None if method in IMAGE_METHODS else NUM_POINTS), "–", "–"]
 
 
 def _effort(result: Result) -> list[str]:

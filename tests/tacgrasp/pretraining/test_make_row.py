@@ -19,6 +19,7 @@ from cltp.tactile.states import CLASSES
 from cltp.texts.paraphrases import prompts
 from cltp.texts.tokenizer import Words
 from cltp.train.recipes import Schedule
+from cltp.train.stage import Stage
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining import evaluation_run, make_row
 from tacgrasp.pretraining.make_row import RowRequest, WorkClock
@@ -88,7 +89,8 @@ def test_a_row_is_trained_measured_and_written_and_not_trained_again(
 ) -> None:
     even = dataclasses.replace(ROWS["cltp_even"], preset="tiny")
     monkeypatch.setitem(ROWS, "cltp_even", even)  # type: ignore[index]
-    group = tmp_path / "rows" / "paper-seed3"
+    monkeypatch.setattr(Stage, "plot", lambda _: None)
+    group = tmp_path / "rows" / "paper-seed3-128-samples"
     group.mkdir(parents=True)
     (group / "clip").symlink_to(clip)
     flags = ("--seed", "3", "--samples", "128", "--limit", "4")

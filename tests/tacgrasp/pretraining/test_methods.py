@@ -25,6 +25,7 @@ from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining import evaluation_run, geometric_baseline
+from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
 from tacgrasp.pretraining.report.report import report
@@ -255,6 +256,28 @@ def test_cltp_learns_from_a_further_set_and_says_so(
     assert "unknown arguments: --also" in complaint(
         ["train", "tvl", *argv[2:], "--also", str(other)], capsys
     )
+
+
+def test_the_heads_learn_alone_where_no_contrast_is_minimised(
+    out: Path, data: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(out / "clip", tmp_path / "clip")
+    argv = [
+        "train",
+        "cltp",
+        "--data",
+        str(data),
+        "--out",
+        str(tmp_path),
+        "--preset",
+        "tiny",
+        *QUICK,
+    ]
+    assert main([*argv, "--contrast-weight", "0", "--prompt-weight", "0"]) == 0
+    columns = (tmp_path / "cltp/.training/cltp.csv").read_text().splitlines()[0].split(",")
+    assert "numbers" in columns
+    assert not {"t2l", "t2i", "prompt_shape"} & set(columns)
+    assert find_method("cltp", tmp_path).variant == "tiny+prompt_weight=0.0+contrast_weight=0.0"
 
 
 def test_contacts_are_moved_by_a_share(
