@@ -11,36 +11,35 @@ as it is. Not here: the list of rows (``report.rows``).
 
 from __future__ import annotations
 
-import json
 import platform
-import time
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
-from cltp.atomic_write import write_atomically
 from cltp.data.dataset import ContactDataset
-from cltp.errors import TouchError
 from cltp.tactile.cloud import NUM_POINTS
-from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS
+from cltp.train.methods import ALIGNED_METHODS
 from cltp.train.recipes import Schedule
-from cltp.train.stage import ProgressReport
 from tacgrasp import __version__
 from tacgrasp.pretraining.checkpoints import TrainedMethod, find_method_of_data
 from tacgrasp.pretraining.evaluate import probe, retrieval, zero_shot
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
-from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip, pretraining_run
+from tacgrasp.pretraining.methods import (
+    ABOUT,
+    PretrainingRun,
+    pretrain,
+    pretrain_clip,
+    pretraining_run,
+)
 from tacgrasp.pretraining.report.row_file import RowFile, measured, save_row
 from tacgrasp.pretraining.report.rows import BUDGET, CLIP, ROWS, RowRecipe, row_command
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, Result
+from tacgrasp.pretraining.work_clock import WorkClock
 
 VIEWS = 2
 """How often probes are shown each training contact, with other noise each time."""
-
-_WRITE_S = 10.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,67 +95,13 @@ class RowRequest:
     @property
     def group(self) -> Path:
         """Folder of the rows with the same towers; what is tried out has one of its own."""
-        tried = "" if self.samples is None else f"-{self.samples}-samples"
-        return self.out / f"{self.recipe.towers}-seed{self.seed}{tried}"
+        tried = {"samples": self.samples, "contacts": self.limit}
+        parts = [f"-{value}-{name}" for name, value in tried.items() if value is not None]
+        return self.out / "".join([f"{self.recipe.towers}-seed{self.seed}", *parts])
 
     @property
     def folder(self) -> Path:
         return self.group / self.name
-
-
-class WorkClock:
-    """Seconds of work by part, kept in a file so that they add up over interruptions.
-
-    Args:
-        path: The JSON file.
-        clock: Source of the time [s].
-    """
-
-    def __init__(self, path: Path, clock: Callable[[], float] = time.monotonic) -> None:
-        self._path, self._clock = path, clock
-        try:
-            self.seconds: dict[str, float] = json.loads(path.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            self.seconds = {}
-        except (OSError, ValueError) as error:
-            raise TouchError(f"{path} can't be read; delete it: {error}") from error
-        self._part, self._since_s, self._written_s = "", clock(), clock()
-
-    @contextmanager
-    def part(self, name: str) -> Iterator[None]:
-        """Count what happens inside as part ``name``."""
-        self._part, self._since_s = name, self._clock()
-        try:
-            yield
-        finally:
-            self._add()
-            self._write()
-
-    def watched(self, report: ProgressReport) -> ProgressReport:
-        """A progress report that also counts, so that little is lost when the process is killed."""
-
-        def counted(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
-            self._add()
-            if self._clock() - self._written_s > _WRITE_S:
-                self._write()
-            report(stage, step, steps, scores)
-
-        return counted
-
-    def minutes(self, name: str) -> float | None:
-        """Minutes of a part; None where it was done elsewhere."""
-        seconds = self.seconds.get(name)
-        return None if seconds is None else round(seconds / 60, 2)
-
-    def _add(self) -> None:
-        now_s = self._clock()
-        self.seconds[self._part] = self.seconds.get(self._part, 0.0) + now_s - self._since_s
-        self._since_s = now_s
-
-    def _write(self) -> None:
-        self._path.parent.mkdir(parents=True, exist_ok=True)
-        write_atomically(self._path, json.dumps(self.seconds) + "\n")
-        self._written_s = self._clock()
 
 
 def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
@@ -169,9 +114,8 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
         UsageError: The file can't be written.
         TouchError: Data, a checkpoint or an encoder can't be used.
     """
-    recipe = request.recipe
     clock = WorkClock(request.folder / "minutes.json")
-    clip_minutes: dict[str, float | None] = {}
+    clip_clock = WorkClock(request.group / "clip-minutes.json")
     with pretraining_run(
         request.group,
         request.learned,
@@ -180,6 +124,15 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
         threads=request.threads,
         precision=request.precision,
     ) as run:
+        if request.recipe.method == GEOMETRIC_BASELINE:
+            trained = TrainedMethod(
+                folder=request.folder,
+                variant=request.recipe.variant,
+                budget=None,
+                points=NUM_POINTS,
+            )
+        else:
+            trained = _trained(request, run, clock, clip_clock)
         evaluation = EvaluationRun(
             weights=request.group,
             data=request.data,
@@ -189,41 +142,40 @@ def make_row(request: RowRequest) -> tuple[Path, list[Result]]:
             command=request.command,
             report=clock.watched(run.report),
         )
-        if recipe.method == GEOMETRIC_BASELINE:
-            with clock.part("measure"):
-                results = _baseline(evaluation, recipe)
-            variant = recipe.variant
-            no_encoder = TrainedMethod(
-                folder=request.folder, variant=variant, budget=None, points=NUM_POINTS
-            )
-            return _written(request, no_encoder, clock, {}, results)
-        if recipe.method in (*ALIGNED_METHODS, *IMAGE_METHODS):
-            clip_clock = WorkClock(request.group / "clip-minutes.json")
-            if clip_clock.seconds or not (request.group / "clip").exists():
-                with clip_clock.part("clip"):
-                    watched = replace(run, report=clip_clock.watched(run.report))
-                    pretrain_clip(watched, recipe.clip, _clip_schedule(request))
-            clip_minutes = {"clip": clip_clock.minutes("clip")}
-        if "train" in clock.seconds or not (request.folder / ABOUT).exists():
-            with clock.part("train"):
-                pretrain(
-                    recipe.method,
-                    replace(run, report=clock.watched(run.report)),
-                    recipe.schedule(request.samples_seen),
-                    preset=recipe.preset,
-                    recipe=recipe.recipe,
-                    name=request.name,
-                )
-        learned = ContactDataset(request.learned).checksum()
-        trained = find_method_of_data(recipe.method, request.group, learned, request.name)
-        evaluated = replace(trained, data=evaluation.checksum)
-        evaluation = replace(evaluation, encoders={recipe.method: evaluated})
         with clock.part("measure"):
-            results = probe(evaluation, views=VIEWS)
-            if recipe.method in ALIGNED_METHODS:
-                results += zero_shot(evaluation) + retrieval(evaluation)
-    variant = ", ".join([trained.variant, *recipe.remarks])
-    return _written(request, replace(trained, variant=variant), clock, clip_minutes, results)
+            results = _measured(evaluation, request.recipe, trained)
+    minutes = {"clip": clip_clock.minutes("clip")} if request.recipe.has_towers else {}
+    parts = ("train", "measure") if request.recipe.samples else ("measure",)
+    minutes |= {part: clock.minutes(part) for part in parts}
+    row = _row(request, trained, minutes, results)
+    path = save_row(request.results, row)
+    clock.finish()
+    return path, row.results()
+
+
+def _trained(
+    request: RowRequest, run: PretrainingRun, clock: WorkClock, clip_clock: WorkClock
+) -> TrainedMethod:
+    """Train CLIP and the encoder, each where it is not there already."""
+    recipe, clip = request.recipe, request.group / "clip"
+    if recipe.has_towers and (clip_clock.seconds or not clip.exists()):
+        with clip_clock.part("clip"):
+            watched = replace(run, report=clip_clock.watched(run.report))
+            pretrain_clip(watched, recipe.clip, _clip_schedule(request))
+        clip_clock.finish()
+    if "train" in clock.seconds or not (request.folder / ABOUT).exists():
+        with clock.part("train"):
+            pretrain(
+                recipe.method,
+                replace(run, report=clock.watched(run.report)),
+                recipe.schedule(request.samples_seen),
+                preset=recipe.preset,
+                recipe=recipe.recipe,
+                name=request.name,
+            )
+    learned = ContactDataset(request.learned).checksum()
+    trained = find_method_of_data(recipe.method, request.group, learned, request.name)
+    return replace(trained, variant=", ".join([trained.variant, *recipe.remarks]))
 
 
 def _clip_schedule(request: RowRequest) -> Schedule:
@@ -232,23 +184,26 @@ def _clip_schedule(request: RowRequest) -> Schedule:
     return replace(CLIP, steps=max(1, round(CLIP.steps * part)))
 
 
-def _baseline(run: EvaluationRun, recipe: RowRecipe) -> list[Result]:
-    """What is computed without an encoder; direct computation stands in both tables."""
+def _measured(run: EvaluationRun, recipe: RowRecipe, trained: TrainedMethod) -> list[Result]:
+    """Everything that is measured of a row; direct computation stands in both tables."""
     if recipe.variant == "heights alone":
         return heights_alone(run, VIEWS)
-    tables = ("zero_shot", "probe")
-    return [r for t in tables for r in geometric_baseline(run, t, run.evaluation_splits())]
+    if recipe.method == GEOMETRIC_BASELINE:
+        splits = run.evaluation_splits()
+        return [r for t in ("zero_shot", "probe") for r in geometric_baseline(run, t, splits)]
+    run = replace(run, encoders={recipe.method: replace(trained, data=run.checksum)})
+    results = probe(run, views=VIEWS)
+    is_aligned = recipe.method in ALIGNED_METHODS
+    return results + (zero_shot(run) + retrieval(run) if is_aligned else [])
 
 
-def _written(
+def _row(
     request: RowRequest,
     trained: TrainedMethod,
-    clock: WorkClock,
-    clip_minutes: dict[str, float | None],
+    minutes: Mapping[str, float | None],
     results: list[Result],
-) -> tuple[Path, list[Result]]:
-    parts = ("train", "measure") if request.recipe.samples else ("measure",)
-    row = RowFile(
+) -> RowFile:
+    return RowFile(
         row=request.name,
         seed=request.seed,
         method=request.recipe.method,
@@ -258,7 +213,7 @@ def _written(
         learned_from=trained.data if trained.budget is not None else None,
         budget=trained.budget,
         points=trained.points,
-        minutes=clip_minutes | {part: clock.minutes(part) for part in parts},
+        minutes=minutes,
         limit=request.limit,
         precision=request.precision,
         device=trained.device,
@@ -269,4 +224,3 @@ def _written(
         },
         **measured(results),
     )
-    return save_row(request.results, row), row.results()

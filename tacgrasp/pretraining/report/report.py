@@ -20,7 +20,6 @@ from tacgrasp.pretraining.report.pages import PageSection
 from tacgrasp.pretraining.report.plots import bars, confusions, curves
 from tacgrasp.pretraining.report.rankings import ranking_section
 from tacgrasp.pretraining.report.row_file import load_rows
-from tacgrasp.pretraining.report.row_status import row_section
 from tacgrasp.pretraining.report.store import (
     CAPTIONS,
     GEOMETRIC_BASELINE,
@@ -30,7 +29,12 @@ from tacgrasp.pretraining.report.store import (
     grouped,
     load_results,
 )
-from tacgrasp.pretraining.report.tables import detail_tables, paper_tables, wording_section
+from tacgrasp.pretraining.report.tables import (
+    detail_tables,
+    paper_tables,
+    row_section,
+    wording_section,
+)
 
 TITLE = "Pre-training: our results beside the paper's"
 

@@ -1,14 +1,15 @@
-"""Which rows of the tables are there, which are missing, and which differ from what is wanted."""
+"""Which rows of the tables are there, which are missing, and which differ from what is wanted.
+
+Loads no torch, so that a list of rows is printed at once.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
-from tacgrasp.pretraining.report.pages import PageSection, PageTable
 from tacgrasp.pretraining.report.row_file import RowFile, missing
-from tacgrasp.pretraining.report.rows import BUDGET, DATA, ROWS, row_command, wanted
+from tacgrasp.pretraining.report.rows import ROWS, row_command, wanted
 
 HEAD = ("row", "seed", "what it is", "points", "samples", "minutes", "state")
 
@@ -36,30 +37,6 @@ def _cells(name: str, seed: int, row: RowFile | None) -> list[str]:
 def points_text(points: int | None) -> str:
     """Number of points of an encoder's input; none for images."""
     return "–" if points is None else f"{points:,}"
-
-
-def row_section(rows: Sequence[RowFile], folder: Path) -> PageSection:
-    """The rows with points, samples and minutes; what is missing and what differs."""
-    absent, marked = missing(rows), [row for row in rows if row.marks]
-    text = (
-        f"Made from {len(rows)} files of rows in {folder.as_posix()}. Nothing was trained or "
-        f"measured for this page. {len(absent)} of {len(list(wanted()))} rows are missing; the "
-        "command that makes each stands beside it."
-    )
-    parts = {recipe.part for recipe in ROWS.values()} - {1}
-    budget = (
-        f"One budget for every method: {BUDGET:,} samples seen by the encoder; rows of "
-        f"{', '.join(map(str, sorted(parts)))} of it are marked so. Data {DATA['paper'][:16]}."
-    )
-    if marked:
-        budget += f" {len(marked)} rows are of other data or of another budget, as marked."
-    return PageSection(
-        title="Rows",
-        text=[text, budget],
-        table=PageTable(head=list(HEAD), rows=row_statuses(rows)),
-        note="Points: of the encoder's input; – for images, and where nothing is measured yet. "
-        "Minutes: of the whole command in empty folders, CLIP's training included.",
-    )
 
 
 def row_figures(rows: Sequence[RowFile]) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from cltp.train.methods import METHODS
+from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, METHODS
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE
 
@@ -67,6 +67,11 @@ class RowRecipe:
         """Samples that its encoder sees; 0 where nothing is learned."""
         learns = self.method in METHODS and self.method != "random"
         return int(BUDGET * self.part) if learns else 0
+
+    @property
+    def has_towers(self) -> bool:
+        """Whether it is aligned with the towers of a CLIP."""
+        return self.method in (*ALIGNED_METHODS, *IMAGE_METHODS)
 
     @property
     def towers(self) -> str:

@@ -1,9 +1,10 @@
-"""Tables of a report: the paper's three with our rows, then each evaluation split by itself."""
+"""Tables of a report: which rows there are, the paper's three, each evaluation split by itself."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import product
+from pathlib import Path
 
 from cltp.evaluation.splits import EVALUATION_SPLITS
 from cltp.tactile.cloud import NUM_POINTS
@@ -11,7 +12,9 @@ from cltp.tactile.states import CLASSES
 from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS
 from tacgrasp.pretraining.report.pages import PageSection, PageTable
 from tacgrasp.pretraining.report.paper_numbers import PAPER, PAPER_TABLES
-from tacgrasp.pretraining.report.row_status import points_text
+from tacgrasp.pretraining.report.row_file import RowFile, missing
+from tacgrasp.pretraining.report.row_status import HEAD, points_text, row_statuses
+from tacgrasp.pretraining.report.rows import BUDGET, DATA, ROWS, wanted
 from tacgrasp.pretraining.report.store import TITLES, Groups, Result, mean, means, spread
 
 COLUMNS = ("contact", "object", "physics", "real")
@@ -30,6 +33,30 @@ _DIMENSIONS = " / ".join(CLASSES)
 
 _EFFORT = ("points", "samples", "minutes")
 """Columns of every table: points of the input, samples seen in pre-training, minutes of it all."""
+
+
+def row_section(rows: Sequence[RowFile], folder: Path) -> PageSection:
+    """The rows with points, samples and minutes; what is missing and what differs."""
+    absent, marked = missing(rows), [row for row in rows if row.marks]
+    text = (
+        f"Made from {len(rows)} files of rows in {folder.as_posix()}. Nothing was trained or "
+        f"measured for this page. {len(absent)} of {len(list(wanted()))} rows are missing; the "
+        "command that makes each stands beside it."
+    )
+    parts = {recipe.part for recipe in ROWS.values()} - {1}
+    budget = (
+        f"One budget for every method: {BUDGET:,} samples seen by the encoder; rows of "
+        f"{', '.join(map(str, sorted(parts)))} of it are marked so. Data {DATA['paper'][:16]}."
+    )
+    if marked:
+        budget += f" {len(marked)} rows are of other data or of another budget, as marked."
+    return PageSection(
+        title="Rows",
+        text=[text, budget],
+        table=PageTable(head=list(HEAD), rows=row_statuses(rows)),
+        note="Points: of the encoder's input; – for images, and where nothing is measured yet. "
+        "Minutes: of the whole command in empty folders, CLIP's training included.",
+    )
 
 
 def paper_tables(groups: Groups) -> Iterator[PageSection]:
