@@ -35,7 +35,7 @@ class RowFlags:
         samples: Samples that the encoder sees, to try out a row; the page marks it.
         limit: Largest number of contacts of each evaluation split, to try out a row; the page marks
             it.
-        precision: Precision of matrix products in training.
+        precision: Precision of matrix products in training; no where the processor has no bf16.
         threads: Number of threads of torch; by default one for each core.
     """
 
@@ -47,7 +47,7 @@ class RowFlags:
     results: Path = RESULTS_DIR
     samples: int | None = None
     limit: int | None = None
-    precision: Literal["no", "bf16"] = "no"
+    precision: Literal["no", "bf16"] = "bf16"
     threads: int | None = None
 
     def __post_init__(self) -> None:

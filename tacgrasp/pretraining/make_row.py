@@ -34,7 +34,7 @@ from tacgrasp.pretraining.methods import (
     pretraining_run,
 )
 from tacgrasp.pretraining.report.row_file import RowFile, measured, save_row
-from tacgrasp.pretraining.report.rows import BUDGET, CLIP, ROWS, RowRecipe, row_command
+from tacgrasp.pretraining.report.rows import BUDGET, CLIP, PRECISION, ROWS, RowRecipe, row_command
 from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE, Result
 from tacgrasp.pretraining.work_clock import WorkClock
 
@@ -68,7 +68,7 @@ class RowRequest:
     samples: int | None = None
     limit: int | None = None
     threads: int | None = None
-    precision: str = "no"
+    precision: str = PRECISION
 
     @property
     def recipe(self) -> RowRecipe:
@@ -89,7 +89,7 @@ class RowRequest:
         """The command, without folders."""
         flags = {"samples": self.samples, "limit": self.limit}
         given = "".join(f" --{name} {value}" for name, value in flags.items() if value is not None)
-        precision = "" if self.precision == "no" else f" --precision {self.precision}"
+        precision = "" if self.precision == PRECISION else f" --precision {self.precision}"
         return row_command(self.name, self.seed) + given + precision
 
     @property
