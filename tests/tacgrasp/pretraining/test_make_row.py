@@ -28,6 +28,9 @@ from tacgrasp.pretraining.report.rows import ROWS
 from tacgrasp.pretraining.work_clock import WorkClock
 from tests.fakes.fake_contacts import fake_contact
 
+PRECISION = ("--precision", "no")
+"""That of all other tests: accelerate takes one for a whole process."""
+
 pytestmark = pytest.mark.usefixtures("threads_as_before")
 
 
@@ -65,7 +68,7 @@ def row(data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):  # type: i
 
     def made(name: str, *flags: str) -> RowFile:
         places = ["--data", str(data), "--out", str(tmp_path / "rows")]
-        results = ["--results", str(tmp_path / "results"), "--threads", "1"]
+        results = ["--results", str(tmp_path / "results"), "--threads", "1", *PRECISION]
         assert main(["eval", "row", name, *places, *results, *flags]) == 0
         files = {each.row: each for each in load_rows(tmp_path / "results")}
         return files[name.replace("-", "_")]
@@ -99,7 +102,8 @@ def test_a_row_is_trained_measured_and_written_and_not_trained_again(
     checksum = ContactDataset(data).checksum()
     assert (first.seed, first.samples, first.points) == (3, 128, 1024)
     assert first.data == first.learned_from == checksum
-    assert first.command == "tacgrasp eval row cltp-even --seed 3 --samples 128 --limit 4"
+    command = "tacgrasp eval row cltp-even --seed 3 --samples 128 --limit 4 --precision no"
+    assert first.command == command
     assert first.minutes["train"] is not None
     assert first.minutes["measure"] is not None
     assert (first.minutes["clip"], first.total_minutes) == (None, None)  # it was taken up
@@ -123,7 +127,7 @@ def test_a_row_is_trained_measured_and_written_and_not_trained_again(
     about.write_text(about.read_text().replace(checksum, "0" * 64))
     (weights.parents[1] / "minutes.json").unlink()
     places = ["--data", str(data), "--out", str(tmp_path / "rows"), "--results", str(tmp_path)]
-    text = complaint(["cltp-even", *places, *flags, "--threads", "1"], capsys)
+    text = complaint(["cltp-even", *places, *flags, "--threads", "1", *PRECISION], capsys)
     assert "test contacts could have been learned from" in text
 
 
@@ -161,7 +165,13 @@ def test_each_row_asks_for_its_own_training(
             continue
         asked.clear()
         request = RowRequest(
-            name=name, seed=1, data=data, full=data, out=tmp_path / name, results=tmp_path
+            name=name,
+            seed=1,
+            data=data,
+            full=data,
+            out=tmp_path / name,
+            results=tmp_path,
+            precision="no",
         )
         with pytest.raises(EnoughError):
             make_row.make_row(request)
