@@ -255,7 +255,8 @@ def score_intervals(intervals: NumberInterval, encoded: EncodedContacts) -> dict
 
     Returns:
         ``depth_mm``, ``position_mm``, ``area_percent`` and ``force_percent`` (of the true value),
-        and ``coverage_depth``, ``coverage_position``, ``coverage_area``, ``coverage_force`` in %.
+        and ``coverage_depth``, ``coverage_position``, ``coverage_area``, ``coverage_force`` in %;
+        ``width_depth`` and so on: median widths of the intervals, in the units of the errors.
     """
     touching = encoded.classes[:, _DEPTH] >= 0
     truth = encoded.numbers[touching]
@@ -263,13 +264,19 @@ def score_intervals(intervals: NumberInterval, encoded: EncodedContacts) -> dict
     error = (value - truth).abs()
     distance = error[:, 1:3].norm(dim=1)
     inside = ((low <= truth) & (truth <= high)).float().mean(0)
+    wide = high - low
+    area, force = truth[:, 3].clamp_min(1e-3), truth[:, 4].clamp_min(0.05)
     return {
         "depth_mm": float(error[:, 0].median()),
         "position_mm": float(distance.median()),
-        "area_percent": 100 * float((error[:, 3] / truth[:, 3].clamp_min(1e-3)).median()),
-        "force_percent": 100 * float((error[:, 4] / truth[:, 4].clamp_min(0.05)).median()),
+        "area_percent": 100 * float((error[:, 3] / area).median()),
+        "force_percent": 100 * float((error[:, 4] / force).median()),
         "coverage_depth": 100 * float(inside[0]),
         "coverage_position": 100 * float((distance <= radius).float().mean()),
         "coverage_area": 100 * float(inside[3]),
         "coverage_force": 100 * float(inside[4]),
+        "width_depth": float(wide[:, 0].median()),
+        "width_position": float(2 * radius.median()),
+        "width_area": 100 * float((wide[:, 3] / area).median()),
+        "width_force": 100 * float((wide[:, 4] / force).median()),
     }

@@ -49,20 +49,56 @@ PROMPTS: Mapping[str, tuple[str, ...]] = {
 ``{a}`` is the word with its article."""
 
 
+UNSEEN_PROMPTS: Mapping[str, tuple[str, ...]] = {
+    "shape": ("The sensor has met {a}.", "{A} presses on the gel.", "One feels {a} here."),
+    "texture": ("One feels that it is {word}.", "A {word} skin.", "To the touch it seems {word}."),
+    "depth": ("The gel gives way: {word}.", "A {word} press.", "How far it sinks in: {word}."),
+    "position": ("It lies {word}.", "One feels it {word} of the gel.", "Where it presses: {word}."),
+    "area": ("It covers {a} patch.", "The size of the patch is {word}.", "{A} part is covered."),
+}
+"""Prompts in wordings that no training uses, around the words that training does use."""
+
+
 def prompts(slot: str, word: str) -> list[str]:
     """The prompts for one class of a dimension, the paper's first.
 
     Raises:
         TouchError: No such dimension, or no such class in it.
     """
-    if slot not in PROMPTS or word not in list(DIMENSIONS[slot]):
+    return _worded(PROMPTS, slot, word)
+
+
+def unseen_prompts(slot: str, word: str) -> list[str]:
+    """Prompts for one class of a dimension in wordings that no training uses.
+
+    Raises:
+        TouchError: No such dimension, or no such class in it.
+    """
+    return _worded(UNSEEN_PROMPTS, slot, word)
+
+
+def synonym_prompt(slot: str, word: str) -> str:
+    """The paper's prompt with a synonym, which no alignment learns from, in place of the word.
+
+    Raises:
+        TouchError: No such dimension, or no such class in it.
+    """
+    prompts(slot, word)  # refuses other words
+    synonym = _WORDINGS[slot][DIMENSIONS[slot](word)][1]
+    if slot == "position":  # its synonyms bring their own preposition
+        return f"Contact {synonym}."
+    return PROMPTS[slot][0].format(word=synonym, a=with_article(synonym))
+
+
+def _worded(texts: Mapping[str, tuple[str, ...]], slot: str, word: str) -> list[str]:
+    if slot not in texts or word not in list(DIMENSIONS[slot]):
         raise TouchError(
-            f"no prompt for {slot!r} {word!r}; dimensions are {', '.join(PROMPTS)}, their words "
+            f"no prompt for {slot!r} {word!r}; dimensions are {', '.join(texts)}, their words "
             "those of cltp.tactile.states"
         )
     noun = with_article(word)
     capital = noun[0].upper() + noun[1:]
-    return [text.format(word=word, a=noun, A=capital) for text in PROMPTS[slot]]
+    return [text.format(word=word, a=noun, A=capital) for text in texts[slot]]
 
 
 _WORDINGS: Mapping[str, Mapping[Any, tuple[str, ...]]] = {

@@ -81,10 +81,11 @@ def train_cltp(
     learner = _Learner(config).to(workers.device)
     if start is not None:
         _take(start, learner)
+    noise = augmentation and augmentation.identity
     identity = {
         "data": data.checksum(),
         "config": config.identity,
-        "variant": f"{recipe} {with_images} False {augmentation and augmentation.identity}",
+        "variant": f"{recipe.identity} {with_images} False {noise}",
     }
     if start is not None:
         identity["start"] = manifest_digest(start)
@@ -160,7 +161,7 @@ def _sample(
         labels=labels,
         texts=texts,
         language=frozen.texts(texts.texts),
-        images=frozen.images(batch) if with_images else None,
+        images=frozen.images(batch) if with_images and recipe.contrast_weight > 0 else None,
         rng=rng,
     )
 
@@ -180,7 +181,10 @@ def _terms(
     feature = encoded.feature.float()
     matches = matches_of_all(sample.texts, device) if recipe.texts == "mixed" else None
     images = None if sample.images is None else sample.images.to(device)
-    terms = loss(feature, sample.language.to(device), images, matches)
+    terms: dict[str, Tensor] = {}
+    if recipe.contrast_weight > 0:
+        contrast = loss(feature, sample.language.to(device), images, matches)
+        terms = {name: recipe.contrast_weight * term for name, term in contrast.items()}
     if recipe.prompt_weight > 0:
         classes = sample.texts.classes.to(device)
         prompts = prompt_terms(loss, feature, classes, frozen.texts, sample.rng)

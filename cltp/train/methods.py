@@ -44,4 +44,4 @@ _REVERSED = list(METHODS)[::-1]
 TRAINING_ORDER = tuple(
     sorted(_REVERSED, key=lambda name: (not METHODS[name].is_aligned, METHODS[name].sees_images))
 )
-"""Order in which ``train all-methods`` trains: what the paper is about first, images last."""
+"""What the paper is about first, images last."""

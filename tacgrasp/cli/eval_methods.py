@@ -1,4 +1,7 @@
-"""``tacgrasp eval zero-shot | probe | retrieval | report``: encoders compared with the paper's."""
+"""``tacgrasp eval zero-shot | probe | retrieval | report``: encoders compared with the paper's.
+
+Not here: whole rows of its tables (``tacgrasp.cli.eval_row``).
+"""
 
 from __future__ import annotations
 
@@ -15,14 +18,18 @@ from tacgrasp.cli.eval_instructions import main as instructions
 from tacgrasp.cli.eval_intervals import main as intervals
 from tacgrasp.cli.eval_own import main as own
 from tacgrasp.cli.eval_questions import main as questions
+from tacgrasp.cli.eval_row import RESULTS_DIR
+from tacgrasp.cli.eval_row import main as row
 from tacgrasp.cli.flags import contacts_in, parse, writable
 
 if TYPE_CHECKING:
+    from tacgrasp.pretraining.checkpoints import TrainedMethod
     from tacgrasp.pretraining.evaluation_run import EvaluationRun
     from tacgrasp.pretraining.real_touches import RealTouches
     from tacgrasp.pretraining.report.store import Result
 
 METHODS_DIR = Path("runs/methods")
+PAGES_DIR = Path("runs/report")
 
 
 @dataclass(frozen=True)
@@ -125,13 +132,14 @@ class ReportFlags:
     """Write one HTML and one Markdown page from stored results; trains and measures nothing.
 
     Attributes:
-        results: Folder of results.
+        results: Folder of rows, or of single results; docs/results when not given.
         weights: Folder of all methods, whose training curves are shown too.
-        out: Folder for the pages; that of the results when not given.
+        out: Folder for the pages; that of the results, or runs/report of docs/results, when not
+            given.
         json: JSON file for the figures.
     """
 
-    results: Path = Path("runs/results")
+    results: Path | None = None
     weights: Path | None = None
     out: Path | None = None
     json: Path | None = None
@@ -143,6 +151,7 @@ def zero_shot(argv: Sequence[str]) -> None:
     json_path = _checked(flags)
     from cltp.evaluation.zero_shot import PROMPTINGS
     from tacgrasp.pretraining import evaluate
+    from tacgrasp.pretraining.geometric_baseline import geometric_baseline
 
     run, real = _evaluation_run(flags, "zero-shot", argv), _real_touches(flags)
     promptings = PROMPTINGS if real is None else PROMPTINGS[flags.ensemble :][:1]
@@ -150,6 +159,9 @@ def zero_shot(argv: Sequence[str]) -> None:
     results = evaluate.zero_shot(
         run, methods, real=real, promptings=promptings, predictions=flags.out
     )
+    table = evaluate.TABLES[promptings[0]]
+    splits = run.evaluation_splits() if real is None else [real]
+    results += geometric_baseline(run, table, splits, results[0].data if real else None)
     _print(results, json_path, flags)
 
 
@@ -160,6 +172,7 @@ def probe(argv: Sequence[str]) -> None:
     if min(flags.seeds, flags.views) < 1:
         raise UsageError("--seeds and --views must be at least 1")
     from tacgrasp.pretraining import evaluate
+    from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
 
     real = _real_touches(flags)
     results: list[Result] = []
@@ -168,6 +181,9 @@ def probe(argv: Sequence[str]) -> None:
         results += evaluate.probe(
             run, _names(flags.methods), views=flags.views, real=real, predictions=flags.out
         )
+        splits = run.evaluation_splits() if real is None else [real]
+        results += geometric_baseline(run, "probe", splits)
+        results += [] if real else heights_alone(run, flags.views)
     _print(results, json_path, flags)
 
 
@@ -197,18 +213,23 @@ def retrieval(argv: Sequence[str]) -> None:
 
 
 def report(argv: Sequence[str]) -> None:
-    """One HTML and one Markdown page of all tables beside the paper's, from stored results."""
+    """One HTML and one Markdown page of all tables beside the paper's, from the rows' files."""
     flags = parse(ReportFlags, argv, prog="tacgrasp eval report")
     json_path = writable(flags.json)
     from rich.console import Console
 
     from tacgrasp.pretraining.report.print_results import write_figures
     from tacgrasp.pretraining.report.report import report
+    from tacgrasp.pretraining.report.row_file import load_rows
+    from tacgrasp.pretraining.report.row_status import row_figures
     from tacgrasp.pretraining.report.store import load_results
 
-    for page in report(flags.results, flags.out or flags.results, weights=flags.weights):
+    folder = flags.results or RESULTS_DIR
+    for page in report(folder, flags.out or flags.results or PAGES_DIR, weights=flags.weights):
         Console(soft_wrap=True).print(str(page), markup=False, highlight=False)
-    write_figures(load_results(flags.results), json_path)
+    rows = load_rows(folder)
+    results = [*(result for row in rows for result in row.results()), *load_results(folder)]
+    write_figures(results, json_path, row_figures(rows))
 
 
 COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
@@ -221,6 +242,7 @@ COMMANDS: dict[str, Callable[[Sequence[str]], None]] = {
     "zero-shot": zero_shot,
     "probe": probe,
     "retrieval": retrieval,
+    "row": row,
     "report": report,
 }
 
@@ -264,11 +286,23 @@ def _evaluation_run(flags: EvaluationFlags, command: str, argv: Sequence[str]) -
         results=flags.results,
         splits=tuple(_names(flags.splits)),
         limit=flags.limit,
-        checkpoint=flags.checkpoint if isinstance(flags, ProbeFlags) else None,
+        encoders=_given_encoders(flags),
         seed=flags.seed,
         command=" ".join(["tacgrasp eval", command, *argv]),
         report=Bar(line_s=10.0),
     )
+
+
+def _given_encoders(flags: EvaluationFlags) -> dict[str, TrainedMethod] | None:
+    """The encoder of --checkpoint; None where none is named."""
+    if not isinstance(flags, ProbeFlags) or flags.checkpoint is None:
+        return None
+    from tacgrasp.pretraining.checkpoints import external_checkpoint
+
+    names = _names(flags.methods)
+    if len(names) != 1:
+        raise UsageError("--checkpoint needs one method: --methods tvl or unitouch")
+    return {names[0]: external_checkpoint(names[0], flags.checkpoint)}
 
 
 def _real_touches(flags: RealTouchFlags) -> RealTouches | None:

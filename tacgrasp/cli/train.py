@@ -49,7 +49,7 @@ class MethodsFlags:
 
     def train(self, stage: str, command: str) -> None:
         """Open the folders, the progress and the processes of a stage, and train in them."""
-        from tacgrasp.pretraining.run_all import pretraining_run
+        from tacgrasp.pretraining.methods import pretraining_run
 
         names = ("out", "data", "seed", "threads", "precision", "tensorboard")
         shared = {name: value for name, value in vars(self).items() if name in names}
@@ -175,50 +175,6 @@ class TrainCltpFlags(TrainMethodFlags):
 
 
 @dataclass(frozen=True)
-class TrainProbeFlags(MethodsFlags):
-    """Train MLPs on the frozen encoders in OUT, and measure them as tacgrasp eval probe does.
-
-    Attributes:
-        results: Folder of results.
-        seeds: Number of seeds, counted from --seed.
-    """
-
-    results: Path = Path("runs/results")
-    seeds: int = 1
-
-    def train_in(self, run: PretrainingRun, stage: str) -> None:
-        from tacgrasp.pretraining.run_all import run_probes
-
-        run_probes(run, self.results, self.seeds)
-
-
-@dataclass(frozen=True)
-class TrainAllMethodsFlags(TrainMethodFlags):
-    """Pre-train CLIP and every method, CLTP with and without image; measure them; write the report.
-
-    Attributes:
-        clip: What the alignment of CLIP minimises.
-        cltp: What the alignment of CLTP minimises.
-        clip_steps: Optimiser steps of CLIP.
-        results: Folder of results.
-        seeds: Number of seeds of probes, counted from --seed; those after the first for CLTP alone.
-    """
-
-    clip: ClipRecipe = field(default_factory=ClipRecipe)
-    cltp: CltpRecipe = field(default_factory=CltpRecipe)
-    clip_steps: int = CLIP_SCHEDULE.steps
-    results: Path = Path("runs/results")
-    seeds: int = 1
-
-    def train_in(self, run: PretrainingRun, stage: str) -> None:
-        from tacgrasp.pretraining.run_all import run_all_methods
-
-        clip = (self.clip, replace(CLIP_SCHEDULE, steps=self.clip_steps))
-        cltp = (self.cltp, self.schedule())
-        run_all_methods(run, self.results, clip, cltp, seeds=self.seeds, preset=self.preset)
-
-
-@dataclass(frozen=True)
 class ManifestFlags:
     """Write the manifests of a folder of weights as it is now, for folders older than manifests.
 
@@ -303,8 +259,6 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
     "layout": (LayoutFlags, "Bring older weights into today's layout, without training."),
     "base": (BaseFlags, "Name the folder of a language model that was trained behind, and moved."),
-    "probe": (TrainProbeFlags, "MLPs on frozen encoders, measured as by tacgrasp eval probe."),
-    "all-methods": (TrainAllMethodsFlags, "clip, cltp, all baselines, their tables, the report."),
 }
 
 
@@ -315,10 +269,9 @@ def main(argv: Sequence[str]) -> int:
     if stage is None:
         return 0
     flags = parse(STAGES[stage][0], rest, prog=f"tacgrasp train {stage}")
-    for name in ("threads", "seeds"):
-        count = getattr(flags, name, None)
-        if count is not None and count < 1:
-            raise UsageError(f"--{name} must be at least 1, got {count}")
+    threads = getattr(flags, "threads", None)
+    if threads is not None and threads < 1:
+        raise UsageError(f"--threads must be at least 1, got {threads}")
     command = shlex.join(["tacgrasp", "train", stage, *rest])
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)

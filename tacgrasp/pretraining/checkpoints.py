@@ -14,6 +14,7 @@ from cltp.checkpoints.frozen import FrozenEncoder, load_frozen
 from cltp.checkpoints.tac3d_llm import load_clip
 from cltp.checkpoints.vision import load_vision_checkpoint
 from cltp.encoder.clip_towers import Towers
+from cltp.encoder.encoder import PRESETS
 from cltp.errors import TouchError
 from cltp.train.methods import IMAGE_METHODS
 from cltp.train.recipes import CltpRecipe
@@ -36,6 +37,7 @@ class TrainedMethod:
         data: Checksum of the training data; None when unknown.
         device: Device of the training; None when unknown.
         seed: Seed of the pre-training; None when unknown.
+        points: Points of the encoder's input; None for images, or when unknown.
         is_external: Whether the folder is a checkpoint in transformers' format instead.
     """
 
@@ -45,6 +47,7 @@ class TrainedMethod:
     data: str | None = None
     device: str | None = None
     seed: int | None = None
+    points: int | None = None
     is_external: bool = False
 
     def encoder(self) -> FrozenEncoder:
@@ -67,18 +70,19 @@ class TrainedMethod:
         return load_clip(shared if shared.exists() else self.folder / "clip")
 
 
-def find_method(method: str, out: Path) -> TrainedMethod:
+def find_method(method: str, out: Path, name: str | None = None) -> TrainedMethod:
     """A trained method, on whatever data.
 
     Args:
         method: Out of ``cltp.train.methods.METHODS``.
         out: Folder of all methods; for ``cltp`` also a folder of shipped weights.
+        name: Name of its folder in ``out``; the method's when not given.
 
     Raises:
         UsageError: It was not trained yet.
         TouchError: The record of its training can't be read.
     """
-    folder = out / method
+    folder = out / (name or method)
     if method == "cltp" and not (folder / "encoder").exists() and (out / "encoder").exists():
         folder = out
     path = folder / ABOUT
@@ -88,8 +92,10 @@ def find_method(method: str, out: Path) -> TrainedMethod:
         usual = asdict(CltpRecipe())  # older trainings stored entries that a recipe has no more
         recipe = (about["recipe"] or {}).items()
         changed = [f"{k}={v}" for k, v in recipe if k in usual and v != usual[k]]
+        variant = PRESETS[about["preset"]].variant
         return TrainedMethod(
             folder=folder,
+            points=None if variant.takes_images else variant.layout.num_points,
             variant="+".join([about["preset"], *changed, *(["also"] if "also" in about else [])]),
             budget=budget if budget.steps else None,
             data=about["data"],
@@ -124,19 +130,22 @@ def external_checkpoint(method: str, folder: Path) -> TrainedMethod:
     return TrainedMethod(folder=folder, variant=variant, budget=None, is_external=True)
 
 
-def find_method_of_data(method: str, out: Path, data: str) -> TrainedMethod:
-    """A method that was trained on the data that it will be measured on.
+def find_method_of_data(
+    method: str, out: Path, data: str, name: str | None = None
+) -> TrainedMethod:
+    """A method that was trained on the data that it must have been.
 
     Args:
         method: Out of ``cltp.train.methods.METHODS``.
         out: Folder of all methods; for ``cltp`` also a folder of shipped weights.
-        data: Checksum of the data that it will be measured on.
+        data: Checksum of the data.
+        name: Name of its folder in ``out``; the method's when not given.
 
     Raises:
         UsageError: It was not trained yet.
         TouchError: It was trained on other data, so that test contacts may be among them.
     """
-    trained = find_method(method, out)
+    trained = find_method(method, out, name)
     if trained.data is None:
         raise _untrained(method, out, f"its data are unknown without {trained.folder / ABOUT}")
     if trained.data != data:

@@ -1,8 +1,8 @@
 """Evaluate pre-trained encoders: zero-shot, probes, numbers, retrieval; each into a stored result.
 
-Every method is evaluated on the same contacts, with the same noise and the same probes. The
-geometric baseline, which needs no encoder, is measured with them
-(``tacgrasp.pretraining.geometric_baseline``).
+Every method is evaluated on the same contacts, with the same noise and the same probes.
+
+Not here: rows that need no encoder (``tacgrasp.pretraining.geometric_baseline``).
 """
 
 from __future__ import annotations
@@ -31,22 +31,21 @@ from cltp.train.methods import ALIGNED_METHODS, TRAINING_ORDER
 from tacgrasp.base.errors import UsageError
 from tacgrasp.pretraining.checkpoints import (
     TrainedMethod,
-    external_checkpoint,
     find_method,
     find_method_of_data,
 )
 from tacgrasp.pretraining.evaluation_run import EvaluatedContacts, EvaluationRun, probe_scorer
-from tacgrasp.pretraining.geometric_baseline import geometric_baseline, heights_alone
 from tacgrasp.pretraining.methods import labelled
 from tacgrasp.pretraining.real_touches import RealTouches
 from tacgrasp.pretraining.report.failures import FAILURE_SPLITS, collect_failures
 from tacgrasp.pretraining.report.store import Result, save
 
-TABLES = dict(zip(PROMPTINGS, ("zero_shot", "zero_shot_ensemble"), strict=True))
+TABLES = {one: "zero_shot" if one == "single" else f"zero_shot_{one}" for one in PROMPTINGS}
 _FAILURE_TABLES = ("zero_shot", "probe")
 
 Scorer = Callable[[EncodedContacts, EvaluatedContacts], Sequence[Tensor]]
-"""Scores of each class of a split's contacts by dimension, shape (N, classes)."""
+"""Scores of each class of a split's contacts by dimension, shape (N, classes), or (k N, classes)
+where they are scored k times."""
 
 
 def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, TrainedMethod]:
@@ -57,10 +56,8 @@ def trained_methods(run: EvaluationRun, methods: Sequence[str]) -> dict[str, Tra
         TouchError: One was trained on other data.
     """
     checksum = run.checksum
-    if run.checkpoint is not None:
-        if len(methods) != 1:
-            raise UsageError("--checkpoint needs one method: --methods tvl or unitouch")
-        return {methods[0]: external_checkpoint(methods[0], run.checkpoint)}
+    if run.encoders is not None:
+        return dict(run.encoders)
     if methods:
         return {method: find_method_of_data(method, run.weights, checksum) for method in methods}
     available = {}
@@ -80,7 +77,7 @@ def zero_shot(
     promptings: Sequence[str] = PROMPTINGS,
     predictions: Path | None = None,
 ) -> list[Result]:
-    """Table 1: classes by the nearest prompt, and the geometric baseline beside the first.
+    """Table 1: classes by the nearest prompt.
 
     Real touches are also classified by weights that don't say what they were trained on, as the
     shipped ones, but such results are not stored.
@@ -89,7 +86,7 @@ def zero_shot(
         run: Folders and settings.
         methods: Names; all that were trained when empty, and ``cltp`` for real touches.
         real: Real touches in place of the data's contacts.
-        promptings: Out of ``PROMPTINGS``: one prompt a class, or several.
+        promptings: Out of ``PROMPTINGS``.
         predictions: CSV file with a row for each real touch.
 
     Raises:
@@ -101,21 +98,18 @@ def zero_shot(
             raise UsageError(
                 f"{method} has no prompts for contact states; {', '.join(ALIGNED_METHODS)} do"
             )
-    data = None
     if real is None:
         trained = _aligned_methods(run, methods)
     else:
         trained = {name: find_method(name, run.weights) for name in methods or ("cltp",)}
         trained = {name: replace(one, data=one.data or "") for name, one in trained.items()}
-        data = next(iter(trained.values())).data
 
     def scorers(_: str, method: TrainedMethod, __: FrozenEncoder) -> dict[str, Scorer]:
         towers = method.towers(run.weights)
         return {TABLES[one]: _by_prompts(ClassPrompts(towers, one)) for one in promptings}
 
     splits = [real] if real is not None else run.evaluation_splits()
-    results = _measure_classes(run, trained, splits, scorers, "cosine", predictions)
-    return results + geometric_baseline(run, TABLES[promptings[0]], splits, data)
+    return _measure_classes(run, trained, splits, scorers, "cosine", predictions)
 
 
 def probe(
@@ -149,9 +143,7 @@ def probe(
 
     splits = [real] if real is not None else run.evaluation_splits()
     trained = trained_methods(run, methods)
-    results += _measure_classes(run, trained, splits, scorers, "probability", predictions)
-    results += geometric_baseline(run, "probe", splits)
-    return results if real is not None else results + heights_alone(run, views)
+    return results + _measure_classes(run, trained, splits, scorers, "probability", predictions)
 
 
 def _by_prompts(prompts: ClassPrompts) -> Scorer:
@@ -180,7 +172,8 @@ def _measure_classes(
             encoded = run.encode(encoder, split)
             for table, scorer in by_table.items():
                 scores = scorer(encoded, split)
-                accuracy = score_classes(best_classes(scores), encoded.classes)
+                classes = encoded.classes.repeat(len(scores[0]) // len(encoded), 1)
+                accuracy = replace(score_classes(best_classes(scores), classes), count=len(encoded))
                 result = run.store_scores(table, name, method, split, accuracy)
                 results.append(result)
                 if isinstance(split, RealTouches):

@@ -36,7 +36,7 @@ class EvaluationRun:
         results: Folder of results.
         splits: Names of evaluation splits; all of the data's when empty.
         limit: Number of contacts of each split; None for all.
-        checkpoint: An image encoder in transformers' format, evaluated as the one method named.
+        encoders: The encoders to evaluate by method; found in ``weights`` when not given.
         seed: Random seed of the noise and of the probes.
         command: Command line, stored with the results.
         report: Receives the progress.
@@ -47,7 +47,7 @@ class EvaluationRun:
     results: Path
     splits: tuple[str, ...] = ()
     limit: int | None = None
-    checkpoint: Path | None = None
+    encoders: Mapping[str, TrainedMethod] | None = None
     seed: int = 0
     command: str = ""
     report: ProgressReport = silent
@@ -128,6 +128,7 @@ class EvaluationRun:
             values=values,
             device=method.device,
             learned_seed=method.seed,
+            points=method.points,
         )
 
     def store(self, result: Result) -> Result:

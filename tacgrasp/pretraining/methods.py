@@ -4,20 +4,22 @@
     OUT/METHOD/encoder/    the encoder of a method; OUT/METHOD/about.json: how it was trained
 
 Every stage continues where it was stopped, and is skipped when it is done. Not here: measuring
-(``tacgrasp.pretraining.evaluate``) and the order of several methods
-(``tacgrasp.pretraining.run_all``).
+(``tacgrasp.pretraining.evaluate``) and rows of tables (``tacgrasp.pretraining.make_row``).
 """
 
 from __future__ import annotations
 
 import json
+import os
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import ExitStack, contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 import torch
 from rich.console import Console
+from transformers.utils.logging import disable_progress_bar
 
 from cltp.atomic_write import write_atomically
 from cltp.checkpoints.manifest import manifest_digest
@@ -27,10 +29,13 @@ from cltp.evaluation.splits import LEARNING_NOISE
 from cltp.train.alignment import train_cltp
 from cltp.train.baselines import train_baseline
 from cltp.train.clip import train_clip
+from cltp.train.distributed import joined_workers
 from cltp.train.llm import train_words
 from cltp.train.methods import ALIGNED_METHODS, METHODS
+from cltp.train.progress import Bar
 from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
 from cltp.train.stage import ProgressReport, TrainingRun
+from cltp.train.tensorboard import TensorBoardReport
 from tacgrasp.base.errors import UsageError
 from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.lessons.exchanges import TouchLessons
@@ -52,6 +57,54 @@ class PretrainingRun(TrainingRun):
         if self.workers.is_first:
             line = f"{stage}: writing {folder}"
             Console(soft_wrap=True).print(line, markup=False, highlight=False)
+
+
+@contextmanager
+def pretraining_run(
+    out: Path,
+    data: Path,
+    *,
+    seed: int,
+    command: str,
+    threads: int | None = None,
+    precision: str = "no",
+    tensorboard: bool = False,
+) -> Iterator[PretrainingRun]:
+    """Open what the stages of one command share, with progress on the terminal.
+
+    Args:
+        out: Folder of all methods.
+        data: A data set of contacts.
+        seed: Seed of weights, order and noise.
+        command: The command line, for ``about.json``.
+        threads: Threads of torch; one for each core when not given.
+        precision: Out of ``cltp.train.distributed.PRECISIONS``.
+        tensorboard: Whether curves are also written into ``out / "tensorboard"``.
+
+    Raises:
+        TouchError: There is no data set, one that is not to be learned from, or tensorboard is
+            not installed.
+    """
+    disable_progress_bar()  # of reading and writing weights, over in milliseconds
+    check_trainable(ContactDataset(data))  # before anything else is done
+    torch.set_num_threads(threads or os.cpu_count() or 1)
+    with ExitStack() as opened:
+        reports: list[ProgressReport] = [opened.enter_context(Bar())]
+        if tensorboard:
+            reports.append(opened.enter_context(TensorBoardReport(out / "tensorboard")))
+
+        def report_all(stage: str, step: int, steps: int, scores: Mapping[str, float]) -> None:
+            for one in reports:
+                one(stage, step, steps, scores)
+
+        yield PretrainingRun(
+            out=out,
+            data=data,
+            seed=seed,
+            command=command,
+            report=report_all,
+            workers=joined_workers(precision),
+        )
 
 
 def pretrain_clip(
@@ -77,6 +130,7 @@ def pretrain(
     also: Path | None = None,
     also_fraction: float | None = None,
     start: Path | None = None,
+    name: str | None = None,
 ) -> Path:
     """Train one method behind the towers in ``run.out / "clip"``.
 
@@ -89,6 +143,7 @@ def pretrain(
         also: A further data set that CLTP learns from.
         also_fraction: Fraction of it in each batch; None draws every contact equally often.
         start: Folder of weights whose encoder CLTP trains on, behind its towers.
+        name: Name of the method's folder in ``run.out``; the method's when not given.
 
     Returns:
         The method's folder.
@@ -104,7 +159,7 @@ def pretrain(
         raise UsageError(f"unknown preset {preset!r}; known: {', '.join(PRESETS)}")
     if also is not None:
         check_trainable(ContactDataset(also))
-    folder = run.out / method
+    folder = run.out / (name or method)
     run.announce(method, folder / "encoder")
     config, clip = PRESETS[preset], run.out / "clip"
     training = replace(

@@ -46,8 +46,7 @@ from tacgrasp.datasets.trainable import check_trainable
 from tacgrasp.lessons.exchanges import TouchLessons, known_words
 from tacgrasp.policy_factory import named_weights
 from tacgrasp.pretraining.checkpoints import find_method
-from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip
-from tacgrasp.pretraining.run_all import pretraining_run
+from tacgrasp.pretraining.methods import ABOUT, pretrain, pretrain_clip, pretraining_run
 from tacgrasp.training.other_encoder import take_other_encoder
 from tacgrasp.training.requests import TrainAllRequest, TrainLlmRequest, also_fraction
 

@@ -81,3 +81,8 @@ class PageSection:
     plots: list[PagePlot] = field(default_factory=list)
     cards: list[PageCardGroup] = field(default_factory=list)
     code: list[str] = field(default_factory=list)
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nothing stands below the heading."""
+        return not (self.text or self.table or self.plots or self.cards or self.code)

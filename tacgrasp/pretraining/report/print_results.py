@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from rich.table import Table
 
@@ -57,8 +58,10 @@ def print_results(results: Sequence[Result], json_path: Path | None) -> None:
     write_figures(results, json_path)
 
 
-def write_figures(results: Sequence[Result], json_path: Path | None) -> None:
+def write_figures(
+    results: Sequence[Result], json_path: Path | None, more: Mapping[str, Any] | None = None
+) -> None:
     """Write figures as JSON, nested as by ``report.store.nested``; nothing without a path."""
     if json_path is not None:
-        text = json.dumps(nested(grouped(results)), indent=1)
+        text = json.dumps({**nested(grouped(results)), **(more or {})}, indent=1)
         write_result(json_path, text + "\n", flag="--json")

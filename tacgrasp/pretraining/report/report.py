@@ -1,6 +1,8 @@
 """One HTML and one Markdown page from stored results: our tables beside the paper's, and plots.
 
-Reads results alone, trains and measures nothing, and refuses results of different data.
+Reads files of rows and single results; trains and measures nothing. Rows of other data or of
+another budget are marked, rows that are missing are named. Single results of different data are
+refused.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ from tacgrasp.pretraining.report.failures import load_failures
 from tacgrasp.pretraining.report.pages import PageSection
 from tacgrasp.pretraining.report.plots import bars, confusions, curves
 from tacgrasp.pretraining.report.rankings import ranking_section
+from tacgrasp.pretraining.report.row_file import load_rows
 from tacgrasp.pretraining.report.store import (
     CAPTIONS,
     GEOMETRIC_BASELINE,
@@ -26,7 +29,12 @@ from tacgrasp.pretraining.report.store import (
     grouped,
     load_results,
 )
-from tacgrasp.pretraining.report.tables import budgets, detail_tables, paper_tables
+from tacgrasp.pretraining.report.tables import (
+    detail_tables,
+    paper_tables,
+    row_section,
+    wording_section,
+)
 
 TITLE = "Pre-training: our results beside the paper's"
 
@@ -35,14 +43,18 @@ def report(results: Path, out: Path, *, weights: Path | None = None) -> list[Pat
     """Write ``pretraining.md`` with its plots in ``pretraining-plots``, and ``pretraining.html``.
 
     Args:
-        results: Folder of results and failures.
+        results: Folder of rows, of single results and of failures.
         out: Folder for the pages.
         weights: Folder of all methods, whose training curves are shown too.
 
     Raises:
-        UsageError: No results, or the pages can't be written.
-        TouchError: Results are damaged or of different data.
+        UsageError: There is no such folder, or the pages can't be written.
+        TouchError: Results are damaged, or single ones of different data.
     """
+    if not results.is_dir():
+        raise UsageError(
+            f"no folder {results}; `tacgrasp eval row` makes rows, `tacgrasp eval probe` others"
+        )
     sections = _sections(results, weights)
     plots, html_page = out / "pretraining-plots", "pretraining.html"
     content = {"sections": sections, "plots": plots.name, "html_page": html_page}
@@ -62,25 +74,32 @@ def report(results: Path, out: Path, *, weights: Path | None = None) -> list[Pat
 
 
 def _sections(folder: Path, weights: Path | None) -> list[PageSection]:
-    results = load_results(folder)
+    rows, single = load_rows(folder), load_results(folder)
+    results = [*(result for row in rows for result in row.results()), *single]
     groups = grouped(results)
-    data = results[0].data
+    failures = load_failures(folder, single[0].data) if single else []
+    commands = sorted({result.command for result in results if result.command})
     sections = [
-        PageSection(
-            title="", text=[describe_run(results, groups), f"Data {data[:16]}. {budgets(results)}"]
-        ),
+        PageSection(title="", text=_introduction(results, groups)),
+        *([row_section(rows, folder)] if rows or not single else []),
         *paper_tables(groups),
+        *wording_section(groups),
         caption_section(groups),
         ranking_section(groups),
         *detail_tables(groups),
-        *failure_sections(groups, load_failures(folder, data)),
+        *failure_sections(groups, failures),
         PageSection(title="Plots", plots=[*bars(groups), *confusions(groups)]),
+        PageSection(title="Curves", plots=curves(weights) if weights is not None else []),
+        PageSection(title="Commands", code=commands),
     ]
-    training_curves = curves(weights) if weights is not None else []
-    if training_curves:
-        sections.append(PageSection(title="Curves", plots=training_curves))
-    commands = sorted({result.command for result in results if result.command})
-    return [*sections, PageSection(title="Commands", code=commands)]
+    return [section for section in sections if not section.is_empty]
+
+
+def _introduction(results: Sequence[Result], groups: Groups) -> list[str]:
+    if not results:
+        return []
+    data = ", ".join(sorted({result.data[:16] for result in results}))
+    return [describe_run(results, groups), f"Measured on the data {data}."]
 
 
 def describe_run(results: Sequence[Result], groups: Groups) -> str:
@@ -106,6 +125,7 @@ def describe_run(results: Sequence[Result], groups: Groups) -> str:
         for count, names in sorted(methods.items())
     )
     return (
-        f"{device}. Encoders: {', '.join(presets) or 'none'}; {learned} of pre-training; "
+        f"{device}. Encoders: {'; '.join(presets) or 'none'}. "
+        f"{learned[0].upper() + learned[1:]} of pre-training; "
         f"{spread or 'no spread over seeds was measured'}."
     )

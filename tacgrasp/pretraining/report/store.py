@@ -2,6 +2,8 @@
 
 Each result names the data by checksum, the budget, the seed and the command, so that a report can
 be made later from results alone, and is refused where they were measured on different data.
+
+Not here: the files that hold all results of a row (``row_file``).
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from dataclasses import asdict, dataclass, field
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, Protocol, TypeVar
 
 from pydantic import TypeAdapter
 
@@ -25,12 +27,31 @@ from tacgrasp.base.errors import UsageError
 VERSION = 2
 """Version of the format of every measurement."""
 
-M = TypeVar("M", bound="Measurement")
+ROW_FILES = "*-seed*.json"
+"""Files of whole rows among those of a folder."""
+
+
+class Stored(Protocol):
+    """What a file of this module's formats holds."""
+
+    format: ClassVar[str]
+
+
+M = TypeVar("M", bound=Stored)
 
 CAPTIONS = "captions"
 """The table of rated captions (``tacgrasp eval captions``)."""
 
-TABLES = ("zero_shot", "zero_shot_ensemble", "probe", "numbers", "retrieval", CAPTIONS)
+TABLES = (
+    "zero_shot",
+    "zero_shot_ensemble",
+    "zero_shot_unseen",
+    "zero_shot_synonyms",
+    "probe",
+    "numbers",
+    "retrieval",
+    CAPTIONS,
+)
 
 GEOMETRIC_BASELINE = "geometric_baseline"
 MOST_FREQUENT, SHUFFLED, EXACT_HEIGHTS = "most_frequent", "shuffled", "exact_heights"
@@ -65,8 +86,10 @@ class Budget:
     steps: int
     batch_size: int
 
-    def __str__(self) -> str:
-        return f"{self.steps} × {self.batch_size}"
+    @property
+    def samples(self) -> int:
+        """Samples seen, each as often as it was drawn."""
+        return self.steps * self.batch_size
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -124,6 +147,8 @@ class Result(Measurement):
         device: Device that the encoder was trained on; None where unknown or not trained.
         learned_seed: Random seed of the pre-training; None likewise.
         judge: What rated captions beside the rule; '' where nothing did.
+        points: Points of the encoder's input; None for images, or where unknown.
+        minutes: Minutes of training and measuring together; None where unknown.
     """
 
     format: ClassVar[str] = "tacgrasp-result"
@@ -136,6 +161,8 @@ class Result(Measurement):
     device: str | None = None
     learned_seed: int | None = None
     judge: str = ""
+    points: int | None = None
+    minutes: float | None = None
 
 
 def save(folder: Path, measurement: Measurement) -> Path:
@@ -174,15 +201,13 @@ def load(kind: type[M], path: Path) -> M:
 
 
 def load_results(folder: Path) -> list[Result]:
-    """All results of a folder.
+    """All results of a folder, but for those in the files of rows; may be none.
 
     Raises:
         TouchError: One is damaged, of another version, or of other data than the others.
-        UsageError: There are none.
     """
-    results = [load(Result, path) for path in sorted(folder.glob("*.json"))]
-    if not results:
-        raise UsageError(f"no results in {folder}; measure with `tacgrasp eval zero-shot|probe`")
+    paths = sorted({*folder.glob("*.json")} - {*folder.glob(ROW_FILES)})
+    results = [load(Result, path) for path in paths]
     checksums = {result.data: result.file for result in results}
     if len(checksums) > 1:
         named = ", ".join(f"{file} ({data[:12]})" for data, file in checksums.items())
@@ -229,8 +254,25 @@ def nested(groups: Groups) -> dict[str, Any]:
         if table != "numbers":
             of_table.setdefault(method, {}).setdefault(split, means(rows))
         elif method == "cltp":
-            of_table.setdefault(split, means(rows))
+            of_table.setdefault(split, with_quantities(means(rows)))
     return tables
+
+
+def with_quantities(values: Mapping[str, float | None]) -> dict[str, Any]:
+    """Figures of numbers, and beside them ``median_error``, ``inside`` and ``width`` of each.
+
+    Depth and position are in mm, area and force in % of the true value, inside in %.
+    """
+    units = {"depth": "mm", "position": "mm", "area": "percent", "force": "percent"}
+    quantities = {
+        name: {
+            "median_error": values.get(f"{name}_{unit}"),
+            "inside": values.get(f"coverage_{name}"),
+            "width": values.get(f"width_{name}"),
+        }
+        for name, unit in units.items()
+    }
+    return {**values, **quantities}
 
 
 def mean(values: Sequence[float | None]) -> float | None:

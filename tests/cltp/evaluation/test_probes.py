@@ -31,7 +31,7 @@ from cltp.evaluation.splits import EVALUATION_SPLITS, evaluation_splits
 from cltp.evaluation.zero_shot import ClassPrompts
 from cltp.tactile.states import CLASSES, NUMBERS
 from cltp.texts.captions import caption
-from cltp.texts.paraphrases import prompts
+from cltp.texts.paraphrases import prompts, unseen_prompts
 from cltp.texts.tokenizer import Words
 from cltp.train.recipes import Schedule
 from cltp.train.text_targets import class_numbers
@@ -153,6 +153,10 @@ def test_intervals_hold_nine_tenths_and_are_wide_where_noise_is() -> None:
     scores = score_intervals(intervals, other)
     for name in ("depth", "position", "area", "force"):
         assert 86 < scores[f"coverage_{name}"] < 94
+    depth, radius = intervals.high[:, 0] - intervals.low[:, 0], intervals.position_mm
+    touching = other.classes[:, 2] >= 0
+    assert scores["width_depth"] == pytest.approx(float(depth[touching].median()))
+    assert scores["width_position"] == pytest.approx(2 * float(radius[touching].median()))
     assert scores["force_percent"] < 40  # always saying 1 N is about 50 % off
     width, noise = intervals.high[:, 0] - intervals.low[:, 0], other.pooled[:, -1]
     assert width[noise > 0.2].median() > 1.5 * width[noise < 0.2].median()
@@ -200,6 +204,15 @@ def towers() -> Towers:
     ]
     words = Words.train(every * 2, 500)
     return Towers(small_clip(words, dim=32, layers=1), words)
+
+
+def test_each_unseen_wording_is_scored_by_itself(towers: Towers) -> None:
+    features = towers.texts([unseen_prompts("area", word)[2] for word in CLASSES["area"]])
+    column = list(CLASSES).index("area")
+    cosines = ClassPrompts(towers, "unseen").cosines(features)[column]
+    assert cosines.shape == (3 * 5, 5)
+    assert cosines[10:].argmax(1).tolist() == list(range(5))  # the third wording's own
+    assert cosines[10:].diag().min() > 0.999 > cosines[:5].diag().max()
 
 
 @pytest.mark.parametrize("prompting", ["single", "ensemble"])

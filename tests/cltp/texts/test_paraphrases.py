@@ -31,7 +31,9 @@ from cltp.texts.paraphrases import (
     paraphrase,
     prompts,
     read_paraphrase,
+    synonym_prompt,
     text_seed,
+    unseen_prompts,
 )
 from cltp.texts.question_answers import UNTOUCHED, question_answers
 
@@ -159,3 +161,25 @@ def test_a_position_is_the_same_for_numbers_of_python_and_numpy():
     for x, y in itertools.product((-9.0, 0.0, 9.0), (-7.0, 0.0, 7.0)):
         assert position_word(np.float64(x), np.float64(y), MINI) is position_word(x, y, MINI)
     assert position_word(9.0, -7.0, MINI) is Position.BOTTOM_RIGHT
+
+
+@pytest.mark.parametrize(("slot", "word"), [(s, w) for s, words in CLASSES.items() for w in words])
+def test_unseen_prompts_name_the_class_in_no_wording_of_the_training(slot, word):
+    unseen = unseen_prompts(slot, word)
+    assert len(set(unseen)) == len(unseen) == 3
+    assert all(word in text for text in unseen)
+    frames = {text.replace(word, "") for text in unseen}
+    assert not frames & {text.replace(word, "") for text in prompts(slot, word)}
+
+
+def test_synonyms_stand_in_the_papers_prompt_and_are_no_word_of_the_training():
+    assert synonym_prompt("shape", "sphere") == "This is a ball."
+    assert synonym_prompt("position", "top-left") == "Contact in the upper left corner."
+    texts = {
+        slot: [synonym_prompt(slot, word) for word in names] for slot, names in CLASSES.items()
+    }
+    for slot, names in CLASSES.items():
+        assert len(set(texts[slot])) == len(names)
+        assert not set(texts[slot]) & {text for word in names for text in prompts(slot, word)}
+    with pytest.raises(TouchError, match="no prompt for 'shape' 'blob'"):
+        synonym_prompt("shape", "blob")

@@ -25,7 +25,7 @@ from cltp.tactile.states import CLASSES
 from cltp.train.recipes import Schedule
 from tacgrasp.__main__ import main
 from tacgrasp.pretraining import evaluation_run, geometric_baseline
-from tacgrasp.pretraining import run_all as all_methods
+from tacgrasp.pretraining.checkpoints import find_method
 from tacgrasp.pretraining.evaluation_run import EvaluationRun
 from tacgrasp.pretraining.report.paper_numbers import PAPER
 from tacgrasp.pretraining.report.report import report
@@ -131,7 +131,10 @@ def test_tables_are_measured_stored_and_reported(
     assert main(["eval", "probe", *places, "--seeds", "2", "--json", str(figures)]) == 0
     found = json.loads(figures.read_text())
     assert set(found["probe"]) == {"cltp", "random", "geometric_baseline"}
-    assert {"depth_mm", "coverage_depth"} <= set(found["numbers"]["contact_noisy"])
+    numbers = found["numbers"]["contact_noisy"]
+    assert {"depth_mm", "coverage_depth"} <= set(numbers)
+    assert set(numbers["force"]) == {"median_error", "inside", "width"}
+    assert numbers["position"]["median_error"] == numbers["position_mm"]
     results = tmp_path / "results"
     alone = [
         r for r in load_results(results) if r.variant == "heights alone" and r.split == "contact"
@@ -255,6 +258,28 @@ def test_cltp_learns_from_a_further_set_and_says_so(
     )
 
 
+def test_the_heads_learn_alone_where_no_contrast_is_minimised(
+    out: Path, data: Path, tmp_path: Path
+) -> None:
+    shutil.copytree(out / "clip", tmp_path / "clip")
+    argv = [
+        "train",
+        "cltp",
+        "--data",
+        str(data),
+        "--out",
+        str(tmp_path),
+        "--preset",
+        "tiny",
+        *QUICK,
+    ]
+    assert main([*argv, "--contrast-weight", "0", "--prompt-weight", "0"]) == 0
+    columns = (tmp_path / "cltp/.training/cltp.csv").read_text().splitlines()[0].split(",")
+    assert "numbers" in columns
+    assert not {"t2l", "t2i", "prompt_shape"} & set(columns)
+    assert find_method("cltp", tmp_path).variant == "tiny+prompt_weight=0.0+contrast_weight=0.0"
+
+
 def test_contacts_are_moved_by_a_share(
     data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -323,7 +348,7 @@ def test_a_report_never_mixes_data(tmp_path: Path) -> None:
 
 def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     argv = ["eval", "report", "--results", str(tmp_path)]
-    assert "no results" in complaint(argv, capsys)
+    assert "no folder" in complaint([*argv[:-1], str(tmp_path / "none")], capsys)
     path = save(tmp_path, fake_result())
     path.write_text(path.read_text().replace('"version": 2', '"version": 1'))
     assert "of version 1, not tacgrasp-result of version 2" in complaint(argv, capsys)
@@ -331,7 +356,7 @@ def test_damaged_results_are_refused(tmp_path: Path, capsys: pytest.CaptureFixtu
     assert "is damaged" in complaint(argv, capsys)
 
 
-def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
+def test_the_report_has_the_papers_order_and_the_budgets(tmp_path: Path) -> None:
     for method in reversed(TITLES):
         save(tmp_path, fake_result(method=method))
     (page, _) = report(tmp_path, tmp_path)
@@ -339,7 +364,7 @@ def test_the_report_has_the_papers_order_and_one_budget(tmp_path: Path) -> None:
     first = lines.index("CLTP, probe") if "CLTP, probe" in lines else 0
     named = [line for line in lines[first:] if line in TITLES.values()]
     assert named[-len(TITLES) :] == list(TITLES.values())
-    assert "one budget for all methods: 10 × 4" in page.read_text()
+    assert "| grid | – | 40 | – | 1 |" in page.read_text()  # points, samples, minutes, seeds
 
 
 def test_the_papers_numbers_have_five_dimensions() -> None:
@@ -370,7 +395,7 @@ def test_encoders_of_other_data_are_refused(
         (
             ["eval", "dance"],
             "expects one of ablate, captions, instructions, intervals, own, questions, zero-shot, "
-            "probe, retrieval, report",
+            "probe, retrieval, row, report",
         ),
     ],
 )
@@ -387,7 +412,6 @@ def test_wrong_use_of_eval_is_told_in_one_line(
         (["tvl", "--no-image"], "unknown arguments: --no-image"),
         (["point-mae", "--steps", "0"], "positive steps"),
         (["all", "--steps", "5"], "unknown arguments: --steps 5"),
-        (["probe", "--seeds", "0"], "--seeds must be at least 1"),
         (["tvl", "--preset", "tiny"], "tvl needs an encoder of image"),
     ],
 )
@@ -400,23 +424,6 @@ def test_wrong_use_of_train_is_told_in_one_line(
 ) -> None:
     where = ["--out", str(tmp_path), "--data", str(data)]
     assert expected in complaint(["train", *argv, *where], capsys)
-
-
-def test_all_methods_are_carried_out_in_order_and_reported(
-    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    done: list[str] = []
-
-    def noted(name: str):  # type: ignore[no-untyped-def]
-        return lambda *args, **_: done.append(args[0] if name == "pretrain" else name)
-
-    for name in ("pretrain_clip", "pretrain", "zero_shot", "retrieval", "probe", "report"):
-        monkeypatch.setattr(all_methods, name, noted(name))
-    argv = ["train", "all-methods", "--data", str(data), "--out", str(tmp_path), "--seeds", "3"]
-    assert main(argv) == 0
-    trained = ["cltp", "cltp_no_image", "random", "point_mae", "point_bert", "tvl", "unitouch"]
-    measured = ["zero_shot", "retrieval", "probe", "probe", "probe", "report"]
-    assert done == ["pretrain_clip", *trained, *measured]
 
 
 def test_training_never_reads_a_test_contact(data: Path, out: Path, tmp_path: Path) -> None:

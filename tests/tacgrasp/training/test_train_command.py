@@ -19,7 +19,7 @@ from cltp.train.recipes import (
 )
 from tacgrasp.__main__ import main
 from tacgrasp.policy_factory import shipped_weights
-from tacgrasp.pretraining import methods, run_all
+from tacgrasp.pretraining import methods
 from tests.fakes.tiny_weights import make_data
 
 SHARED = [
@@ -66,8 +66,8 @@ class Trainers:
         for name in ("train_clip", "train_cltp", "train_baseline"):
             monkeypatch.setattr(methods, name, noted(name))
         monkeypatch.setattr(methods, "train_words", lambda *_, **__: "words")
-        monkeypatch.setattr(run_all, "joined_workers", lambda precision: Workers())
-        monkeypatch.setattr(run_all.torch, "set_num_threads", lambda _: None)
+        monkeypatch.setattr(methods, "joined_workers", lambda precision: Workers())
+        monkeypatch.setattr(methods.torch, "set_num_threads", lambda _: None)
 
     def arguments(
         self, stage: str, data: Path, out: Path, flags: list[str]
@@ -184,7 +184,7 @@ def test_a_fraction_that_is_no_mixture_is_refused(
     assert expected in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("stage", ["clip", "cltp", "point-mae", "random", "probe"])
+@pytest.mark.parametrize("stage", ["clip", "cltp", "point-mae", "random"])
 def test_pre_training_never_generates_its_data(
     stage: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -210,14 +210,11 @@ def test_pre_training_never_generates_its_data(
         ("point-mae", "--also d"),
         ("tvl", "--no-image"),
         ("random", "--steps 5"),
-        ("probe", "--steps 5"),
         ("llm", "--steps 5"),
         ("llm", "--preset tiny"),
         ("all", "--texts caption"),
         ("all", "--methods m"),
         ("all", "--blind-of w"),
-        ("all-methods", "--also d"),
-        ("all-methods", "--no-image"),
     ],
 )
 def test_a_flag_of_another_stage_is_refused_by_name(
@@ -233,9 +230,12 @@ def test_a_flag_of_another_stage_is_refused_by_name(
         (["clip", "--read-weight", "-1"], "read_weight must be at least 0, got -1"),
         (["cltp", "--prompt-weight", "-1"], "prompt_weight must be at least 0, got -1"),
         (["cltp", "--head-weight", "-1"], "head_weight must be at least 0, got -1"),
-        (["all-methods", "--cltp.moved", "2"], "moved must be a fraction from 0 to 1, got 2"),
-        (["all-methods", "--seeds", "0"], "--seeds must be at least 1, got 0"),
-        (["probe", "--threads", "0"], "--threads must be at least 1, got 0"),
+        (["cltp", "--contrast-weight", "-1"], "contrast_weight must be at least 0, got -1"),
+        (
+            ["cltp", *(f"--{name}-weight=0" for name in ("contrast", "prompt", "head"))],
+            "contrast_weight, prompt_weight and head_weight can't all be 0",
+        ),
+        (["random", "--threads", "0"], "--threads must be at least 1, got 0"),
     ],
 )
 def test_a_value_out_of_range_is_refused(

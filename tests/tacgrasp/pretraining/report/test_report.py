@@ -59,7 +59,7 @@ def test_the_report_says_which_run_it_is(changed: dict[str, object], expected: s
     results = [fake_result(**changed), fake_result(seed=1, **changed)]
     text = describe_run(results, grouped(results))
     assert expected in text
-    assert "one seed of pre-training; spread over 2 seeds of probes for CLTP" in text
+    assert "One seed of pre-training; spread over 2 seeds of probes for CLTP" in text
 
 
 @pytest.fixture(scope="module")

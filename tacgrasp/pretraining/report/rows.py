@@ -1,0 +1,149 @@
+"""The rows that the paper's tables want: name, method, encoder, recipe and share of the budget.
+
+The one list of them. ``tacgrasp eval row NAME`` makes one, ``tacgrasp eval report`` names those
+that are missing. Loads no torch.
+
+Not here: their files (``row_file``), how they are made (``tacgrasp.pretraining.make_row``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from cltp.train.methods import ALIGNED_METHODS, IMAGE_METHODS, METHODS
+from cltp.train.recipes import CLIP_SCHEDULE, CLTP_SCHEDULE, ClipRecipe, CltpRecipe, Schedule
+from tacgrasp.pretraining.report.store import GEOMETRIC_BASELINE
+
+BUDGET = 256_000
+"""Samples that every encoder sees, of all methods alike; a row may take a part of them. Our choice:
+what fits into an hour of two cores with the measuring, for the slowest encoder."""
+
+WHOLE, QUARTER = Fraction(1), Fraction(1, 4)
+
+PRECISION = "bf16"
+"""Precision of matrix products in training, of all rows alike: two thirds of the time of "no"."""
+
+CLIP = replace(CLIP_SCHEDULE, steps=700)
+"""How long the small CLIP learns before, whose towers all rows of a seed share."""
+
+DATA: Mapping[str, str] = {
+    "paper": "62a6fc18a0b5d7011b929d7efdd6e88d5f33f443ef984d38be8148d865e2f6d4",
+    "full": "115145f33b5bfd8c6505c30cf2468f4d5711c9968e71e427d66eddaed1f9dcdf",
+}
+"""SHA-256 of the sets (``tacgrasp data generate --set NAME --seed 0``); other data are marked."""
+
+EVEN = "small"
+"""Encoder of all rows of points that are compared on equal terms: the paper's 1024 even points."""
+
+_USUAL, _USUAL_CLIP = CltpRecipe(), ClipRecipe()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RowRecipe:
+    """One row.
+
+    Attributes:
+        about: What it is, for the page.
+        method: Name out of ``store.TITLES``.
+        preset: Encoder; the method's own when not given.
+        recipe: What CLTP minimises.
+        clip: What the alignment of CLIP minimises.
+        part: Part of ``BUDGET`` that its encoder sees.
+        seeds: Random seeds of pre-training, noise and probes.
+        learns_from: Name out of ``DATA``. Every row is measured on ``paper``.
+        variant: Name in tables of what has no encoder; that of the encoder when empty.
+    """
+
+    about: str
+    method: str
+    preset: str | None = None
+    recipe: CltpRecipe = _USUAL
+    clip: ClipRecipe = _USUAL_CLIP
+    part: Fraction = WHOLE
+    seeds: tuple[int, ...] = (0,)
+    learns_from: str = "paper"
+    variant: str = ""
+
+    @property
+    def samples(self) -> int:
+        """Samples that its encoder sees; 0 where nothing is learned."""
+        learns = self.method in METHODS and self.method != "random"
+        return int(BUDGET * self.part) if learns else 0
+
+    @property
+    def has_towers(self) -> bool:
+        """Whether it is aligned with the towers of a CLIP."""
+        return self.method in (*ALIGNED_METHODS, *IMAGE_METHODS)
+
+    @property
+    def towers(self) -> str:
+        """Name of what its CLIP learns from; rows of one name share it."""
+        return self.learns_from if self.clip == _USUAL_CLIP else f"{self.learns_from}-captions"
+
+    @property
+    def remarks(self) -> list[str]:
+        """What its encoder's preset and recipe don't say, for its name in tables."""
+        remarks = [] if self.learns_from == "paper" else [f"learned from {self.learns_from}"]
+        if self.clip != _USUAL_CLIP:
+            remarks.append("CLIP too")
+        return remarks + ([] if self.part == WHOLE else [f"{self.part} of the budget"])
+
+    def schedule(self, samples: int) -> Schedule:
+        """The schedule of so many samples; of one step where nothing is learned."""
+        return replace(CLTP_SCHEDULE, steps=max(1, samples // CLTP_SCHEDULE.batch_size))
+
+
+def _quarter(about: str, recipe: CltpRecipe, clip: ClipRecipe = _USUAL_CLIP) -> RowRecipe:
+    return RowRecipe(about=about, method="cltp", recipe=recipe, clip=clip, part=QUARTER)
+
+
+ROWS: Mapping[str, RowRecipe] = {
+    "cltp": RowRecipe(about="CLTP, all points", method="cltp", seeds=(0, 1, 2)),
+    "cltp_even": RowRecipe(
+        about="CLTP, the paper's 1024 even points", method="cltp", preset=EVEN, seeds=(0, 1, 2)
+    ),
+    "no_image": RowRecipe(about="CLTP without image", method="cltp_no_image", preset=EVEN),
+    "point_bert": RowRecipe(about="Point-BERT", method="point_bert", preset=EVEN),
+    "point_mae": RowRecipe(about="Point-MAE", method="point_mae", preset=EVEN),
+    "random": RowRecipe(about="an encoder that learned nothing", method="random", preset=EVEN),
+    "unitouch": RowRecipe(about="UniTouch-like, images", method="unitouch"),
+    "tvl": RowRecipe(about="TVL-like, images", method="tvl"),
+    "cltp_full": RowRecipe(
+        about="CLTP, all points, learned from the set full, unseen objects left out",
+        method="cltp",
+        learns_from="full",
+    ),
+    "cltp_quarter": _quarter("CLTP, all points, to compare the rows below with", _USUAL),
+    "papers_losses": _quarter(
+        "the paper's captions and losses alone, for CLIP too",
+        CltpRecipe(texts="caption", prompt_weight=0.0, head_weight=0.0),
+        ClipRecipe(texts="caption", prompt_weight=0.0, read_weight=0.0),
+    ),
+    "heads_off": _quarter("without the state heads' losses", CltpRecipe(head_weight=0.0)),
+    "heads_alone": _quarter(
+        "the state heads' losses alone", CltpRecipe(contrast_weight=0.0, prompt_weight=0.0)
+    ),
+    "geometric_baseline": RowRecipe(
+        about="direct computation from the 1024 points",
+        method=GEOMETRIC_BASELINE,
+        variant="measured",
+    ),
+    "heights_alone": RowRecipe(
+        about="probes on the heights of the 1024 points, without their positions",
+        method=GEOMETRIC_BASELINE,
+        variant="heights alone",
+    ),
+}
+"""All rows, in the order of the page."""
+
+
+def wanted() -> Iterator[tuple[str, int]]:
+    """Name and seed of every file that the page wants."""
+    return ((name, seed) for name, row in ROWS.items() for seed in row.seeds)
+
+
+def row_command(name: str, seed: int) -> str:
+    """The command that makes a row."""
+    return f"tacgrasp eval row {name.replace('_', '-')}" + (f" --seed {seed}" if seed else "")
