@@ -70,7 +70,7 @@ class GelSense:
         """The functions that the executor is given."""
         return ContactSense(
             take_reference=self.take_reference,
-            in_contact=self.read_contact,
+            in_contact=lambda: self.read_contact(closing=True),
             felt_force=lambda: None if self._cloud is None else self.felt_force(self._cloud),
         )
 
@@ -93,13 +93,17 @@ class GelSense:
         """
         return self._sensor.read(FRAMES_PER_READING)
 
-    def read_contact(self) -> bool:
+    def read_contact(self, *, closing: bool = False) -> bool:
         """Read the gel and test it.
+
+        Args:
+            closing: Whether the fingers are closing: a contact that grows by small steps is then
+                not taken for drift, which does little in so short a time.
 
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        return bool(self.in_contact(self._repeated(self.read)))
+        return bool(self.in_contact(self._repeated(self.read), follow=not closing))
 
     def _repeated(self, call: Callable[[], T]) -> T:
         for attempt in count(1):
@@ -109,15 +113,20 @@ class GelSense:
                 self.survive(error, attempt)
         raise AssertionError("unreachable")
 
-    def in_contact(self, cloud: TactileCloud) -> bool | None:
-        """Whether something touches the gel in a cloud; None before the first reference."""
+    def in_contact(self, cloud: TactileCloud, *, follow: bool = True) -> bool | None:
+        """Whether something touches the gel in a cloud; None before the first reference.
+
+        Args:
+            cloud: The cloud.
+            follow: Whether the reference may follow the drift in it.
+        """
         if cloud is not self._cloud:  # the observation and the executor ask about the same frame
             if self._untouched is not None:
-                self._in_contact = self._tested(cloud, self._untouched)
+                self._in_contact = self._tested(cloud, self._untouched, follow=follow)
             self._cloud = cloud
         return self._in_contact
 
-    def _tested(self, cloud: TactileCloud, gel: UntouchedGel) -> bool:
+    def _tested(self, cloud: TactileCloud, gel: UntouchedGel, *, follow: bool) -> bool:
         """Whether a contact begins, or goes on, in a new cloud; without one, the drift is followed.
 
         A contact at the edge of what is felt would come and go with the noise.
@@ -126,7 +135,8 @@ class GelSense:
         least = KEPT_RATIO if self._in_contact else 1.0
         if evidence.ratio >= least and not evidence.is_inverted:
             return True
-        gel.follow(cloud)
+        if follow:
+            gel.follow(cloud)
         return False
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:

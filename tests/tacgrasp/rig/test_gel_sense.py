@@ -3,10 +3,12 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from cltp.tactile.force_scale import UNCALIBRATED, ForceScale
 from cltp.tactile.measure import contact_state
+from sim.gel.layer import gel_of
 from sim.grasp.rig import build
 from tacgrasp.rig.gel_sense import FELT_SPREAD, SPREADS, GelSense
 
@@ -57,3 +59,25 @@ def test_the_felt_force_is_in_newtons_of_the_unit(factor):
     assert felt(ForceScale(factor=factor, spread=0.05, source="unit a"))[1].value == pytest.approx(
         factor * nominal_n
     )
+
+
+def first_felt_n(seed, *, steps, closing):
+    """Force at which a strawberry is felt first where it rises to that in so many steps [N]."""
+    stiff = gel_of("gelsight_mini")
+    stiff = replace(stiff, young_mpa=1.7 * stiff.young_mpa)
+    for peak_n in 0.1 * 1.3 ** np.arange(10):
+        rig = build("strawberry", seed, gel=stiff, start_offset_mm=(0.0, 0.0))
+        sense = GelSense(rig.sensor)
+        sense.take_reference()
+        for force_n in np.geomspace(0.02, peak_n, steps) if steps > 1 else [peak_n]:
+            rig.grasp.close(force_n)
+            is_felt = sense.read_contact(closing=closing)
+        if is_felt:
+            return peak_n
+    return math.inf
+
+
+def test_a_contact_that_grows_slowly_while_fingers_close_is_felt_as_early_as_at_once():
+    at_once = first_felt_n(4, steps=1, closing=True)
+    assert first_felt_n(4, steps=12, closing=True) <= 1.31 * at_once
+    assert first_felt_n(4, steps=12, closing=False) > 1.31 * at_once  # taken for drift
