@@ -70,7 +70,7 @@ class GelSense:
         """The functions that the executor is given."""
         return ContactSense(
             take_reference=self.take_reference,
-            in_contact=lambda: self.read_contact(closing=True),
+            in_contact=self.read_contact,
             felt_force=lambda: None if self._cloud is None else self.felt_force(self._cloud),
         )
 
@@ -93,17 +93,16 @@ class GelSense:
         """
         return self._sensor.read(FRAMES_PER_READING)
 
-    def read_contact(self, *, closing: bool = False) -> bool:
-        """Read the gel and test it.
+    def read_contact(self) -> bool:
+        """Read the gel and test it while the fingers close.
 
-        Args:
-            closing: Whether the fingers are closing: a contact that grows by small steps is then
-                not taken for drift, which does little in so short a time.
+        The reference stays as it is: drift does little in so short a time, and a contact that grows
+        in small steps would be taken for it.
 
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        return bool(self.in_contact(self._repeated(self.read), follow=not closing))
+        return bool(self.in_contact(self._repeated(self.read), follow=False))
 
     def _repeated(self, call: Callable[[], T]) -> T:
         for attempt in count(1):

@@ -97,10 +97,10 @@ class TrueSense(GelSense):
         self._rig = rig
         self._tests: list[tuple[TactileCloud, bool]] = []
 
-    def in_contact(self, cloud: TactileCloud) -> bool | None:
+    def in_contact(self, cloud: TactileCloud, *, follow: bool = True) -> bool | None:
         patch = self._rig.grasp.patch
         self._tests.append((cloud, patch is not None and patch.force_n > 0))
-        return super().in_contact(cloud)
+        return super().in_contact(cloud, follow=follow)
 
     def was_touched(self, cloud: TactileCloud) -> bool:
         """Whether the body touched the gel when a cloud was first tested."""

@@ -71,7 +71,7 @@ def first_felt_n(seed, *, steps, closing):
         sense.take_reference()
         for force_n in np.geomspace(0.02, peak_n, steps) if steps > 1 else [peak_n]:
             rig.grasp.close(force_n)
-            is_felt = sense.read_contact(closing=closing)
+            is_felt = sense.read_contact() if closing else sense.in_contact(sense.read())
         if is_felt:
             return peak_n
     return math.inf
