@@ -25,14 +25,14 @@ def test_a_missed_berry_is_reset_once_and_lost_and_a_touched_one_is_not_reset():
 
 
 def test_a_test_that_never_feels_is_a_false_reset(monkeypatch):
-    monkeypatch.setattr(GelSense, "in_contact", lambda *_: False)
+    monkeypatch.setattr(GelSense, "in_contact", lambda *_, **__: False)
     (result,) = missed.run_seed(None, ["rules"], SEED)
     assert result.contact_lost
     assert result.false_reset
 
 
 def test_a_test_that_always_feels_adds_force_or_loses_no_contact(monkeypatch):
-    monkeypatch.setattr(GelSense, "in_contact", lambda *_: True)
+    monkeypatch.setattr(GelSense, "in_contact", lambda *_, **__: True)
     (result,) = missed.run_seed(None, ["rules"], SEED)
     assert not result.contact_lost
     assert not result.false_reset
