@@ -18,6 +18,9 @@ MEDIANS = {
     "area_percent": "area %",
     "force_percent": "force %",
     "light_force_n": "below 1 N",
+    "scale_x": "x read / true",
+    "scale_y": "y read / true",
+    "scale_area": "area read / true",
 }
 INTERVALS = {"depth_mm": "depth", "x_mm": "x", "y_mm": "y", "area_fraction": "area"} | {
     "force_n": "force"

@@ -1,14 +1,14 @@
 """``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold.
 
 On contacts that nothing was learned from: of seen objects, of unseen objects and gels, of a second
-simulator, and on a pad of other edges. Every unit has a force calibration with a drawn residual.
+simulator, and on pads of other proportions. Every unit has a force calibration with a drawn residual.
 Depth and force have trivial rivals beside them: the median of all contacts for each, with the
 interval that holds nine tenths of them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -34,13 +34,20 @@ from sim.independent.contacts import make_contact
 FIRST_SEED = 1_500_000
 """First seed of the second simulator's contacts; those of ``bench other-sim`` are others."""
 
-OTHER_PAD = replace(sensor_named("gelsight_mini"), columns=300, rows=180, mm_per_px=0.08)
-"""A pad of 24 × 14.4 mm with a Mini's noise; none of the training has its edges."""
+_MINI = sensor_named("gelsight_mini")
+OTHER_PADS: Mapping[str, SensorSpec] = {
+    "pad 24.0 x 14.4 mm": replace(_MINI, columns=300, rows=180, mm_per_px=0.08),
+    "pad 14.4 x 19.2 mm": replace(_MINI, columns=180, rows=240, mm_per_px=0.08),
+    "pad 12.0 x 12.0 mm": replace(_MINI, columns=150, rows=150, mm_per_px=0.08),
+}
+"""Pads with a Mini's noise that no training has, wide, tall and small."""
 
 LIGHT_N = 1.0
 """Force below which errors of force are told in newtons."""
 
 BATCH = 64
+
+SCALES = {"scale_x": "x_mm", "scale_y": "y_mm", "scale_area": "area_fraction"}
 
 DEPTH, FORCE = NUMBERS.index("depth_mm"), NUMBERS.index("force_n")
 
@@ -74,8 +81,9 @@ def evaluate_intervals(
 
     Returns:
         ``groups.<name>``: ``n``, medians ``depth_mm, place_mm, area_percent, force_percent,
-        light_force_n``, ``inside.<number>`` and ``width.<number>`` (median over that of the seen
-        objects), all of contacts that touch; ``trivial`` the same for the rival.
+        light_force_n``, ``scale_x, scale_y, scale_area`` (what is read over what is true, by least
+        squares), ``inside.<number>`` and ``width.<number>`` (median over that of the seen objects),
+        all of contacts that touch; ``trivial`` the same for the rival.
 
     Raises:
         TouchError: Weights or data can't be used.
@@ -140,7 +148,7 @@ def _groups(reader: _Reader, folder: Path, num: int, seed: int) -> Iterator[Grou
                 yield _group(f"gel of {mm:.1f} mm", reader, data, own, noise)
     seeds = range(FIRST_SEED, FIRST_SEED + num // 4)
     sampler = reader.sampler(ContactDataset(folder), NOISY)
-    for name, sensor in (("second simulator", sensor_named("gelsight_mini")), ("pad", OTHER_PAD)):
+    for name, sensor in {"second simulator": _MINI, **OTHER_PADS}.items():
         yield _made(name, reader, sampler, [make_contact(s, sensor) for s in seeds], sensor)
 
 
@@ -197,9 +205,11 @@ def _figures(group: Group, seen_widths: NDArray[np.float64]) -> dict[str, Any]:
     inside = np.where(np.isfinite(truth), (low <= truth) & (truth <= high), np.nan)
     least, most = np.quantile(truth, [0.05, 0.95], axis=0)
     rivals = np.abs(np.median(truth, axis=0) - truth)
+    scales = (group.readings.values.numpy()[touched] * truth).sum(0) / (truth**2).sum(0)
     return {
         "n": int(touched.sum()),
         **_medians(errors, truth),
+        **{key: float(scales[NUMBERS.index(name)]) for key, name in SCALES.items()},
         "inside": _named(100 * inside.mean(axis=0)),
         "width": _named(_widths(group) / seen_widths),
         "trivial": {**_medians(rivals, truth), "width": _named((most - least) / seen_widths)},
