@@ -232,6 +232,19 @@ class ContactDataset:
             measured=frozenset((row["measured"] or "").split()),
         )
 
+    @property
+    def origin(self) -> str:
+        """Set, maker, seed and number of contacts, the same on every machine; else the checksum.
+
+        The contacts of one command differ between kinds of processors by the rounding of heights
+        to 1 µm, and so do the checksums.
+        """
+        names = ("set", "maker", "seed", "contacts")
+        if not all(name in self.about for name in names):
+            return self.checksum()
+        further = f", meshes {self.about['meshes']}" if "meshes" in self.about else ""
+        return ", ".join(f"{name} {self.about[name]}" for name in names) + further
+
     def checksum(self) -> str:
         """SHA-256 over the index files, which contain the checksums of the heights."""
         total = hashlib.sha256()

@@ -203,14 +203,19 @@ def _row(
     minutes: Mapping[str, float | None],
     results: list[Result],
 ) -> RowFile:
+    learned, checksums = None, {"data": results[0].data}
+    if trained.budget is not None:
+        learned = ContactDataset(request.learned).origin
+        checksums["learned_from"] = trained.data or ""
     return RowFile(
         row=request.name,
         seed=request.seed,
         method=request.recipe.method,
         variant=trained.variant,
         command=request.command,
-        data=results[0].data,
-        learned_from=trained.data if trained.budget is not None else None,
+        data=ContactDataset(request.data).origin,
+        learned_from=learned,
+        checksums=checksums,
         budget=trained.budget,
         points=trained.points,
         minutes=minutes,

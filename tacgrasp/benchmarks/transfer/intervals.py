@@ -1,9 +1,9 @@
 """``tacgrasp eval intervals``: errors of the heads' numbers, and how often their intervals hold.
 
 On contacts that nothing was learned from: of seen objects, of unseen objects and gels, of a second
-simulator, and on pads of other proportions. Every unit has a force calibration with a drawn residual.
-Depth and force have trivial rivals beside them: the median of all contacts for each, with the
-interval that holds nine tenths of them.
+simulator, and on pads of other proportions. Every unit has a force calibration with a drawn
+residual. Depth and force have trivial rivals beside them: the median of all contacts for each, with
+the interval that holds nine tenths of them.
 """
 
 from __future__ import annotations

@@ -98,7 +98,7 @@ def _sections(folder: Path, weights: Path | None) -> list[PageSection]:
 def _introduction(results: Sequence[Result], groups: Groups) -> list[str]:
     if not results:
         return []
-    data = ", ".join(sorted({result.data[:16] for result in results}))
+    data = ", ".join(sorted({f"{result.data:.60}" for result in results}))
     return [describe_run(results, groups), f"Measured on the data {data}."]
 
 

@@ -41,8 +41,9 @@ class RowFile:
         method: Name out of ``store.TITLES``.
         variant: Encoder preset, and what differs from the method's usual recipe.
         command: Command that makes it, without the folders of the machine that did.
-        data: Checksum of the data set that was measured on.
-        learned_from: Checksum of the data set that was learned from; None where nothing was.
+        data: ``ContactDataset.origin`` of the data set that was measured on.
+        learned_from: That of the data set that was learned from; None where nothing was.
+        checksums: SHA-256 of both as they were on the machine that made the row, by name.
         budget: Size of the pre-training; None where there was none.
         points: Points of the encoder's input; None for images.
         minutes: Minutes by part: ``clip``, ``train``, ``measure``; None where unknown.
@@ -64,6 +65,7 @@ class RowFile:
     command: str
     data: str
     learned_from: str | None
+    checksums: Mapping[str, str]
     budget: Budget | None
     points: int | None
     minutes: Mapping[str, float | None]
@@ -101,11 +103,11 @@ class RowFile:
             return ["not in the list of rows"]
         marks = []
         if self.data != DATA["paper"]:
-            marks.append(f"other data {self.data[:8]}")
+            marks.append(f"other data ({self.data:.60})")
         other = wanted_row.learns_from != "paper"
         expected = DATA[wanted_row.learns_from] if other else self.data
         if self.learned_from not in (None, expected):
-            marks.append(f"learned from other data {self.learned_from[:8]}")
+            marks.append(f"learned from other data ({self.learned_from:.60})")
         if self.samples != wanted_row.samples:
             marks.append(f"{self.samples:,} samples, not {wanted_row.samples:,}")
         if self.limit is not None:

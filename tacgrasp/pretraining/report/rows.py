@@ -29,10 +29,11 @@ CLIP = replace(CLIP_SCHEDULE, steps=700)
 """How long the small CLIP learns before, whose towers all rows of a seed share."""
 
 DATA: Mapping[str, str] = {
-    "paper": "62a6fc18a0b5d7011b929d7efdd6e88d5f33f443ef984d38be8148d865e2f6d4",
-    "full": "115145f33b5bfd8c6505c30cf2468f4d5711c9968e71e427d66eddaed1f9dcdf",
+    "paper": "set tcl3d, maker tcl3d 1, seed 0, contacts 52425",
+    "full": "set full, maker full 1, seed 0, contacts 120000",
 }
-"""SHA-256 of the sets (``tacgrasp data generate --set NAME --seed 0``); other data are marked."""
+"""``ContactDataset.origin`` of the sets (``tacgrasp data generate --set NAME --seed 0``); rows of
+other data are marked."""
 
 EVEN = "small"
 """Encoder of all rows of points that are compared on equal terms: the paper's 1024 even points."""

@@ -46,7 +46,7 @@ def row_section(rows: Sequence[RowFile], folder: Path) -> PageSection:
     parts = {recipe.part for recipe in ROWS.values()} - {1}
     budget = (
         f"One budget for every method: {BUDGET:,} samples seen by the encoder; rows of "
-        f"{', '.join(map(str, sorted(parts)))} of it are marked so. Data {DATA['paper'][:16]}."
+        f"{', '.join(map(str, sorted(parts)))} of it are marked so. Data: {DATA['paper']}."
     )
     if marked:
         budget += f" {len(marked)} rows are of other data or of another budget, as marked."

@@ -101,7 +101,8 @@ def test_a_row_is_trained_measured_and_written_and_not_trained_again(
     first = row("cltp-even", *flags)
     checksum = ContactDataset(data).checksum()
     assert (first.seed, first.samples, first.points) == (3, 128, 1024)
-    assert first.data == first.learned_from == checksum
+    assert first.data == first.learned_from == checksum  # this set names no maker
+    assert first.checksums == {"data": checksum, "learned_from": checksum}
     command = "tacgrasp eval row cltp-even --seed 3 --samples 128 --limit 4 --precision no"
     assert first.command == command
     assert first.minutes["train"] is not None

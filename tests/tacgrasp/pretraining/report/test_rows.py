@@ -7,18 +7,21 @@ from pathlib import Path
 
 import pytest
 
+from cltp.data.dataset import ContactDataset
+from cltp.data.dataset_writer import DatasetWriter
 from cltp.encoder.encoder import PRESETS
 from cltp.errors import TouchError
 from cltp.tactile.states import CLASSES
 from cltp.train.methods import METHODS
 from cltp.train.recipes import CltpRecipe
 from tacgrasp.__main__ import main
+from tacgrasp.datasets.recipes import FullRecipe, Tcl3dRecipe
 from tacgrasp.pretraining.report.report import report
 from tacgrasp.pretraining.report.row_file import RowFile, load_rows, measured, missing, save_row
 from tacgrasp.pretraining.report.rows import BUDGET, DATA, ROWS, row_command, wanted
 from tacgrasp.pretraining.report.store import TITLES, Budget, Result, grouped, nested
+from tests.fakes.fake_contacts import fake_contact
 from tests.fakes.fake_results import fake_result
-from tests.paths import ROOT
 
 WHOLE = Budget(steps=BUDGET // 64, batch_size=64)
 NUMBERS = {"depth_mm": 0.02, "coverage_depth": 90.0, "width_depth": 0.1}
@@ -34,6 +37,7 @@ def fake_row(results: list[Result] | None = None, **changed: object) -> RowFile:
         "command": "tacgrasp eval row cltp",
         "data": DATA["paper"],
         "learned_from": DATA["paper"],
+        "checksums": {"data": "d" * 64, "learned_from": "d" * 64},
         "budget": WHOLE,
         "points": 7500,
         "minutes": {"clip": 5.0, "train": 30.0, "measure": 10.0},
@@ -85,9 +89,22 @@ def test_no_two_rows_have_one_name_in_tables() -> None:
     assert len(set(names)) == len(names)
 
 
-def test_the_checksums_are_those_of_the_page_on_data() -> None:
-    page = (ROOT / "docs/data-tools.md").read_text()
-    assert all(f"`{checksum}`" in page for checksum in DATA.values())
+def test_the_data_of_the_rows_are_what_their_commands_make(tmp_path: Path) -> None:
+    for name, requested in (("paper", Tcl3dRecipe), ("full", FullRecipe)):
+        count = int(DATA[name].split()[-1])
+        about = requested(contacts=count, seed=0).about()
+        with DatasetWriter(tmp_path / name, about={**about, "contacts": "1"}) as writer:
+            writer.add(fake_contact(0))
+        origin = ContactDataset(tmp_path / name).origin
+        assert origin == DATA[name].replace(f"contacts {count}", "contacts 1")
+        assert about["contacts"] == str(count)
+
+
+def test_data_without_a_recipe_are_told_by_their_checksum(tmp_path: Path) -> None:
+    with DatasetWriter(tmp_path) as writer:
+        writer.add(fake_contact(0))
+    data = ContactDataset(tmp_path)
+    assert data.origin == data.checksum()
 
 
 def test_a_row_comes_back_from_its_file_as_it_was(tmp_path: Path) -> None:
@@ -122,13 +139,13 @@ def test_a_row_comes_back_from_its_file_as_it_was(tmp_path: Path) -> None:
     ("changed", "mark"),
     [
         ({}, []),
-        ({"data": "e" * 64, "learned_from": "e" * 64}, ["other data eeeeeeee"]),
-        ({"learned_from": "e" * 64}, ["learned from other data eeeeeeee"]),
+        ({"data": "e" * 64, "learned_from": "e" * 64}, [f"other data ({'e' * 60})"]),
+        ({"learned_from": "e" * 64}, [f"learned from other data ({'e' * 60})"]),
         ({"budget": Budget(steps=10, batch_size=64)}, [f"640 samples, not {BUDGET:,}"]),
         ({"limit": 9}, ["at most 9 contacts of a split"]),
         ({"row": "dance"}, ["not in the list of rows"]),
         ({"row": "cltp_full", "learned_from": DATA["full"]}, []),
-        ({"row": "cltp_full"}, [f"learned from other data {DATA['paper'][:8]}"]),
+        ({"row": "cltp_full"}, [f"learned from other data ({DATA['paper']})"]),
     ],
 )
 def test_a_row_is_marked_where_data_or_budget_differ(
