@@ -120,8 +120,9 @@ def _show(results: dict[str, Any], answers: Sequence[ScoredAnswer], *, wrong: bo
             f"mean of ten groups; right above wrong in {_percent(trust['auroc'])} % (AUROC)"
         )
     console.print(
-        "trivial: no, yes, unknowable, most frequent; upper bounds: truth in words, and grammar on "
-        "questions of its own"
+        "trivial: no, yes, unknowable, most frequent; upper bounds: truth as felt (every question "
+        "understood, and the touch of the model), truth in words, and grammar on questions of its "
+        "own"
     )
 
 

@@ -44,11 +44,15 @@ from tacgrasp.lessons.question_scores import (
     confidence_figures,
     figures,
     figures_by_family,
+    perfect_answer,
 )
 from tacgrasp.lessons.understanding import ReadQuestion, answered, understood
 
 MADE_SEED = BENCHMARK_SEED + 7
 """Seed of the contacts that are made where none are given; no data set can have it."""
+
+AS_FELT = "truth as felt"
+"""Name in tables of what understands every question and feels as the model does."""
 
 GRAMMAR_QUESTIONS = 500
 """Number of the grammar's own questions that its answers are scored on."""
@@ -138,7 +142,8 @@ def evaluate_questions(
             confidences: list[float] = []
             model = asked_model(talker, contacts, len(asked), report, confidences=confidences)
             answers = answer_all(asked, model)
-            scored = {"model": answers, **scored}
+            felt = answer_all(asked, truth_as_felt(talker, contacts))
+            scored = {"model": answers, AS_FELT: felt, **scored}
             trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
         raise UsageError(f"the file of questions: {error}") from None
@@ -149,6 +154,25 @@ def evaluate_questions(
         "figures": {name: asdict(figures(each)) for name, each in scored.items()},
         "families": {name: asdict(each) for name, each in figures_by_family(answers).items()},
     }, answers
+
+
+def truth_as_felt(
+    talker: Talker, contacts: Sequence[FeltContact]
+) -> Callable[[AskedQuestion], str]:
+    """What would answer every question as it is meant, from what the model feels and says.
+
+    It is an upper bound for a model that feels so: what it misses, touch misses.
+    """
+
+    @cache
+    def spoken(contact: int) -> SpokenContact:
+        return spoken_contact(talker, talker.feel(contacts[contact].points))
+
+    def reply(asked: AskedQuestion) -> str:
+        scene = replace(asked.scene, state=spoken(asked.contact).state)
+        return perfect_answer(replace(asked, scene=scene))
+
+    return reply
 
 
 def own_questions(scenes: Sequence[AskedScene], num: int, seed: int) -> list[AskedQuestion]:

@@ -78,6 +78,13 @@ def test_a_right_query_gives_right_answers():
     assert results["families"]["number"]["right"] == 0.5  # felt is HELD, asked about FIRM too
 
 
+def test_what_touch_misses_is_told_from_what_language_misses():
+    results, _ = evaluated(Parrot("amount force N."))
+    felt = results["figures"]["truth as felt"]
+    assert felt["right"] == 0.5  # felt is HELD, asked about FIRM too
+    assert felt["undecidable"] == felt["right_kind"] == 1
+
+
 def test_the_upper_bounds_are_reached():
     results, answers = evaluated(None)
     assert answers == []
