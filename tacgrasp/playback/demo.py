@@ -134,7 +134,7 @@ DEMOS: dict[str, Demo] = {
     "peg": Demo(
         summary="a peg, held firmly",
         offset_mm=(0.0, 0.0),
-        actions=(_RISE,) * 6,
+        actions=(_RISE,) * 7,
         end=EndReason.SUCCESS,
         task="peg",
     ),
