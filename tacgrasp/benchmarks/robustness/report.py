@@ -68,12 +68,16 @@ def _with_limit(value: float, limit: float) -> str:
 def draw(store: Store, path: Path) -> None:
     """Draw value against level, a line a nuisance; the limit is dashed.
 
+    What was not measured has no panel, and a nuisance of one level no line.
+
     Raises:
         UsageError: The picture can't be written.
     """
-    figure = Figure(figsize=(15, 11), layout="constrained")
-    axes = figure.subplots(3, 4, sharex=True)
-    for row, subject in enumerate(CONTACT_SUBJECTS):
+    on_contacts = [subject for subject in CONTACT_SUBJECTS if _rows(store, subject)]
+    last = len(on_contacts)
+    figure = Figure(figsize=(15, 3.7 * (last + 1)), layout="constrained")
+    axes = figure.subplots(last + 1, 4, sharex=True, squeeze=False)
+    for row, subject in enumerate(on_contacts):
         for column, (title, metrics) in enumerate(_PANELS.items()):
             _panel(axes[row, column], store, subject, metrics, f"{subject}: {title} [% right]")
         panel = axes[row, len(_PANELS)]
@@ -81,14 +85,17 @@ def draw(store: Store, path: Path) -> None:
         panel.set_ylim(0, 60)
     for column, subject in enumerate(POLICY_SUBJECTS):
         title = f"{subject}: verified grasps [%]"
-        _panel(axes[2, column], store, subject, (VERIFIED,), title)
-    handles, labels = axes[0, 0].get_legend_handles_labels()
-    if not handles:
-        handles, labels = axes[2, 0].get_legend_handles_labels()
-    for unused in axes[2, 2:]:
+        _panel(axes[last, column], store, subject, (VERIFIED,), title)
+    shown = {}
+    for panel in axes.flat:
+        handles, labels = panel.get_legend_handles_labels()
+        shown |= dict(zip(labels, handles, strict=True))
+    for unused in axes[last, 2:]:
         unused.set_axis_off()
-    axes[2, 2].legend(handles, labels, loc="upper left", title="nuisance: its levels")
-    axes[2, 3].text(0, 0.9, "solid: measured\ndashed: limit", va="top")
+    axes[last, 2].legend(
+        shown.values(), shown.keys(), loc="upper left", title="nuisance: its levels"
+    )
+    axes[last, 3].text(0, 0.9, "solid: measured\ndashed: limit", va="top")
     try:
         with replacing(path) as part:
             figure.savefig(part, format="png", dpi=90, facecolor="white")
@@ -108,9 +115,14 @@ def _panel(axes: Axes, store: Store, subject: str, metrics: Sequence[str], title
             steps.append(step)
             values.append(_mean([result.values[m] for m in metrics]))
             limits.append(_mean([limit.get(m, math.nan) for m in metrics]))
+        if len(steps) < 2:
+            continue
         label = f"{nuisance}: {', '.join(f'{level:g}' for level in levels)}"
         axes.plot(steps, values, "o-", color=colours(number), label=label, markersize=4)
         axes.plot(steps, limits, "--", color=colours(number), linewidth=1)
+    if not axes.lines:
+        axes.set_axis_off()
+        return
     axes.set_title(title, fontsize=10)
     axes.set_xticks(range(4))
     axes.tick_params(labelbottom=True)
