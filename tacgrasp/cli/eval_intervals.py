@@ -83,7 +83,7 @@ def _show(groups: dict[str, Any]) -> None:
         row += [_shown(one["width"][key]) for key in INTERVALS]
         table.add_row(name, *row, str(one["n"]))
     rival = groups[next(iter(groups))]["trivial"]
-    row = [_shown(rival[key]) for key in MEDIANS] + ["90"] * len(INTERVALS)
+    row = [_shown(rival.get(key)) for key in MEDIANS] + ["90"] * len(INTERVALS)
     row += [_shown(rival["width"][key]) for key in INTERVALS]
     table.add_row("one answer to all seen", *row, "")
     console = make_table_console()
