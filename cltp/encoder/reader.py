@@ -27,6 +27,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensor_noise import MINI_SPREAD
+from cltp.tactile.sensors import SENSORS, SensorSpec
 from cltp.tactile.states import (
     CLASSES,
     NO_CONTACT_STATE,
@@ -53,6 +54,7 @@ class Flag(StrEnum):
     RANGE = "range"  # a number lies beyond what a gel can show
     CONTRADICTION = "contradiction"  # the depth that is measured directly is another one
     FORCE = "force"  # the force is impossible for the one that is commanded
+    PAD = "pad"  # the pad has other proportions than any that was learned from
 
 
 UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
@@ -61,6 +63,11 @@ UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
 POSSIBLE_RATIO = 3.0
 """Largest ratio of a felt force to the commanded one, either way. Our choice: grippers are off by
 up to 2 (``sim.grasp.rig``); far beyond that the gel, its scale or the gripper is another one."""
+
+
+SAME_PROPORTIONS = 0.05
+"""Difference of width over height, as a fraction, from which pads are others. Our choice: places
+along the width are then 5 % off, 0.25 mm in the mean (``tacgrasp eval intervals``)."""
 
 
 class Number(NamedTuple):
@@ -191,6 +198,8 @@ def state_in_words(read: HeadReadings, words: Mapping[str, str]) -> ContactState
 
 def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]:
     """What a cloud and the numbers of it say by themselves."""
+    if not _is_learned_pad(cloud.sensor):
+        yield Flag.PAD
     if fine_noise_mm(cloud) > MOST_NOISE_MM:
         yield Flag.NOISE
     if not all(math.isfinite(value) for number in numbers.values() for value in number) or (
@@ -199,6 +208,16 @@ def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]
         yield Flag.RANGE
     elif any(numbers[name].high - numbers[name].low > most for name, most in UNSURE_MM.items()):
         yield Flag.UNSURE
+
+
+def _is_learned_pad(sensor: SensorSpec) -> bool:
+    """Whether weights learn from pads of such proportions."""
+    proportions = sensor.width_mm / sensor.height_mm
+    return any(
+        abs(proportions / (each.width_mm / each.height_mm) - 1) < SAME_PROPORTIONS
+        for each in SENSORS.values()
+        if (each.markers is None) == (sensor.markers is None)
+    )
 
 
 def _is_impossible(force: Number, state: ContactState, commanded_n: float | None) -> bool:

@@ -71,6 +71,25 @@ def test_more_noise_than_was_learned_from_is_flagged(reader: TouchReader) -> Non
     assert fine_noise_mm(cloud(0.03)) == pytest.approx(0.03, rel=0.1)
 
 
+@pytest.mark.parametrize(
+    ("rows", "columns", "is_flagged"),
+    [(240, 320, False), (120, 160, False), (180, 300, True), (240, 240, True), (320, 240, True)],
+)
+def test_a_pad_of_proportions_that_no_training_has_is_flagged(
+    reader: TouchReader, rows: int, columns: int, is_flagged: bool
+) -> None:
+    sensor = dataclasses.replace(MINI, name="other", rows=rows, columns=columns)
+    heights = np.zeros((rows, columns))
+    reading = reader.read(cloud_of_pixels(heights, sensor))
+    assert (Flag.PAD in reading.flags) is is_flagged
+
+
+def test_every_sensor_of_ours_is_learned_from(reader: TouchReader) -> None:
+    for sensor in SENSORS.values():
+        flat = cloud_of_pixels(np.zeros((sensor.rows, sensor.columns)), sensor)
+        assert Flag.PAD not in reader.read(flat).flags, sensor.name
+
+
 def test_what_tells_nothing_is_flagged(reader: TouchReader) -> None:
     encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
     assert heads.widening is not None
