@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
+from policies.errors import PolicyError
 from policies.observation import Observation
 from primitives import Primitive
 from primitives.contract import Contract
@@ -56,3 +58,28 @@ class Policy(Protocol):
     def start(self) -> None:
         """Begin an episode: forget earlier contacts."""
         ...
+
+
+def checked(reply: object) -> Decision:
+    """A policy's reply, once it is a Decision that can be carried out.
+
+    Raises:
+        PolicyError: It is none, names an action that no robot has, or holds a number that is not
+            finite.
+    """
+    if not isinstance(reply, Decision):
+        raise PolicyError(f"the policy replied {reply!r:.80}; expected a Decision")
+    if reply.action is not None and not isinstance(reply.action, Primitive):
+        raise PolicyError(
+            f"the policy asks for the unknown action {reply.action!r:.80}; known: "
+            f"{', '.join(Primitive)}"
+        )
+    if not (isinstance(reply.text, str) and isinstance(reply.success, bool)):
+        raise PolicyError(
+            "a decision needs a text, and True or False for success; got "
+            f"{reply.text!r:.80} and {reply.success!r:.80}"
+        )
+    for name, number in (("confidence", reply.confidence), *reply.stage_ms.items()):
+        if not math.isfinite(number):
+            raise PolicyError(f"the policy's {name} is {number}; expected a finite number")
+    return reply

@@ -28,7 +28,7 @@ from collections.abc import Callable, Sequence
 from itertools import count
 
 from cltp import TouchError
-from policies import Decision, Policy, PolicyError
+from policies import Decision, Policy, PolicyError, checked
 from primitives import LimitError, Primitive, RobotError
 from primitives.contract import Contract
 from primitives.execution import AT_LIMIT, Executed, Executor
@@ -91,7 +91,7 @@ def run_episode(
                         seen = observation.for_policy(steps.elapsed_s)
                         aimed = steps.aim(executor, seen, contract)
                         with steps.deciding(contract, observation):
-                            decision = policy.decide(seen, aimed)
+                            decision = checked(policy.decide(seen, aimed))
                         decision = within(aimed, decision, seen)
                     break
                 except (TouchError, PolicyError) as error:

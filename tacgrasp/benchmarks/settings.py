@@ -115,6 +115,37 @@ class MissedSettings(ModelBenchmarkSettings, SeedSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LimitsSettings(ModelBenchmarkSettings, SeedSettings):
+    """Draw a fault into each episode; the hard limit must hold; exit code 1 when it does not.
+
+    The same faults without contract and reflex stand beside the figures. With --json each failing
+    episode is kept in a folder beside that file.
+
+    Attributes:
+        episodes: Number of episodes, one random seed and one fault each.
+        task: Task of the grasps.
+        sensor: Sensor that feels: taxels, gelsight_mini_markers, or gelsight_mini, with which no
+            reflex runs.
+        policy: Policy that decides where the fault is not the policy's: rules or llm.
+        keep: Folder for the failing episodes; none: that of --json, with '-failing' in its name.
+    """
+
+    episodes: int = 2000
+    task: str = "strawberry"
+    sensor: str = "taxels"
+    policy: str = "rules"
+    keep: Path | None = None
+
+    @property
+    def failing_folder(self) -> Path:
+        """Folder for the failing episodes."""
+        if self.keep is not None:
+            return self.keep
+        base = Path("limits") if self.json is None else self.json
+        return base.with_name(f"{base.stem}-failing")
+
+
+@dataclass(frozen=True, kw_only=True)
 class ReflexSettings(SeedSettings):
     """Load held bodies until some slip; see when the reflex says so; exit code 1 off the limits.
 

@@ -17,6 +17,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "verifier": (settings.VerifierSettings, "loop.verifier"),
     "draws": (settings.DrawsSettings, "loop.draws"),
     "reflex": (settings.ReflexSettings, "reflex.run"),
+    "limits": (settings.LimitsSettings, "limits.run"),
     "gain": (settings.GainSettings, "loop.gain"),
     "meshes": (settings.MeshesSettings, "loop.meshes"),
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),

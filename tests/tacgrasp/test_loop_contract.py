@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import cast
 
 import pytest
 
@@ -142,3 +143,26 @@ def test_an_episode_with_an_objection_is_decided_again_exactly(objected) -> None
     assert list(differences(episode, make_policy("rules", settings), held)) == []
     decided = [step.decision for step in episode.steps if step.decision is not None]
     assert Primitive.INCREASE_FORCE in {decision.action for decision in decided}
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"action": "squeeze_hard"}, {"confidence": float("nan")}, None],
+    ids=["unknown action", "not finite", "nothing"],
+)
+def test_a_corrupt_reply_moves_nothing_and_the_policy_is_asked_again(
+    change: dict[str, object] | None,
+) -> None:
+    class Corrupt(Scripted):
+        def decide(self, observation: Observation, contract: Contract) -> Decision:
+            reply = super().decide(observation, contract)
+            if self.num_asks > 2:
+                return reply
+            broken = None if change is None else replace(reply, success=False, **change)
+            return cast("Decision", broken)
+
+    outcome, rig, recorder = play(Corrupt(GOOD), settings=config(max_faults=3))
+    assert outcome.reason is EndReason.SUCCESS
+    assert outcome.num_actions == 0
+    assert rig.gripper.forces_n == [0.03]  # the first grasp
+    assert recorder.steps[0].note.count("PolicyError") == 2
