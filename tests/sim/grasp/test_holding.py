@@ -109,6 +109,7 @@ def test_a_berry_that_slid_off_touches_nothing(fingers, least_n):
     assert np.abs(state.field.values).max() == 0
 
 
+@pytest.mark.slow  # it measures time, of which a slow machine has less
 @pytest.mark.usefixtures("one_thread")
 def test_a_step_goes_at_the_rate_of_a_reflex(fingers, least_n):
     holding, _ = _settled(fingers, 2 * least_n, Holding(fingers, 1.0).weight_n())

@@ -75,6 +75,7 @@ def test_a_file_cut_before_its_header_says_that_nothing_can_be_recovered(
             recover(path)
 
 
+@pytest.mark.slow
 @settings(max_examples=150)
 @given(where=st.floats(0, 1, exclude_max=True), flipped=st.integers(1, 255))
 def test_a_flipped_byte_never_changes_what_is_read(

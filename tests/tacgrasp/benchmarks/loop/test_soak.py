@@ -19,6 +19,7 @@ def figures(path: Path) -> dict[str, object]:
     return dict(json.loads(path.read_text()))
 
 
+@pytest.mark.slow
 def test_a_soak_goes_on_where_it_ended(tmp_path: Path) -> None:
     path = tmp_path / "soak.json"
     assert soak.run(SoakSettings(episodes=2, json=path))

@@ -100,6 +100,7 @@ def test_only_a_force_that_is_clearly_worse_than_the_best_leaves_its_sweep():
     ]
 
 
+@pytest.mark.slow
 def test_a_sweep_says_how_many_episodes_each_force_ran(tmp_path, monkeypatch):
     monkeypatch.setattr(strawberry, "ROUND", 1)
     monkeypatch.setattr(strawberry, "swept_forces_n", lambda config: (0.3, 0.6, 3.0))
