@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from matplotlib import colormaps
 from matplotlib.axes import Axes
@@ -86,7 +87,7 @@ def draw(store: Store, path: Path) -> None:
     for column, subject in enumerate(POLICY_SUBJECTS):
         title = f"{subject}: verified grasps [%]"
         _panel(axes[last, column], store, subject, (VERIFIED,), title)
-    shown = {}
+    shown: dict[Any, Any] = {}
     for panel in axes.flat:
         handles, labels = panel.get_legend_handles_labels()
         shown |= dict(zip(labels, handles, strict=True))
