@@ -40,7 +40,9 @@ from cltp.llm.tac3d_llm import Projector
 ENCODER, PROJECTOR = "tacgrasp_encoder", "tacgrasp_projector"
 """``model_type`` of the two."""
 
-ENCODER_VERSION = 1
+ENCODER_VERSION = 2
+"""2: grids have cells of one size, whose edge ends the pooled tokens, whatever the pad."""
+
 PROJECTOR_VERSION = 3
 """3: pooled tokens and the heads' readings with intervals follow the tokens."""
 
@@ -77,7 +79,7 @@ class StoredEncoder:
         check_room(folder, config)
         encoder = random_encoder(folder, config)
         has_intervals = config.get("intervals") is True  # weights of before have none
-        stored = cls(encoder, StateHeads(2 * encoder.config.dim, intervals=has_intervals))
+        stored = cls(encoder, StateHeads.of(encoder.config, intervals=has_intervals))
         load_weights(folder, _EncoderWithHeads(stored.encoder, stored.heads))
         return stored
 

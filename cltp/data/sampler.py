@@ -6,6 +6,7 @@ Loads no torch.
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -24,6 +25,9 @@ from cltp.tactile.point_layout import EVEN, PointLayout
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from cltp.tactile.states import ContactState, Side, position_word
+
+MOST_COARSE = 1.7
+"""Largest factor on the edge of a cell that windows are drawn with: that of a pad of 34 × 25 mm."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -67,7 +71,8 @@ class Augmentation:
         clean: Fraction of samples without noise, as of a perfect sensor.
         loose: Fraction of samples of which a grid is given 1024 points alone, as clouds in files
             have them; an even layout always has so many.
-        windows: Fraction of samples that a smaller pad sees (``cltp.data.windows``).
+        windows: Fraction of samples that a smaller pad sees (``cltp.data.windows``), half of
+            these in larger cells.
     """
 
     noise_level: float | NoiseLevels | NoiseRange = 1.0
@@ -152,12 +157,14 @@ class Sampler:
                 placement = draw_placement(height_mm, state, sensor, rng)
                 result = move(height_mm, state, sensor, placement)
                 height_mm, state = result.height_mm, result.state
+            layout = self.layout
             if self.augmentation.windows > 0 and rng.random() < self.augmentation.windows:
                 window = draw_window(height_mm, state, sensor, rng)
                 seen = crop(height_mm, state, sensor, window)
                 height_mm, state, sensor = seen.height_mm, seen.state, seen.sensor
+                layout = coarser(layout, rng)
                 moved[row] = True
-            points.append(self.cloud(height_mm, sensor, rng))
+            points.append(self.cloud(height_mm, sensor, rng, layout))
             heights.append(height_mm)
             sensors.append(sensor)
             states.append(state)
@@ -203,9 +210,13 @@ class Sampler:
         return self._orders[offset][1]
 
     def cloud(
-        self, height_mm: NDArray[np.float32], sensor: SensorSpec, rng: np.random.Generator
+        self,
+        height_mm: NDArray[np.float32],
+        sensor: SensorSpec,
+        rng: np.random.Generator,
+        layout: PointLayout | None = None,
     ) -> NDArray[np.float32]:
-        """One cloud of clean heights: shape (N, 3), scaled, row by row in the layout.
+        """One cloud of clean heights: shape (N, 3), scaled, row by row in a layout.
 
         With noise the median height is 0, since photometric sensors lose the constant. A cloud
         without noise is that of a perfect sensor, whose heights count from the untouched gel.
@@ -213,7 +224,8 @@ class Sampler:
         unit = self._unit(sensor, rng)
         if self.layout.is_sampled:
             return self._sampled(height_mm, sensor, unit, rng)
-        return grid_points(self._grid(height_mm, sensor, unit, rng), sensor)
+        layout = layout or self.layout
+        return grid_points(self._grid(height_mm, sensor, unit, rng, layout), sensor, layout)
 
     def _unit(self, sensor: SensorSpec, rng: np.random.Generator) -> NoiseUnit | None:
         """The errors of one sample; None for a perfect sensor."""
@@ -229,21 +241,23 @@ class Sampler:
         sensor: SensorSpec,
         unit: NoiseUnit | None,
         rng: np.random.Generator,
+        layout: PointLayout,
     ) -> NDArray[np.float32]:
-        """Heights in the cells of the layout [mm], of all that the sensor gives."""
+        """Heights in the cells that the pad takes of the layout [mm], of all that it gives."""
         if sensor.markers is not None:
-            return height_grid(marker_cloud(height_mm, sensor, unit=unit, rng=rng), self.layout)
+            return height_grid(marker_cloud(height_mm, sensor, unit=unit, rng=rng), layout)
         if unit is not None:
             height_mm = unit.apply(height_mm, sensor, rng)
         if self.augmentation.loose > 0 and rng.random() < self.augmentation.loose:
             points = sampled(height_mm, sensor, EVEN, rng).astype(np.float32)
             if unit is not None:
                 points = unit.received(points, rng)
-            return height_grid(TactileCloud(points_mm=points, sensor=sensor), self.layout)
+            return height_grid(TactileCloud(points_mm=points, sensor=sensor), layout)
         known = None
         if unit is not None and unit.point_loss > 0:
             known = rng.random(height_mm.shape, np.float32) >= unit.point_loss
-        return resampled(height_mm, self.layout, known)
+        rows, columns = layout.cells_on(sensor.width_mm, sensor.height_mm)
+        return resampled(height_mm, rows, columns, known)
 
     def _sampled(
         self,
@@ -263,6 +277,14 @@ class Sampler:
         if unit is not None and (unit.point_loss > 0 or unit.shuffled):
             points = in_lattice(unit.received(points.astype(np.float32), rng), sensor)
         return scaled(points, sensor)
+
+
+def coarser(layout: PointLayout, rng: np.random.Generator) -> PointLayout:
+    """A layout with larger cells, as on a larger pad; half of the time, and one of cells alone."""
+    if layout.pitch_mm is None or rng.random() < 0.5:
+        return layout
+    factor = math.exp(rng.uniform(0.0, math.log(MOST_COARSE)))
+    return dataclasses.replace(layout, pitch_mm=factor * layout.pitch_mm)
 
 
 def _check_fraction(also_fraction: float, dataset: ContactDataset) -> None:

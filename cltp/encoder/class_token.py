@@ -12,6 +12,12 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from cltp.encoder.tokenizers import GridMaps, grid_maps, log_cell_edge
+from cltp.tactile.encoder_input import OUTSIDE
+
+_LEAST_NOISE = 1e-3
+"""Scaled noise below which no two are told apart: 1.5 µm."""
+
 
 class ClassTokenFeatures(nn.Module):
     """A dense layer over all groups at once, each with weights of its own, for the class token.
@@ -58,12 +64,15 @@ class HeightQuantiles(nn.Module):
         samples: Number of quantiles; half of them are the deepest heights.
         hidden: Width of both layers.
         grades: Bins of the piecewise linear encoding of some of the quantiles; 0 for none.
+        is_grid: Whether points are a grid, of which ``grid_summary`` is read too.
     """
 
-    def __init__(self, dim: int, samples: int, hidden: int = 256, *, grades: int = 0) -> None:
+    def __init__(
+        self, dim: int, samples: int, hidden: int = 256, *, grades: int = 0, is_grid: bool = False
+    ) -> None:
         super().__init__()
-        self.samples, self.grades = samples, grades
-        size = samples + grades * len(encoded_ranks(samples))
+        self.samples, self.grades, self.is_grid = samples, grades, is_grid
+        size = samples + grades * len(encoded_ranks(samples)) + SUMMARY * is_grid
         self.trunk = nn.Sequential(
             nn.Linear(size, hidden), nn.GELU(), nn.Linear(hidden, hidden), nn.GELU()
         )
@@ -76,22 +85,52 @@ class HeightQuantiles(nn.Module):
         if self.grades:
             encoded = quantiles[:, encoded_ranks(self.samples)]
             features.append(piecewise_linear(encoded, self.grades))
+        if self.is_grid:
+            features.append(grid_summary(grid_maps(points), log_cell_edge(points)))
         hidden = self.trunk(torch.cat(features, dim=1))
         return HeightTerms(self.token(hidden)[:, None], self.pooled(hidden))
 
 
 def height_quantiles(points: Tensor, samples: int) -> Tensor:
-    """Heights (B, samples) of points (B, N, 3) in falling order, at ``quantile_ranks``."""
+    """Heights (B, samples) of points (B, N, 3) in falling order, at ``quantile_ranks``.
+
+    Points outside the pad don't count.
+    """
     heights = points[..., 2].sort(dim=1, descending=True).values
-    return heights[:, quantile_ranks(samples, points.shape[1]).to(points.device)]
+    count = (heights > OUTSIDE / 2).sum(dim=1, keepdim=True)
+    return heights.gather(1, quantile_ranks(samples, count))
 
 
-def quantile_ranks(samples: int, count: int) -> Tensor:
-    """Ranks of the quantiles among ``count`` heights in falling order, shape (samples,)."""
+def quantile_ranks(samples: int, count: Tensor) -> Tensor:
+    """Ranks of the quantiles among numbers (B, 1) of heights in falling order: (B, samples).
+
+    The first half are the deepest heights one by one, the others are fractions of the pad.
+    """
     deepest = samples // 2
-    rest = torch.linspace(0, 1, samples - deepest + 1)[1:].square()
+    rest = torch.linspace(0, 1, samples - deepest + 1, device=count.device)[1:].square()
     spread = deepest - 1 + (rest * (count - deepest)).round().long()
-    return torch.cat([torch.arange(deepest), spread])
+    first = torch.arange(deepest, device=count.device).expand(len(count), -1)
+    return torch.minimum(torch.cat([first, spread], dim=1), count - 1)
+
+
+SUMMARY, _SMOOTH = 36, 32
+
+
+def grid_summary(maps: GridMaps, log_edge: Tensor) -> Tensor:
+    """What tells true heights from noise, and the size of the pad: (B, ``SUMMARY``).
+
+    The deepest means of 3 × 3 cells; the fine noise, by its median absolute value and the logarithm
+    of that; the logarithms of the part that the pad takes of the grid and of a cell's edge.
+    """
+    _, _, inside, height, mean = maps
+    smooth = mean.where(inside > 0, OUTSIDE).flatten(1).topk(_SMOOTH, dim=1).values
+    relief = (height - mean).abs().where(inside > 0, torch.inf)[:, ::2, ::2]  # a quarter will do
+    ordered = relief.flatten(1).sort(dim=1).values
+    count = ordered.isfinite().sum(dim=1, keepdim=True)
+    noise = ordered.gather(1, count // 2)
+    taken = inside.mean(dim=(1, 2))[:, None].log()
+    levels = [5 * smooth, 50 * noise, (1 + noise / _LEAST_NOISE).log(), taken, log_edge]
+    return torch.cat(levels, dim=1)
 
 
 def piecewise_linear(heights: Tensor, grades: int) -> Tensor:

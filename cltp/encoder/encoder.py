@@ -23,6 +23,7 @@ from cltp.encoder.tokenizers import (
     GridTokenizer,
     LatticeTokenizer,
     PatchTokenizer,
+    log_cell_edge,
 )
 from cltp.errors import TouchError
 from cltp.tactile.point_layout import EVEN, GRID, PointLayout
@@ -184,6 +185,11 @@ class EncoderConfig:
         return VARIANTS[self.tokenizer]
 
     @property
+    def counts_cells(self) -> bool:
+        """Whether its points are cells of one size, whose edge ends ``Encoded.pooled``."""
+        return self.variant.layout.pitch_mm is not None
+
+    @property
     def identity(self) -> str:
         """All sizes in one line; unchanged for encoders that are older than ``grades``."""
         return f"{self} grades {self.grades}" if self.grades else str(self)
@@ -202,7 +208,8 @@ class Encoded(NamedTuple):
     Attributes:
         tokens: Shape (B, G + 1, C); the class token first.
         pooled: Shape (B, 2 C): the class token and the maximum over the groups, plus the terms of
-            the height quantiles where there are any.
+            the height quantiles where there are any. Of a grid the last entry is the logarithm of a
+            cell's edge over ``UNIT_CELL_MM`` instead, by which heads turn cells into millimetres.
         feature: Shape (B, F): aligned with CLIP, not yet normalised.
     """
 
@@ -228,7 +235,9 @@ class TactileEncoder(nn.Module):
         self.survey = ClassTokenFeatures(dim, config.num_groups) if has_places else None
         self.bearing = None
         if config.bearing:
-            self.bearing = HeightQuantiles(dim, config.bearing, grades=config.grades)
+            self.bearing = HeightQuantiles(
+                dim, config.bearing, grades=config.grades, is_grid=config.counts_cells
+            )
         self.blocks = nn.ModuleList(
             TransformerBlock(dim, config.heads) for _ in range(config.depth)
         )
@@ -254,6 +263,8 @@ class TactileEncoder(nn.Module):
         pooled = torch.cat([x[:, 0], x[:, 1:].amax(dim=1)], dim=1)
         if terms is not None:
             pooled = pooled + terms.pooled
+        if self.config.counts_cells:
+            pooled = torch.cat([pooled[:, :-1], log_cell_edge(points)], dim=1)
         return Encoded(tokens=x, pooled=pooled, feature=self.feature(pooled))
 
     def class_token(self, tokens: Tensor, terms: HeightTerms | None) -> Tensor:

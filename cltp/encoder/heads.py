@@ -14,6 +14,7 @@ import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from cltp.encoder.encoder import EncoderConfig
 from cltp.tactile.states import CLASSES, NUMBERS, ContactState, Side
 
 SMALLEST_FORCE_N = 0.05
@@ -113,21 +114,40 @@ class StateHeads(nn.Module):
         pooled_dim: Width of ``Encoded.pooled``.
         hidden_dim: Width of the hidden layer.
         intervals: Whether the numbers have intervals.
+        in_cells: Whether places are read in cells, whose edge the last of the pooled tokens tells
+            (``Encoded.pooled``). So a place is right on a larger pad, without larger cells having
+            to be learned from.
     """
 
+    lengths_along: Tensor
     widening: Tensor | None
     contradiction: Tensor | None
 
-    def __init__(self, pooled_dim: int, hidden_dim: int = 256, *, intervals: bool = True) -> None:
+    def __init__(
+        self,
+        pooled_dim: int,
+        hidden_dim: int = 256,
+        *,
+        intervals: bool = True,
+        in_cells: bool = False,
+    ) -> None:
         super().__init__()
         count = len(NUMBERS)
+        self.in_cells = in_cells
         self.sizes = [len(names) for names in CLASSES.values()]
         self.sizes += [count, 1, len(Side)] + ([2 * count] if intervals else [])
         self.hidden = nn.Linear(pooled_dim, hidden_dim)
         self.out = nn.Linear(hidden_dim, sum(self.sizes))
         self.register_buffer("widening", torch.ones(count) if intervals else None)
+        along = torch.tensor([name in ("x_mm", "y_mm") for name in NUMBERS])
+        self.register_buffer("lengths_along", along, persistent=False)
         anything = torch.tensor([-1e3, 1e3])  # until they are calibrated, nothing contradicts
         self.register_buffer("contradiction", anything if intervals else None)
+
+    @classmethod
+    def of(cls, config: EncoderConfig, *, intervals: bool = True) -> StateHeads:
+        """Heads for an encoder, with random weights."""
+        return cls(2 * config.dim, intervals=intervals, in_cells=config.counts_cells)
 
     @property
     def has_intervals(self) -> bool:
@@ -137,11 +157,18 @@ class StateHeads(nn.Module):
         """Read states from ``Encoded.pooled`` (B, 2 C)."""
         parts = self.out(F.gelu(self.hidden(pooled))).split(self.sizes, -1)
         logits, (numbers, touching, cut) = parts[: len(CLASSES)], parts[len(CLASSES) :][:3]
+        units = self._units(pooled)
         margins = None
         if self.widening is not None:
             margins = F.softplus(parts[-1]).unflatten(-1, (len(NUMBERS), 2))
-            margins = margins * self.widening[:, None]
-        return HeadsOutput(logits, numbers, touching[:, 0], cut, margins)
+            margins = margins * (self.widening * units)[..., None]
+        return HeadsOutput(logits, numbers * units, touching[:, 0], cut, margins)
+
+    def _units(self, pooled: Tensor) -> Tensor:
+        """What each number is read in, over what it is told in: (B, 5), or (1,) for ones."""
+        if not self.in_cells:
+            return pooled.new_ones(1)
+        return torch.where(self.lengths_along, pooled[:, -1:].exp(), 1.0)
 
     def calibrate(self, pooled: Tensor, labels: Targets) -> None:
         """Set the intervals by contacts that nothing was learned from: fit by half, widen by half.
@@ -167,7 +194,7 @@ class StateHeads(nn.Module):
         count = 2 * len(NUMBERS)
         with torch.no_grad():
             hidden = F.gelu(self.hidden(pooled))
-            errors = truth - self(pooled).numbers
+            errors = (truth - self(pooled).numbers) / self._units(pooled)
         weight, bias = (p.detach()[-count:].clone().requires_grad_() for p in self.out.parameters())
         optimiser = torch.optim.AdamW([weight, bias], lr=FIT_RATE, weight_decay=0.01)
         for _ in range(FIT_STEPS):

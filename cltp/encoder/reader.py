@@ -19,6 +19,7 @@ from torch import Tensor
 from cltp.encoder.encoder import TactileEncoder
 from cltp.encoder.heads import StateHeads, outside
 from cltp.encoder.readings import WITHOUT_INTERVALS, HeadReadings, readings_of
+from cltp.encoder.tokenizers import UNIT_CELL_MM
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, sums_around
 from cltp.tactile.cloud import TactileCloud
@@ -27,7 +28,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE
 from cltp.tactile.point_layout import GRID
 from cltp.tactile.sensor_noise import MINI_SPREAD
-from cltp.tactile.sensors import SENSORS, SensorSpec
+from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.states import (
     CLASSES,
     NO_CONTACT_STATE,
@@ -54,7 +55,7 @@ class Flag(StrEnum):
     RANGE = "range"  # a number lies beyond what a gel can show
     CONTRADICTION = "contradiction"  # the depth that is measured directly is another one
     FORCE = "force"  # the force is impossible for the one that is commanded
-    PAD = "pad"  # the pad has other proportions than any that was learned from
+    PAD = "pad"  # the pad has another size or proportions than any that was learned from
 
 
 UNSURE_MM: Mapping[str, float] = {"depth_mm": 0.6, "x_mm": 10.0, "y_mm": 10.0}
@@ -65,9 +66,15 @@ POSSIBLE_RATIO = 3.0
 up to 2 (``sim.grasp.rig``); far beyond that the gel, its scale or the gripper is another one."""
 
 
-SAME_PROPORTIONS = 0.05
-"""Difference of width over height, as a fraction, from which pads are others. Our choice: places
-along the width are then 5 % off, 0.25 mm in the mean (``tacgrasp eval intervals``)."""
+LEARNED_SIDE_MM = 4.3
+"""Shortest side of a pad that training has: 0.45 of that of a DIGIT (``cltp.data.windows``)."""
+
+LEARNED_EDGE = 1.75
+"""Longest edge of a cell that training has, over the usual one: that of a pad of 35 × 26 mm
+(``cltp.data.sampler``, GelStereo)."""
+
+LEARNED_PROPORTIONS = (0.6, 3.0)
+"""Range of width over height of the pads that training has (``cltp.data.windows``)."""
 
 
 class Number(NamedTuple):
@@ -211,12 +218,14 @@ def _flags(numbers: Mapping[str, Number], cloud: TactileCloud) -> Iterator[Flag]
 
 
 def _is_learned_pad(sensor: SensorSpec) -> bool:
-    """Whether weights learn from pads of such proportions."""
-    proportions = sensor.width_mm / sensor.height_mm
-    return any(
-        abs(proportions / (each.width_mm / each.height_mm) - 1) < SAME_PROPORTIONS
-        for each in SENSORS.values()
-        if (each.markers is None) == (sensor.markers is None)
+    """Whether weights learn from pads of such a size and such proportions."""
+    _, columns = GRID.cells_on(sensor.width_mm, sensor.height_mm)
+    edge = sensor.width_mm / columns / UNIT_CELL_MM
+    low, high = LEARNED_PROPORTIONS
+    return (
+        min(sensor.width_mm, sensor.height_mm) >= LEARNED_SIDE_MM
+        and edge <= LEARNED_EDGE
+        and low <= sensor.width_mm / sensor.height_mm <= high
     )
 
 

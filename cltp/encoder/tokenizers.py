@@ -5,11 +5,17 @@ Not here: which encoder uses which (``VARIANTS`` in ``cltp.encoder.encoder``).
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import torch
 import torch.nn.functional as F
 from torch import Tensor, nn
 
+from cltp.tactile.encoder_input import GRID_UNIT_MM, OUTSIDE
 from cltp.tactile.point_layout import GRID, LATTICE
+
+UNIT_CELL_MM = 0.2
+"""Edge of a cell in which lengths along a grid are told [mm]."""
 
 
 class LatticeTokenizer(nn.Module):
@@ -80,7 +86,7 @@ class GridTokenizer(nn.Module):
     def __init__(self, dim: int, stem_dim: int, blocks: int) -> None:
         super().__init__()
         wide = 3 * stem_dim
-        self.stem = nn.Conv2d(4, stem_dim, 3, stride=2, padding=1)
+        self.stem = nn.Conv2d(5, stem_dim, 3, stride=2, padding=1)
         self.mix = nn.Sequential(*(ConvBlock(stem_dim) for _ in range(blocks)))
         self.widen = nn.Conv2d(stem_dim, wide, 3, stride=2, padding=1)
         self.mix_wide = nn.Sequential(*(ConvBlock(wide) for _ in range(blocks)))
@@ -90,25 +96,60 @@ class GridTokenizer(nn.Module):
 
     def forward(self, points: Tensor) -> Tensor:
         """Points (B, 7500, 3) to tokens (B, 63, C)."""
-        x = self.mix(self.stem(grid_channels(points)))
+        x = self.mix(self.stem(grid_channels(grid_maps(points))))
         x = self.mix_wide(self.widen(F.relu(x)))
         x = self.group(F.relu(x))
         return x.flatten(2).transpose(1, 2) + self.position
 
 
-def grid_channels(points: Tensor) -> Tensor:
-    """Indentation, its fine relief, and positions: (B, 4, rows, columns).
+class GridMaps(NamedTuple):
+    """A grid of points as maps, each (B, rows, columns).
+
+    Attributes:
+        x, y: Positions, scaled.
+        inside: 1 in the cells that the pad takes, 0 in the others.
+        height: Scaled heights, 0 outside.
+        mean: Their means over 3 × 3 cells, as far as these are inside; 0 outside.
+    """
+
+    x: Tensor
+    y: Tensor
+    inside: Tensor
+    height: Tensor
+    mean: Tensor
+
+
+def grid_maps(points: Tensor) -> GridMaps:
+    """Maps of scaled points (B, 7500, 3)."""
+    x, y, z = points.view(-1, GRID.rows, GRID.columns, 3).unbind(dim=-1)
+    inside = (z > OUTSIDE / 2).to(z.dtype)
+    height = z * inside
+    mean = inside * sums_of_nine(height) / sums_of_nine(inside).clamp(min=1)
+    return GridMaps(x, y, inside, height, mean)
+
+
+def log_cell_edge(points: Tensor) -> Tensor:
+    """Logarithm of a cell's edge over ``UNIT_CELL_MM``, of grids of scaled points: (B, 1)."""
+    edge_mm = GRID_UNIT_MM * (points[:, 1, 0] - points[:, 0, 0])
+    return (edge_mm / UNIT_CELL_MM).log()[:, None]
+
+
+def sums_of_nine(maps: Tensor) -> Tensor:
+    """Sums over 3 × 3 cells of maps (B, rows, columns); a pooling takes ten times as long."""
+    padded = F.pad(maps, (1, 1, 1, 1))
+    down = padded[:, :-2] + padded[:, 1:-1] + padded[:, 2:]
+    return down[..., :-2] + down[..., 1:-1] + down[..., 2:]
+
+
+def grid_channels(maps: GridMaps) -> Tensor:
+    """Indentation, its fine relief, positions, and where the pad is: (B, 5, rows, columns).
 
     Brought to a common size, since weights start out alike: 0.3 mm becomes 1, a relief of 0.03 mm
     becomes 1, 10 mm along the pad becomes 1.
     """
-    x, y, z = points.view(-1, GRID.rows, GRID.columns, 3).unbind(dim=-1)
-    around = F.pad(z[:, None], (1, 1, 1, 1), mode="replicate")[:, 0]
-    down = around[:, :-2] + around[:, 1:-1] + around[:, 2:]
-    mean = (
-        down[..., :-2] + down[..., 1:-1] + down[..., 2:]
-    ) / 9  # a pooling takes ten times as long
-    return torch.stack([5 * z, 50 * (z - mean), x, y], dim=-1).permute(0, 3, 1, 2)
+    x, y, inside, height, mean = maps
+    channels = [5 * height, 50 * (height - mean), x, y, inside]
+    return torch.stack(channels, dim=-1).permute(0, 3, 1, 2)
 
 
 class ConvBlock(nn.Module):

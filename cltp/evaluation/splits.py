@@ -53,7 +53,7 @@ EVALUATION_SPLITS = (
     EvaluationSplit("gelsight", Split.GELSIGHT, NOISY, "GelSight-like hand presses"),
 )
 
-LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05, windows=0.15)
+LEARNING_NOISE = Augmentation(noise_level=WIDE, clean=0.2, loose=0.05, windows=0.3)
 """Noise of the contacts that methods learn from: drawn from wide ranges, none in a fifth of them.
 Some come as 1024 loose points, as clouds in files do, some on smaller pads of other proportions."""
 

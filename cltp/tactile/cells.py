@@ -117,32 +117,36 @@ def quadratic_basis(n: int, sensor: SensorSpec) -> FloatArray:
 
 
 def height_grid(cloud: TactileCloud, layout: PointLayout) -> Grid:
-    """Heights of any cloud in the cells of a layout: shape (rows, columns) [mm]."""
+    """Heights of any cloud in the cells that its pad takes of a layout: (rows, columns) [mm]."""
+    rows, columns = layout.cells_on(cloud.sensor.width_mm, cloud.sensor.height_mm)
     if cloud.grid is not None:
-        return resampled(cloud.points_mm[:, 2].reshape(cloud.grid), layout)
-    count, total = _sums(cloud, layout.rows, layout.columns)
+        return resampled(cloud.points_mm[:, 2].reshape(cloud.grid), rows, columns)
+    count, total = _sums(cloud, rows, columns)
     if np.count_nonzero(count) >= LEAST_FILLED * count.size:
         return without_holes(total / np.maximum(count, 1), count > 0)
     smooth = cloud.sensor.markers is not None  # a surface seen at its markers is smooth between
-    x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, layout.rows, layout.columns))
+    x, y = np.meshgrid(*grid_axes_mm(cloud.sensor, rows, columns))
     surface = CloughTocher2DInterpolator if smooth else LinearNDInterpolator
     return interpolated(cloud, x, y, surface).astype(np.float32)
 
 
 def resampled(
-    height_mm: NDArray[np.floating], layout: PointLayout, known: NDArray[np.bool_] | None = None
+    height_mm: NDArray[np.floating],
+    rows: int,
+    columns: int,
+    known: NDArray[np.bool_] | None = None,
 ) -> Grid:
-    """A map of the whole sensing area, shape (H, W) [mm], in the cells of a layout.
+    """A map of the whole sensing area, shape (H, W) [mm], in other cells.
 
     Args:
         height_mm: The map, row 0 = top.
-        layout: The cells.
+        rows: Number of the cells along y.
+        columns: Number of the cells along x.
         known: Shape (H, W), the pixels that were measured; all when not given. Cells without one
             have the mean of their neighbours.
     """
     heights = np.asarray(height_mm, dtype=np.float32)
-    down = _weights(heights.shape[0], layout.rows)
-    across = _weights(heights.shape[1], layout.columns)
+    down, across = _weights(heights.shape[0], rows), _weights(heights.shape[1], columns)
     if known is None:
         return _product(down, heights, across)
     weight = _product(down, known.astype(np.float32), across)

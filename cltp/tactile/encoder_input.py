@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from cltp.tactile.cells import height_grid
-from cltp.tactile.cloud import NUM_POINTS, TactileCloud, cloud_of_pixels, grid_axes_mm, heights_at
+from cltp.tactile.cloud import NUM_POINTS, TactileCloud, cloud_of_pixels, heights_at
 from cltp.tactile.point_layout import EVEN, LATTICE, PointLayout
 from cltp.tactile.sensors import SensorSpec
 
@@ -21,21 +21,34 @@ GRID_UNIT_MM = 10.0
 """Length that becomes 1 in x and y of a grid: half the width of a GelSight Mini. The same for every
 sensor, so that an encoder knows how large what it sees is."""
 
+OUTSIDE = -8.0
+"""Scaled height of a cell of a grid that lies beyond the pad; no gel bulges so far."""
+
 
 def encoder_input(cloud: TactileCloud, layout: PointLayout = EVEN) -> NDArray[np.float32]:
     """Points of any cloud as an encoder takes them: shape (N, 3), scaled, row by row."""
     if layout.is_sampled:
         return scaled(lattice_points(cloud), cloud.sensor)
-    return grid_points(height_grid(cloud, layout), cloud.sensor)
+    return grid_points(height_grid(cloud, layout), cloud.sensor, layout)
 
 
-def grid_points(height_mm: NDArray[np.float32], sensor: SensorSpec) -> NDArray[np.float32]:
-    """Heights in the cells of a layout, (rows, columns) [mm], as scaled points (N, 3)."""
+def grid_points(
+    height_mm: NDArray[np.float32], sensor: SensorSpec, layout: PointLayout
+) -> NDArray[np.float32]:
+    """Heights in the cells that a pad takes of a layout [mm], as scaled points (N, 3).
+
+    The layout's other cells are ``OUTSIDE``, at the positions that they would have.
+    """
     rows, columns = height_mm.shape
-    x, y = grid_axes_mm(sensor, rows, columns)
-    points = np.empty((rows, columns, 3), np.float32)
-    points[..., 0], points[..., 1] = x[None, :] / GRID_UNIT_MM, y[:, None] / GRID_UNIT_MM
-    points[..., 2] = height_mm / np.float32(sensor.max_depth_mm)
+    top, left = (layout.rows - rows) // 2, (layout.columns - columns) // 2
+    points = np.empty((layout.rows, layout.columns, 3), np.float32)
+    x = (np.arange(layout.columns) - left + 0.5) / columns - 0.5
+    y = 0.5 - (np.arange(layout.rows) - top + 0.5) / rows
+    points[..., 0] = x[None, :] * (sensor.width_mm / GRID_UNIT_MM)
+    points[..., 1] = y[:, None] * (sensor.height_mm / GRID_UNIT_MM)
+    points[..., 2] = OUTSIDE
+    inside = points[top : top + rows, left : left + columns]
+    inside[..., 2] = height_mm / np.float32(sensor.max_depth_mm)
     return points.reshape(-1, 3)
 
 
@@ -54,6 +67,7 @@ def unscaled(
     points: NDArray[np.float32], sensor: SensorSpec, layout: PointLayout = EVEN
 ) -> TactileCloud:
     """The cloud of scaled points (N, 3) in a layout."""
+    points = points[points[:, 2] > OUTSIDE / 2]
     unit_mm = _unit_mm(sensor, layout)
     factors = np.array([unit_mm, unit_mm, sensor.max_depth_mm], np.float32)
     return TactileCloud(points_mm=points * factors, sensor=sensor)

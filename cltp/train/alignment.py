@@ -42,7 +42,7 @@ class _Learner(nn.Module):
     def __init__(self, config: EncoderConfig) -> None:
         super().__init__()
         self.encoder = TactileEncoder(config)
-        self.heads = StateHeads(2 * config.dim)
+        self.heads = StateHeads.of(config)
         self.loss = CltpLoss()
 
 
@@ -219,7 +219,7 @@ def train_heads(
     data, device, config = run.dataset(), run.workers.device, encoder.config
     encoder = encoder.to(device).eval().requires_grad_(False)
     torch.manual_seed(run.seed)
-    heads = StateHeads(2 * config.dim).to(device)
+    heads = StateHeads.of(config).to(device)
     weights = float(sum(p.double().abs().sum() for p in encoder.parameters()))
     identity = {"data": data.checksum(), "config": config.identity, "variant": str(augmentation)}
     stage = Stage("heads", run, heads, schedule, {**identity, "encoder": weights})

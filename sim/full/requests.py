@@ -33,9 +33,14 @@ MINI_GELS = (
     GelMaterial(thickness_mm=3.8, young_mpa=0.34, poisson=0.470),
     GelMaterial(thickness_mm=4.0, young_mpa=0.423, poisson=0.490),
     GelMaterial(thickness_mm=4.2, young_mpa=0.30, poisson=0.480),
+    GelMaterial(thickness_mm=2.3, young_mpa=0.45, poisson=0.485),
+    GelMaterial(thickness_mm=4.9, young_mpa=0.38, poisson=0.490),
+    GelMaterial(thickness_mm=6.2, young_mpa=0.53, poisson=0.475),
 )
 """Gels of a GelSight Mini's units, which differ: Young's modulus over 0.6-1.4 of nominal, thickness
-over 3.2-4.2 mm, nu 0.47-0.495 (assumed ranges)."""
+over 3.2-4.2 mm, nu 0.47-0.495 (assumed ranges); and three that are far thinner or thicker, as pads
+of one's own are cast. Heights tell a gel's thickness only in part, and an encoder that has seen one
+thickness reads forces of others up to a quarter wrong, without a doubt."""
 
 
 def _units(name: str) -> tuple[GelMaterial, ...]:

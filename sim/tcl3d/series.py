@@ -60,7 +60,8 @@ OTHER_GELS = (
 )
 """Gels of training, and those of the split ``physics``, whose thickness, modulus or Poisson's ratio
 does not occur in training. Our choice: training has Young's modulus over 0.6-1.4 of nominal and h
-3.2-4.2 mm, as units differ; the split lies outside."""
+3.2-4.2 mm, as units differ; the split lies outside. In the set ``full``, which has thicknesses of
+2.3 to 6.2 mm, it lies between those, and outside in the modulus."""
 
 TEST_FRACTION, VALIDATION_FRACTION, PHYSICS_FRACTION = 0.08, 0.04, 0.07
 """Fractions of the series of seen objects; the rest is for training. Our choice."""

@@ -19,9 +19,13 @@ from primitives.contract import Contract
 from tacgrasp.lessons.dialogue.answers import answer
 from tacgrasp.lessons.dialogue.families.catalogue import FAMILIES
 from tacgrasp.lessons.dialogue.meaning import (
+    Amount,
     AnswerKind,
     Check,
+    Length,
     Meaning,
+    Several,
+    Which,
     kind_of,
     names_of,
     truth_of,
@@ -43,6 +47,13 @@ KIND_WEIGHTS: Mapping[AnswerKind, float] = {
     AnswerKind.OFF_TOPIC: 0.10,
 }
 """How often each kind of answer is asked for. Our choice."""
+
+TOGETHER, A_THIRD = 0.15, 0.25
+"""Fraction of learned questions that are several ones of any families, and the fraction of these
+that are three. Our choice: people join what they like, and the families of several things join
+what stands in their tables alone."""
+
+JOINERS = (" and ", ", and ", "? ", "? And ", ", also ", "; ", ", then ", " plus ", ". ", ", ")
 
 TRIES = 20
 """Wordings that are drawn for a yes, or a no, before the last one is taken as it is."""
@@ -102,11 +113,7 @@ def draw_question(
         rng: Draws.
         family: Its family; None draws one.
     """
-    if family is None:
-        kinds = list(KIND_WEIGHTS)
-        kind = kinds[int(rng.choice(len(kinds), p=list(KIND_WEIGHTS.values())))]
-        families = families_by_kind()[kind]
-        family = families[int(rng.integers(len(families)))]
+    family = family or _drawn_family(rng)
     wants_yes = bool(rng.random() < 0.5)
     values = scene.values()
     for _ in range(TRIES):
@@ -207,15 +214,48 @@ def query_exchange(rng: np.random.Generator) -> Exchange:
 
 
 def _query_exchange(rng: np.random.Generator) -> Exchange:
+    if rng.random() < TOGETHER:
+        text, meaning = _asked_together(rng)
+        before = ""
+    else:
+        family = _drawn_family(rng)
+        text, meaning = _any_wording(family, rng)
+        before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
+    asked = asked_text(text, before)
+    return Exchange(prompt=slipped(asked.words, rng), reply=query_of(meaning, asked.numbers))
+
+
+def _drawn_family(rng: np.random.Generator) -> QuestionFamily:
     kinds = list(KIND_WEIGHTS)
     kind = kinds[int(rng.choice(len(kinds), p=list(KIND_WEIGHTS.values())))]
     families = families_by_kind()[kind]
-    family = families[int(rng.integers(len(families)))]
+    return families[int(rng.integers(len(families)))]
+
+
+def _any_wording(family: QuestionFamily, rng: np.random.Generator) -> tuple[str, Meaning]:
+    """A wording about no scene in particular."""
     scene = AskedScene()
-    text, meaning = _wording(family, scene, rng, family.steer(scene, True, rng))
-    before = family.before[int(rng.integers(len(family.before)))] if family.before else ""
-    asked = asked_text(text, before)
-    return Exchange(prompt=slipped(asked.words, rng), reply=query_of(meaning, asked.numbers))
+    return _wording(family, scene, rng, family.steer(scene, True, rng))
+
+
+def _asked_together(rng: np.random.Generator) -> tuple[str, Meaning]:
+    """Questions of two or three families, one after another in any way."""
+    texts: list[str] = []
+    parts: list[Amount | Check | Which] = []
+    wanted = 2 + int(rng.random() < A_THIRD)
+    while len(parts) < wanted:
+        family = _drawn_family(rng)
+        if family.before:
+            continue
+        text, meaning = _any_wording(family, rng)
+        if not isinstance(meaning, Amount | Check | Which) or meaning.length is not Length.FREE:
+            continue
+        if meaning not in parts:
+            parts.append(meaning)
+            texts.append(text.rstrip("?. "))
+    joiner = JOINERS[int(rng.integers(len(JOINERS)))]
+    first = "First, " if rng.random() < 0.1 else ""
+    return first + joiner.join(texts), Several(parts=tuple(parts))
 
 
 def drawn_rows(

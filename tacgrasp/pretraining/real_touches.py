@@ -63,10 +63,10 @@ class RealTouches:
         """Scaled points, shape (N, points, 3), in the layout that an encoder takes."""
         if layout.is_sampled:
             return torch.from_numpy(np.stack([encoder_input(cloud) for cloud in self.clouds]))
-        points = [
-            grid_points(resampled(heights_mm, layout), cloud.sensor)
-            for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True)
-        ]
+        points = []
+        for cloud, heights_mm in zip(self.clouds, self.heights_mm, strict=True):
+            cells = layout.cells_on(cloud.sensor.width_mm, cloud.sensor.height_mm)
+            points.append(grid_points(resampled(heights_mm, *cells), cloud.sensor, layout))
         return torch.from_numpy(np.stack(points))
 
     def encode(self, encoder: FrozenEncoder) -> EncodedContacts:

@@ -8,7 +8,7 @@ import pytest
 
 from cltp.data.contact import Split
 from cltp.data.dataset import ContactDataset
-from cltp.data.sampler import CLEAN, NOISY, Augmentation, Sampler, sampled
+from cltp.data.sampler import CLEAN, MOST_COARSE, NOISY, Augmentation, Sampler, sampled
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
@@ -95,11 +95,24 @@ def test_some_samples_are_seen_by_smaller_pads_with_labels_to_fit(data):
     assert sum(smaller) >= 3
     np.testing.assert_array_equal(seen.moved, smaller)
     for row, state in enumerate(seen.states):
-        extent = np.abs(seen.points[row, :, :2]).max(axis=0) * 20
+        extent = np.abs(seen.cloud(row).points_mm[:, :2]).max(axis=0) * 2
         assert extent[0] <= seen.sensors[row].width_mm
+        assert extent[1] <= seen.sensors[row].height_mm
         assert abs(state.x_mm) <= seen.sensors[row].width_mm / 2
         if state.in_contact:
             assert seen.height_mm[row].max() == pytest.approx(state.depth_mm, abs=0.06)
+
+
+def test_some_smaller_pads_are_seen_in_larger_cells(data):
+    every = Augmentation(noise_level=0.0, mirror=False, windows=1.0)
+    seen = Sampler(data, every, layout=GRID).batch(np.arange(6).repeat(8), 0)
+    points = seen.points.reshape(-1, GRID.rows, GRID.columns, 3)
+    edges_mm = 10 * (points[:, 0, 1, 0] - points[:, 0, 0, 0])
+    usual_mm = 10 * (points[:, 0, 0, 1] - points[:, 1, 0, 1])
+    np.testing.assert_allclose(edges_mm, usual_mm, rtol=0.1)  # square, but for rounding
+    smaller = edges_mm[seen.moved]
+    assert smaller.min() < 1.1 * GRID.pitch_mm < 1.3 * GRID.pitch_mm < smaller.max()
+    assert smaller.max() <= 1.1 * MOST_COARSE * GRID.pitch_mm
 
 
 def test_a_grid_without_some_pixels_is_nearly_the_whole_one(data):

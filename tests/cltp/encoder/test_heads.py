@@ -1,8 +1,13 @@
 """Intervals of the heads' numbers."""
 
+import math
+
+import pytest
 import torch
 
+from cltp.encoder.encoder import PRESETS
 from cltp.encoder.heads import IGNORED, StateHeads, Targets
+from cltp.tactile.states import NUMBERS
 
 
 def drawn(count: int, seed: int) -> tuple[torch.Tensor, Targets]:
@@ -26,9 +31,10 @@ def inside(heads: StateHeads, pooled: torch.Tensor, labels: Targets) -> torch.Te
     return held[labels.touching > 0].float().mean(dim=0)
 
 
-def test_calibrated_intervals_hold_their_part_of_new_contacts():
+@pytest.mark.parametrize("in_cells", [False, True])
+def test_calibrated_intervals_hold_their_part_of_new_contacts(in_cells: bool):
     torch.manual_seed(0)
-    heads = StateHeads(16)
+    heads = StateHeads(16, in_cells=in_cells)
     before = inside(heads, *drawn(4000, 1))
     heads.calibrate(*drawn(4000, 2))
     after = inside(heads, *drawn(4000, 3))
@@ -85,3 +91,19 @@ def test_a_few_contacts_calibrate_nothing():
     for count in (1, 3, 18):
         heads.calibrate(*drawn(count, 2))
     assert all(torch.equal(value, before[name]) for name, value in heads.state_dict().items())
+
+
+def test_places_are_read_in_cells_and_nothing_else_is():
+    torch.manual_seed(0)
+    heads = StateHeads.of(PRESETS["tiny_grid"])
+    heads.hidden.weight.data[:, -1] = 0.0  # what the edge tells besides
+    pooled = torch.randn(4, 96)
+    pooled[:, -1] = 0.0
+    larger = pooled.clone()
+    larger[:, -1] = math.log(1.5)
+    usual, scaled = heads(pooled), heads(larger)
+    factors = torch.tensor([1.5 if name in ("x_mm", "y_mm") else 1.0 for name in NUMBERS])
+    torch.testing.assert_close(scaled.numbers, usual.numbers * factors)
+    torch.testing.assert_close(scaled.margins, usual.margins * factors[:, None])
+    torch.testing.assert_close(scaled.logits, usual.logits)
+    assert not StateHeads.of(PRESETS["small"]).in_cells

@@ -1,3 +1,4 @@
+import dataclasses
 import math
 
 import numpy as np
@@ -9,14 +10,14 @@ from hypothesis import strategies as st
 from cltp.data.sampler import sampled
 from cltp.encoder.class_token import height_quantiles
 from cltp.encoder.encoder import VARIANTS, EncoderConfig, TactileEncoder
-from cltp.encoder.tokenizers import grid_channels
+from cltp.encoder.tokenizers import grid_channels, grid_maps, log_cell_edge
 from cltp.errors import TouchError
 from cltp.tactile.cells import height_grid, resampled, without_holes
 from cltp.tactile.cloud import TactileCloud, cloud_of_pixels, grid_axes_mm
-from cltp.tactile.encoder_input import encoder_input, lattice_points, unscaled
+from cltp.tactile.encoder_input import OUTSIDE, encoder_input, lattice_points, unscaled
 from cltp.tactile.markers import marker_cloud
 from cltp.tactile.point_layout import EVEN, GRID, PointLayout
-from cltp.tactile.sensors import SENSORS
+from cltp.tactile.sensors import SENSORS, SensorSpec
 
 MINI = SENSORS["gelsight_mini"]
 ROWS, COLUMNS = 240, 320
@@ -32,7 +33,8 @@ def dent(
 
 
 def cells_of(sensor=MINI, x_mm: float = 4.0, y_mm: float = -3.0) -> np.ndarray:
-    return dent(sensor, x_mm, y_mm, GRID.rows, GRID.columns)
+    """The dent in the cells that the sensor's pad takes of the grid."""
+    return dent(sensor, x_mm, y_mm, *GRID.cells_on(sensor.width_mm, sensor.height_mm))
 
 
 @pytest.mark.parametrize("bad", [{"rows": 1, "columns": 8}, {"rows": 8, "columns": 0}])
@@ -59,11 +61,11 @@ def test_a_grid_of_any_pixels_is_the_same_surface(sensor, rows: int, columns: in
 def test_fine_pixels_are_averaged_by_area_and_none_is_dropped() -> None:
     spike = np.zeros((ROWS, COLUMNS), np.float32)
     spike[100, 200] = 1.0
-    grid = resampled(spike, GRID)
+    grid = resampled(spike, GRID.rows, GRID.columns)
     cells_of_pixel = (GRID.num_points) / (ROWS * COLUMNS)
     assert grid.sum() == pytest.approx(cells_of_pixel, rel=1e-4)
     noise = np.random.default_rng(0).standard_normal((ROWS, COLUMNS)).astype(np.float32)
-    assert resampled(noise, GRID).std() < 0.4  # over ten pixels in a cell
+    assert resampled(noise, GRID.rows, GRID.columns).std() < 0.4  # over ten pixels in a cell
 
 
 @pytest.mark.parametrize("missing", [0.1, 0.3])
@@ -118,22 +120,68 @@ def test_a_level_surface_with_holes_stays_level() -> None:
 def test_scaled_points_of_a_grid_are_undone(sensor) -> None:
     points = encoder_input(cloud_of_pixels(cells_of(sensor), sensor), GRID)
     assert points.shape == (GRID.num_points, 3)
-    assert points[:, 0].max() == pytest.approx(sensor.width_mm / 20, rel=0.02)  # units of 10 mm
+    inside = points[points[:, 2] > OUTSIDE]
+    assert inside[:, 0].max() == pytest.approx(sensor.width_mm / 20, rel=0.02)  # units of 10 mm
     cloud = unscaled(points, sensor, GRID)
-    assert cloud.grid == (GRID.rows, GRID.columns)
+    assert cloud.grid == GRID.cells_on(sensor.width_mm, sensor.height_mm)
     np.testing.assert_allclose(height_grid(cloud, GRID), cells_of(sensor), atol=1e-5)
 
 
 def test_channels_hold_indentation_relief_and_position() -> None:
     points = torch.from_numpy(encoder_input(cloud_of_pixels(cells_of(), MINI), GRID))[None]
-    channels = grid_channels(points)
-    assert channels.shape == (1, 4, GRID.rows, GRID.columns)
+    channels = grid_channels(grid_maps(points))
+    assert channels.shape == (1, 5, GRID.rows, GRID.columns)
+    assert (channels[:, 4] == 1).all()
     assert channels[0, 0].max() == pytest.approx(5 * 0.8 / MINI.max_depth_mm, rel=0.01)
     # The curvature of the dent is 0.8 / 2² mm per mm²: a mean over 3 × 3 cells is lower by
     # (2/3) 0.2² times that.
     drop = (2 / 3) * 0.2**2 * 0.8 / 2.0**2
     assert channels[0, 1].max() == pytest.approx(50 * drop / MINI.max_depth_mm, rel=0.1)
     assert channels[0, 2, 0].diff().min() > 0 > channels[0, 3, :, 0].diff().max()
+
+
+def other_pad(columns: int, rows: int, mm_per_px: float = 0.1) -> SensorSpec:
+    return dataclasses.replace(MINI, columns=columns, rows=rows, mm_per_px=mm_per_px)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.integers(20, 400), st.integers(20, 400))
+def test_cells_are_square_and_the_pad_lies_in_the_middle(columns: int, rows: int) -> None:
+    sensor = other_pad(columns, rows)
+    taken = GRID.cells_on(sensor.width_mm, sensor.height_mm)
+    points = encoder_input(cloud_of_pixels(np.zeros((rows, columns)), sensor), GRID)
+    grid = points.reshape(GRID.rows, GRID.columns, 3)
+    inside = grid[..., 2] > OUTSIDE
+    assert taken == (inside.any(axis=1).sum(), inside.any(axis=0).sum())
+    np.testing.assert_array_equal(inside, inside[::-1, ::-1])
+    np.testing.assert_allclose(grid[inside].mean(axis=0)[:2], 0.0, atol=1e-4)
+    edges_mm = [sensor.width_mm / taken[1], sensor.height_mm / taken[0]]
+    assert min(edges_mm) > 0.9 * GRID.pitch_mm or min(taken) <= 3
+    assert edges_mm[0] / edges_mm[1] == pytest.approx(1, rel=1.1 / min(taken))
+    log_edge = log_cell_edge(torch.from_numpy(points)[None])
+    assert 0.2 * float(log_edge.exp()) == pytest.approx(edges_mm[0], rel=1e-3)
+
+
+def test_channels_are_nothing_beyond_the_pad() -> None:
+    sensor = other_pad(120, 100)
+    heights = dent(sensor, 0.0, 0.0, *GRID.cells_on(sensor.width_mm, sensor.height_mm)) + 0.1
+    maps = grid_maps(torch.from_numpy(encoder_input(cloud_of_pixels(heights, sensor), GRID))[None])
+    beyond = maps.inside == 0
+    assert beyond.any()
+    channels = grid_channels(maps)[0]
+    assert (channels[:2, beyond[0]] == 0).all()
+    # at the pad's edge the mean is of the cells inside alone: a level surface has no relief there
+    level = encoder_input(cloud_of_pixels(np.full_like(heights, 0.3), sensor), GRID)
+    relief = grid_channels(grid_maps(torch.from_numpy(level)[None]))[0, 1]
+    torch.testing.assert_close(relief, torch.zeros_like(relief), atol=1e-5, rtol=0)
+
+
+def test_height_quantiles_leave_out_what_lies_beyond_the_pad() -> None:
+    sensor = other_pad(100, 100)
+    heights = dent(sensor, 0.0, 0.0, *GRID.cells_on(sensor.width_mm, sensor.height_mm))
+    points = torch.from_numpy(encoder_input(cloud_of_pixels(heights, sensor), GRID))[None]
+    quantiles = height_quantiles(points, 64)[0]
+    assert quantiles[-1] == pytest.approx(heights.min() / sensor.max_depth_mm, abs=1e-6)
 
 
 def test_height_quantiles_of_a_grid_span_all_heights() -> None:

@@ -64,6 +64,20 @@ def test_a_learned_question_is_plain_words_and_its_reply_a_query():
         assert exchange.prompt == exchange.prompt.lower()
 
 
+def test_questions_of_any_families_are_asked_together(monkeypatch):
+    monkeypatch.setattr(question_draws, "TOGETHER", 1.0)
+    rng = np.random.default_rng(5)
+    counts, kinds = Counter(), set()
+    for _ in range(200):
+        exchange = query_exchange(rng)
+        parts = exchange.reply.removesuffix(".").split("; ")
+        assert len(set(parts)) == len(parts)
+        counts[len(parts)] += 1
+        kinds |= {part.split()[0] for part in parts}
+    assert set(counts) == {2, 3} and counts[2] > counts[3]
+    assert kinds == {"amount", "check", "word", "choice"}
+
+
 def test_slips_leave_numbers_and_short_words():
     rng = np.random.default_rng(0)
     variants = {slipped("is the force not above # newtons", rng) for _ in range(500)}
@@ -93,6 +107,7 @@ def test_a_question_whose_number_is_read_otherwise_is_drawn_anew(monkeypatch):
     texts = iter(["Is this one and three tenths of a newton?", "Is it three tenths of a newton?"])
     meaning = check_of("force >= 0.3 N")
     monkeypatch.setattr(question_draws, "_wording", lambda *_: (next(texts), meaning))
+    monkeypatch.setattr(question_draws, "TOGETHER", 0.0)
     exchange = query_exchange(np.random.default_rng(0))
     assert exchange.reply == "check force >= #1 N."
     assert next(texts, None) is None

@@ -26,7 +26,7 @@ MINI = SENSORS["gelsight_mini"]
 
 
 def cloud(noise_mm: float = 0.0, depth_mm: float = 0.5) -> TactileCloud:
-    heights = resampled(bump(1.0, -2.0, depth_mm), GRID)
+    heights = resampled(bump(1.0, -2.0, depth_mm), GRID.rows, GRID.columns)
     rng = np.random.default_rng(0)
     return cloud_of_pixels(heights + noise_mm * rng.standard_normal(heights.shape), MINI)
 
@@ -35,7 +35,7 @@ def cloud(noise_mm: float = 0.0, depth_mm: float = 0.5) -> TactileCloud:
 def reader() -> TouchReader:
     torch.manual_seed(0)
     encoder = TactileEncoder(PRESETS["tiny_grid"])
-    heads = StateHeads(2 * encoder.config.dim)
+    heads = StateHeads.of(encoder.config)
     with torch.no_grad():
         heads.out.bias[sum(heads.sizes[:6])] = 5.0  # something touches
         heads.out.bias[sum(heads.sizes[:6]) - 1] = 1.0  # with some force
@@ -72,15 +72,19 @@ def test_more_noise_than_was_learned_from_is_flagged(reader: TouchReader) -> Non
 
 
 @pytest.mark.parametrize(
-    ("rows", "columns", "is_flagged"),
-    [(240, 320, False), (120, 160, False), (180, 300, True), (240, 240, True), (320, 240, True)],
+    ("width_mm", "height_mm", "is_flagged"),
+    [
+        *[(20.3, 15.2, False), (24.0, 14.4, False), (14.4, 19.2, False), (12.0, 12.0, False)],
+        *[(33.0, 24.0, False), (60.0, 45.0, True), (5.0, 3.0, True)],  # sizes
+        *[(20.0, 6.0, True), (8.0, 15.0, True)],  # proportions
+    ],
 )
-def test_a_pad_of_proportions_that_no_training_has_is_flagged(
-    reader: TouchReader, rows: int, columns: int, is_flagged: bool
+def test_a_pad_of_which_no_training_has_the_like_is_flagged(
+    reader: TouchReader, width_mm: float, height_mm: float, is_flagged: bool
 ) -> None:
-    sensor = dataclasses.replace(MINI, name="other", rows=rows, columns=columns)
-    heights = np.zeros((rows, columns))
-    reading = reader.read(cloud_of_pixels(heights, sensor))
+    rows, columns = round(10 * height_mm), round(10 * width_mm)
+    sensor = dataclasses.replace(MINI, name="other", rows=rows, columns=columns, mm_per_px=0.1)
+    reading = reader.read(cloud_of_pixels(np.zeros((rows, columns)), sensor))
     assert (Flag.PAD in reading.flags) is is_flagged
 
 
@@ -91,7 +95,7 @@ def test_every_sensor_of_ours_is_learned_from(reader: TouchReader) -> None:
 
 
 def test_what_tells_nothing_is_flagged(reader: TouchReader) -> None:
-    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
+    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads.of(PRESETS["tiny_grid"])
     assert heads.widening is not None
     heads.widening.fill_(1e-3)
     assert Flag.UNSURE not in TouchReader(encoder, heads).read(cloud()).flags
@@ -115,7 +119,7 @@ def test_a_force_that_no_command_comes_to_is_flagged(
 
 
 def test_numbers_that_are_not_finite_are_flagged() -> None:
-    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads(96)
+    encoder, heads = TactileEncoder(PRESETS["tiny_grid"]), StateHeads.of(PRESETS["tiny_grid"])
     with torch.no_grad():
         heads.out.bias.fill_(float("inf"))
     assert Flag.RANGE in TouchReader(encoder, heads).read(cloud()).flags
