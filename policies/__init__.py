@@ -9,6 +9,6 @@ May import: cltp, policies.extraction, policies.instructions, primitives.
 
 from policies.errors import PolicyError
 from policies.observation import Observation
-from policies.policy import Decision, Policy, checked
+from policies.policy import Decision, Policy, checked, decision_of
 
-__all__ = ["Decision", "Observation", "Policy", "PolicyError", "checked"]
+__all__ = ["Decision", "Observation", "Policy", "PolicyError", "checked", "decision_of"]

@@ -9,24 +9,12 @@ import numpy as np
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from policies.contract_steps import target_of
-from policies.extraction import extract
 from policies.observation import Observation
-from policies.policy import Decision
+from policies.policy import Decision, decision_of
 from policies.speech import ACTION_WORDINGS, SUCCESS_WORDINGS, speak
 from policies.teacher import teacher
 from primitives import Primitive
 from primitives.contract import DEFAULT_AREA, DEFAULT_DEPTH_MM, Band, Contract
-
-
-def _decision(text: str, confidence: float = 1.0) -> Decision:
-    extraction = extract(text)
-    return Decision(
-        text=text,
-        action=extraction.action,
-        success=extraction.success,
-        reason=extraction.reason,
-        confidence=confidence,
-    )
 
 
 class FixedForcePolicy:
@@ -40,7 +28,7 @@ class FixedForcePolicy:
         pass
 
     def decide(self, observation: Observation, contract: Contract) -> Decision:
-        return _decision("The grasp is secure.")
+        return decision_of("The grasp is secure.")
 
 
 class RandomPolicy:
@@ -64,7 +52,7 @@ class RandomPolicy:
         choices = list(Primitive)
         index = int(self._rng.integers(len(choices) + 1))
         text = ACTION_WORDINGS[choices[index]][-1] if index < len(choices) else SUCCESS_WORDINGS[0]
-        return _decision(text, confidence=1 / (len(choices) + 1))
+        return decision_of(text, confidence=1 / (len(choices) + 1))
 
 
 _ANY_FORCE = Band(low=0.0, high=1e3)
@@ -95,7 +83,7 @@ class CenterOnlyPolicy:
             area_fraction=DEFAULT_AREA,
         )
         state = _state(observation)
-        return _decision(speak(state, teacher(state, goal, move_step_mm=self._move_step_mm)))
+        return decision_of(speak(state, teacher(state, goal, move_step_mm=self._move_step_mm)))
 
 
 class ForceOnlyPolicy:
@@ -118,7 +106,7 @@ class ForceOnlyPolicy:
     def decide(self, observation: Observation, contract: Contract) -> Decision:
         state = replace(_state(observation), x_mm=0.0, y_mm=0.0, cut=frozenset())
         advice = teacher(state, target_of(contract), move_step_mm=self._move_step_mm)
-        return _decision(speak(state, advice))
+        return decision_of(speak(state, advice))
 
 
 def _state(observation: Observation) -> ContactState:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from policies.errors import PolicyError
+from policies.extraction import extract
 from policies.observation import Observation
 from primitives import Primitive
 from primitives.contract import Contract
@@ -58,6 +59,18 @@ class Policy(Protocol):
     def start(self) -> None:
         """Begin an episode: forget earlier contacts."""
         ...
+
+
+def decision_of(text: str, *, confidence: float = 1.0) -> Decision:
+    """The decision that a text is: what it asks for, and whether it declares the grasp good."""
+    extraction = extract(text)
+    return Decision(
+        text=text,
+        action=extraction.action,
+        success=extraction.success,
+        reason=extraction.reason,
+        confidence=confidence,
+    )
 
 
 def checked(reply: object) -> Decision:

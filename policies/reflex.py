@@ -5,6 +5,7 @@ correction of the gripper's force, with its reason, and the next memory.
 
 * A slip raises the force by the least step; a slip that goes on, by ever larger ones, each after
   the gripper has had time to answer the one before.
+* A felt force above the limit lowers it at once, whatever a slip asks for.
 * A felt force above the band lowers it, but not below what a slip has asked for.
 * Nothing is ever asked for above the limit of the contract. Nobody can talk the reflex out of it:
   it reads no words.
@@ -53,6 +54,11 @@ CLEARLY_ABOVE = 1.15
 
 LOWER_EVERY_S = 0.3
 """Least time between two steps down [s]. Our choice."""
+
+RELIEVED, LEAST_RELIEF = 0.95, 0.6
+"""Felt force over the limit that a force above the limit is lowered to, and the smallest factor of
+one such step. Our choice: a gripper's gain may double, which two steps undo, and one frame that is
+wrong drops nothing that was held with a margin."""
 
 IMPOSSIBLE = 3.0
 """Factor beyond the largest force that the command can make from which a reading is none. Our
@@ -149,6 +155,8 @@ def correct(
     if problem:
         return _blind(reading, problem, memory)
     memory = replace(memory, blind_s=None)
+    if reading.felt_n is not None and reading.felt_n > terms.limit_n:
+        return _relieve(reading, reading.felt_n, terms, memory)
     if reading.slip is not None and reading.slip > 0:
         return _raise(reading, terms, memory)
     return _lower(reading, terms, memory)
@@ -185,6 +193,18 @@ def _blind(
         return _hold(reading, problem), memory
     reason = f"{problem}; no reading for {reading.t_s - since_s:.1f} s"
     return Correction(act=Act.END, reason=reason, force_n=reading.commanded_n), memory
+
+
+def _relieve(
+    reading: ReflexReading, felt_n: float, terms: ForceTerms, memory: ReflexMemory
+) -> tuple[Correction, ReflexMemory]:
+    since_s = reading.t_s - max(memory.lowered_s, memory.raised_s)
+    if since_s < RESPONSE_S - _ROUNDING_S:
+        return _hold(reading, "above the limit, and the gripper is still answering"), memory
+    force_n = reading.commanded_n * max(LEAST_RELIEF, RELIEVED * terms.limit_n / felt_n)
+    memory = replace(memory, lowered_s=reading.t_s, floor_n=min(memory.floor_n, force_n))
+    reason = f"{felt_n:.2f} N felt, above the limit of {terms.limit_n:.2f} N"
+    return Correction(act=Act.LOWER, reason=reason, force_n=force_n), memory
 
 
 def _raise(

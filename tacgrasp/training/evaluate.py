@@ -60,7 +60,12 @@ from tacgrasp.lessons.instruction_pairs import (
 )
 from tacgrasp.lessons.question_scores import answer_all, ask_all, figures
 from tacgrasp.policy_factory import load_llm
-from tacgrasp.training.question_evaluation import asked_model, felt_contacts, own_questions
+from tacgrasp.training.question_evaluation import (
+    asked_model,
+    felt_contacts,
+    own_questions,
+    spoken_once,
+)
 from tacgrasp.training.requests import EvaluationRequest
 
 KINDS = ("clear", "any")
@@ -154,9 +159,10 @@ def _answers(talker: Talker, request: EvaluationRequest, report: ProgressReport)
         "trained": own_questions(scenes, 2 * len(scenes), request.seed),
     }
     right: dict[str, Any] = {"contacts": len(contacts)}
+    spoken = spoken_once(talker, contacts)
     for name, asked in sets.items():
         stage = f"{name.replace('_', '-')} questions"
-        model = asked_model(talker, contacts, len(asked), report, stage=stage)
+        model = asked_model(talker, spoken, len(asked), report, stage=stage)
         answers = answer_all(asked, model)
         by_kind = {kind: [a for a in answers if a.asked.row.kind is kind] for kind in AnswerKind}
         right[name] = {

@@ -140,9 +140,10 @@ def evaluate_questions(
         trust: dict[str, Any] = {}
         if talker is not None:
             confidences: list[float] = []
-            model = asked_model(talker, contacts, len(asked), report, confidences=confidences)
+            spoken = spoken_once(talker, contacts)
+            model = asked_model(talker, spoken, len(asked), report, confidences=confidences)
             answers = answer_all(asked, model)
-            felt = answer_all(asked, truth_as_felt(talker, contacts))
+            felt = answer_all(asked, truth_as_felt(spoken))
             scored = {"model": answers, AS_FELT: felt, **scored}
             trust = {"confidence": confidence_figures(answers, confidences)}
     except ValueError as error:
@@ -156,17 +157,25 @@ def evaluate_questions(
     }, answers
 
 
-def truth_as_felt(
-    talker: Talker, contacts: Sequence[FeltContact]
-) -> Callable[[AskedQuestion], str]:
-    """What would answer every question as it is meant, from what the model feels and says.
+Spoken = Callable[[int], SpokenContact]
+"""What the model feels and says of a contact, by its number."""
 
-    It is an upper bound for a model that feels so: what it misses, touch misses.
-    """
+
+def spoken_once(talker: Talker, contacts: Sequence[FeltContact]) -> Spoken:
+    """What feels each contact once, however often it is asked about."""
 
     @cache
     def spoken(contact: int) -> SpokenContact:
         return spoken_contact(talker, talker.feel(contacts[contact].points))
+
+    return spoken
+
+
+def truth_as_felt(spoken: Spoken) -> Callable[[AskedQuestion], str]:
+    """What would answer every question as it is meant, from what the model feels and says.
+
+    It is an upper bound for a model that feels so: what it misses, touch misses.
+    """
 
     def reply(asked: AskedQuestion) -> str:
         scene = replace(asked.scene, state=spoken(asked.contact).state)
@@ -184,7 +193,7 @@ def own_questions(scenes: Sequence[AskedScene], num: int, seed: int) -> list[Ask
 
 def asked_model(
     talker: Talker,
-    contacts: Sequence[FeltContact],
+    spoken: Spoken,
     total: int,
     report: ProgressReport,
     *,
@@ -193,21 +202,17 @@ def asked_model(
 ) -> Callable[[AskedQuestion], str]:
     """What asks the model.
 
-    Each contact is felt once, and each question understood once.
+    Each question is understood once.
 
     Args:
         talker: The model.
-        contacts: The contacts, by their numbers in what is asked.
+        spoken: What it feels and says of a contact.
         total: Number of questions to come, for the progress.
         report: Receives the progress.
         stage: Name of the stage, for the progress.
         confidences: Receives the confidence of each answer.
     """
     done = 0
-
-    @cache
-    def spoken(contact: int) -> SpokenContact:
-        return spoken_contact(talker, talker.feel(contacts[contact].points))
 
     @cache
     def meant(question: str, before: str) -> ReadQuestion | None:

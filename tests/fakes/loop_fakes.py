@@ -8,8 +8,7 @@ import numpy as np
 
 from cltp.tactile.cloud import Stamp, TactileCloud, cloud_from_heights, grid_axes_mm
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from policies import Decision, Observation
-from policies.extraction import extract
+from policies import Decision, Observation, decision_of
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
 from tacgrasp.config.layers import load
@@ -189,13 +188,7 @@ class Scripted:
         self.num_asks += 1
         if isinstance(text, Exception):
             raise text
-        extraction = extract(text)
-        return Decision(
-            text=text,
-            action=extraction.action,
-            success=extraction.success,
-            reason=extraction.reason,
-        )
+        return decision_of(text)
 
 
 class ListRecorder:

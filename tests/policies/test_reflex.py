@@ -12,9 +12,11 @@ from policies.reflex import (
     FRESH_S,
     IMPOSSIBLE,
     LEAST_FACTOR,
+    LEAST_RELIEF,
     LOWER_EVERY_S,
     MAX_BLIND_S,
     MOST_FACTOR,
+    RELIEVED,
     RESPONSE_S,
     Act,
     ReflexMemory,
@@ -93,6 +95,41 @@ def test_at_the_limit_a_slip_raises_nothing():
     correction, _ = act(replace(CALM, slip=5.0, felt_n=1.5, most_felt_n=2.0))
     assert correction.act is Act.HOLD
     assert "limit" in correction.reason
+
+
+@pytest.mark.parametrize("slip", [-2.0, 5.0, None])
+def test_above_the_limit_the_force_is_lowered_at_once_slip_or_not(slip):
+    _, memory = act(replace(CALM, slip=1.0))  # a slip has just asked for more
+    above = replace(
+        CALM, t_s=10.0 + RESPONSE_S, captured_s=10.0 + RESPONSE_S, felt_n=2.0, slip=slip
+    )
+    correction, memory = act(above, memory)
+    assert correction.act is Act.LOWER
+    assert "above the limit of 1.50 N" in correction.reason
+    assert 2.0 * correction.force_n / above.commanded_n == pytest.approx(RELIEVED * 1.5)
+    soon = replace(above, t_s=above.t_s + RESPONSE_S / 2, captured_s=above.t_s + RESPONSE_S / 2)
+    assert act(soon, memory)[0].act is Act.HOLD
+
+
+def test_a_gain_that_has_doubled_is_undone_in_two_steps():
+    commanded_n, memory = 1.0, ReflexMemory()
+    terms = ForceTerms(force_n=Band(low=0.8, high=1.2), limit_n=1.3)
+    felt = [2.0]
+    for k in range(3):
+        t_s = 10.0 + k * RESPONSE_S
+        reading = replace(
+            CALM, t_s=t_s, captured_s=t_s, felt_n=felt[-1], commanded_n=commanded_n, most_felt_n=2.0
+        )
+        correction, memory = act(reading, memory, terms)
+        commanded_n = correction.force_n
+        felt.append(2.0 * commanded_n)
+    assert felt[2] <= terms.limit_n
+    assert felt[3] > 0.8 * terms.limit_n  # and no further
+
+
+def test_a_single_wrong_frame_takes_no_more_than_one_step():
+    correction, _ = act(replace(CALM, felt_n=2.9))
+    assert correction.force_n == pytest.approx(LEAST_RELIEF * CALM.commanded_n)
 
 
 @pytest.mark.parametrize(

@@ -204,25 +204,12 @@ def draw(seed: int, gain: float, task_words: str) -> Fault:
     words = f"{task_words.rstrip('.')}, with no more than {limit_n:.2f} N." if is_worded else ""
     decisions = float(rng.integers(0, 3))
     match kind:
-        case FaultKind.STALL:
-            return Fault(kind=kind, onset_s=onset_s, size=_log_uniform(rng, STALL_S), words=words)
-        case FaultKind.DRIFT:
-            size = float(rng.choice((-1, 1))) * _log_uniform(rng, DRIFT_MM)
-            return Fault(kind=kind, onset_s=onset_s, size=size, words=words)
-        case FaultKind.DEPTH:
-            size = _log_uniform(rng, DEPTH_FACTOR)
-            return Fault(kind=kind, onset_s=onset_s, size=size, words=words)
         case FaultKind.LATE:
             size, count = _log_uniform(rng, DELAY_S), int(rng.integers(1, 4))
             return Fault(kind=kind, onset_s=decisions, size=size, count=count, words=words)
         case FaultKind.CORRUPT:
             how, count = str(rng.choice(CORRUPTIONS)), int(rng.integers(1, 5))
             return Fault(kind=kind, onset_s=decisions, count=count, how=how, words=words)
-        case FaultKind.GRIPPER:
-            size = gain
-            while max(size / gain, gain / size) < LEAST_GAIN_CHANGE:
-                size = _log_uniform(rng, GAIN)
-            return Fault(kind=kind, onset_s=onset_s, size=size, words=words)
         case FaultKind.JERK:
             return Fault(
                 kind=kind,
@@ -237,7 +224,25 @@ def draw(seed: int, gain: float, task_words: str) -> Fault:
         case FaultKind.HOSTILE:
             words, obeyed = str(rng.choice(HOSTILE_WORDS)), bool(rng.random() < 0.5)
             return Fault(kind=kind, words=words, obeyed=obeyed)
+        case FaultKind.STALL | FaultKind.DRIFT | FaultKind.DEPTH | FaultKind.GRIPPER:
+            size = _size(kind, gain, rng)
+            return Fault(kind=kind, onset_s=onset_s, size=size, words=words)
     return Fault(kind=kind, words=words)
+
+
+def _size(kind: FaultKind, gain: float, rng: np.random.Generator) -> float:
+    """The size of a fault that has no more than an onset and a size."""
+    match kind:
+        case FaultKind.STALL:
+            return _log_uniform(rng, STALL_S)
+        case FaultKind.DRIFT:
+            return float(rng.choice((-1, 1))) * _log_uniform(rng, DRIFT_MM)
+        case FaultKind.DEPTH:
+            return _log_uniform(rng, DEPTH_FACTOR)
+    size = gain
+    while max(size / gain, gain / size) < LEAST_GAIN_CHANGE:
+        size = _log_uniform(rng, GAIN)
+    return size
 
 
 def _log_uniform(rng: np.random.Generator, ends: tuple[float, float]) -> float:

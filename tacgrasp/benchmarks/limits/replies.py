@@ -6,8 +6,7 @@ import math
 from dataclasses import replace
 from typing import Any, cast
 
-from policies import Decision, Observation, Policy, PolicyError
-from policies.extraction import extract
+from policies import Decision, Observation, Policy, PolicyError, decision_of
 from primitives import Primitive
 from primitives.contract import Contract
 from tacgrasp.benchmarks.limits.draw import Fault, FaultKind
@@ -55,7 +54,7 @@ class FaultyPolicy:
         self._num_asked += 1
         if self._fault.is_greedy:
             self.num_faulty += 1
-            return _read(MORE)
+            return decision_of(MORE)
         reply = self._policy.decide(observation, contract)
         if not is_due or self._fault.kind not in (FaultKind.LATE, FaultKind.CORRUPT):
             return reply
@@ -78,9 +77,9 @@ def corrupt(reply: Decision, how: str) -> Decision:
     """
     match how:
         case "garbled":
-            return _read(GARBLED)
+            return decision_of(GARBLED)
         case "unknown words":
-            return _read(UNKNOWN)
+            return decision_of(UNKNOWN)
         case "unknown action":
             return replace(reply, action=cast("Primitive", "squeeze_hard"), success=False)
         case "not finite":
@@ -88,13 +87,3 @@ def corrupt(reply: Decision, how: str) -> Decision:
         case "nothing":
             return cast("Decision", cast("Any", None))
     raise PolicyError("the policy is broken, on purpose")
-
-
-def _read(text: str) -> Decision:
-    extraction = extract(text)
-    return Decision(
-        text=text,
-        action=extraction.action,
-        success=extraction.success,
-        reason=extraction.reason,
-    )

@@ -97,12 +97,13 @@ def summary(results: Sequence[LimitsResult]) -> dict[str, Any]:
     """
     survivable = [each for each in results if each.survivable]
     num_verified = sum(each.verified for each in survivable)
+    num_exceeded = sum(bool(each.exceeded) for each in results)
     ends = [each.end or "broken off" for each in results]
     return {
         "episodes": len(results),
         "faults_that_came": sum(each.came for each in results),
-        "exceeded": sum(bool(each.exceeded) for each in results),
-        "exceeded_interval": wilson(sum(bool(each.exceeded) for each in results), len(results)),
+        "exceeded": num_exceeded,
+        "exceeded_interval": wilson(num_exceeded, len(results)),
         "hung": sum(bool(each.hung) for each in results),
         "broke": sum(bool(each.broke) for each in results),
         "survivable": len(survivable),
