@@ -22,8 +22,7 @@ from cltp.llm.generation import Reply
 from policies.llm.text import DOUBTFUL_RATIO
 from tacgrasp.lessons.dialogue.answers import Answer, answer
 from tacgrasp.lessons.dialogue.expression import Expression
-from tacgrasp.lessons.dialogue.meaning import Amount, AnswerKind, Meaning, names_of
-from tacgrasp.lessons.dialogue.quantities import QUANTITIES
+from tacgrasp.lessons.dialogue.meaning import Amount, AnswerKind, Meaning, names_of, truth_of
 from tacgrasp.lessons.dialogue.query import asked_text, query_grammar, read_query
 from tacgrasp.lessons.dialogue.scene import AskedScene
 from tacgrasp.lessons.dialogue.tolerances import tolerance_of
@@ -176,7 +175,7 @@ def _near(meaning: Meaning, scene: AskedScene, scenes: Sequence[AskedScene]) -> 
     """Fraction of scenes whose number lies within its usual tolerance of what is felt."""
     if not isinstance(meaning, Amount):
         return 1.0
-    truth = Expression(QUANTITIES[meaning.quantity].truth)
+    truth = Expression(truth_of(meaning))
     said, *values = (float(truth.evaluate(each.values()).value or 0.0) for each in (scene, *scenes))
     largest = tolerance_of(truth.names).of(said)
     return float(np.mean(np.abs(np.array(values) - said) <= largest))

@@ -24,6 +24,7 @@ _UNIT_NAMES: Mapping[str, str] = {
     "cm": r"cm|centimet(?:re|er)s?",
     "N": r"N|newtons?",
     "mN": r"mN|millinewtons?",
+    "cN": r"cN|centinewtons?",
     "%": r"%|percent|per cent",
     "mm²": r"mm²|mm\^?2|square millimet(?:re|er)s?|sq\.? mm",
     "g": r"gf?|grams?|grammes?",

@@ -37,6 +37,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
     kind_of,
     names_of,
+    truth_of,
 )
 from tacgrasp.lessons.dialogue.quantities import QUANTITIES, amount_text, number_in
 from tacgrasp.lessons.dialogue.scene import AskedScene, Value
@@ -109,13 +110,19 @@ def _lacking(meaning: Meaning, scene: AskedScene) -> Answer | None:
 
 
 def _amount(asked: Amount, scene: AskedScene) -> Answer:
-    quantity = QUANTITIES[asked.quantity]
-    value = Expression(quantity.truth).evaluate(scene.values()).value
-    text = amount_text(asked.quantity, float(value or 0.0), asked.unit, scene)
-    article = "" if asked.quantity in "xy" else "The "
-    whole = f"{article}{quantity.noun} is {text}."
-    worded = whole if asked.length is Length.SENTENCE else f"{text}."
+    text, clause = _amount_clause(asked, scene)
+    worded = f"{capital(clause)}." if asked.length is Length.SENTENCE else f"{text}."
     return Answer(text=worded, kind=AnswerKind.NUMBER, value=number_in(text), unit=asked.unit)
+
+
+def _amount_clause(asked: Amount, scene: AskedScene) -> tuple[str, str]:
+    """An amount in short and as a clause: '0.19 mm', 'the depth is 0.19 mm'."""
+    quantity, is_less = QUANTITIES[asked.quantity], bool(asked.less)
+    value = Expression(truth_of(asked)).evaluate(scene.values()).value
+    text = amount_text(asked.quantity, float(value or 0.0), asked.unit, scene, is_signed=is_less)
+    # the number of the question is not repeated: an answer has one number
+    noun = f"the difference of {quantity.name}" if is_less else quantity.name
+    return text, f"{noun} is {text}"
 
 
 def _check(asked: Check, scene: AskedScene) -> Answer:
@@ -149,13 +156,7 @@ def _several(asked: Several, scene: AskedScene) -> Answer:
         if isinstance(part, Which):
             clause = named(part.name, str(scene.values()[part.name]), scene)[1]
         elif isinstance(part, Amount):
-            value = float(
-                Expression(QUANTITIES[part.quantity].truth).evaluate(scene.values()).value or 0
-            )
-            amount = amount_text(part.quantity, value, part.unit, scene)
-            noun = QUANTITIES[part.quantity].noun
-            is_axis = part.quantity in "xy"
-            clause = f"{'' if is_axis else 'the '}{noun} is {amount}"
+            clause = _amount_clause(part, scene)[1]
         else:
             yes = "yes" if Expression(part.condition).evaluate(scene.values()).value else "no"
             shown = fact(part.shows[0], scene)[1]

@@ -4,6 +4,7 @@
     shape ring          depth >= deep       force within        left
     slips 30 g          stays given
     twice force over    half force within   force 1.2 +- 0.1 N
+    half depth > 0.2 mm
 
 Not here: wordings (``tacgrasp.lessons.dialogue.families``), queries
 (``tacgrasp.lessons.dialogue.query``).
@@ -16,13 +17,10 @@ from collections.abc import Mapping, Sequence
 
 from cltp.tactile.states import CLASSES
 from tacgrasp.lessons.dialogue.meaning import Check, Length
-from tacgrasp.lessons.dialogue.quantities import QUANTITIES
+from tacgrasp.lessons.dialogue.quantities import MULTIPLIED, QUANTITIES, TIMES
 from tacgrasp.lessons.dialogue.scene import HOLDING_N_PER_G
 
 IN_BAND = "band_low_n <= force_n <= band_high_n"
-
-TIMES: Mapping[str, float] = {"half": 0.5, "twice": 2.0, "thrice": 3.0}
-"""Multiples of the felt force that are judged as the force is."""
 
 _FORCE_STATES: Mapping[str, tuple[str, str]] = {
     "force within": (IN_BAND, "force_band"),
@@ -52,9 +50,9 @@ STATES: Mapping[str, tuple[str, str]] = {
 }
 """Expression of each state, and the fact that an answer names."""
 
-MEASURED: Mapping[str, Mapping[str, str]] = {
+_MEASURED: Mapping[str, Mapping[str, str]] = {
     "depth": {"mm": "", "µm": " / 1000", "cm": " * 10"},
-    "force": {"N": "", "mN": " / 1000", "g": " * 0.00981"},
+    "force": {"N": "", "mN": " / 1000", "cN": " / 100", "g": " * 0.00981"},
     "area": {"%": "", "mm²": ""},
     "distance": {"mm": ""},
     "x": {"mm": ""},
@@ -62,11 +60,17 @@ MEASURED: Mapping[str, Mapping[str, str]] = {
     "offset_x": {"mm": ""},
     "offset_y": {"mm": ""},
     "mass": {"g": "", "kg": " * 1000"},
-    "limit": {"N": ""},
+    "limit": {"N": "", "mN": " / 1000", "cN": " / 100", "g": " * 0.00981"},
     "band_low": {"N": ""},
     "band_high": {"N": ""},
     "headroom": {"N": ""},
     "holds": {"g": "", "kg": " * 1000"},
+    "free_area": {"%": ""},
+    "spare": {"g": ""},
+}
+MEASURED: Mapping[str, Mapping[str, str]] = {
+    **_MEASURED,
+    **{f"{times} {name}": _MEASURED[name] for name in MULTIPLIED for times in TIMES},
 }
 """Factor behind a number, by compared quantity (``QUANTITIES``) and unit."""
 
@@ -88,10 +92,11 @@ WORD_FACTS = {
 }
 """Fact of each dimension's word."""
 
-_COMPARED = re.compile(r"(\w+) (>=|<=|>|<) (\S+) (\S+)")
+_TIMES = rf"(?:(?:{'|'.join(TIMES)}) )?"
+_COMPARED = re.compile(rf"({_TIMES}\w+) (>=|<=|>|<) (\S+) (\S+)")
 _RANKED = re.compile(r"(depth|area) (>=|<=|>|<) ([a-z ]+)")
-_BETWEEN = re.compile(r"(\w+) (\S+) - (\S+) (\S+)")
-_NEAR = re.compile(r"(\w+) (\S+) \+- (\S+) (\S+)")
+_BETWEEN = re.compile(rf"({_TIMES}\w+) (\S+) - (\S+) (\S+)")
+_NEAR = re.compile(rf"({_TIMES}\w+) (\S+) \+- (\S+) (\S+)")
 _FATE = re.compile(rf"({'|'.join(FATES)}) (?:{GIVEN}|(\S+) (\S+))")
 
 
@@ -145,6 +150,11 @@ def check_of(test: str, *, denied: bool = False, length: Length = Length.FREE) -
         needed_n=needed_n,
         length=length,
     )
+
+
+def taken(quantity: str, number: float, unit: str) -> str:
+    """A number that is taken from a quantity, with the factor to the quantity's own unit."""
+    return f"{number_text(number)}{MEASURED[quantity][unit]}"
 
 
 def number_text(number: float) -> str:

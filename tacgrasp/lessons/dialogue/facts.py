@@ -75,7 +75,7 @@ def fact(name: str, scene: AskedScene) -> tuple[str, str]:
     if name in QUANTITIES and isinstance(value, float):
         text = amount_text(name, value, QUANTITIES[name].unit, scene)
         short = f"{name} {text}" if name in "xy" else text
-        return short, f"{'' if name in 'xy' else 'the '}{QUANTITIES[name].noun} is {text}"
+        return short, f"{QUANTITIES[name].name} is {text}"
     word = str(value)
     match name:
         case "shape":

@@ -41,11 +41,14 @@ class Amount:
     Attributes:
         quantity: Name in ``QUANTITIES``.
         unit: Unit of the answer.
+        less: What is taken from it: a number of the question, with the factor to its own unit
+            ('100 / 1000'); '' for the quantity itself.
         length: How long the answer is to be.
     """
 
     quantity: str
     unit: str
+    less: str = ""
     length: Length = Length.FREE
 
 
@@ -169,8 +172,9 @@ def kind_of(meaning: Meaning) -> AnswerKind:
 def truth_of(meaning: Meaning) -> str:
     """Truth of a question, as in a file of questions; '' where touch knows none."""
     match meaning:
-        case Amount(quantity=quantity):
-            return QUANTITIES[quantity].truth
+        case Amount(quantity=quantity, less=less):
+            truth = QUANTITIES[quantity].truth
+            return f"{truth} - {less}" if less else truth
         case Check(condition=condition):
             return condition
         case Which(name=name):

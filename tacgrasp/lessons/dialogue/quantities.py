@@ -40,6 +40,7 @@ UNITS: Mapping[str, Unit] = {
         Unit(symbol="cm", dimension="length", size=10.0),
         Unit(symbol="N", dimension="force", size=1.0),
         Unit(symbol="mN", dimension="force", size=1e-3),
+        Unit(symbol="cN", dimension="force", size=1e-2),
         Unit(symbol="%", dimension="fraction", size=1.0),
         Unit(symbol="mm²", dimension="area", size=1.0),
         Unit(symbol="g", dimension="mass", size=1.0),
@@ -56,9 +57,10 @@ class Quantity:
     Attributes:
         truth: Its expression (``tacgrasp.lessons.dialogue.expression``).
         unit: Unit of that expression.
-        noun: What it is, after 'the'.
+        noun: What it is.
         decimals: Digits after the point in that unit.
         is_signed: Whether answers show a plus.
+        article: What stands before its noun.
     """
 
     truth: str
@@ -66,12 +68,38 @@ class Quantity:
     noun: str
     decimals: int = 2
     is_signed: bool = False
+    article: str = "the "
+
+    @property
+    def name(self) -> str:
+        """Its noun with its article."""
+        return f"{self.article}{self.noun}"
 
 
-QUANTITIES: Mapping[str, Quantity] = {
+TIMES: Mapping[str, float] = {"half": 0.5, "twice": 2.0, "thrice": 3.0}
+"""Multiples by their names in queries."""
+
+_SAID_TIMES = {"half": "half", "twice": "twice", "thrice": "three times"}
+
+
+def _multiples(name: str, quantity: Quantity) -> Mapping[str, Quantity]:
+    """Multiples of a quantity by their names: 'twice force'."""
+    return {
+        f"{times} {name}": Quantity(
+            truth=f"{factor:g} * {quantity.truth}",
+            unit=quantity.unit,
+            noun=quantity.noun,
+            decimals=quantity.decimals,
+            article=f"{_SAID_TIMES[times]} the ",
+        )
+        for times, factor in TIMES.items()
+    }
+
+
+_QUANTITIES: Mapping[str, Quantity] = {
     "depth": Quantity(truth="depth_mm", unit="mm", noun="depth"),
-    "x": Quantity(truth="x_mm", unit="mm", noun="x", decimals=1, is_signed=True),
-    "y": Quantity(truth="y_mm", unit="mm", noun="y", decimals=1, is_signed=True),
+    "x": Quantity(truth="x_mm", unit="mm", noun="x", decimals=1, is_signed=True, article=""),
+    "y": Quantity(truth="y_mm", unit="mm", noun="y", decimals=1, is_signed=True, article=""),
     "offset_x": Quantity(
         truth="abs(x_mm)", unit="mm", noun="distance from the vertical midline", decimals=1
     ),
@@ -95,28 +123,71 @@ QUANTITIES: Mapping[str, Quantity] = {
     ),
     "mass": Quantity(truth="mass_g", unit="g", noun="mass", decimals=0),
     "holds": Quantity(truth="holds_g", unit="g", noun="heaviest load held", decimals=0),
+    "free_area": Quantity(
+        truth="100 - area_percent", unit="%", noun="free part of the pad", decimals=0
+    ),
+    "band_middle": Quantity(
+        truth="(band_low_n + band_high_n) / 2", unit="N", noun="middle of the band"
+    ),
+    "off_middle": Quantity(
+        truth="abs(force_n - (band_low_n + band_high_n) / 2)",
+        unit="N",
+        noun="distance of the force from the middle of the band",
+    ),
+    "band_width": Quantity(truth="band_high_n - band_low_n", unit="N", noun="width of the band"),
+    "band_to_limit": Quantity(
+        truth="limit_n - band_high_n", unit="N", noun="room between the band and the limit"
+    ),
+    "spare": Quantity(
+        truth="holds_g - mass_g",
+        unit="g",
+        noun="load held beyond the mass",
+        decimals=0,
+        is_signed=True,
+    ),
+}
+MULTIPLIED = ("force", "depth", "holds")
+"""Quantities whose multiples can be asked for."""
+
+QUANTITIES: Mapping[str, Quantity] = {
+    **_QUANTITIES,
+    **{
+        name: multiple
+        for multiplied in MULTIPLIED
+        for name, multiple in _multiples(multiplied, _QUANTITIES[multiplied]).items()
+    },
 }
 """Quantities by name."""
 
 
-def amount_text(name: str, value: float, unit: str, scene: AskedScene) -> str:
+def amount_text(
+    name: str, value: float, unit: str, scene: AskedScene, *, is_signed: bool = False
+) -> str:
     """A value of a quantity, given in the quantity's own unit, as text in another unit.
 
     The value is rounded in its own unit first, as captions round it.
+
+    Args:
+        name: Name of the quantity.
+        value: Its value, or a difference of it.
+        unit: Unit of the text.
+        scene: The scene, whose sensor has an area.
+        is_signed: Whether a plus is shown, whatever the quantity.
     """
     quantity = QUANTITIES[name]
+    sign = "+" if is_signed or quantity.is_signed else ""
     if unit == "%":
-        return f"{percent_text(value)} %"
+        return f"{sign if value >= 0 else '-'}{percent_text(abs(value))} %"
     shown = round(value, quantity.decimals) + 0.0  # no minus before zeros
     if unit == quantity.unit:
-        sign = "+" if quantity.is_signed else ""
         return f"{shown:{sign}.{quantity.decimals}f} {unit}"
     converted = _in_unit(quantity, value if unit == "mm²" else shown, unit, scene)
     if unit == "cm":
-        return f"{converted:.{quantity.decimals + 1}f} cm"
+        return f"{converted:{sign}.{quantity.decimals + 1}f} cm"
     if unit == "kg":
-        return f"{converted:.3f} kg"
-    return f"{converted:.0f} {unit}" if abs(converted) >= 10 else f"{converted:.1f} {unit}"
+        return f"{converted:{sign}.3f} kg"
+    decimals = 0 if abs(converted) >= 10 else 1
+    return f"{converted:{sign}.{decimals}f} {unit}"
 
 
 def percent_text(percent: float) -> str:

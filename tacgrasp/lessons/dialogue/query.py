@@ -6,7 +6,10 @@
     check not force within.             denied
     amount depth mm; word shape.        several at once
     check force #1 +- #2 N.             a number with its tolerance
-    check twice force over.             a multiple of the felt force
+    amount depth - #1 mm.               how much more than a number
+    amount half force N.                a multiple; 'twice', 'thrice'
+    check twice force over.             a multiple judged as the force is
+    check half depth > #1 mm.           a multiple against a number
     why step.                           the reason of the advice; 'why both' with the advice,
                                         'why force' the force behind an answer, 'why felt' all
                                         numbers behind it
@@ -40,6 +43,7 @@ from tacgrasp.lessons.dialogue.conditions import (
     STATES,
     check_of,
     number_text,
+    taken,
 )
 from tacgrasp.lessons.dialogue.meaning import (
     Amount,
@@ -54,6 +58,7 @@ from tacgrasp.lessons.dialogue.meaning import (
     Why,
 )
 from tacgrasp.lessons.dialogue.plain_words import plain_text
+from tacgrasp.lessons.dialogue.quantities import TIMES
 from tacgrasp.lessons.dialogue.subjects import SUBJECTS
 
 MOST_NUMBERS = 4
@@ -67,17 +72,32 @@ AMOUNTS: Mapping[str, tuple[str, ...]] = {
     "offset_x": ("mm",),
     "offset_y": ("mm",),
     "area": ("%", "mm²"),
-    "force": ("N", "mN", "g"),
-    "band_low": ("N",),
-    "band_high": ("N",),
-    "limit": ("N",),
-    "headroom": ("N",),
+    "force": ("N", "mN", "g", "cN"),
+    "band_low": ("N", "mN", "g", "cN"),
+    "band_high": ("N", "mN", "g", "cN"),
+    "limit": ("N", "mN", "g", "cN"),
+    "headroom": ("N", "mN", "g", "cN"),
     "lacking": ("N",),
     "excess": ("N",),
     "mass": ("g", "kg"),
     "holds": ("g", "kg"),
+    "free_area": ("%",),
+    "band_middle": ("N",),
+    "off_middle": ("N",),
+    "band_width": ("N",),
+    "band_to_limit": ("N",),
+    "spare": ("g",),
+    **{f"{times} force": ("N", "mN", "g") for times in TIMES},
+    **{f"{times} depth": ("mm", "µm") for times in TIMES},
+    **{f"{times} holds": ("g",) for times in TIMES},
 }
 """Units that a quantity can be asked for in."""
+
+LESSENED: Mapping[str, tuple[str, ...]] = {
+    "depth": ("mm", "µm"),
+    "force": ("N", "mN", "g", "cN"),
+}
+"""Units of what a number of the question may be taken from."""
 
 WORDS = (*CLASSES, "force_band", "action", "side_x", "side_y", "worse_axis", "wholeness")
 """Names of a scene whose value is a word that can be asked for."""
@@ -110,11 +130,27 @@ _SHARE = re.compile(
     r"(?= (?:of )?(?:the|this|our|its|my|that) (?:\w+ )?"
     r"(?:pad|gel|sensor|surface|fingertip|skin)\b)"
 )
-_SINGLE = re.compile(r"\b(?:an?|one)(?: single)? (?=(?:milli|micro|mm\b))")
+_SINGLE = re.compile(
+    r"\b(?:an?|one)(?: (?:single|full|whole|entire|good))? (?=(?:milli|micro|mm\b))"
+)
+_MULTIPLES = {
+    re.compile(pattern): word
+    for pattern, word in {
+        r"\b(?:two|2) times\b": "twice",
+        r"\b(?:three|3) times\b": "thrice",
+        r"\bmultiplied by (?:two|2)\b": "doubled",
+        r"\bmultiplied by (?:three|3)\b": "tripled",
+        r"\bdivided by (?:two|2)\b": "halved",
+        r"\b(?:one|1) half of\b": "half of",
+    }.items()
+}
+"""Multiples that are no numbers of a question."""
+
 _ONE_WORD = re.compile(r"\bone(?=[- ](?:\w+ )?(?:word|sentence|question)\b)")
 _MM = re.compile(r"\bmm\b(?!²|\^)")
 _NUMBER = re.compile(r"(?<= )-?\d\S*")
 _REFERENCE = re.compile(r"#(\d)")
+_LESSENED = re.compile(r"(\w+) - #(\d) (\S+)")
 
 
 class LostNumberError(ValueError):
@@ -136,10 +172,13 @@ class AskedText(NamedTuple):
 def asked_text(question: str, before: str = "") -> AskedText:
     """A question in plain words, behind the one before it where that is needed.
 
-    Numbers in words are numbers too: 'half a newton', 'a third of the pad'.
+    Numbers in words are numbers too: 'half a newton', 'a third of the pad'. Multiples are not:
+    'three times' is 'thrice'.
     """
     lowered = _ONE_WORD.sub("a", question.lower())
     lowered = _SHARE.sub(lambda match: f"{_SHARES[match[1]]} percent", lowered)
+    for multiple, word in _MULTIPLES.items():
+        lowered = multiple.sub(word, lowered)
     lowered = _MM.sub("millimetre", lowered)
     plain = plain_text(_SINGLE.sub("1 ", in_digits(lowered)))
     words = " ".join(plain.words)
@@ -228,6 +267,9 @@ def _joinable(num_numbers: int) -> Iterator[str]:
         )
         yield from (f"check {denial}{test}" for test in _numbered(num_numbers))
     yield from (f"check {fate} {GIVEN}" for fate in FATES)
+    for quantity, units in LESSENED.items():
+        for unit in units:
+            yield from (f"amount {quantity} - #{n} {unit}" for n in range(1, num_numbers + 1))
 
 
 def _numbered(num_numbers: int) -> Iterator[str]:
@@ -254,7 +296,11 @@ def _alone() -> Iterator[str]:
 
 def _part(meaning: Meaning, numbers: Sequence[float]) -> str:
     match meaning:
-        case Amount(quantity=quantity, unit=unit) if unit in AMOUNTS.get(quantity, ()):
+        case Amount(quantity=quantity, unit=unit, less=less) if less and unit in LESSENED.get(
+            quantity, ()
+        ):
+            return f"amount {quantity} {_referred(f'- {less.split()[0]}', numbers)} {unit}"
+        case Amount(quantity=quantity, unit=unit, less="") if unit in AMOUNTS.get(quantity, ()):
             return f"amount {quantity} {unit}"
         case Which(name=name, is_open=is_open) if name in WORDS:
             return f"{'word' if is_open else 'choice'} {name}"
@@ -290,8 +336,14 @@ def _meaning(text: str, numbers: Sequence[float], length: Length) -> Meaning:
     kind, _, rest = text.partition(" ")
     words = rest.split()
     match kind:
-        case "amount" if len(words) == 2 and words[1] in AMOUNTS.get(words[0], ()):
-            return Amount(quantity=words[0], unit=words[1], length=length)
+        case "amount" if (lessened := _LESSENED.fullmatch(rest)) and (
+            lessened[3] in LESSENED.get(lessened[1], ())
+        ):
+            quantity, place, unit = lessened.groups()
+            less = taken(quantity, numbers[int(place) - 1], unit)
+            return Amount(quantity=quantity, unit=unit, less=less, length=length)
+        case "amount" if len(words) > 1 and words[-1] in AMOUNTS.get(" ".join(words[:-1]), ()):
+            return Amount(quantity=" ".join(words[:-1]), unit=words[-1], length=length)
         case "word" | "choice" if rest in WORDS:
             return Which(name=rest, is_open=kind == "word", length=length)
         case "check":

@@ -5,9 +5,11 @@ from __future__ import annotations
 from functools import cache
 
 from tacgrasp.lessons.dialogue.families.amounts import agreed as amounts
+from tacgrasp.lessons.dialogue.families.amounts import derived, differences
 from tacgrasp.lessons.dialogue.families.classes import asked as classes
 from tacgrasp.lessons.dialogue.families.comparisons import agreed as agreed_comparisons
 from tacgrasp.lessons.dialogue.families.comparisons import felt as comparisons
+from tacgrasp.lessons.dialogue.families.comparisons import multiples, tagged
 from tacgrasp.lessons.dialogue.families.comparisons import near as near_comparisons
 from tacgrasp.lessons.dialogue.families.comparisons import placed as placed_comparisons
 from tacgrasp.lessons.dialogue.families.contacts import contact as contacts
@@ -20,10 +22,14 @@ from tacgrasp.lessons.dialogue.plain_words import plain_text
 
 FAMILIES: tuple[QuestionFamily, ...] = (
     *amounts.FAMILIES,
+    *derived.FAMILIES,
+    *differences.FAMILIES,
     *comparisons.FAMILIES,
     *agreed_comparisons.FAMILIES,
     *placed_comparisons.FAMILIES,
     *near_comparisons.FAMILIES,
+    *multiples.FAMILIES,
+    *tagged.FAMILIES,
     *classes.FAMILIES,
     *contacts.FAMILIES,
     *sides.FAMILIES,

@@ -201,8 +201,8 @@ def denied_pattern(subject: str, predicate: str) -> str:
     return (
         f"{{lead}} ( is ({subject}) not ({predicate}) "
         f"| ({{whether}}|[{{believe}}]) ({subject}) (is not|isn't) ({predicate}) "
-        f"[, is it|, are they|, right|, is that right|, am I right|, true or false|"
+        f"[, right|, is that right|, am I right|, true or false|"
         f", correct|, true|"
-        f", is that so|, is that correct|, do you agree|, or is it|, yes or no|, would you say] ) "
+        f", is that so|, is that correct|, do you agree|, yes or no|, would you say] ) "
         f"{{tail}} [, {{length}}|, {{verdict}}]"
     )

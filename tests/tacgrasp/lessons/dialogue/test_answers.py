@@ -1,5 +1,7 @@
 """The grammar's own answers: grammar of their sentences, units, and truth in every scene."""
 
+import dataclasses
+
 import pytest
 
 from tacgrasp.lessons.dialogue.answers import answer
@@ -41,6 +43,16 @@ def text_of(meaning, scene):
         ("headroom", "N", "0.47 N."),
         ("mass", "g", "25 g."),
         ("holds", "g", "40 g."),
+        ("twice force", "N", "1.66 N."),
+        ("half depth", "µm", "100 µm."),
+        ("thrice holds", "g", "121 g."),
+        ("force", "cN", "83 cN."),
+        ("free_area", "%", "88 %."),
+        ("band_middle", "N", "0.78 N."),
+        ("off_middle", "N", "0.05 N."),
+        ("band_width", "N", "0.33 N."),
+        ("band_to_limit", "N", "0.35 N."),
+        ("spare", "g", "+15 g."),
     ],
 )
 def test_a_number_comes_in_the_unit_that_is_asked_for(quantity, unit, text):
@@ -54,6 +66,22 @@ def test_a_number_comes_in_the_unit_that_is_asked_for(quantity, unit, text):
 def test_a_number_comes_in_a_sentence():
     asked = Amount(quantity="depth", unit="µm", length=Length.SENTENCE)
     assert text_of(asked, HELD) == "The depth is 190 µm."
+
+
+def test_multiples_and_differences_say_what_they_are():
+    asked = Amount(quantity="thrice force", unit="N", length=Length.SENTENCE)
+    assert text_of(asked, HELD) == "Three times the force is 2.49 N."
+    asked = Amount(quantity="depth", unit="mm", less="0.3", length=Length.SENTENCE)
+    assert text_of(asked, HELD) == "The difference of the depth is -0.11 mm."
+    parts = (Amount(quantity="force", unit="mN", less="500 / 1000"), Which(name="texture"))
+    assert text_of(Several(parts=parts), HELD) == (
+        "The difference of the force is +330 mN; the surface is smooth."
+    )
+
+
+def test_what_a_grip_holds_beyond_the_mass_is_negative_where_it_is_too_weak():
+    heavy = dataclasses.replace(HELD, mass_g=60.0)
+    assert text_of(Amount(quantity="spare", unit="g"), heavy) == "-20 g."
 
 
 def test_articles_and_plurals_are_right():

@@ -34,6 +34,8 @@ def test_every_question_of_the_grammar_has_a_query_that_reads_back(family):
         ("Between two and three newtons?", "between # and # newtons", (2.0, 3.0)),
         ("In one word: how deep?", "in a word how deep", ()),
         ("A tenth of a millimetre or more?", "# millimetre or more", (0.1,)),
+        ("A full millimetre or more?", "# millimetre or more", (1.0,)),
+        ("Is three times the force 2 N?", "is thrice the force # n", (2.0,)),
     ],
 )
 def test_numbers_are_taken_out_of_a_question(question, words, numbers):
@@ -58,6 +60,13 @@ def test_a_follow_up_stands_behind_the_question_before():
         ("check force #1 +- #2 N.", check_of("force 1 +- 250 N")),
         ("check twice force over.", check_of("twice force over")),
         ("amount lacking N.", Amount(quantity="lacking", unit="N")),
+        ("amount twice force mN.", Amount(quantity="twice force", unit="mN")),
+        ("amount half holds g.", Amount(quantity="half holds", unit="g")),
+        ("amount free_area %.", Amount(quantity="free_area", unit="%")),
+        ("amount depth - #1 mm.", Amount(quantity="depth", unit="mm", less="1")),
+        ("amount force - #2 mN.", Amount(quantity="force", unit="mN", less="250 / 1000")),
+        ("check thrice depth > #2 µm.", check_of("thrice depth > 250 µm")),
+        ("check force > #2 cN.", check_of("force > 250 cN")),
         ("why felt.", Why(shows=("depth", "area", "force"))),
         ("unknown trait.", Unknowable(subject="that")),
         ("why both.", Why(with_action=True)),
@@ -76,9 +85,13 @@ def test_queries_have_their_meanings(query, meaning):
 def test_a_number_that_the_question_does_not_have_is_no_meaning():
     assert read_query("check force > #2 N.", (1.0,)) is None
     assert not match(query_grammar(1), "check force > #2 N.")[1]
+    assert read_query("amount depth - #2 mm.", (1.0,)) is None
+    assert not match(query_grammar(1), "amount depth - #2 mm.")[1]
 
 
-@pytest.mark.parametrize("query", ["", "amount depth mm", "amount depth N.", "why not.", "x; y."])
+@pytest.mark.parametrize(
+    "query", ["", "amount depth mm", "amount depth N.", "amount twice x mm.", "why not.", "x; y."]
+)
 def test_what_is_no_query_is_refused(query):
     with pytest.raises(ValueError, match="quer"):
         read_query(query)

@@ -2,5 +2,6 @@
 
 Not here: other families (``tacgrasp.lessons.dialogue.families``).
 
-May import: tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.patterns.
+May import: tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.families.comparisons,
+tacgrasp.lessons.dialogue.patterns.
 """

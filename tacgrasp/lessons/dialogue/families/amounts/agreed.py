@@ -17,7 +17,7 @@ from tacgrasp.lessons.dialogue.patterns.pattern import Slots
 
 _BAND = (
     "(the [force|target|wanted|goal|grip force|target force] (band|band|range|window|corridor|"
-    "interval)|the [force] contract|the (goal|target|specification|task)|our (goal|contract|band))"
+    "interval)|the goal (band|range|window)|the job|the [force] contract|the (goal|target|specification|task)|our (goal|contract|band))"
 )
 _WANTED = (
     "(wanted|asked for|required|needed|called for|desired|requested|expected|prescribed|demanded|"
@@ -432,10 +432,20 @@ FAMILIES: tuple[QuestionFamily, ...] = (
     QuestionFamily(
         name="band_values",
         pattern=number_pattern(_BAND_WORDING, is_unit_needed=False),
-        slots={**amount_slots({"N": UNIT_WORDS["N"]}), **_BAND_SLOTS},
+        slots={
+            **amount_slots(
+                {
+                    "N": UNIT_WORDS["N"],
+                    "mN": UNIT_WORDS["mN"],
+                    "cN": "(cN|centinewtons)",
+                    "g": UNIT_WORDS["gf"],
+                }
+            ),
+            **_BAND_SLOTS,
+        },
         build=lambda bindings, _: Amount(
             quantity=next(bindings[name] for name in _BOUNDS if name in bindings),
-            unit="N",
+            unit=bindings.get("unit", "N"),
             length=length_of(bindings),
         ),
     ),

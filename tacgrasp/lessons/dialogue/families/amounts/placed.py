@@ -31,6 +31,10 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
         way: The adjectives of this direction.
         sides: Both directions along the axis, as adverbs.
     """
+    plus = (
+        "((right|up|palm side) (counts as|is|being|as) (plus|positive)|positive to the right|"
+        "(left|down|tip side) (counts as|is|being|as) (minus|negative)|signed|with [its] sign)"
+    )
     along = (
         f"(along {axis}|along the {axis} axis|in {axis}|in the {axis} direction|on the {axis} axis)"
     )
@@ -86,7 +90,9 @@ def _coordinate(axis: str, way: str, sides: str) -> AmountWording:
         bare=(
             f"{axis}|{axis}|{axis} coordinate|{axis} position|{axis} value|{axis} location|"
             f"{way} (position|coordinate)|contact {axis}|{axis} of (the|this) contact|"
-            f"position (along|in) {axis}|{axis} of (it|{{thing}})|coordinate {axis}|{axis} pos"
+            f"position (along|in) {axis}|{axis} of (it|{{thing}})|coordinate {axis}|{axis} pos|"
+            f"signed {way} (displacement|offset|position|shift|deviation) [, {plus}]|{way} (displacement|"
+            f"offset|shift) (with [its] sign|, {plus})|{axis} , {plus}"
         ),
         terse=f"{{unit}} ({sides}|{along})|{axis} {{unit}}",
         others=(

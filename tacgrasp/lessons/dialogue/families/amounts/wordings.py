@@ -175,6 +175,8 @@ def number_pattern(wording: AmountWording, *, is_unit_needed: bool, extra_unit: 
         f"{GET} ({wording.nouns}|{short}) {unit}",
         f"({short}) {unit}",
         f"({wording.bare}) {unit}",
+        f"({wording.nouns}) [,|:] (how (much|large) is (it|that)|what is (it|that)) {unit}",
+        f"({wording.nouns}) [,|:] how many {{unit}} (is|would) (it|that) [be]",
         f"in {{unit}} [,|please,] (({direct})|[{{want}}] ({wording.nouns})|{{ask}} ({plain}))",
     ]
     if wording.counted:

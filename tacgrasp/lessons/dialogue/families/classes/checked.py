@@ -119,6 +119,26 @@ def _denials(
     )
 
 
+_BUT_IT_IS = "(, is it|, does it|, or is it|, or does it|, or is it after all)"
+
+
+def _tagged(
+    name: str, slots: Mapping[str, words.Words], subject: str, predicate: str, verb: str = ""
+) -> QuestionFamily:
+    """Denied statements with a question behind them, which asks whether it is so."""
+    others = f"| ({subject}) (does not|doesn't) {verb} {_BUT_IT_IS}" if verb else ""
+    return QuestionFamily(
+        name=f"{name}_tagged",
+        pattern=(
+            f"{{lead}} [{{believe}}] ( ({subject}) (is not|isn't|is never|was not) ({predicate}) "
+            f"{_BUT_IT_IS} {others} | not ({predicate}) , is it ) {{tail}}"
+        ),
+        build=_checked(name, slots),
+        slots=slots,
+        steer=_steered(name, slots, denied=False),
+    )
+
+
 def any_of(*patterns: str) -> str:
     """One of some patterns."""
     return " | ".join(patterns)
@@ -157,6 +177,10 @@ _PLACE_SLOTS = {"position": words.PLACES, "spot": words.SPOTS, "bare": words.BAR
 
 _NO_PLACE_SLOTS = {**_PLACE_SLOTS, "aside": words.ASIDE, "missed": words.MISSED}
 
+_BY_LIST = (
+    "((in the sense of|by|going by|according to|in terms of) your (word list|list of words|own scale|"
+    "scale|classes|own words|classification))"
+)
 _DENT_NOUN = "(dent|press|indentation|imprint|touch|contact|impression|indent)"
 _PATCH_NOUN = "(patch|area|spot|footprint|contact|contact area|contact patch|imprint)"
 
@@ -175,7 +199,7 @@ _SHAPE_DIRECT = (
     f"{{shape}}|"
     "(could|might|can) (it|this|that) be {shape}|(is|was) that {shape} (I feel|we feel|we hit)|"
     "{shape} [{tag}]|{shape} , or not|is {thing} {shape} or not|{bare} [{tag}]|{bare}|"
-    "is it {bare} shaped|is the (contact|object) {bare}-shaped|"
+    "{shaped} [{tag}]|is it {bare} shaped|is the (contact|object) {bare}-shaped|"
     "are (these|they|those) {many}|do (you|we) feel {many}|are there {many} [on the pad]|any {many}"
 )
 _SHAPE_SAID = (
@@ -186,7 +210,7 @@ _SHAPE_SAID = (
 _SHAPE_DENIED = (
     "is {thing} (something other than|anything but|anything other than) {shape}|"
     "(can|could|may) (we|I|you) (rule out|exclude) {shape}|so not {shape}|so it is no {bare}|"
-    "(not {shape}|no {bare}) (, is it|, right|, is that right|, am I right)|"
+    "(not {shape}|no {bare}) (, right|, is that right|, am I right)|"
     "is it (certainly|definitely|really|surely) not {shape}|is it no {bare}|"
     "({whether}|[{believe}]) {thing} (does not|doesn't) (feel|look) like {shape} [{tag}]|"
     "({whether}|[{believe}]) {thing} is (no {bare}|not at all {shaped}) [{tag}]"
@@ -219,7 +243,7 @@ _TEXTURE_DENIED = (
     f"is ({SURFACE}) (anything but|something other than|other than) {{texture}}|"
     "(can|could|may) (we|I|you) (rule out|exclude) {relief}|are there no {reliefs} [on ({thing}|"
     "the surface)]|"
-    "so not {texture}|not {texture} (, is it|, right|, is that right|, am I right)|not {texture}|"
+    "so not {texture}|not {texture} (, right|, is that right|, am I right)|not {texture}|"
     "({thing}|the surface) is not {texture} at all|no {reliefs}|no {reliefs} , right|"
     "is it (certainly|definitely|surely) not {texture}|is ({thing}|the surface) free of {reliefs}|"
     "({whether}|[{believe}]) ({thing}|the surface) (does not|doesn't) feel {texture} [{tag}]|"
@@ -227,6 +251,7 @@ _TEXTURE_DENIED = (
     "({whether}|[{believe}]) {thing} has no {reliefs} [{tag}]"
 )
 _DEPTH_DIRECT = (
+    f"[is it|is that|is this] [a] {{depth}} {_DENT_NOUN} , {_BY_LIST}|"
     f"is (it|this|that) {{dent}} {_DENT_NOUN}|{{dent}} {_DENT_NOUN} [{{tag}}]|{{dent}} "
     f"{_DENT_NOUN}|"
     f"is there {{dent}} {_DENT_NOUN}|do (we|you) (have|feel|see) {{dent}} {_DENT_NOUN}|"
@@ -249,14 +274,15 @@ _DEPTH_SAID = (
 )
 _DEPTH_DENIED = (
     "is (it|the depth|the press|the dent) (anything but|something other than|other than) {depth}|"
-    f"not {{dent}} {_DENT_NOUN} [, is it|, right]|is (it|this) not {{dent}} {_DENT_NOUN}|"
-    "not {depth} (, is it|, right|, is that right|, am I right)|not {depth}|so not {depth}|"
+    f"not {{dent}} {_DENT_NOUN} [, right]|is (it|this) not {{dent}} {_DENT_NOUN}|"
+    "not {depth} (, right|, is that right|, am I right)|not {depth}|so not {depth}|"
     "is {thing} not (pressed|pushed|sunk) in {deeply}|"
     f"({{whether}}|[{{believe}}]) it is not {{dent}} {_DENT_NOUN} [{{tag}}]|"
     "({whether}|[{believe}]) {thing} is not (pressed|pushed) in {deeply} [{tag}]|"
     "({whether}|[{believe}]) the depth is (anything but|other than) {depth} [{tag}]"
 )
 _AREA_DIRECT = (
+    f"[is it|is that|is this] [a] {{area}} {_PATCH_NOUN} , {_BY_LIST}|"
     f"is (it|this|that) {{patch}} {_PATCH_NOUN}|{{patch}} {_PATCH_NOUN} [{{tag}}]|"
     f"{{patch}} {_PATCH_NOUN}|is there {{patch}} {_PATCH_NOUN}|"
     f"do (we|you) (have|feel|see|get) {{patch}} {_PATCH_NOUN}|does {{thing}} (make|have|leave) "
@@ -280,7 +306,7 @@ _AREA_DENIED = (
     "so (the area|the patch|the contact) is not {area}|"
     "({whether}|[{believe}]) it is not a {area} (patch|area|contact|footprint) [{tag}]|"
     "is it not a {area} (patch|area|contact|footprint)|"
-    "not a {area} (patch|area|contact|footprint) [, is it|, right|, is that right]|"
+    "not a {area} (patch|area|contact|footprint) [, right|, is that right]|"
     "({whether}|[{believe}]) the area is (anything but|other than) {area} [{tag}]"
 )
 _PLACE_PREDICATE = (
@@ -311,7 +337,7 @@ _PLACE_DENIED = (
     "(does|did) {thing} (lie|sit|touch|land|press) {aside}|do we hold {thing} {aside}|"
     "did (we|you) miss {missed}|have (we|you) missed {missed}|is {thing} outside {missed}|"
     "is ({thing}|the contact) (somewhere other than|anywhere but|elsewhere than) {position}|"
-    "not {position} (, is it|, right|, is that right|, am I right)|not {position}|not {spot}|"
+    "not {position} (, right|, is that right|, am I right)|not {position}|not {spot}|"
     "({whether}|[{believe}]) ({thing}|the contact|the grip) is {aside} [{tag}]|"
     "({whether}|[{believe}]) {thing} (does not|doesn't) (lie|sit|touch|press) {position} [{tag}]|"
     "({whether}|[{believe}]) we (missed|have missed) {missed} [{tag}]|"
@@ -331,6 +357,23 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "{shape}|{shape}|{shaped}|shaped like {shape}",
         _SHAPE_DENIED,
     ),
+    _tagged(
+        "shape",
+        _SHAPE_SLOTS,
+        OBJECT,
+        "{shape}|{shape}|{shaped}|shaped like {shape}",
+        "(feel|look) (like {shape}|{shaped})",
+    ),
+    _tagged(
+        "texture",
+        _TEXTURE_SLOTS,
+        SURFACE,
+        "{texture}|a {texture} (surface|texture|one|finish)",
+        "feel {texture}",
+    ),
+    _tagged("depth", _DEPTH_SLOTS, DENT, "{depth}|{dent} (dent|press|one)"),
+    _tagged("area", _AREA_SLOTS, PATCH, "{area}|{patch} (patch|area|one)"),
+    _tagged("position", _PLACE_SLOTS, PLACED, "{position}", "(sit|lie) {position}"),
     _denials("texture", _TEXTURE_SLOTS, SURFACE, "{texture}", _TEXTURE_DENIED),
     _denials("depth", _DEPTH_SLOTS, DENT, "{depth}", _DEPTH_DENIED),
     _denials("area", _AREA_SLOTS, PATCH, "{area}", _AREA_DENIED),

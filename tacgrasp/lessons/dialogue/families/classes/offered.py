@@ -26,6 +26,7 @@ from tacgrasp.lessons.dialogue.patterns.family import (
     Bindings,
     Numbers,
     QuestionFamily,
+    Steerer,
     length_of,
 )
 from tacgrasp.lessons.dialogue.patterns.phrases import check_pattern
@@ -62,15 +63,6 @@ def _offered(
         bare: Such words alone.
         question: What stands before or after such words alone, as a question.
     """
-
-    def steer(_: AskedScene, __: bool, rng: np.random.Generator) -> Mapping[str, str]:
-        """Different words, so that no question reads 'a ball or a ball'."""
-        given: dict[str, str] = {}
-        for kind, table in kinds.items():
-            chosen = rng.permutation(list(table))
-            given |= {f"{kind}{place}": str(chosen[place - 1]) for place in (1, 2, 3)}
-        return given
-
     return QuestionFamily(
         name=f"{name}_or",
         pattern=(
@@ -84,8 +76,47 @@ def _offered(
         ),
         build=_which(name, is_open=False),
         slots={f"{kind}{n}": table for kind, table in kinds.items() for n in (1, 2, 3)},
-        steer=steer,
+        steer=_different_words(kinds),
     )
+
+
+_ELSE = (
+    "(or something else|or something different|or neither|or none of these|or another one|or other|"
+    "or one of your other (words|classes|shapes)|or which else|or what else)"
+)
+_THEN = (
+    "(then say what|then name it|say which then|name it then|if neither , (name|say|give) (it|the right "
+    "(one|word))|if (not|neither|none) , what then|correct me if [it is] (neither|none)|correct me if "
+    "neither (fits|is right)|or tell me what it is|if it is neither , say what it is)"
+)
+
+
+def _or_else(name: str, kinds: Mapping[str, words.Words]) -> QuestionFamily:
+    """Words to choose from, with a way out."""
+    bare = " | ".join(_one_of(kind) for kind in kinds)
+    return QuestionFamily(
+        name=f"{name}_or_else",
+        pattern=(
+            f"{{lead}} ( ([is it|which one is it :|do we have|would you say|do I have] ({bare})) "
+            f"(, {_ELSE} [(,|?) {_THEN}]|(,|?) {_THEN}) ) {{tail}} [, {{length}}]"
+        ),
+        build=_which(name, is_open=name in ("shape", "texture")),
+        slots={f"{kind}{n}": table for kind, table in kinds.items() for n in (1, 2, 3)},
+        steer=_different_words(kinds),
+    )
+
+
+def _different_words(kinds: Mapping[str, words.Words]) -> Steerer:
+    """Different words, so that no question reads 'a ball or a ball'."""
+
+    def steer(_: AskedScene, __: bool, rng: np.random.Generator) -> Mapping[str, str]:
+        given: dict[str, str] = {}
+        for kind, table in kinds.items():
+            chosen = rng.permutation(list(table))
+            given |= {f"{kind}{place}": str(chosen[place - 1]) for place in (1, 2, 3)}
+        return given
+
+    return steer
 
 
 def _ranks(phrases: Mapping[str, str], table: words.Words) -> dict[str, str]:
@@ -215,6 +246,16 @@ _PLACE_OFFER = (
 )
 
 FAMILIES: tuple[QuestionFamily, ...] = (
+    _or_else(
+        "shape",
+        {
+            "noun": words.SHAPE_NOUNS,
+            "adjective": words.SHAPE_ADJECTIVES,
+            "bare": words.BARE_SHAPES,
+        },
+    ),
+    _or_else("texture", {"word": words.TEXTURES}),
+    _or_else("position", {"place": words.PLACES, "bare": words.BARE_SPOTS}),
     _ranked(
         "depth",
         _DEPTH_RANKS,

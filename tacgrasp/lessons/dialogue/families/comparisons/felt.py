@@ -81,7 +81,7 @@ def _negative(truth: str) -> Chooser:
 
 _FIXED_LENGTHS = {
     "0.5 mm": "(half a millimetre|half a mm|half a millimeter)",
-    "1 mm": "(one millimetre|one mm|a millimetre)",
+    "1 mm": "(one millimetre|one mm|a millimetre|(a|one) (full|whole|entire) millimetre)",
     "0.1 mm": "(a tenth of a millimetre|one tenth of a millimetre|a tenth of a mm)",
     "0.25 mm": "(a quarter of a millimetre|a quarter millimetre|a quarter of a mm)",
     "0.2 mm": "(a fifth of a millimetre|two tenths of a millimetre)",
@@ -161,10 +161,11 @@ _DEPTH_SLOTS: Slots = {
     "gel": "(gel|pad|skin|sensor|rubber|surface|fingertip|silicone)",
 }
 _FORCE_SLOTS: Slots = {
-    **slots_of(("N", "mN", "g"), _FIXED_FORCES, is_bare=True),
+    **slots_of(("N", "mN", "g", "cN"), _FIXED_FORCES, is_bare=True),
     "unit": {
         "N": UNITS["N"],
         "mN": UNITS["mN"],
+        "cN": UNITS["cN"],
         "g": "(g|g|grams|grams|grams|gram|grams of force|gram-force)",
     },
     "harder": {
@@ -228,6 +229,7 @@ _DEEP_DIRECT = (
     "has {thing} {now} {sunk} [{in}] ({further} {amount}|{deeper} {amount}|by {compared}|"
     "{more_than} {amount} deep)|(did we (press|push|poke|squeeze)|have we (pressed|pushed|poked)) "
     "{thing} ({in} by {compared}|{deeper} {amount}|{more_than} {amount} deep|{further} {amount})|"
+    "(are we|is it) [now|already] {amount} [deep] (in|into the {gel}) [,] {or_more}|"
     "have we {now} (gone|got|pressed|pushed|sunk) ({deeper} {amount}|"
     "{more_than} {amount} deep)|is the {gel} {now} {dented} [by] [{body}] ({compared})|"
     "(does|did) {thing} {dent} the {gel} [by] ({compared})|is there a dent of ({compared})|"

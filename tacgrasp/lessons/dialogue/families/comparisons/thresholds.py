@@ -81,6 +81,7 @@ UNITS: dict[str, str] = {
     "cm": "(cm|centimetres|centimeters)",
     "N": "(N|N|newtons|newton)",
     "mN": "(mN|millinewtons)",
+    "cN": "(cN|centinewtons)",
     "g": "(g|g|grams|grams|gram)",
     "kg": "(kg|kilograms|kilogram|kilos)",
     "%": "(%|percent|per cent) [of the (pad|pad|gel|sensor|skin|surface)]",
@@ -106,7 +107,12 @@ class Scale:
 
 
 _WIDTH = {"mm": Scale(size=1.0, step=0.5, low=0.5, high=9.0)}
-_FORCE = {"N": Scale(size=1.0, step=0.05, low=0.1, high=8.0)}
+_FORCE = {
+    "N": Scale(size=1.0, step=0.05, low=0.1, high=8.0),
+    "mN": Scale(size=1e-3, step=50, low=100, high=8000),
+    "cN": Scale(size=1e-2, step=5, low=10, high=800),
+    "g": Scale(size=GRAVITY_N_PER_G, step=5, low=10, high=800),
+}
 _MASS = {
     "g": Scale(size=1.0, step=5, low=5, high=800),
     "kg": Scale(size=1000.0, step=0.01, low=0.02, high=0.8),
@@ -117,11 +123,7 @@ SCALES: Mapping[str, Mapping[str, Scale]] = {
         "µm": Scale(size=1e-3, step=10, low=50, high=1200),
         "cm": Scale(size=10.0, step=0.005, low=0.005, high=0.12),
     },
-    "force_n": {
-        "N": Scale(size=1.0, step=0.05, low=0.1, high=8.0),
-        "mN": Scale(size=1e-3, step=50, low=100, high=8000),
-        "g": Scale(size=GRAVITY_N_PER_G, step=5, low=10, high=800),
-    },
+    "force_n": _FORCE,
     "area_percent": {
         "%": Scale(size=1.0, step=1, low=2, high=50),
         "mm²": Scale(size=0.32409, step=1, low=5, high=150),
@@ -142,13 +144,19 @@ SCALES: Mapping[str, Mapping[str, Scale]] = {
 
 
 def one_threshold(
-    truth: str,
+    truth: str, scaled_as: str = ""
 ) -> Callable[[AskedScene, Bindings, np.random.Generator], dict[str, str]]:
-    """Chooser of the number ``t``, and of a second, greater one ``u``, around an expression."""
+    """Chooser of the number ``t``, and of a second, greater one ``u``, around an expression.
+
+    Args:
+        truth: The expression.
+        scaled_as: Another expression, whose scales its numbers have; '' for its own.
+    """
     expression = Expression(truth)
+    scales = SCALES[scaled_as or truth]
 
     def choose(scene: AskedScene, bindings: Bindings, rng: np.random.Generator) -> dict[str, str]:
-        scale = SCALES[truth][_unit(bindings) or next(iter(SCALES[truth]))]
+        scale = scales[_unit(bindings) or next(iter(scales))]
         value = expression.evaluate(scene.values()).value
         known = isinstance(value, float) and value != 0
         middle = (

@@ -2,6 +2,6 @@
 
 Not here: other families (``tacgrasp.lessons.dialogue.families``).
 
-May import: tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.families.grasps,
-tacgrasp.lessons.dialogue.patterns.
+May import: tacgrasp.lessons.dialogue, tacgrasp.lessons.dialogue.families.classes,
+tacgrasp.lessons.dialogue.families.grasps, tacgrasp.lessons.dialogue.patterns.
 """

@@ -11,6 +11,7 @@ from itertools import permutations
 
 import numpy as np
 
+from tacgrasp.lessons.dialogue.families.classes import words
 from tacgrasp.lessons.dialogue.meaning import Meaning
 from tacgrasp.lessons.dialogue.patterns.family import Bindings, Numbers
 from tacgrasp.lessons.dialogue.query import read_query
@@ -67,14 +68,21 @@ NOUNS: Mapping[str, str] = {
     "band_low": "the (least|lowest|minimum) force wanted",
     "band_high": "the (most|highest|largest) force wanted",
     "holds": "the (payload|heaviest load this grip can hold)",
-    "word shape": "([the|its] (shape|form|geometry)|the shape [of {body}])",
-    "word texture": "([the|its] (texture|surface texture|surface|roughness)|the texture [of "
-    "{body}])",
-    "choice position": "([the|its] (position|place|location|whereabouts)|where ({body}|it) is)",
-    "choice depth": "the depth (class|word|category)",
-    "choice area": "the area (class|word|category)",
-    "choice action": "(the (next|best) (step|move|action)|your (advice|recommendation)|what to do "
+    "word shape": "([the|its] (shape|form|geometry|shape class|kind of shape|outline)|the shape "
+    "[of {body}])",
+    "word texture": "([the|its] (texture|surface texture|surface|roughness|texture class|surface "
+    "class)|the texture [of {body}])",
+    "choice position": "([the|its] (position|place|location|whereabouts|spot|position class|cell) "
+    "|where ({body}|it) is)",
+    "choice depth": "([the] (depth|indentation|press) (class|word|category|grade)|the class of the "
+    "depth)",
+    "choice area": "([the] (area|size|contact area|footprint) (class|word|category|grade)|the class "
+    "of the (area|size))",
+    "choice action": "([the] (next|best) (step|move|action)|your (advice|recommendation)|what to do "
     "[next|now])",
+    "choice force_band": "([the] force (class|verdict|category)|[the] (force|grip) (against|versus|"
+    "relative to|compared with) the (band|goal|range)|[the] band verdict)",
+    "choice worse_axis": "(the|its) worse (axis|direction)",
 }
 QUESTIONS: Mapping[str, str] = {
     "depth": "(how deep (is (it|{thing}|the contact) [pressed|pressed in]|does (it|{thing}) "
@@ -90,16 +98,24 @@ QUESTIONS: Mapping[str, str] = {
     "{thing}) weigh)",
     "limit": "what is the [force|hard] limit",
     "headroom": "how (much force is left (to|below) the limit|far (are we|is it) from the limit)",
-    "word shape": "(what shape (is (it|{thing})|does (it|{thing}) have)|how is it shaped|"
-    "what is (its|the) shape)",
+    "word shape": "((what|which) (shape|form) (is (it|{thing})|does (it|{thing}) have)|how is it "
+    "shaped|what is (it|{thing}) shaped like|what is (its|the) (shape|form)|what shape do you feel)",
     "word texture": "(what texture (does (it|{thing}) have|is (it|{thing}))|how does the "
     "surface feel|"
-    "what is the (surface|texture) [like]|what does it feel like)",
-    "choice position": "(where (is|on the pad is) (it|{thing}|{touch})|where does it touch)",
-    "choice depth": "which depth class is it",
-    "choice area": "which area class is it",
+    "what is the (surface|texture) [like]|what does it feel like|how (does|is) (its|the) (skin|"
+    "texture|outside) [feel]|(what|which) surface has (it|{thing}))",
+    "choice position": "(where (is|on the pad is) (it|{thing}|{touch})|where does (it|{thing}) "
+    "(touch|sit|lie|press|rest)|whereabouts is (it|{thing})|in (what|which) cell is it)",
+    "choice depth": "((which|what) depth (class|category|word) is it|how deep is it in words)",
+    "choice area": "((which|what) (area|size) (class|category|word) is it|how (large|big) is it in "
+    "words)",
     "choice action": "(what (should|shall) (I|we|the robot) do [next|now]|what next|"
-    "what do you (advise|suggest|recommend)|what is the next step)",
+    "what do you (advise|suggest|recommend)|what is the next step|what (should|must|has to|is to) "
+    "be done [next|now]|which (step|move) (follows|comes next)|what now)",
+    "choice force_band": "(is (the (force|grip)|it) (below , within or above|above , within or "
+    "below|under , in or over|under , inside or over) the (band|range|goal)|how does the (force|"
+    "grip) compare with the (band|goal)|where is the (force|grip) relative to the (band|goal))",
+    "choice worse_axis": "(which axis is worse|in which direction is it further off)",
 }
 INDIRECT: Mapping[str, str] = {
     "depth": "(how deep (it|{thing}|the contact) (is [pressed]|goes|sinks)|what the depth is)",
@@ -111,10 +127,18 @@ INDIRECT: Mapping[str, str] = {
     "distance": "how far (it|{thing}) is off center",
     "mass": "(how heavy (it|{thing}) is|what (it|{thing}) weighs)",
     "limit": "what the [force] limit is",
-    "word shape": "(what shape (it|{thing}) (is|has)|how it is shaped)",
-    "word texture": "(what texture (it|{thing}) has|how the surface feels)",
-    "choice position": "(where (it|{thing}|the contact) is|where it touches)",
-    "choice action": "what (I|we) should do [next|now]",
+    "word shape": "((what|which) (shape|form) (it|{thing}) (is|has)|how it is shaped|what it is "
+    "shaped like)",
+    "word texture": "((what|which) texture (it|{thing}) has|how (the|its) (surface|skin|texture) "
+    "(feels|is)|what the surface is like)",
+    "choice position": "(where (it|{thing}|the contact) (is|sits|lies)|where it touches|in which "
+    "cell it (is|sits))",
+    "choice action": "(what (I|we) should do [next|now]|what (should|must|has to) be done [next]|"
+    "what comes next)",
+    "choice depth": "(what|which) depth class it (is|has)",
+    "choice area": "(what|which) (area|size) class it (is|has)",
+    "choice force_band": "(whether the (force|grip) is (below , within or above|under , in or over) "
+    "the (band|goal)|how the (force|grip) compares with the (band|goal))",
 }
 _CHECKS: Mapping[str, str] = {
     "check force within": "(is it [already] (safe|ok|okay|fine) to lift [{body}]|(can|may) (we|I) "
@@ -140,9 +164,15 @@ _CHECKS: Mapping[str, str] = {
     "check stays given": "(will|can) the grip (hold|carry|keep) it",
     "check left": "is it (on the left|left of the (center|middle))",
     "check right": "is it (on the right|right of the (center|middle))",
-    "check texture smooth": "is (it|the surface) smooth",
-    "check texture rough": "is (it|the surface) rough",
-    "check shape sphere": "is it (a sphere|a ball)",
+    **{
+        f"check texture {word}": f"(is (it|the surface|its (surface|texture)) {said}|does (it|the "
+        f"surface) feel {said})"
+        for word, said in words.TEXTURES.items()
+    },
+    **{
+        f"check shape {word}": f"(is (it|{{thing}}|the shape) {said}|do you feel {said})"
+        for word, said in words.SHAPE_NOUNS.items()
+    },
 }
 _CLAIMS: Mapping[str, str] = {
     "check force within": "(it is safe to lift [{body}]|(we|I) (can|may) lift (it|{thing})|"
@@ -159,6 +189,15 @@ _CLAIMS: Mapping[str, str] = {
     "(pad|sensor)",
     "check slips given": "(it|{thing}) (will|would) (slip|fall)",
     "check stays given": "the grip (will|can) hold it",
+    **{
+        f"check texture {word}": f"((it|the surface|its (surface|texture)|the texture) is {said}|(it|the "
+        f"surface) feels {said})"
+        for word, said in words.TEXTURES.items()
+    },
+    **{
+        f"check shape {word}": f"((it|{{thing}}|the shape) is {said}|we have {said} here)"
+        for word, said in words.SHAPE_NOUNS.items()
+    },
 }
 _HOW: Mapping[str, str] = {
     "depth": "how deep",
@@ -166,9 +205,26 @@ _HOW: Mapping[str, str] = {
     "area": "(how large|how big)",
     "distance": "how far off center",
     "choice position": "where",
-    "word shape": "what shape",
+    "word shape": "(what|which) (shape|form)",
+    "word texture": "(what|which) (texture|surface)",
 }
 """Questions without their verb: 'how deep and how hard is it'."""
+
+_CLASSES: Mapping[str, str] = {
+    "word shape": "(shape|form)",
+    "word texture": "(texture|surface)",
+    "choice depth": "(depth|indentation)",
+    "choice area": "(area|size|footprint|contact area)",
+    "choice position": "(position|place|location)",
+}
+"""What has classes: 'the depth class and the area class'."""
+
+_DEGREES: Mapping[str, str] = {
+    "choice depth": "how (deep|deeply pressed)",
+    "choice area": "how (large|big|extended)",
+    "choice force_band": "how (firm|strong) compared with the band",
+}
+"""Questions for a class without their verb, asked in words."""
 
 Part = Mapping[str, str]
 
@@ -198,6 +254,28 @@ def in_both(phrases: Part) -> dict[str, str]:
     }
 
 
+_OTHER_UNITS: Mapping[str, str] = {
+    "depth mm": "(inches|thou|mils|nanometres|hundredths of a millimetre|tenths of a millimetre|"
+    "metres|decimetres)",
+    "force N": "(pounds|ounces|kilograms|kgf|kiloponds|dynes|kilonewtons|pounds of force|"
+    "micronewtons)",
+    "area mm²": "(square (inches|centimetres|cm|microns)|cm2|cm squared)",
+    "distance mm": "(inches|microns|centimetres|cm|thou)",
+    "mass g": "(pounds|ounces|stone|tons|milligrams|mg)",
+    "limit N": "(pounds|ounces|kilograms|kgf|kiloponds|dynes)",
+}
+"""Units that no query has, by the amount that answers: one in a unit that is near."""
+
+
+def in_other(phrases: Part) -> dict[str, str]:
+    """Phrases that ask for an amount in a unit that no query has, by the part of a query."""
+    return {
+        f"amount {amount}": f"({phrases[amount.split()[0]]}) in {said}"
+        for amount, said in _OTHER_UNITS.items()
+        if amount.split()[0] in phrases
+    }
+
+
 _TABLES: Mapping[str, Part] = {
     "noun": _units(NOUNS),
     "asks": _units(QUESTIONS),
@@ -205,6 +283,9 @@ _TABLES: Mapping[str, Part] = {
     "is": _CHECKS,
     "if": _CLAIMS,
     "how": _units(_HOW),
+    "named": {name: noun for name, noun in NOUNS.items() if name not in _ASKED_IN},
+    "class": _CLASSES,
+    "degree": _DEGREES,
 }
 SLOTS: Mapping[str, Mapping[str, str]] = {
     **{f"{kind}{place}": dict(table) for kind, table in _TABLES.items() for place in PLACES},
@@ -252,7 +333,13 @@ def different(_: AskedScene, __: bool, rng: np.random.Generator) -> Mapping[str,
     unasked = (
         {"amount force g"} if is_weighed else {"amount mass g", "amount mass kg", "amount holds g"}
     )
-    for kinds in (("noun", "asks", "told", "how"), ("is", "if")):
+    for kinds in (
+        ("noun", "asks", "told", "how"),
+        ("named",),
+        ("class",),
+        ("degree",),
+        ("is", "if"),
+    ):
         common = set(_drawn(_TABLES[kinds[-1]], unasked, rng))
         order = sorted(_drawn(_TABLES[kinds[0]], unasked, rng), key=common.__contains__)
         for kind in kinds:

@@ -94,6 +94,24 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         },
     ),
     QuestionFamily(
+        name="side_named",
+        pattern=(
+            "{lead} ( {half} [of (the|our|your) (pad|gel|sensor|finger)] [{tag}] | [so|maybe|probably|is "
+            "it|is that|are we on|is it on|is it in] the {half} [of (the|our|your) (pad|gel|sensor)] "
+            "[{tag}] | (is|does) {thing} (on|occupy|touch|in) the {half} [of (the|our|your) (pad|gel|"
+            "sensor)] ) {tail} [, {length}]"
+        ),
+        build=_condition("half"),
+        slots={
+            "half": {
+                "left": "(left|left-hand) (half|side|part)",
+                "right": "(right|right-hand) (half|side|part)",
+                "top": "(palm|upper|palm-side) (half|side|end)",
+                "bottom": "(fingertip|tip|lower) (half|side|end)",
+            }
+        },
+    ),
+    QuestionFamily(
         name="not_side",
         pattern=denied_pattern("{thing}|{touch}|the contact point", "{side}"),
         build=_condition("side", denied=True),
@@ -175,6 +193,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"(what|which) is (worse|larger|greater|bigger) , the (horizontal or the vertical|"
             f"x or the y) {{miss}}|"
             f"are we {{off}} {_AXES}|{{off}} {_AXES}|"
+            f"(off center|offset|error|misplaced|off) [:|,] (more|mostly|mainly|rather|largely) ({_SIDEWAYS} [,] [or] [more|mostly|mainly|rather] {_LENGTHWISE}|{_LENGTHWISE} [,] [or] [more|mostly|mainly|rather] {_SIDEWAYS})|"
             f"do we (miss|lie off|have to correct) more {_AXES}|where is the {{miss}} (larger|"
             f"worse) , "
             f"{_AXIS_NAMES}|which of the (two|two offsets|axes|coordinates) is "

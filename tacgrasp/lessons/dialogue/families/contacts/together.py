@@ -17,6 +17,7 @@ from tacgrasp.lessons.dialogue.families.contacts.parts import (
     asked,
     different,
     in_both,
+    in_other,
 )
 from tacgrasp.lessons.dialogue.families.grasps.force import DEPTH_QUESTIONS
 from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily
@@ -165,11 +166,25 @@ def _joined(name: str, pattern: str) -> QuestionFamily:
         name=name,
         pattern=f"{{lead}} ( {pattern} ) {{tail}} [, please] [?]",
         build=asked,
-        slots={**SLOTS, "join": _JOIN, "tell": _TELL},
+        slots={**SLOTS, "join": _JOIN, "tell": _TELL, "claims": _CLAIMS_BOTH},
         steer=different,
     )
 
 
+_CLAIMS_BOTH = (
+    "(am I right that|is it true that|do you agree that|is it so that|would you agree that|"
+    "is it correct that|can you confirm that|I think that|I guess that|I believe that)"
+)
+_LIST = (
+    "([please] (report|list|name|give|state|say|tell me|note|log|read out)|(could|can|would) you "
+    "[please] (give|list|name|report|state)|I (need|want|would like)|for the (record|log|report)|"
+    "three things|the following)"
+)
+_ORDER = "(, in (this|that|exactly this) order|, one after the other|, in sequence)"
+_WORDED = (
+    "(in words only|only in words|in words|in words not numbers|no numbers|without numbers|as words|"
+    "as classes|in your classes|by class|with your words|words only|no numbers please)"
+)
 _MORE = "(and|, and|plus|as well as|together with|along with|and also|,)"
 
 FAMILIES: tuple[QuestionFamily, ...] = (
@@ -195,7 +210,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "[pressed|held|gripped] "
         "| {how1} , {how2} and {how3} is {touch} [pressed|held] | {asks1} and {how2} | {how1} "
         "and {how2} | {how1} , {how2} and {how3} | {asks1} {join} {how2} {join} {is1} | {is1} "
-        "{join} {how1}",
+        "{join} {how1} | {how1} ? {how2} ? [{how3} ?] | {how1} , and {how2} | {noun1} ? and {asks2} "
+        "| {noun1} ? {asks2} | {noun1} ? {is1} | {is1} ? {is2} | {asks1} , then {asks2}",
     ),
     _joined(
         "question_and_noun",
@@ -218,7 +234,28 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         "whether) {if2} "
         "| {ask} {told1} and {noun2} | {tell} {noun1} and {told2} | {tell} {noun1} and (whether|"
         "if) {if1} "
-        "| {ask} {told1} , {told2} and (whether|if) {if1} | {told1} and {told2}",
+        "| {ask} {told1} , {told2} and (whether|if) {if1} | {told1} and {told2} "
+        "| {ask} {told1} (, then|and then|, and then|, and also|, and) {told2} | {ask} first {told1} "
+        ", then {told2} | {ask} {told1} , then {noun2} | {claims} {if1} and [that] {if2} [, right|, "
+        "correct] | {if1} and {if2} (, right|, correct|, am I right|, is that so|, true)",
+    ),
+    _joined(
+        "classes_together",
+        f"{_LIST} : {{named1}} , [and] {{named2}} [, [and] {{named3}}] [{_ORDER}] "
+        f"| [{_LIST}] first {{named1}} , (then|next|after that|and then|second) {{named2}} [, (then|"
+        "finally|last|lastly|and then|third) {named3}] "
+        f"| [{_LIST}] {{named1}} , {{named2}} [and|,] {{named3}} [{_ORDER}] "
+        f"| [{_LIST}] {{named1}} (and|then|, then|before) {{named2}} {_ORDER} "
+        f"| [{_LIST}] [:] [the] {{class1}} (class|word|category) (and|,) [the] {{class2}} (class|word|"
+        f"category) [(,|and) [the] {{class3}} (class|word|category)] [{_ORDER}] "
+        f"| [{_LIST}] [the] (classes|words|categories) (of|for) {{class1}} (and|,) {{class2}} [and "
+        f"{{class3}}] [{_ORDER}] | {{class1}} (class|word) and {{class2}} (class|word) "
+        f"| {_WORDED} , {{degree1}} and {{degree2}} (is {{touch}}|is it|are we) "
+        f"| {{degree1}} and {{degree2}} (is {{touch}}|is it) , {_WORDED} "
+        f"| {_WORDED} , {{class1}} , {{class2}} [and {{class3}}] | {{class1}} and {{class2}} , {_WORDED} "
+        f"| (which|what) {{class1}} class and (which|what) {{class2}} class (is it|does it have|has "
+        "{thing}|do you feel) | (classify|categorise|label|grade|rate) [the] {class1} and [the] {class2} "
+        "[in words]",
     ),
     QuestionFamily(
         name="pair",
@@ -238,6 +275,18 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "pair": in_both(NOUNS),
             "pair1": in_both(QUESTIONS),
             "pair2": in_both(INDIRECT),
+        },
+    ),
+    QuestionFamily(
+        name="other_unit",
+        pattern=(
+            "{lead} ( [{want}] {pair} | {pair1} | {pair} | {ask} {pair2} ) {tail} [, please] [?]"
+        ),
+        build=asked,
+        slots={
+            "pair": in_other(NOUNS),
+            "pair1": in_other(QUESTIONS),
+            "pair2": in_other(INDIRECT),
         },
     ),
     QuestionFamily(

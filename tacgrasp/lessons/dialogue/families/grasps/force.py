@@ -307,7 +307,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| we are not {_HOLDING} [{{thing}}] {{manner}} | we do not {_HOLD} [{{thing}}] "
             f"{{manner}} "
             f"| there is not {{portion}} {_FORCE} [on {{thing}}] ) "
-            "[, is it|, right|, is that right|, am I right|, true or false|, correct] "
+            "[, right|, is that right|, am I right|, true or false|, correct] "
             "| [force] out of (spec|tolerance|range) {out} ) {tail}"
         ),
         build=conditional("state", "manner", "portion", default="within", denied=True),
@@ -332,7 +332,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "portion": {"above": "too much", "below": "too little"},
             "outside": f"({_BAND}|tolerance|spec)",
             "missed": f"({_BAND}|the spec)",
-            "out": "[, right|, is it]",
+            "out": "[, right]",
         },
     ),
     QuestionFamily(
@@ -384,7 +384,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| we (do not|don't) {{keep}} {_LIMIT} | ({_LIMITED}) (does not|doesn't) {{keep}} "
             f"{_LIMIT} "
             "| the [force|hard] limit is not {been} ) "
-            "[, is it|, are we|, right|, is that right|, am I right|, true or false|, correct] ) "
+            "[, right|, is that right|, am I right|, true or false|, correct] ) "
             "{tail}"
         ),
         build=conditional("side", "keep", "been", denied=True),
@@ -410,7 +410,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "does {thing} (need|require|call for) {firmer}|is it (necessary|time|advisable) to "
             "{harder}|would you {harder}|do you want (us|me) to {harder}|would {firmer} be better|"
             "would it be better to {harder}|do you (want|need|advise|recommend) {firmer}|"
-            "is {firmer} what (we|it) need",
+            "is {firmer} what (we|it) need|(must|should|does) {thing} [have to|need to] be "
+            "{held_so} [to (reach|get into|be in) (the band|the goal|the range)]",
             "(we|I|you|the robot) (should|must|have to|need to|ought to) {harder}|(we|you) need "
             "{firmer}|"
             "{firmer} is (needed|required|necessary)|{thing} needs {firmer}|"
@@ -419,8 +420,15 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             "{harder}|need {firmer}|"
             "need to {harder}",
         ),
-        build=conditional("harder", "firmer"),
-        slots={"harder": _HARDER, "firmer": _FIRMER},
+        build=conditional("harder", "firmer", "held_so"),
+        slots={
+            "harder": _HARDER,
+            "firmer": _FIRMER,
+            "held_so": {
+                "below": f"{_HELD} (more firmly|more tightly|harder|tighter|more strongly)",
+                "above": f"{_HELD} (less firmly|less tightly|more gently|more loosely|softer)",
+            },
+        },
     ),
     QuestionFamily(
         name="force_band_word",
@@ -446,7 +454,10 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"(whether|if) we are {_HOLDING} [{{thing}}] too (lightly|loosely|little) or too "
             "(hard|tightly|much)",
             f"({_GRIP}) (against|compared with|in relation to|relative to|versus) {_BAND}|"
-            f"({_GRIP}) , {_SCALE}|{_SCALE}|{_FORCE} : {_SCALE}",
+            f"({_GRIP}) , {_SCALE}|{_SCALE}|{_FORCE} : {_SCALE}|[felt|measured|present] {_FORCE} "
+            f"(vs|versus|against|compared to) [the] (target|wanted|agreed|goal|force) (range|band|window) "
+            f"[: (below , within or above|above , below or within|above , below , within|"
+            f"below , within , above|within , above or below)]",
             "",
         ),
         build=lambda bindings, _: Which(name="force_band", length=length_of(bindings)),

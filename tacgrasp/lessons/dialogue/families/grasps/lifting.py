@@ -109,6 +109,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"lift))|"
             f"(can|may|could|should|shall|can|can't) {_WE} [now|already|safely|just] {_LIFT}|"
             f"do (we|I) {_LIFT}|would you {_LIFT}|"
+            f"(can|may|could) {_WE} {_LIFT} [now] without (harm|damage|harming {{thing}}|damaging "
+            f"{{thing}}|risk|danger|any risk|worry|trouble)|"
             f"(can|could|may|should) {{thing}} be [safely|now|already] {_LIFTED}|"
             f"is {{thing}} (ready|safe|good|OK) (to be {_LIFTED}|for lifting|for a lift|to lift)|"
             f"is (the|our|this|my) {_HOLD} {_GOOD} [enough] [to {_LIFT}|for lifting|for the lift]|"
@@ -180,7 +182,7 @@ FAMILIES: tuple[QuestionFamily, ...] = (
             f"| we (should|must) not {_LIFT} [yet] | (we|I) (should|must) (wait|hold off) before "
             f"lifting "
             f"| we (are not|aren't) ready to {_LIFT} ) "
-            "[, is it|, right|, is that right|, am I right|, true or false|, correct] "
+            "[, right|, is that right|, am I right|, true or false|, correct] "
             f"| {_RISKY} to {_LIFT} | {_LIFTING} , {_RISKY} | not [yet] (safe|ready) to {_LIFT} ) "
             f"{{tail}} "
         ),

@@ -27,6 +27,11 @@ _HIGH_END = (
 _FORCE = "(the|our|this) (force|grip|grip force|squeeze|pressure|hold)"
 _HOLD = "(squeeze|grip|press|pinch|hold|clamp)"
 
+_NONE = (
+    "[, (zero|nothing) if (there is none|none|not|it is not)|, zero otherwise|, or zero|"
+    ", (say|answer) zero if (there is none|not|none)]"
+)
+
 _LACKING = AmountWording(
     asked=(
         Asked(
@@ -69,6 +74,7 @@ _LACKING = AmountWording(
         f"the (gap|distance|climb) up to {_LOW_END}"
     ),
     bare=(
+        f"(shortfall|shortage|deficit) (below|under|against) (the band|{_LOW_END}) {_NONE}|"
         "shortfall|missing force|lacking force|force deficit|force (missing|lacking) to the band|"
         "force shortfall|gap up to the band|margin below the band"
     ),
@@ -115,6 +121,7 @@ _EXCESS = AmountWording(
         f"{_BAND}]|the force (beyond|above|over) {_BAND}"
     ),
     bare=(
+        f"(overshoot|excess|surplus) (past|over|beyond|above) (the band|{_HIGH_END}) {_NONE}|"
         "surplus|overshoot|excess force|force surplus|surplus force|force excess|"
         "force (above|beyond) the band|margin above the band"
     ),
@@ -129,12 +136,12 @@ _OF_IT = "(the|our|this|that) (force|grip force|squeeze|grip|pressure|grip stren
 _TIMES = {
     "twice": (
         f"(twice [as much|{_OF_IT}|that|this]|double [that|this|{_OF_IT}]|two times {_OF_IT}|"
-        f"the double [force]|{_OF_IT} doubled|a doubled force|two hundred percent of {_OF_IT}|"
+        f"the double [force]|{_OF_IT} doubled|a doubled force|"
         "twice as much force)"
     ),
     "half": (
         f"(half [as much|{_OF_IT}|that|this]|half of (it|that|{_OF_IT})|{_OF_IT} halved|"
-        f"a halved force|fifty percent of {_OF_IT}|one half of {_OF_IT}|half as much force)"
+        f"a halved force|one half of {_OF_IT}|half as much force)"
     ),
     "thrice": (
         f"(three times (as much|{_OF_IT}|that|this)|triple [that|this|{_OF_IT}]|thrice {_OF_IT}|"
