@@ -54,7 +54,7 @@ from cltp.train.recipes import Schedule
 from cltp.train.stage import Stage, TrainingRun
 
 STAGES = {
-    "text": Schedule(steps=1000, batch_size=16, learning_rate=2e-3),
+    "text": Schedule(steps=1200, batch_size=16, learning_rate=2e-3),
     "projector": Schedule(steps=200, batch_size=32, learning_rate=2e-3),
     "joint": Schedule(steps=700, batch_size=16, learning_rate=1e-3),
     "words": Schedule(steps=200, batch_size=48, learning_rate=8e-4),
