@@ -221,7 +221,8 @@ def test_the_bearing_curve_knows_heights_and_not_places() -> None:
     for before, after in zip(curve(points), curve(deeper), strict=True):
         assert not torch.equal(before[0], after[0])
         torch.testing.assert_close(before[1], after[1])
-    ranks = quantile_ranks(16, 1024)
+    ranks, few = quantile_ranks(16, torch.tensor([[1024], [9]]))
+    assert few.max() == 8
     assert ranks[:8].tolist() == list(range(8))
     assert (ranks.diff() > 0).all()
     assert ranks[-1] == 1023

@@ -88,7 +88,8 @@ def test_a_cut_contact_names_the_side_that_cuts_it(contacts):
     assert cut
     for contact in cut:
         pitch_mm = contact.sensor.width_mm / contact.height_mm.shape[1]
-        near = contact.height_mm > 0.3 * contact.height_mm.max()
+        # the bumps of a texture stand out of what the side cuts
+        near = contact.height_mm > 0.15 * contact.height_mm.max()
         assert contact.state.cut & cut_sides(near, least=round(CUT_MM / pitch_mm / 2))
 
 
