@@ -94,6 +94,7 @@ class LlmPolicy:
         self._talker = Talker(model, clock)
         self._folder, self._abstain_below, self._clock = folder, abstain_below, clock
         self._moves: list[Primitive] = []
+        self._has_reset = False
         self._says_readings = True
 
     @property
@@ -106,7 +107,7 @@ class LlmPolicy:
         return self._talker
 
     def start(self) -> None:
-        self._moves = []
+        self._moves, self._has_reset = [], False
 
     def through(self, talker: Talker, *, says_readings: bool = True) -> LlmPolicy:
         """A policy that asks ``talker``, with a memory of its own.
@@ -182,6 +183,8 @@ class LlmPolicy:
         hold = flag_reason(said.reading) or hold_reason(reply, extraction, self._abstain_below)
         if not hold and extraction.action in PAD_DIRECTION:
             self._moves.append(extraction.action)
+        if not hold:
+            self._has_reset = extraction.action is Primitive.RESET
         return Decision(
             text=reply.text,
             action=None if hold else extraction.action,
@@ -213,6 +216,8 @@ class LlmPolicy:
         numbers = numbers_as_read(reading)
         draft = drafted(reading, numbers, force_n)
         excluded = [*repeated_moves(self._moves), *barred]
+        if self._has_reset and observation.in_contact:
+            excluded.append(f"<{Primitive.RESET}>")  # it would end where it just began
         if self._says_readings:
             excluded += denied(reading, force_n)
         grammar = step_grammar(

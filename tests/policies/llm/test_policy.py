@@ -202,6 +202,27 @@ def test_d_t_names_the_target_of_the_contract_and_no_other(untrained: Path) -> N
     assert parse_reply(said).goal == Band(low=0.95, high=1.9)
 
 
+def test_a_reset_that_found_the_contact_again_is_not_repeated(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    is_barred: list[bool] = []
+
+    def record(_sensor: object, band: Band, excluded: list[str], *, numbers: object) -> Grammar:
+        is_barred.append("<reset>" in excluded)
+        return step_grammar(None, band)
+
+    monkeypatch.setattr(policies.llm.policy, "step_grammar", record)
+    policy, band = LlmPolicy(untrained), Band(low=0.42, high=0.51)
+    found, lost = (Observation(cloud=touch(), in_contact=each) for each in (True, False))
+    policy.say(found, band, 0.8)
+    policy._has_reset = True
+    policy.say(lost, band, 0.8)
+    policy.say(found, band, 0.8)
+    policy.start()
+    policy.say(found, band, 0.8)
+    assert is_barred == [False, False, True, False]
+
+
 def test_what_is_read_is_said_as_it_is_unless_the_model_must_say_all(
     untrained: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
