@@ -74,6 +74,12 @@ def length_of(bindings: Bindings) -> Length:
     return Length(next(named, ""))
 
 
+def multiple_of(bindings: Bindings, quantity: str) -> str:
+    """The multiple of a quantity that a wording names, by its name in queries: 'twice force'."""
+    slots = ("times", "changed", "change", "as_much")
+    return f"{next(bindings[slot] for slot in slots if slot in bindings)} {quantity}"
+
+
 @lru_cache(maxsize=1)
 def word_lists() -> Mapping[str, tuple[str, ...]]:
     """Word lists by name: the files of ``vocabulary``, and their sections."""

@@ -14,7 +14,7 @@ from tacgrasp.lessons.dialogue.families.amounts.wordings import (
     number_pattern,
 )
 from tacgrasp.lessons.dialogue.meaning import Amount
-from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily, length_of
+from tacgrasp.lessons.dialogue.patterns.family import QuestionFamily, length_of, multiple_of
 from tacgrasp.lessons.dialogue.patterns.pattern import Slots
 
 _FORCE = (
@@ -137,15 +137,12 @@ def _multiple(name: str, noun: str, asks: str, do: str, *units: str) -> Question
             **_times(noun),
         },
         build=lambda bindings, _: Amount(
-            quantity=f"{next(bindings[s] for s in _TIMES_SLOTS if s in bindings)} {name}",
+            quantity=multiple_of(bindings, name),
             unit=bindings.get("unit", units[0]),
             length=length_of(bindings),
         ),
     )
 
-
-_TIMES_SLOTS = ("times", "changed", "change", "as_much")
-"""Slots that name a multiple."""
 
 _PAD = "(the|our|your) (pad|gel|sensor|skin|fingertip|sensing (area|surface|face)|touch pad)"
 _FREE = (

@@ -21,15 +21,9 @@ from tacgrasp.lessons.dialogue.patterns.family import (
     Numbers,
     QuestionFamily,
     length_of,
+    multiple_of,
 )
 from tacgrasp.lessons.dialogue.scene import AskedScene
-
-_TIMES_SLOTS = ("times", "change", "changed")
-"""Slots that name a multiple."""
-
-
-def _times(bindings: Bindings, quantity: str) -> str:
-    return f"{next(bindings[slot] for slot in _TIMES_SLOTS if slot in bindings)} {quantity}"
 
 
 def _multiple(name: str, quantity: str, noun: str, adverb: str, *units: str) -> QuestionFamily:
@@ -44,13 +38,13 @@ def _multiple(name: str, quantity: str, noun: str, adverb: str, *units: str) -> 
     """
 
     def build(bindings: Bindings, numbers: Numbers) -> Check:
-        test, denied = test_of(_times(bindings, quantity), units[0], bindings, numbers)
+        test, denied = test_of(multiple_of(bindings, quantity), units[0], bindings, numbers)
         return check_of(test, denied=denied, length=length_of(bindings))
 
     def choose(
         scene: AskedScene, bindings: Bindings, rng: np.random.Generator
     ) -> Mapping[str, str]:
-        truth = FACTS[_times(bindings, quantity)]
+        truth = FACTS[multiple_of(bindings, quantity)]
         return one_threshold(truth, FACTS[quantity])(scene, bindings, rng)
 
     compared = f"({MORE}) [{adverb}]"

@@ -6,7 +6,7 @@ each of them asked alone (the other modules of this folder).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from tacgrasp.lessons.dialogue.families.contacts.parts import (
     INDIRECT,
@@ -14,6 +14,7 @@ from tacgrasp.lessons.dialogue.families.contacts.parts import (
     QUESTIONS,
     SLOTS,
     UNITS,
+    Part,
     asked,
     different,
     in_both,
@@ -185,6 +186,24 @@ _WORDED = (
     "(in words only|only in words|in words|in words not numbers|no numbers|without numbers|as words|"
     "as classes|in your classes|by class|with your words|words only|no numbers please)"
 )
+
+
+def _amount_in(name: str, in_units: Callable[[Part], Mapping[str, str]]) -> QuestionFamily:
+    """One amount, in the units that are put behind its phrases."""
+    return QuestionFamily(
+        name=name,
+        pattern=(
+            "{lead} ( [{want}] {pair} | {pair1} | {pair} | {ask} {pair2} ) {tail} [, please] [?]"
+        ),
+        build=asked,
+        slots={
+            "pair": in_units(NOUNS),
+            "pair1": in_units(QUESTIONS),
+            "pair2": in_units(INDIRECT),
+        },
+    )
+
+
 _MORE = "(and|, and|plus|as well as|together with|along with|and also|,)"
 
 FAMILIES: tuple[QuestionFamily, ...] = (
@@ -265,30 +284,8 @@ FAMILIES: tuple[QuestionFamily, ...] = (
         build=asked,
         slots={"pair": dict(_PAIRS), "pair1": dict(_PAIR_QUESTIONS)},
     ),
-    QuestionFamily(
-        name="both_units",
-        pattern=(
-            "{lead} ( [{want}] {pair} | {pair1} | {pair} | {ask} {pair2} ) {tail} [, please] [?]"
-        ),
-        build=asked,
-        slots={
-            "pair": in_both(NOUNS),
-            "pair1": in_both(QUESTIONS),
-            "pair2": in_both(INDIRECT),
-        },
-    ),
-    QuestionFamily(
-        name="other_unit",
-        pattern=(
-            "{lead} ( [{want}] {pair} | {pair1} | {pair} | {ask} {pair2} ) {tail} [, please] [?]"
-        ),
-        build=asked,
-        slots={
-            "pair": in_other(NOUNS),
-            "pair1": in_other(QUESTIONS),
-            "pair2": in_other(INDIRECT),
-        },
-    ),
+    _amount_in("both_units", in_both),
+    _amount_in("other_unit", in_other),
     QuestionFamily(
         name="follow",
         pattern=(
