@@ -254,7 +254,23 @@ class FlatFingers:
         mean = torch.nn.functional.conv2d(field_, self._disc, padding=self._disc.shape[-1] // 2)
         return float(mean.max())
 
-    def resistance(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> Resistance:
+    def give_mm(self, patch: Patch) -> float:
+        """How far gel and flesh give way along the pad under the weight, without any slip [mm].
+
+        Half of the weight moves a circular contact of radius a by Q S / 8a, S = Σ (2 − ν) / G:
+        Mindlin's stuck contact of half-spaces (Johnson, Contact Mechanics, 7.2). A gel as thin as
+        the contact is wide gives way less.
+        """
+        area_mm2 = float((patch.pressure_kpa > 0).sum()) * self._pitch_mm**2
+        gel, body = self.material, self.body
+        compliance = (2 - gel.poisson) * 2 * (1 + gel.poisson) / gel.young_mpa
+        compliance += (2 - body.poisson) * 2 * (1 + body.poisson) / body.young_mpa
+        half_weight_n = body.mass_kg * GRAVITY_M_S2 / 2
+        return half_weight_n * compliance / (8 * math.sqrt(area_mm2 / math.pi))
+
+    def resistance(
+        self, patch: Patch, acceleration_m_s2: tuple[float, float], share: float = 1.0
+    ) -> Resistance:
         """Whether the patch holds the body while the fingers accelerate.
 
         The load on either patch is half of weight and inertia, plus the push of slanted pressure: a
@@ -264,9 +280,10 @@ class FlatFingers:
         Args:
             patch: Patch of the held body.
             acceleration_m_s2: Acceleration of the fingers along the pad's (x, y).
+            share: Fraction of the weight that the fingers carry; a support carries the rest.
         """
         friction = self._friction_of(patch)
-        load = self.load_on(patch, acceleration_m_s2)
+        load = self.load_on(patch, acceleration_m_s2, share)
         margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
             near = _neighbours(motion, spread)
@@ -275,7 +292,9 @@ class FlatFingers:
         speed = friction.patch_speed(motion)
         return Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
 
-    def load_on(self, patch: Patch, acceleration_m_s2: tuple[float, float]) -> FloatArray:
+    def load_on(
+        self, patch: Patch, acceleration_m_s2: tuple[float, float], share: float = 1.0
+    ) -> FloatArray:
         """Load of one patch: half of weight and inertia, and the push of slanted pressure.
 
         Arguments are those of ``resistance``.
@@ -287,7 +306,8 @@ class FlatFingers:
         half_mass = self.body.mass_kg / 2
         load = self.push_on(patch)
         for axis in (0, 1):
-            load[axis] -= half_mass * (GRAVITY_M_S2 * self.up[axis] + acceleration_m_s2[axis])
+            weight = share * GRAVITY_M_S2 * self.up[axis]
+            load[axis] -= half_mass * (weight + acceleration_m_s2[axis])
         return load
 
     def push_on(self, patch: Patch) -> FloatArray:

@@ -1,8 +1,12 @@
 """The truth of a grasp over time: the body is held, slides, falls or is bruised.
 
 Rigid-body dynamics of one body against the friction of two patches (``sim.grasp.fingers``). This is
-no physics engine: the body touches nothing else, and its support carries it until it is lifted.
-In-plane rotation counts as slip, but the body's surface is not turned with it.
+no physics engine: the body touches nothing but its support. In-plane rotation counts as slip, but
+the body's surface is not turned with it.
+
+Fingers that rise take the weight off the support as the gel gives way. Where friction can't carry
+all of it, the body stays where it stands and the pads slide along it. A body that slides down out
+of a grip in the air comes to rest once it is back on its support.
 """
 
 from __future__ import annotations
@@ -12,6 +16,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import numpy as np
+
 from sim.grasp.fingers import FlatFingers, Patch, Resistance
 from sim.grasp.pad_shear import PadShear
 
@@ -20,6 +26,11 @@ DROPPED_MM = 12.0
 SPUN_MM = 30.0
 """Slip from which sliding is not simulated any further: a body that turned so far hangs."""
 
+RISE_MM = 0.1
+"""Longest part of a rise from the support that is made in one [mm]: half of what the gel gives way
+under a strawberry."""
+
+_FOLLOW_MM = 0.05  # slide after which the contact is solved anew
 _SAME_PRESSURE = 1.02  # a grip shifted on the grid changes the pressure by less than 2 %
 
 
@@ -50,8 +61,9 @@ class Grasp:
         body_xy_mm: Position of the body's origin, in the world's pad axes [mm].
         pad_xy_mm: Position of the pad's centre [mm].
         patch: Patch of the held body, None while the fingers are open or hold nothing.
-        slip_mm: Distance that the body has slid along the pads, turning included [mm].
-        slid_mm: The same without turning [mm].
+        slip_mm: Distance that the body has slid along the pads, turning included [mm]. The pads'
+            way along a body that still stands counts until it leaves its support.
+        slid_mm: The same in the air alone, without turning [mm].
         grips: Number of times that the fingers closed or changed their force.
         contacts: Number of commands that changed the contact with the gel.
         peak_force_n, peak_kpa: Largest true force and pressure so far.
@@ -76,6 +88,8 @@ class Grasp:
     beat: Beat | None = None
     _speed: float = field(default=0.0, repr=False)
     _lifted_mm: float = field(default=0.0, repr=False)
+    _stood_mm: float = field(default=0.0, repr=False)  # of ``slip_mm``, while it stood
+    _share: float = field(default=0.0, repr=False)  # of the weight that the pads carry, 0 to 1
 
     @property
     def offset_mm(self) -> tuple[float, float]:
@@ -128,7 +142,7 @@ class Grasp:
         self._speed = 0.0
 
     def _let_go(self) -> None:
-        self.patch = None
+        self.patch, self._share = None, 0.0
         if self.shear is not None:
             self.shear.clear()
 
@@ -143,21 +157,95 @@ class Grasp:
             return 0.0
         ux, uy = by_mm[0] / 1000 / distance, by_mm[1] / 1000 / distance
         ramp, cruise = trapezoid_s(distance, speed_m_s, acceleration_m_s2)
+        push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
+        if self.patch is not None and self._lifted_mm == 0 and self._rise_mm(by_mm) > 0:
+            self._rise(by_mm, push, (ramp, cruise))
+            return 2 * ramp + cruise
         self.displace(by_mm)
         if self.patch is not None and self._lifted_mm > 0:
-            push = (ux * acceleration_m_s2, uy * acceleration_m_s2)
             self.load(push, ramp)
             self.load((0.0, 0.0), cruise)
             self.load((-push[0], -push[1]), ramp)
         return 2 * ramp + cruise
 
+    def _rise_mm(self, by_mm: tuple[float, float]) -> float:
+        """How far up a motion of the pad goes [mm]."""
+        return by_mm[0] * self.fingers.up[0] + by_mm[1] * self.fingers.up[1]
+
+    def _rise(
+        self, by_mm: tuple[float, float], push: tuple[float, float], times_s: tuple[float, float]
+    ) -> None:
+        """Rise with a body that stands on its support.
+
+        Args:
+            by_mm: Motion of the fingers [mm].
+            push: Their acceleration in the first ramp [m/s²], the opposite of that in the last.
+            times_s: Duration of each ramp, and of the motion between the two [s].
+        """
+        length_mm, (ramp, cruise) = math.hypot(*by_mm), times_s
+        most_mm_s, made, speed = length_mm / (ramp + cruise), 0.0, 0.0
+        try:
+            for sign, seconds in ((1.0, ramp), (0.0, cruise), (-1.0, ramp)):
+                gain = sign * most_mm_s / ramp
+                for part_s in self._parts(seconds):
+                    part = max(0.0, speed * part_s + gain * part_s**2 / 2) / length_mm
+                    made, speed = made + part, speed + gain * part_s
+                    self._rise_by((part * by_mm[0], part * by_mm[1]))
+                    if self.patch is not None and self._lifted_mm > 0:
+                        self._load((sign * push[0], sign * push[1]), part_s)
+        finally:  # nothing, or what a motion that was cut short is taken back from
+            self.displace(((1 - made) * by_mm[0], (1 - made) * by_mm[1]))
+
+    def _rise_by(self, by_mm: tuple[float, float]) -> None:
+        """A part of a rise: off the support, in the air, or along a body that stays."""
+        count = max(1, math.ceil(math.hypot(*by_mm) / RISE_MM))
+        step = (by_mm[0] / count, by_mm[1] / count)
+        for _ in range(count):
+            if self.patch is None or self._lifted_mm > 0:
+                self.displace(step)
+                continue
+            give_mm = self.fingers.give_mm(self.patch)
+            share = min(1.0, self._share + self._rise_mm(step) / give_mm)
+            resistance = self.fingers.resistance(self.patch, (0.0, 0.0), share)
+            if resistance.margin < 1:
+                self._slide_along(self.patch, step)
+            else:
+                self._share = share
+                if self.shear is not None:
+                    load_n = self.fingers.load_on(self.patch, (0.0, 0.0), share)
+                    self.shear.carry(self.patch, load_n)
+                self._displace(step)
+                if share == 1:
+                    self._lifted_mm = self._rise_mm(step)
+                    self.slip_mm, self._stood_mm = self.slip_mm - self._stood_mm, 0.0
+
+    def _slide_along(self, patch: Patch, by_mm: tuple[float, float]) -> None:
+        """Move the pads along a body that stands on its support."""
+        self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
+        self.slip_mm += math.hypot(*by_mm)
+        self._stood_mm += math.hypot(*by_mm)
+        if self.shear is not None:
+            self.shear.slide(patch, np.array([-by_mm[0], -by_mm[1], 0.0]))
+        self._follow(patch)
+
+    def _follow(self, patch: Patch) -> None:
+        """Press anew where the body has slid to; let go of one that is beside the pads."""
+        if not self.fingers.reaches(self.offset_mm):
+            self._let_go()
+        elif math.dist(patch.offset_mm, self.offset_mm) > _FOLLOW_MM:
+            self.patch = self.fingers.press(self.offset_mm, patch.force_n)
+
     def displace(self, by_mm: tuple[float, float]) -> None:
         """Put the fingers, and a held body with them, elsewhere; no time passes."""
+        self._displace(by_mm)
+        if self.patch is not None:
+            self._lifted_mm = max(0.0, self._lifted_mm + self._rise_mm(by_mm))
+
+    def _displace(self, by_mm: tuple[float, float]) -> None:
+        """As ``displace``, of a body that its support still carries."""
         self.pad_xy_mm = (self.pad_xy_mm[0] + by_mm[0], self.pad_xy_mm[1] + by_mm[1])
         if self.patch is not None:
             self.body_xy_mm = (self.body_xy_mm[0] + by_mm[0], self.body_xy_mm[1] + by_mm[1])
-            rise_mm = by_mm[0] * self.fingers.up[0] + by_mm[1] * self.fingers.up[1]
-            self._lifted_mm = max(0.0, self._lifted_mm + rise_mm)
 
     def wait(self, seconds: float) -> None:
         """Let time pass; a lifted body that friction can't hold slides."""
@@ -186,7 +274,12 @@ class Grasp:
 
     def _load(self, acceleration_m_s2: tuple[float, float], seconds: float) -> None:
         remaining_s = seconds
-        while remaining_s > 1e-9 and self.patch is not None and self.slip_mm < SPUN_MM:
+        while (
+            remaining_s > 1e-9
+            and self.patch is not None
+            and self._lifted_mm > 0
+            and self.slip_mm < SPUN_MM
+        ):
             resistance = self.fingers.resistance(self.patch, acceleration_m_s2)
             if resistance.margin >= 1 and self._speed <= 0:
                 if self.shear is not None:
@@ -221,8 +314,11 @@ class Grasp:
         if is_lost or self.patch is None:
             self.dropped = True
             self._let_go()
-        elif math.dist(self.patch.offset_mm, self.offset_mm) > 0.05:
-            self.patch = self.fingers.press(self.offset_mm, self.patch.force_n)
+            return
+        self._lifted_mm = max(0.0, self._lifted_mm + self._rise_mm((x, y)))
+        if self._lifted_mm == 0:
+            self._speed, self._share = 0.0, min(1.0, resistance.margin)
+        self._follow(self.patch)
 
     @property
     def slipped(self) -> bool:

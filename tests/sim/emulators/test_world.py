@@ -143,8 +143,10 @@ def test_the_gel_shows_a_slide_while_nothing_is_commanded(clock):
     rig = build("strawberry", 3, start_offset_mm=(0, 0), gripper_force_gain=1.0, noise_level=0.0)
     world = SharedWorld(rig, clock)
     body = rig.grasp.fingers.body
-    world.width_under(0.85 * body.mass_kg * 9.81 / (2 * body.friction))  # too little to hold it
-    world.follow(segment([0, 0, 0.002], np.zeros(3), 0.4, 2.5))
+    slips_n = 0.85 * body.mass_kg * 9.81 / (2 * body.friction)
+    world.width_under(2 * slips_n)
+    world.follow(segment([0, 0, 0.02], np.zeros(3), 0.4, 2.5))
+    world.width_under(slips_n)
     world.facts()
     before = world.height_mm()
     deadline = time.monotonic() + 20

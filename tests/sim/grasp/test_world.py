@@ -54,12 +54,64 @@ def test_a_grip_that_is_firm_enough_does_not_slide_at_all():
     assert world.slip_mm == 0.0
 
 
-def test_a_grip_far_too_light_ends_in_a_drop():
+def test_a_grip_far_too_light_leaves_the_body_on_its_support():
     world = grasp()
     world.close(0.02)
     world.move((0.0, 40.0), 0.4, 2.5)
     world.wait(2.0)
+    assert world.slipped and world.patch is None and not world.dropped
+    assert world.body_xy_mm == (0.0, 0.0)
+
+
+def test_a_grip_that_gives_way_high_up_ends_in_a_drop():
+    world = grasp()
+    world.close(1.0)
+    world.move((0.0, 40.0), 0.4, 2.5)
+    world.close(0.02)
+    world.wait(2.0)
     assert world.dropped and world.slipped and world.patch is None
+
+
+def test_a_grip_that_gives_way_low_down_sets_the_body_on_its_support():
+    world = grasp()
+    world.close(1.0)
+    world.move((0.0, 3.0), 0.05, 0.5)
+    world.close(0.05)
+    world.wait(2.0)
+    give_mm = world.fingers.give_mm(world.patch)
+    assert not world.dropped
+    assert world.slip_mm == pytest.approx(3.0, abs=2 * give_mm + 0.2)
+    slid_mm = world.slip_mm
+    world.wait(2.0)
+    assert world.slip_mm == slid_mm
+
+
+class Raiser:
+    """Raises the force of a grip once, in the middle of a rise."""
+
+    def __init__(self, world: Grasp, after_s: float, force_n: float) -> None:
+        self.world, self.left_s, self.force_n = world, after_s, force_n
+
+    def until_next_s(self) -> float:
+        return 0.01
+
+    def passed(self, seconds: float) -> None:
+        self.left_s -= seconds
+        if abs(self.left_s) < seconds / 2:
+            self.world.adjust(self.force_n)
+
+
+def test_pads_slide_up_along_a_body_until_they_grip_firmly_enough():
+    world = grasp()
+    world.close(0.1)  # half of what carries 0.2 N at a friction of 0.5
+    world.beat = Raiser(world, 0.2, 0.4)
+    world.move((0.0, 3.0), 0.005, 0.5)
+    assert world.offset_mm[1] == pytest.approx(-1.0, abs=0.2)  # of 5 mm/s for 0.2 s
+    assert not world.slipped  # it is held from there on
+    assert world.body_xy_mm[1] == pytest.approx(2.0, abs=0.2)
+    world.beat = None
+    world.move((0.0, 40.0), 0.4, 2.5)
+    assert not world.slipped and not world.dropped
 
 
 def test_a_slide_stops_when_the_fingers_stop_accelerating():
