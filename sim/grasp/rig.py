@@ -17,7 +17,7 @@ from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.gel.layer import GelMaterial, gel_of
-from sim.grasp.bodies import OBJECTS, Range, draw_body
+from sim.grasp.bodies import OBJECTS, Range
 from sim.grasp.devices import (
     PAD_X_IN_TCP,
     PAD_Y_IN_TCP,
@@ -29,6 +29,7 @@ from sim.grasp.devices import (
 )
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.force_calibration import SCATTER, drawn_force_calibration
+from sim.grasp.holdable import draw_holdable
 from sim.grasp.mesh_bodies import ScannedObject, body_from_mesh
 from sim.grasp.pad_shear import PadShear
 from sim.grasp.turned_pad import (
@@ -152,6 +153,11 @@ class SimRig:
             device.disconnect()
 
 
+def world_of(seed: int) -> tuple[np.random.Generator, float]:
+    """Random generator that draws a seed's body and what follows, and ``draw_body``'s ``tails``."""
+    return np.random.default_rng([seed, 0]), 0.0 if seed >= BENCHMARK_SEED else 0.1
+
+
 def build(
     object_name: str,
     seed: int,
@@ -191,10 +197,9 @@ def build(
     """
     if object_name not in OBJECTS:
         raise RobotError(f"unknown object {object_name!r}; known: {', '.join(OBJECTS)}")
-    world_rng, sensor_rng = (np.random.default_rng([seed, part]) for part in (0, 1))
-    tails = 0.0 if seed >= BENCHMARK_SEED else 0.1
+    (world_rng, tails), sensor_rng = world_of(seed), np.random.default_rng([seed, 1])
     sensor = sensor_named(sensor_name)
-    body = draw_body(object_name, world_rng, tails)
+    body, _ = draw_holdable(object_name, world_rng, tails)
     if mesh is not None:
         pad_mm = (sensor.width_mm, sensor.height_mm)
         body = body_from_mesh(mesh, body, pad_mm[::-1] if is_turned else pad_mm)

@@ -12,6 +12,7 @@ from tacgrasp.cli.flags import run_subcommand, writable
 
 BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
+    "gentle": (settings.GentleSettings, "gentle.run"),
     "missed": (settings.MissedSettings, "loop.missed"),
     "robustness": (settings.RobustnessSettings, "robustness.run"),
     "verifier": (settings.VerifierSettings, "loop.verifier"),
