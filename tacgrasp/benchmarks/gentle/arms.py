@@ -34,7 +34,7 @@ FIRM_WORDS = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Arm:
+class GentleArm:
     """One arm.
 
     Attributes:
@@ -60,16 +60,16 @@ class Arm:
         return self.words[int(np.random.default_rng([seed, 20]).integers(len(self.words)))]
 
 
-ARMS: Mapping[str, Arm] = {
-    "llm": Arm(policy="llm", aim="98 % or more, peak 1.5 or less"),
-    "gentle": Arm(policy="llm", words=GENTLE_WORDS, aim="97 % or more"),
-    "firm": Arm(policy="llm", words=FIRM_WORDS, aim="97 % or more"),
-    "reflex_off": Arm(policy="llm", has_reflex=False),
-    "touch_blanked": Arm(policy="llm", is_blanked=True),
-    "language_off": Arm(policy="rules"),
-    "constant": Arm(policy="true_force", has_reflex=False, is_swept=True, aim="below 60 %"),
-    "centring": Arm(policy="center_only", has_reflex=False, is_swept=True, aim="below 60 %"),
-    "oracle": Arm(policy="oracle", has_reflex=False, aim="99 % or more"),
+ARMS: Mapping[str, GentleArm] = {
+    "llm": GentleArm(policy="llm", aim="98 % or more, peak 1.5 or less"),
+    "gentle": GentleArm(policy="llm", words=GENTLE_WORDS, aim="97 % or more"),
+    "firm": GentleArm(policy="llm", words=FIRM_WORDS, aim="97 % or more"),
+    "reflex_off": GentleArm(policy="llm", has_reflex=False),
+    "touch_blanked": GentleArm(policy="llm", is_blanked=True),
+    "language_off": GentleArm(policy="rules"),
+    "constant": GentleArm(policy="true_force", has_reflex=False, is_swept=True, aim="below 60 %"),
+    "centring": GentleArm(policy="center_only", has_reflex=False, is_swept=True, aim="below 60 %"),
+    "oracle": GentleArm(policy="oracle", has_reflex=False, aim="99 % or more"),
 }
 """Arms by name, in the order of the table."""
 

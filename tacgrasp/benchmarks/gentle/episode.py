@@ -16,9 +16,8 @@ from primitives.contract import Contract
 from primitives.devices import GripperState
 from primitives.sense import Interval
 from sim.grasp.devices import SimGripper
-from sim.grasp.holdable import draw_holdable
-from sim.grasp.rig import SimRig, build, world_of
-from tacgrasp.benchmarks.gentle.arms import Arm, BlankedPolicy
+from sim.grasp.rig import SimRig, build, draw_holdable, world_of
+from tacgrasp.benchmarks.gentle.arms import BlankedPolicy, GentleArm
 from tacgrasp.benchmarks.loop.contestants import Contestant, enter
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.episodes.record import StepPhase, StepRecord
@@ -183,7 +182,7 @@ def draw_fruit(config: RunConfig, seed: int) -> FruitFacts:
 
 
 def run_seed(
-    config: RunConfig, arm: Arm, forces_n: Sequence[float | None], seed: int
+    config: RunConfig, arm: GentleArm, forces_n: Sequence[float | None], seed: int
 ) -> list[GentleResult]:
     """Run an arm on a seed's fruit, once with each force of its sweep."""
     changes: dict[str, Any] = {
@@ -196,7 +195,7 @@ def run_seed(
     return [_run_one(config, arm, force_n) for force_n in forces_n]
 
 
-def _run_one(config: RunConfig, arm: Arm, force_n: float | None) -> GentleResult:
+def _run_one(config: RunConfig, arm: GentleArm, force_n: float | None) -> GentleResult:
     began_s = time.process_time()
 
     def make(*args: Any, **values: Any) -> SimRig:

@@ -7,9 +7,8 @@ import pytest
 
 from sim.grasp.bodies import OBJECTS, draw_body
 from sim.grasp.fruit import BRUISE_FACTOR, KINDS, shape_of
-from sim.grasp.holdable import PROGRAMME_M_S2, draw_holdable, slip_minimum_n
 from sim.grasp.revolved import GRID_MM
-from sim.grasp.rig import build
+from sim.grasp.rig import PROGRAMME_M_S2, build, draw_holdable, slip_minimum_n
 from sim.grasp.ripeness import BRUISE_OVER_SLIP, LEAST_FRICTION, BerrySize
 from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.runtime.verify import accelerations
