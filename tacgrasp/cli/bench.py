@@ -12,13 +12,13 @@ from tacgrasp.cli.flags import run_subcommand, writable
 
 BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "strawberry": (settings.StrawberrySettings, "loop.strawberry"),
-    "gentle": (settings.GentleSettings, "gentle.run"),
     "missed": (settings.MissedSettings, "loop.missed"),
     "robustness": (settings.RobustnessSettings, "robustness.run"),
     "verifier": (settings.VerifierSettings, "loop.verifier"),
     "draws": (settings.DrawsSettings, "loop.draws"),
     "reflex": (settings.ReflexSettings, "reflex.run"),
     "limits": (settings.LimitsSettings, "limits.run"),
+    "gentle": (settings.GentleSettings, "gentle.run"),
     "gain": (settings.GainSettings, "loop.gain"),
     "meshes": (settings.MeshesSettings, "loop.meshes"),
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),
