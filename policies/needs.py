@@ -2,7 +2,9 @@
 
 A berry's size tells about how heavy it is, its stiffness how ripe. Both are read from the gripper's
 opening under two forces, and from the felt force; ``TouchedObject`` weighs them against each other.
-Friction is not felt: the least force is that at the least friction of the kind.
+Friction is not felt. A berry's least force is that at the least friction of its kind, so that it
+surely holds. A fruit's is that at the greatest friction, against weight alone: a grip that begins
+there is light, and slip tells what is missing.
 
 Not here: where between the two the target lies (``policies.contract_steps``).
 """
@@ -54,8 +56,9 @@ class ObjectNeeds:
     """What objects of one kind need.
 
     Attributes:
-        least_n: Force that holds one through the lift at the least friction [N].
-        most_n: Force that bruises one [N].
+        least_n: Least force that a grip begins with [N]: what holds one through the lift at the
+            least friction, or against its weight at the greatest.
+        most_n: Largest such force [N]: what bruises one, or a part of it that surely does not.
         approach_mm: Approach of either gelled finger, flesh and gel together [mm].
         young_mpa: Young's modulus that goes with a size [MPa].
         young_spread: Standard deviation of ln E about it.
@@ -68,8 +71,15 @@ class ObjectNeeds:
     young_spread: float
 
 
-# Fitted to 120 drawn berries (seeds from 500,000); ``tacgrasp bench draws`` fits them anew and
-# prints the residuals.
+GREATEST_FRICTION = 0.8
+"""Friction of the fruit that the least force holds. Source: the range drawn in ``sim.grasp``."""
+
+SURELY_UNBRUISED = 0.6
+"""Force that no fruit of a ripeness bruises at, over what ripeness tells. Source: the range of
+``sim.grasp.fruit.BRUISE_FACTOR``."""
+
+# Fitted to 120 drawn bodies of each kind (seeds from 500,000); ``tacgrasp bench draws`` fits them
+# anew and prints the residuals. A fruit's most_n is the closed form of ripeness, no fit.
 NEEDS: Mapping[str, ObjectNeeds] = {
     "strawberry": ObjectNeeds(
         least_n=Law(value=0.372, size=3.025),
@@ -77,6 +87,13 @@ NEEDS: Mapping[str, ObjectNeeds] = {
         approach_mm=Law(value=0.869, size=-0.19, young=-0.711, force=0.624),
         young_mpa=Law(value=0.157, size=1.297),
         young_spread=0.14,
+    ),
+    "fruit": ObjectNeeds(
+        least_n=Law(value=0.109, size=2.658),
+        most_n=Law(value=0.663, size=1.358, young=1.282),
+        approach_mm=Law(value=0.887, size=-0.004, young=-0.724, force=0.633),
+        young_mpa=Law(value=0.184, size=1.181),
+        young_spread=0.154,
     ),
 }
 """Needs by the name that a task gives in ``goal.needs``."""

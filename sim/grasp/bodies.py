@@ -19,10 +19,12 @@ from scipy.ndimage import map_coordinates
 
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
+from sim.grasp.fruit import BRUISE_FACTOR, fruit_shape
+from sim.grasp.revolved import GRID_MM as GRID_MM  # plugins take these from here
+from sim.grasp.revolved import PITCH_MM as PITCH_MM
+from sim.grasp.revolved import BodyShape as BodyShape
+from sim.grasp.revolved import oval, revolved
 from sim.grasp.ripeness import BRUISE_OVER_SLIP, PRESSURE_SCATTER, BerrySize
-
-PITCH_MM = 0.15
-HALF_SPAN_MM = 24.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +106,9 @@ class PropertyRanges:
         mass_g, young_mpa, poisson, friction, bruise_n: The properties; of a body that ripens,
             stiffness and bruise force follow from size and ripeness and stay within these ranges.
         ripens: Whether they do (``sim.grasp.ripeness``).
+        bruise_factor: Drawn factor on the bruise force that ripeness tells; None for none.
+        bruise_over_own_slip: Least bruise force over the force that holds the body at its own
+            friction; a body below it is drawn anew (``sim.grasp.rig``). 0 lets all pass.
     """
 
     mass_g: Range
@@ -112,6 +117,8 @@ class PropertyRanges:
     friction: Range
     bruise_n: Range
     ripens: bool = False
+    bruise_factor: Range | None = None
+    bruise_over_own_slip: float = 0.0
 
 
 Limits = tuple[float, float]
@@ -145,10 +152,16 @@ OBJECTS: dict[str, PropertyRanges] = {
     ),
     "cherry_tomato": _ranges((8, 18), (0.25, 0.6), 0.45, (0.4, 0.9), (1.4, 2.4)),
     "egg": _ranges((45, 65), (50, 100), 0.3, (0.3, 0.6), (7, 12)),
+    # mass and friction: the range in which one grip must be found by slip; see ``sim.grasp.fruit``
+    "fruit": replace(
+        _ranges((8, 50), (0.05, 0.6), 0.35, (0.3, 0.8), (0.2, 5.0)),
+        mass_g=Range(8, 50, log=True),
+        ripens=True,
+        bruise_factor=Range(*BRUISE_FACTOR),
+        bruise_over_own_slip=1.6,
+    ),
     "peg": _ranges((60, 140), (2e4, 2e5), 0.3, (0.4, 0.8), (200, 400)),
 }
-
-GRID_MM = np.arange(-HALF_SPAN_MM, HALF_SPAN_MM + PITCH_MM / 2, PITCH_MM)
 
 
 def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
@@ -178,6 +191,8 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
         size = BerrySize(mass_g=mass_g, size_mm=thickness, com_mm=com)
         flesh = size.flesh(ripeness, scatter)
         young, bruise = flesh.young_mpa, flesh.bruise_n
+    if ranges.bruise_factor is not None:
+        bruise *= draw(ranges.bruise_factor)
     return Body(
         name=name,
         gap_mm=gap,
@@ -194,8 +209,6 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
 
 _RIPENESS = Range(*BRUISE_OVER_SLIP)
 _SCATTER = Range(-PRESSURE_SCATTER, PRESSURE_SCATTER)
-
-BodyShape = tuple[FloatArray, tuple[float, float], float, float]
 
 
 def _strawberry(mass_g: float, rng: np.random.Generator) -> BodyShape:
@@ -220,17 +233,7 @@ def _strawberry(mass_g: float, rng: np.random.Generator) -> BodyShape:
         return diameter / 2 * inside**a * (1 - inside) ** b / widest
 
     roll = rng.normal(0, math.radians(8))  # hangs nearly straight
-    return _revolved(radius, length, roll, _achenes(rng, length))
-
-
-def _oval(diameter: float, taper: float = 0.0) -> Callable[[FloatArray], FloatArray]:
-    """Radius [mm] of an ellipsoid, narrower by ``taper`` towards its upper end."""
-
-    def radius(s: FloatArray) -> FloatArray:
-        u = 2 * np.clip(s, 0, 1) - 1
-        return diameter / 2 * np.sqrt(np.clip(1 - u**2, 0, None)) / (1 + taper * u)
-
-    return radius
+    return revolved(radius, length, roll, _achenes(rng, length))
 
 
 def _egg(mass_g: float, rng: np.random.Generator) -> BodyShape:
@@ -239,21 +242,21 @@ def _egg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     length = diameter * rng.uniform(1.22, 1.38)
 
     # a little wider below
-    return _revolved(_oval(diameter, taper=0.1), length, rng.normal(0, math.radians(4)))
+    return revolved(oval(diameter, taper=0.1), length, rng.normal(0, math.radians(4)))
 
 
 def _tomato(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Cherry tomato: a slightly oval ball, density 1 g/cm³."""
-    oval = rng.uniform(0.95, 1.25)
-    diameter = (6 * mass_g * 1000 / (math.pi * oval)) ** (1 / 3)
-    return _revolved(_oval(diameter), diameter * oval, rng.normal(0, math.radians(20)))
+    elongation = rng.uniform(0.95, 1.25)
+    diameter = (6 * mass_g * 1000 / (math.pi * elongation)) ** (1 / 3)
+    return revolved(oval(diameter), diameter * elongation, rng.normal(0, math.radians(20)))
 
 
 def _peg(mass_g: float, rng: np.random.Generator) -> BodyShape:
     """Upright steel peg, 12-20 mm across, its length (from the mass at 7.8 g/cm³) 25-80 mm."""
     diameter = rng.uniform(12, 20)
     length = float(np.clip(mass_g * 1000 / 7.8 / (math.pi * diameter**2 / 4), 25, 80))
-    return _revolved(
+    return revolved(
         lambda s: np.where((s >= 0) & (s <= 1), diameter / 2, 0.0),
         length,
         rng.normal(0, math.radians(2)),
@@ -265,6 +268,7 @@ _SHAPES: dict[str, Callable[[float, np.random.Generator], BodyShape]] = {
     "cherry_tomato": _tomato,
     "egg": _egg,
     "peg": _peg,
+    "fruit": fruit_shape,
 }
 
 
@@ -285,43 +289,6 @@ class ObjectKind:
 def add_object(name: str, kind: ObjectKind) -> None:
     """Let the simulator draw bodies of another kind, in this process."""
     OBJECTS[name], _SHAPES[name] = kind.ranges, kind.shape
-
-
-def _revolved(
-    radius: Callable[[FloatArray], FloatArray],
-    length: float,
-    roll: float,
-    relief: Callable[[FloatArray, FloatArray], FloatArray] | None = None,
-) -> BodyShape:
-    """Height field of a body of revolution whose axis lies in the plane between the fingers.
-
-    Args:
-        radius: Radius [mm] at the fraction s of the length, 0 at the lower end.
-        length: Length along the axis [mm].
-        roll: Tilt of the axis from the vertical, in the pad's plane [rad].
-        relief: Added height [mm] at (s, angle about the axis), such as seeds.
-    """
-    x, y = np.meshgrid(GRID_MM, -GRID_MM)
-    s = np.linspace(0, 1, 401)
-    r = radius(s)
-    widest = float(s[r >= r.max() - 1e-9].mean())
-    # along and across the axis, from the widest point, which is the nearest to the finger
-    t = x * math.sin(roll) + y * math.cos(roll)
-    u = x * math.cos(roll) - y * math.sin(roll)
-    fraction = widest + t / length
-    reach = radius(fraction)
-    hit = (reach > np.abs(u)) & (fraction > 0) & (fraction < 1)
-    front = np.sqrt(np.clip(reach**2 - u**2, 0, None))
-    if relief is not None:
-        front = front + relief(fraction, np.arctan2(u, front))
-    gap = np.where(hit, front[hit].max() - front, NO_BODY_MM)
-    weight = r**2
-    centroid = float((s * weight).sum() / weight.sum())
-    along = (centroid - widest) * length
-    spread = float(np.sqrt(((s - centroid) ** 2 * weight).sum() / weight.sum())) * length
-    gyration = math.hypot(spread, float(np.sqrt((r**2 * weight).sum() / weight.sum()) / 2))
-    com = (along * math.sin(roll), along * math.cos(roll))
-    return gap, com, gyration, 2 * float(r.max())
 
 
 def _achenes(

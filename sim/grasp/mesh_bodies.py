@@ -18,8 +18,9 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
 from sim.grasp.antipodal import GraspPlace, find_grasp
-from sim.grasp.bodies import GRID_MM, OBJECTS, Body
+from sim.grasp.bodies import OBJECTS, Body
 from sim.grasp.pad_casting import CLEAR_MM
+from sim.grasp.revolved import GRID_MM
 from sim.grasp.ripeness import BerrySize, Flesh
 from sim.objects.meshes import IntArray, checked_mesh, ray_scene, volume_and_centre
 

@@ -17,7 +17,7 @@ from cltp.tactile.shear.noise import ShearUnit
 from primitives.devices import Pose
 from primitives.errors import RobotError
 from sim.gel.layer import GelMaterial, gel_of
-from sim.grasp.bodies import OBJECTS, Range, draw_body
+from sim.grasp.bodies import OBJECTS, Body, Range, draw_body
 from sim.grasp.devices import (
     PAD_X_IN_TCP,
     PAD_Y_IN_TCP,
@@ -55,6 +55,15 @@ FINE_PART = Range(low=0.05, high=1.0, log=True)
 FIRST_TOUCH_N = 1.0
 """Largest commanded force until something is felt [N]: 0.5 N of the weakest gripper. A contact that
 the pad's edge cuts is felt from 0.4 N on; others of stronger grippers long before."""
+
+
+PROGRAMME_M_S2 = ((0.0, 2.5), (10.0, 0.0), (-10.0, 0.0))
+"""Accelerations that a body must be held through, (sideways, upwards) [m/s²]: those of the
+verification, ``tacgrasp.config.schema.VerifyConfig``; setting down asks for no more than lifting.
+"""
+
+MOST_DRAWS = 1000
+"""Bodies of one seed after which the draw is given up."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -152,6 +161,42 @@ class SimRig:
             device.disconnect()
 
 
+def draw_holdable(name: str, rng: np.random.Generator, tails: float = 0.0) -> tuple[Body, int]:
+    """Draw a body of a known kind, anew while it bruises at too little more than it slips at.
+
+    Of most kinds the first one passes; a fruit whose own bruise force is drawn may not.
+
+    Args:
+        name: A key of ``sim.grasp.bodies.OBJECTS``.
+        rng: Random generator.
+        tails: As for ``sim.grasp.bodies.draw_body``.
+
+    Returns:
+        The body, and how many were drawn before it.
+
+    Raises:
+        ValueError: Unknown kind, or none of many could be held.
+    """
+    for num_redrawn in range(MOST_DRAWS):
+        body = draw_body(name, rng, tails)
+        least = OBJECTS[name].bruise_over_own_slip
+        if least <= 0 or body.bruise_n >= least * slip_minimum_n(body):
+            return body, num_redrawn
+    raise ValueError(f"none of {MOST_DRAWS} drawn bodies of kind {name!r} could be held")
+
+
+def slip_minimum_n(body: Body) -> float:
+    """Least true force that holds a centred body through the whole programme [N]."""
+    name = "gelsight_mini"  # the gels of all sensors are the same
+    fingers = FlatFingers(body, sensor_named(name), gel_of(name))
+    return fingers.slip_minimum_n(PROGRAMME_M_S2)
+
+
+def world_of(seed: int) -> tuple[np.random.Generator, float]:
+    """Random generator that draws a seed's body and what follows, and ``draw_body``'s ``tails``."""
+    return np.random.default_rng([seed, 0]), 0.0 if seed >= BENCHMARK_SEED else 0.1
+
+
 def build(
     object_name: str,
     seed: int,
@@ -191,10 +236,9 @@ def build(
     """
     if object_name not in OBJECTS:
         raise RobotError(f"unknown object {object_name!r}; known: {', '.join(OBJECTS)}")
-    world_rng, sensor_rng = (np.random.default_rng([seed, part]) for part in (0, 1))
-    tails = 0.0 if seed >= BENCHMARK_SEED else 0.1
+    (world_rng, tails), sensor_rng = world_of(seed), np.random.default_rng([seed, 1])
     sensor = sensor_named(sensor_name)
-    body = draw_body(object_name, world_rng, tails)
+    body, _ = draw_holdable(object_name, world_rng, tails)
     if mesh is not None:
         pad_mm = (sensor.width_mm, sensor.height_mm)
         body = body_from_mesh(mesh, body, pad_mm[::-1] if is_turned else pad_mm)

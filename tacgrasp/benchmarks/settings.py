@@ -146,6 +146,30 @@ class LimitsSettings(ModelBenchmarkSettings, SeedSettings):
 
 
 @dataclass(frozen=True, kw_only=True)
+class GentleSettings(ModelBenchmarkSettings, SeedSettings):
+    """Hold fruit that bruise within 40 % of what touch can tell: firmly enough, and no more.
+
+    Attributes:
+        episodes: Number of fruit, one random seed each; every arm grasps the same ones.
+        sensor: Sensor that feels slip: taxels or gelsight_mini_markers.
+        arms: Names of the arms, separated by commas: llm, gentle, firm, reflex_off,
+            touch_blanked, language_off, constant, centring, oracle. Default: all.
+    """
+
+    episodes: int = 300
+    sensor: str = "taxels"
+    arms: str = ""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.sensor not in ("taxels", "gelsight_mini_markers"):
+            raise UsageError(
+                "--sensor must be taxels or gelsight_mini_markers, which measure shear for the "
+                f"reflex, got {self.sensor!r}"
+            )
+
+
+@dataclass(frozen=True, kw_only=True)
 class ReflexSettings(SeedSettings):
     """Load held bodies until some slip; see when the reflex says so; exit code 1 off the limits.
 

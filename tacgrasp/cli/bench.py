@@ -18,6 +18,7 @@ BENCHMARKS: dict[str, tuple[type[settings.BenchmarkSettings], str]] = {
     "draws": (settings.DrawsSettings, "loop.draws"),
     "reflex": (settings.ReflexSettings, "reflex.run"),
     "limits": (settings.LimitsSettings, "limits.run"),
+    "gentle": (settings.GentleSettings, "gentle.run"),
     "gain": (settings.GainSettings, "loop.gain"),
     "meshes": (settings.MeshesSettings, "loop.meshes"),
     "other-sim": (settings.OtherSimSettings, "transfer.other_sim"),

@@ -33,7 +33,7 @@ class GoalConfig(SettingsBase):
         force_n: Normal force, estimated from the contact [N].
         limit_n: Felt force that is never exceeded [N]; none: 1.25 times the top of ``force_n``.
         needs: Kind of object whose felt size and stiffness place the target of each step within
-            ``force_n``: strawberry; none: all of ``force_n`` is the target.
+            ``force_n``: strawberry or fruit; none: all of ``force_n`` is the target.
         depth_mm: Largest indentation of the gel [mm].
         area_share: Fraction of the pad's sensing area in contact, 0 to 1.
         x_mm: Position of the contact along the pad's x [mm].
@@ -42,7 +42,7 @@ class GoalConfig(SettingsBase):
 
     force_n: Interval
     limit_n: Number | None = Field(default=None, gt=0, le=200)
-    needs: Literal["strawberry"] | None = None
+    needs: Literal["strawberry", "fruit"] | None = None
     depth_mm: Interval = (DEFAULT_DEPTH_MM.low, DEFAULT_DEPTH_MM.high)
     area_share: Interval = (DEFAULT_AREA.low, DEFAULT_AREA.high)
     x_mm: Interval = (-4.0, 4.0)

@@ -16,11 +16,18 @@ import numpy as np
 from matplotlib.figure import Figure
 from rich.console import Console
 
-from policies.needs import NEEDS, SIZE_MM, YOUNG_MPA, Law
-from sim.grasp.bodies import OBJECTS
+from policies.needs import (
+    GREATEST_FRICTION,
+    NEEDS,
+    SIZE_MM,
+    SURELY_UNBRUISED,
+    YOUNG_MPA,
+    Law,
+)
+from sim.grasp.bodies import OBJECTS, Body
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.rig import build
-from sim.grasp.ripeness import LEAST_FRICTION
+from sim.grasp.ripeness import LEAST_FRICTION, BerrySize
 from tacgrasp.benchmarks.figures import number_table, write_figures
 from tacgrasp.benchmarks.plot_file import write_png
 from tacgrasp.benchmarks.pool import each_result
@@ -54,6 +61,7 @@ class DrawnBody:
     Attributes:
         slip_minimum_n: Force that holds it at its own friction.
         least_n: Force that holds it at ``LEAST_FRICTION``.
+        need_least_n, need_most_n: What the laws of its kind are fitted to (``policies.needs``).
         bruise_over_slip: ``bruise_n`` over ``least_n``.
         forces_n, approaches_mm: Forces, and the approach of either finger under them.
     """
@@ -64,6 +72,8 @@ class DrawnBody:
     friction: float
     slip_minimum_n: float
     least_n: float
+    need_least_n: float
+    need_most_n: float
     bruise_n: float
     bruise_over_slip: float
     bruise_kpa: float
@@ -95,10 +105,12 @@ def drawn_body(name: str, seed: int) -> DrawnBody:
     """The body that a seed draws, with what holds it and what bruises it."""
     fingers = build(name, seed).grasp.fingers
     body, loads = fingers.body, accelerations(load(name)[0].verify)
-    slippery = FlatFingers(
-        replace(body, friction=LEAST_FRICTION), fingers.sensor, fingers.material, fingers.up
-    )
-    least_n = slippery.slip_minimum_n(loads)
+    least_n = _with_friction(fingers, LEAST_FRICTION).slip_minimum_n(loads)
+    need_least_n, need_most_n = least_n, body.bruise_n
+    if OBJECTS[name].bruise_factor is not None:  # begun lightly: slip and the reflex tell the rest
+        rough = _with_friction(fingers, GREATEST_FRICTION)
+        need_least_n, told = rough.slip_minimum_n([(0.0, 0.0)]), _told_bruise_n(body)
+        need_most_n = SURELY_UNBRUISED * told
     forces = tuple(factor * least_n for factor in APPROACHES_N)
     patches = fingers.press_many([(0.0, 0.0)] * len(forces), list(forces))
     return DrawnBody(
@@ -108,6 +120,8 @@ def drawn_body(name: str, seed: int) -> DrawnBody:
         friction=body.friction,
         slip_minimum_n=fingers.slip_minimum_n(loads),
         least_n=least_n,
+        need_least_n=need_least_n,
+        need_most_n=need_most_n,
         bruise_n=body.bruise_n,
         bruise_over_slip=body.bruise_n / least_n,
         bruise_kpa=fingers.bruise_kpa,
@@ -116,12 +130,24 @@ def drawn_body(name: str, seed: int) -> DrawnBody:
     )
 
 
+def _with_friction(fingers: FlatFingers, friction: float) -> FlatFingers:
+    """Fingers around the same body with another friction."""
+    body = replace(fingers.body, friction=friction)
+    return FlatFingers(body, fingers.sensor, fingers.material, fingers.up)
+
+
+def _told_bruise_n(body: Body) -> float:
+    """Bruise force that ripeness tells, by size and stiffness [N]."""
+    size = BerrySize(mass_g=1e3 * body.mass_kg, size_mm=body.thickness_mm, com_mm=body.com_mm)
+    return size.bruise_n(body.young_mpa)
+
+
 def fitted_laws(name: str, bodies: Sequence[DrawnBody]) -> dict[str, dict[str, float]]:
     """Each law of a kind's needs, fitted to bodies, with the residuals of the law in use."""
     needs = NEEDS[name]
     size, young, least, most = (
         np.array([getattr(body, quantity) for body in bodies])
-        for quantity in ("size_mm", "young_mpa", "least_n", "bruise_n")
+        for quantity in ("size_mm", "young_mpa", "need_least_n", "need_most_n")
     )
     count = len(APPROACHES_N)
     force = np.array([body.forces_n for body in bodies]).ravel()

@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import partial
 from statistics import median
-from typing import Any
+from typing import Any, Protocol
 
 from rich.console import Console
 
@@ -175,13 +175,21 @@ def summary(results: Sequence[EpisodeResult]) -> dict[str, Any]:
     return figures
 
 
-def num_verified(results: Sequence[EpisodeResult]) -> int:
+class Verified(Protocol):
+    """A result that counts as a success or does not."""
+
+    @property
+    def verified(self) -> bool:
+        """Whether it is one."""
+
+
+def num_verified(results: Sequence[Verified]) -> int:
     """Number of verified episodes."""
     return sum(result.verified for result in results)
 
 
 def still_running(
-    results: Mapping[PolicyAndForce, Sequence[EpisodeResult]], running: Sequence[PolicyAndForce]
+    results: Mapping[PolicyAndForce, Sequence[Verified]], running: Sequence[PolicyAndForce]
 ) -> list[PolicyAndForce]:
     """Contestants without the forces whose interval ends below that of their sweep's best one.
 

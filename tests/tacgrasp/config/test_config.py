@@ -166,7 +166,7 @@ def test_a_bad_environment_variable_is_named(
 
 
 def test_the_tasks_that_come_with_it_are_listed() -> None:
-    assert names("task") == ["cherry_tomato", "egg", "peg", "strawberry"]
+    assert names("task") == ["cherry_tomato", "egg", "fruit", "peg", "strawberry"]
 
 
 def test_a_rig_file_must_say_what_has_no_default(tmp_path: Path) -> None:
