@@ -89,11 +89,11 @@ NEEDS: Mapping[str, ObjectNeeds] = {
         young_spread=0.14,
     ),
     "fruit": ObjectNeeds(
-        least_n=Law(value=0.109, size=2.658),
+        least_n=Law(value=0.108, size=2.669),
         most_n=Law(value=0.663, size=1.358, young=1.282),
-        approach_mm=Law(value=0.887, size=-0.004, young=-0.724, force=0.633),
-        young_mpa=Law(value=0.184, size=1.181),
-        young_spread=0.154,
+        approach_mm=Law(value=0.833, size=-0.011, young=-0.761, force=0.641),
+        young_mpa=Law(value=0.125, size=1.182),
+        young_spread=0.151,
     ),
 }
 """Needs by the name that a task gives in ``goal.needs``."""

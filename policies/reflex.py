@@ -5,6 +5,9 @@ correction of the gripper's force, with its reason, and the next memory.
 
 * A slip raises the force by the least step; a slip that goes on, by ever larger ones, each after
   the gripper has had time to answer the one before.
+* While the fingers rise from the support (``standing``), what slips falls nowhere: steps up stay
+  small, and each waits until the one before is felt, so that the grip ends just above what slips.
+* What the next motion needs more than the weight (``ahead_n``) is asked for before it begins.
 * A felt force above the limit lowers it at once, whatever a slip asks for.
 * A felt force above the band lowers it, but not below what a slip has asked for.
 * Nothing is ever asked for above the limit of the contract. Nobody can talk the reflex out of it:
@@ -38,6 +41,10 @@ body may be twice what friction holds; four steps then reach it."""
 
 MOST_FACTOR = 1.6
 """Largest factor of one step. Our choice: that of the teacher's ``increase_force``, nearly."""
+
+STANDING_FACTOR, STANDING_EVERY_S = 1.1, 0.06
+"""Factor of a step up while the object still stands, and least time between two [s]. Our choice:
+the grip ends within a step or two of what slips; command, gripper and two frames take the time."""
 
 FRESH_S = 0.3
 """Time after a step within which a further slip is the same one [s]. Our choice."""
@@ -96,6 +103,8 @@ class ReflexReading:
             sensor can't tell (it measures no shear, or nothing is touched).
         commanded_n: Force that the gripper was last commanded [N].
         most_felt_n: Largest felt force that this command can make [N].
+        standing: Whether a support still catches the object, from which the fingers rise slowly.
+        ahead_n: Command that the next motion needs [N]; 0 for none.
     """
 
     t_s: float
@@ -104,6 +113,8 @@ class ReflexReading:
     slip: float | None
     commanded_n: float
     most_felt_n: float
+    standing: bool = False
+    ahead_n: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -159,6 +170,8 @@ def correct(
         return _relieve(reading, reading.felt_n, terms, memory)
     if reading.slip is not None and reading.slip > 0:
         return _raise(reading, terms, memory)
+    if reading.ahead_n > reading.commanded_n:
+        return _prepare(reading, terms, memory)
     return _lower(reading, terms, memory)
 
 
@@ -211,18 +224,34 @@ def _raise(
     reading: ReflexReading, terms: ForceTerms, memory: ReflexMemory
 ) -> tuple[Correction, ReflexMemory]:
     since_s = reading.t_s - memory.raised_s
-    if since_s < RESPONSE_S - _ROUNDING_S:
+    every_s = STANDING_EVERY_S if reading.standing else RESPONSE_S
+    if since_s < every_s - _ROUNDING_S:
         return _hold(reading, "slip, and the gripper is still answering"), memory
-    factor = LEAST_FACTOR
-    if since_s < FRESH_S:
+    factor = STANDING_FACTOR if reading.standing else LEAST_FACTOR
+    if since_s < FRESH_S and not reading.standing:
         factor = min(MOST_FACTOR, 1 + GROWTH * (memory.factor - 1))
-    force_n = reading.commanded_n * factor
-    if reading.felt_n is not None and reading.felt_n > 0:
-        force_n = min(force_n, reading.commanded_n * terms.limit_n / reading.felt_n)
+    force_n = _within_limit(reading, terms, reading.commanded_n * factor)
     if force_n <= reading.commanded_n:
         return _hold(reading, "slip, but the force is at its limit"), memory
     memory = replace(memory, raised_s=reading.t_s, factor=factor, floor_n=force_n)
     return Correction(act=Act.RAISE, reason="slip", force_n=force_n), memory
+
+
+def _prepare(
+    reading: ReflexReading, terms: ForceTerms, memory: ReflexMemory
+) -> tuple[Correction, ReflexMemory]:
+    force_n = _within_limit(reading, terms, reading.ahead_n)
+    if force_n <= reading.commanded_n:
+        return _hold(reading, "more is needed ahead, but the force is at its limit"), memory
+    memory = replace(memory, floor_n=force_n)
+    return Correction(act=Act.RAISE, reason="what is ahead", force_n=force_n), memory
+
+
+def _within_limit(reading: ReflexReading, terms: ForceTerms, force_n: float) -> float:
+    """A command that the felt force says to keep the limit [N]."""
+    if reading.felt_n is None or reading.felt_n <= 0:
+        return force_n
+    return min(force_n, reading.commanded_n * terms.limit_n / reading.felt_n)
 
 
 def _lower(

@@ -19,7 +19,7 @@ from scipy.ndimage import map_coordinates
 
 from cltp.tactile.cloud import FloatArray
 from sim.gel.gap import NO_BODY_MM
-from sim.grasp.fruit import BRUISE_FACTOR, fruit_shape
+from sim.grasp.fruit import BRUISE_FACTOR, FRUIT_RIPENESS, fruit_shape
 from sim.grasp.revolved import GRID_MM as GRID_MM  # plugins take these from here
 from sim.grasp.revolved import PITCH_MM as PITCH_MM
 from sim.grasp.revolved import BodyShape as BodyShape
@@ -103,9 +103,10 @@ class PropertyRanges:
     """Ranges of an object's properties. Sources stand above the presets.
 
     Attributes:
-        mass_g, young_mpa, poisson, friction, bruise_n: The properties; of a body that ripens,
+        mass_g, young_mpa, poisson, friction, bruise_n: The properties; of a body with a ripeness,
             stiffness and bruise force follow from size and ripeness and stay within these ranges.
-        ripens: Whether they do (``sim.grasp.ripeness``).
+        ripeness: Bruise force over the force that holds the body at the least friction
+            (``sim.grasp.ripeness``); None of what does not ripen.
         bruise_factor: Drawn factor on the bruise force that ripeness tells; None for none.
         bruise_over_own_slip: Least bruise force over the force that holds the body at its own
             friction; a body below it is drawn anew (``sim.grasp.rig``). 0 lets all pass.
@@ -116,7 +117,7 @@ class PropertyRanges:
     poisson: float
     friction: Range
     bruise_n: Range
-    ripens: bool = False
+    ripeness: Range | None = None
     bruise_factor: Range | None = None
     bruise_over_own_slip: float = 0.0
 
@@ -148,7 +149,7 @@ OBJECTS: dict[str, PropertyRanges] = {
     "strawberry": replace(
         _ranges((5, 60), (0.05, 0.6), 0.35, (0.3, 0.8), (0.2, 4.5)),
         mass_g=Range(5, 60, log=True),
-        ripens=True,
+        ripeness=Range(*BRUISE_OVER_SLIP),
     ),
     "cherry_tomato": _ranges((8, 18), (0.25, 0.6), 0.45, (0.4, 0.9), (1.4, 2.4)),
     "egg": _ranges((45, 65), (50, 100), 0.3, (0.3, 0.6), (7, 12)),
@@ -156,7 +157,7 @@ OBJECTS: dict[str, PropertyRanges] = {
     "fruit": replace(
         _ranges((8, 50), (0.05, 0.6), 0.35, (0.3, 0.8), (0.2, 5.0)),
         mass_g=Range(8, 50, log=True),
-        ripens=True,
+        ripeness=Range(*FRUIT_RIPENESS),
         bruise_factor=Range(*BRUISE_FACTOR),
         bruise_over_own_slip=1.6,
     ),
@@ -186,8 +187,8 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
     mass_g = draw(ranges.mass_g)
     young, friction, bruise = draw(ranges.young_mpa), draw(ranges.friction), draw(ranges.bruise_n)
     gap, com, gyration, thickness = _SHAPES[name](mass_g, rng)
-    if ranges.ripens:
-        ripeness, scatter = draw(_RIPENESS), draw(_SCATTER)
+    if ranges.ripeness is not None:
+        ripeness, scatter = draw(ranges.ripeness), draw(_SCATTER)
         size = BerrySize(mass_g=mass_g, size_mm=thickness, com_mm=com)
         flesh = size.flesh(ripeness, scatter)
         young, bruise = flesh.young_mpa, flesh.bruise_n
@@ -207,7 +208,6 @@ def draw_body(name: str, rng: np.random.Generator, tails: float = 0.0) -> Body:
     )
 
 
-_RIPENESS = Range(*BRUISE_OVER_SLIP)
 _SCATTER = Range(-PRESSURE_SCATTER, PRESSURE_SCATTER)
 
 

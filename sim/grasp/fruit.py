@@ -25,6 +25,10 @@ BRUISE_FACTOR = (0.6, 1.4)
 """Bruise force over that of its ripeness, drawn uniformly. Assumed: fruit of one stiffness differ
 in skin and history; the specification of ``tacgrasp bench gentle`` asks for ± 40 %."""
 
+FRUIT_RIPENESS = (1.1, 1.6)
+"""Bruise force that ripeness tells, over the force that holds the fruit at the least friction.
+Assumed: riper than the strawberries, so that no one force does for most of them."""
+
 Relief = Callable[[FloatArray, FloatArray], FloatArray]
 """Added height [mm] at (fraction of the length, angle about the axis)."""
 

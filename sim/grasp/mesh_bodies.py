@@ -133,7 +133,7 @@ def placed_body(
 def _flesh(drawn: Body, mesh: BerrySize) -> Flesh:
     """Stiffness and bruise force of a mesh: those of the drawn body, or of one as ripe as it."""
     flesh = Flesh(young_mpa=drawn.young_mpa, bruise_n=drawn.bruise_n)
-    if not OBJECTS[drawn.name].ripens:
+    if OBJECTS[drawn.name].ripeness is None:
         return flesh
     size = BerrySize(mass_g=1000 * drawn.mass_kg, size_mm=drawn.thickness_mm, com_mm=drawn.com_mm)
     return mesh.flesh(size.ripeness(flesh))

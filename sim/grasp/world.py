@@ -99,6 +99,11 @@ class Grasp:
             self.body_xy_mm[1] - self.pad_xy_mm[1],
         )
 
+    @property
+    def hangs(self) -> bool:
+        """Whether the body has left its support in the fingers."""
+        return self.patch is not None and self._lifted_mm > 0
+
     def close(self, force_n: float) -> None:
         """Close with, or adjust a grip to, a true force [N].
 
@@ -107,7 +112,7 @@ class Grasp:
         later one as ``bruised``.
         """
         self.adjust(force_n)
-        if self.patch is not None and self._lifted_mm > 0:
+        if self.hangs:
             self.load((0.0, 0.0), 0.05)
 
     def adjust(self, force_n: float) -> None:
@@ -162,7 +167,7 @@ class Grasp:
             self._rise(by_mm, push, (ramp, cruise))
             return 2 * ramp + cruise
         self.displace(by_mm)
-        if self.patch is not None and self._lifted_mm > 0:
+        if self.hangs:
             self.load(push, ramp)
             self.load((0.0, 0.0), cruise)
             self.load((-push[0], -push[1]), ramp)
@@ -191,7 +196,7 @@ class Grasp:
                     part = max(0.0, speed * part_s + gain * part_s**2 / 2) / length_mm
                     made, speed = made + part, speed + gain * part_s
                     self._rise_by((part * by_mm[0], part * by_mm[1]))
-                    if self.patch is not None and self._lifted_mm > 0:
+                    if self.hangs:
                         self._load((sign * push[0], sign * push[1]), part_s)
         finally:  # nothing, or what a motion that was cut short is taken back from
             self.displace(((1 - made) * by_mm[0], (1 - made) * by_mm[1]))
@@ -249,7 +254,7 @@ class Grasp:
 
     def wait(self, seconds: float) -> None:
         """Let time pass; a lifted body that friction can't hold slides."""
-        if self.patch is not None and self._lifted_mm > 0:
+        if self.hangs:
             self.load((0.0, 0.0), seconds)
         else:
             for _ in self._parts(seconds):

@@ -245,6 +245,51 @@ class TrainSlipFlags:
             console.print(f"written   {path}; slips from {model.threshold:.2f} on")
 
 
+@dataclass(frozen=True)
+class TrainReserveFlags:
+    """Train what tells how much a held contact could still carry; simulates its own grips.
+
+    Attributes:
+        out: Folder of the models, which must exist.
+        grips: Folder of the simulated grips; those that are there are not simulated again.
+        bodies: Number of bodies, one random seed each.
+        units: Noisy units of each sensor that see a grip.
+        workers: Number of processes that simulate; by default one for each core.
+        seed: Random seed of noise and weights.
+    """
+
+    out: Path
+    grips: Path = Path("runs/grips")
+    bodies: int = 600
+    units: int = 4
+    workers: int | None = None
+    seed: int = 0
+
+    def train(self) -> None:
+        """Simulate, train and write."""
+        if self.bodies < 10 or self.units < 1:
+            raise UsageError("--bodies must be at least 10, --units at least 1")
+        if not self.out.is_dir():
+            raise UsageError(f"--out {self.out} is no folder")
+        from tacgrasp.console import make_console
+        from tacgrasp.training.reserve import ReserveRequest, train
+
+        console = make_console()
+        request = ReserveRequest(
+            bodies=self.bodies,
+            units=self.units,
+            out=self.out,
+            grips=self.grips,
+            workers=self.workers,
+            seed=self.seed,
+        )
+        for name, errors in train(request, console).items():
+            console.print(
+                f"written   {self.out / f'reserve_{name}.npz'}; of {errors.grips} grips held out "
+                f"{errors.middle:.3f} off in the mean, {errors.below:.1%} below the low quantile"
+            )
+
+
 STAGES: dict[str, tuple[type[Any], str]] = {
     "clip": (TrainClipFlags, "Align the small CLIP on images and captions."),
     "cltp": (TrainCltpFlags, "Align the tactile encoder with the frozen CLIP."),
@@ -255,6 +300,7 @@ STAGES: dict[str, tuple[type[Any], str]] = {
     "tvl": (TrainMethodFlags, "Baseline: an image encoder aligned with words for textures."),
     "unitouch": (TrainMethodFlags, "Baseline: an image encoder aligned with names of objects."),
     "slip": (TrainSlipFlags, "The slip models of all sensors that measure shear."),
+    "reserve": (TrainReserveFlags, "What tells how much a held contact could still carry."),
     "random": (TrainRandomFlags, "Floor: an encoder that has learned nothing."),
     "manifest": (ManifestFlags, "Write the checksums of older weights, trusted as they are."),
     "layout": (LayoutFlags, "Bring older weights into today's layout, without training."),
@@ -276,7 +322,7 @@ def main(argv: Sequence[str]) -> int:
     if isinstance(flags, MethodsFlags):
         flags.train(stage, command)
         return 0
-    if isinstance(flags, TrainSlipFlags):
+    if isinstance(flags, TrainSlipFlags | TrainReserveFlags):
         flags.train()
         return 0
     from tacgrasp.training import train, upkeep

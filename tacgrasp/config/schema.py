@@ -110,24 +110,31 @@ class VerifyConfig(SettingsBase):
 
     Attributes:
         lift_mm: Height of the lift [mm].
+        lift_off_mm: Height of the slow rise before, in which the reflex finds the force that just
+            holds the object [mm]; 0 for none. Without a reflex there is none.
+        lift_off_speed_m_s: Its speed [m/s].
         acceleration_m_s2: Acceleration of the lift [m/s²].
         shake_acceleration_m_s2: Acceleration of the shake [m/s²].
         speed_m_s: Speed of lift and shake [m/s].
         shake_mm: Length of one sideways move along the pad's x [mm]; 0 for none.
         shakes: Number of sideways moves, each there and back.
         hold_s: Time of holding after the shake [s].
+        set_down: Whether the object is then set down where it stood.
         max_shift_mm: Largest allowed shift of the contact on the pad [mm].
         min_area_ratio: Smallest allowed fraction of the contact area after the lift, 0 to 1.
         min_depth_ratio: Smallest allowed fraction of the indentation after the lift, 0 to 1.
     """
 
     lift_mm: Number = Field(default=40.0, ge=5, le=300)
+    lift_off_mm: Number = Field(default=0.0, ge=0, le=10)
+    lift_off_speed_m_s: Number = Field(default=0.004, gt=0, le=0.05)
     acceleration_m_s2: Number = Field(default=2.5, gt=0, le=10)
     shake_acceleration_m_s2: Number = Field(default=10.0, gt=0, le=10)
     speed_m_s: Number = Field(default=0.4, gt=0, le=0.5)
     shake_mm: Number = Field(default=25.0, ge=0, le=50)
     shakes: int = Field(default=4, ge=0, le=10, strict=True)
     hold_s: Number = Field(default=2.0, ge=0, le=60)
+    set_down: bool = False
     max_shift_mm: Number = Field(default=1.0, gt=0, le=10)
     min_area_ratio: Number = Field(default=0.6, ge=0, le=1)
     min_depth_ratio: Number = Field(default=0.6, ge=0, le=1)

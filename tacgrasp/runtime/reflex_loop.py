@@ -17,23 +17,18 @@ from functools import partial
 import numpy as np
 
 from cltp.errors import TouchError
-from cltp.tactile.shear.contact_shear import ShearCues, ShearWatch
 from cltp.tactile.shear.field import ShearField
-from cltp.tactile.shear.held_volume import HeldVolume
-from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
+from cltp.tactile.shear.slip import SlipJudge, slip_model
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
-from policies.reflex import Act, Correction, ReflexMemory, ReflexReading, correct
+from policies.reflex import Act, Correction, ReflexReading, correct
 from policies.reflex_trace import NO_SLIP, ForceCorrection, ReflexTrace, absent_trace
 from primitives.contract import Contract
 from primitives.execution import Executor
 from primitives.sense import Interval
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.rig.protocols import CallingClock, Rig, StreamingShearSensor
+from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
 from tacgrasp.runtime.reflex_thread import beside_motion
-
-QUIET_FRAMES = 10
-"""Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
-tenth of a second with taxels."""
 
 DECISION_S = 0.3
 """Time that a decision takes in a simulated world, where the reflex runs meanwhile [s]. Our choice:
@@ -87,12 +82,24 @@ class ReflexLoop:
         self._ran = self._ran or bool(self._samples or self._num_blind)
 
     @contextmanager
-    def keeping(self, contract: Contract, felt: Interval | None) -> Iterator[None]:
+    def keeping(
+        self,
+        contract: Contract,
+        felt: Interval | None,
+        *,
+        standing: bool = False,
+        floor_n: float = 0.0,
+    ) -> Iterator[ReflexHold | None]:
         """Keep the contract while the block moves the arm or waits; the object is held at rest.
+
+        The block is given the hold, by which it asks for what its next motion needs; None where
+        there is no reflex.
 
         Args:
             contract: The contract.
             felt: Force that is felt now; None where that is not known.
+            standing: Whether a support still catches the object.
+            floor_n: Command that a hold before has asked for; it is not lowered below [N].
 
         Raises:
             TouchError: The reflex had no reading for too long, out of the motion or wait.
@@ -100,23 +107,25 @@ class ReflexLoop:
         """
         self._ran = True
         if self._is_absent():
-            yield
+            yield None
             return
-        with self._beating(self._hold(contract, felt)):
+        hold = self._hold(contract, felt, floor_n)
+        with self._beating(hold):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
-            yield
+            hold.standing = standing
+            yield hold
 
     def _is_absent(self) -> bool:
         self.absent = self.absent or _unit_absence(self._rig)
         return bool(self.absent)
 
-    def _hold(self, contract: Contract, felt: Interval | None) -> _Hold:
+    def _hold(self, contract: Contract, felt: Interval | None, floor_n: float = 0.0) -> ReflexHold:
         spec = self._rig.sensor.spec
         judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
-        return _Hold(contract, felt, judge)
+        return ReflexHold(contract, felt, judge, floor_n)
 
     @contextmanager
-    def _beating(self, hold: _Hold) -> Iterator[None]:
+    def _beating(self, hold: ReflexHold) -> Iterator[None]:
         """Run the reflex of a hold for each frame while the block moves the arm or waits."""
         clock, sensor = self._rig.clock, self._rig.sensor
         assert isinstance(sensor, StreamingShearSensor)
@@ -152,11 +161,13 @@ class ReflexLoop:
         self._forget()
         return trace
 
-    def _beat_now(self, hold: _Hold, field: ShearField | None, captured_s: float | None) -> None:
+    def _beat_now(
+        self, hold: ReflexHold, field: ShearField | None, captured_s: float | None
+    ) -> None:
         self._beat(hold, self._reading(hold, field, self._rig.clock.monotonic(), captured_s))
 
     def _beat_simulated(
-        self, hold: _Hold, clock: CallingClock, sensor: StreamingShearSensor
+        self, hold: ReflexHold, clock: CallingClock, sensor: StreamingShearSensor
     ) -> None:
         began_s, now_s = self._rig.clock.monotonic(), clock.simulated_s
         _ = self._executor.gripper_state  # raises where the gripper has failed
@@ -171,7 +182,7 @@ class ReflexLoop:
                 captured_s = now_s - max(0.0, began_s - field.stamp.monotonic_s)
         self._beat(hold, self._reading(hold, field, now_s, captured_s))
 
-    def _beat(self, hold: _Hold, reading: ReflexReading) -> None:
+    def _beat(self, hold: ReflexHold, reading: ReflexReading) -> None:
         """One frame: decide, command.
 
         Raises:
@@ -190,7 +201,7 @@ class ReflexLoop:
         if correction.act in (Act.RAISE, Act.LOWER):
             self._command(hold, correction, reading)
 
-    def _command(self, hold: _Hold, correction: Correction, reading: ReflexReading) -> None:
+    def _command(self, hold: ReflexHold, correction: Correction, reading: ReflexReading) -> None:
         state = self._executor.correct_force(correction.force_n)
         hold.renew()
         if not math.isclose(state.force_n, reading.commanded_n, rel_tol=1e-6):
@@ -212,12 +223,10 @@ class ReflexLoop:
         return clock.monotonic()
 
     def _reading(
-        self, hold: _Hold, field: ShearField | None, now_s: float, captured_s: float | None
+        self, hold: ReflexHold, field: ShearField | None, now_s: float, captured_s: float | None
     ) -> ReflexReading:
-        commanded_n, felt_n, slip = self._executor.force_n, None, None
-        cues = None if field is None else hold.see(field)
-        if field is not None and cues is not None:
-            felt_n, slip = hold.force_of(field), hold.judge.see(cues.values)
+        commanded_n = self._executor.force_n
+        felt_n, slip = hold.felt_and_slip(field, now_s)
         return ReflexReading(
             t_s=now_s,
             captured_s=captured_s,
@@ -225,6 +234,8 @@ class ReflexLoop:
             slip=slip,
             commanded_n=commanded_n,
             most_felt_n=self._executor.most_felt_n(commanded_n),
+            standing=hold.standing,
+            ahead_n=hold.ahead_n,
         )
 
 
@@ -241,42 +252,6 @@ def make_reflex(rig: Rig, executor: Executor, config: RunConfig) -> ReflexLoop |
         name = rig.sensor.spec.name
         threshold = load_slip_calibration(config.slip_calibration, name).threshold
     return ReflexLoop(rig, executor, threshold)
-
-
-class _Hold:
-    """One hold: its contract, what the frames tell of it, and the reflex's memory."""
-
-    def __init__(self, contract: Contract, felt: Interval | None, judge: SlipJudge) -> None:
-        self.contract, self.judge, self.memory = contract, judge, ReflexMemory()
-        self._felt_n = None if felt is None else felt.value
-        self._quiet: list[ShearField] = []
-        self._watch: ShearWatch | None = None
-        self._volume: HeldVolume | None = None
-
-    def see(self, field: ShearField) -> ShearCues | None:
-        """Cues of a frame; None while the hold is quiet and its noise is measured."""
-        if self._watch is not None:
-            return self._watch.see(field)
-        self._quiet.append(field)
-        if len(self._quiet) < QUIET_FRAMES:
-            return None
-        self._watch = ShearWatch(field.sensor, *noise_of(self._quiet))
-        for each in self._quiet:
-            cues = self._watch.see(each)
-        self._volume = HeldVolume(self._quiet)
-        return cues
-
-    def renew(self) -> None:
-        """A correction was commanded: the contact will change."""
-        if self._watch is not None:
-            self._watch.renew()
-        if self._volume is not None:
-            self._volume.renew()
-
-    def force_of(self, field: ShearField) -> float | None:
-        """Force felt in a frame [N]: that felt before the hold, times the indentation's growth."""
-        growth = None if self._volume is None else self._volume.growth(field)
-        return None if growth is None or self._felt_n is None else self._felt_n * growth
 
 
 def _absence(rig: Rig) -> str:

@@ -30,6 +30,7 @@ from tacgrasp.episodes.record import EpisodeEnd, Need, StepPhase, StepRecord
 from tacgrasp.rig.gel_sense import GelSense
 from tacgrasp.rig.protocols import CameraSensor, Rig, ShearSensor
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Observer
+from tacgrasp.runtime.reflex_hold import ReflexHold
 from tacgrasp.runtime.reflex_loop import ReflexLoop
 
 
@@ -324,9 +325,18 @@ class Steps:
         felt = seen.felt_force_n
         return nullcontext() if self.reflex is None else self.reflex.deciding(contract, felt)
 
-    def keeping(self, contract: Contract, felt: Interval | None) -> AbstractContextManager[None]:
+    def keeping(
+        self,
+        contract: Contract,
+        felt: Interval | None,
+        *,
+        standing: bool = False,
+        floor_n: float = 0.0,
+    ) -> AbstractContextManager[ReflexHold | None]:
         """``ReflexLoop.keeping``, which raises as it does; without a reflex, nothing."""
-        return nullcontext() if self.reflex is None else self.reflex.keeping(contract, felt)
+        if self.reflex is None:
+            return nullcontext()
+        return self.reflex.keeping(contract, felt, standing=standing, floor_n=floor_n)
 
     def record_cut_short(self, step: Step | None, message: str) -> None:
         """Record a step that the end of the episode interrupted before its own record began.

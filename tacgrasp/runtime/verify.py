@@ -18,6 +18,7 @@ from primitives.limits import check_workspace
 from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
+from tacgrasp.runtime.lift_off import largest_load_m_s2, lift_off
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Verification
 from tacgrasp.runtime.steps import Readings, Steps
 
@@ -48,13 +49,24 @@ def verify_by_lifting(
         check_workspace(pose, config.limits())
     before = steps.observe(StepPhase.VERIFY_BEFORE)
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
-    with steps.keeping(contract, before.felt_force_n):
+    floor_n = 0.0
+    if settings.lift_off_mm > 0 and before.felt_force_n is not None:
+        load_m_s2 = largest_load_m_s2(accelerations(settings))
+        hangs = lift_off(rig, steps, settings, contract, before.felt_force_n, load_m_s2)
+        if hangs.problem:
+            _move(rig, start, settings, settings.acceleration_m_s2)
+            return Verification(passed=False, message=hangs.problem)
+        before, floor_n = steps.observe(StepPhase.VERIFY_BEFORE), hangs.floor_n  # as it hangs
+    with steps.keeping(contract, before.felt_force_n, floor_n=floor_n):
         _move(rig, lifted, settings, settings.acceleration_m_s2)
         for pose in shake:
             _move(rig, pose, settings, settings.shake_acceleration_m_s2)
         rig.clock.sleep(settings.hold_s)
     after = steps.observe(StepPhase.VERIFY_AFTER)
     verification = compare(before, after, settings, slip_mm=contract.slip_mm)
+    if settings.set_down and verification.passed:
+        with steps.keeping(contract, after.felt_force_n, floor_n=floor_n):
+            _move(rig, start, settings, settings.acceleration_m_s2)
     if not verification.passed:
         # an object that is still held must not fall when it is released
         _move(rig, start, settings, settings.acceleration_m_s2)

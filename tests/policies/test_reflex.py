@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from itertools import pairwise
 
 import pytest
 from hypothesis import given
@@ -18,6 +19,8 @@ from policies.reflex import (
     MOST_FACTOR,
     RELIEVED,
     RESPONSE_S,
+    STANDING_EVERY_S,
+    STANDING_FACTOR,
     Act,
     ReflexMemory,
     ReflexReading,
@@ -195,3 +198,37 @@ def test_the_felt_force_that_a_correction_leads_to_is_never_above_the_limit(
         assert felt_n * correction.force_n / commanded_n <= TERMS.limit_n * (1 + 1e-9)
     if correction.act is Act.LOWER:
         assert correction.force_n < commanded_n
+
+
+def test_while_the_object_stands_steps_up_stay_small_and_wait_for_what_is_felt():
+    memory, commanded_n, steps = ReflexMemory(), 0.1, []
+    terms = ForceTerms(force_n=Band(low=0.05, high=1.0), limit_n=100.0)
+    for k in range(12):
+        t_s = 10.0 + k * 0.02
+        slipping = replace(
+            CALM, t_s=t_s, captured_s=t_s, slip=3.0, commanded_n=commanded_n, standing=True
+        )
+        correction, memory = act(slipping, memory, terms)
+        if correction.act is Act.RAISE:
+            steps.append((t_s, correction.force_n / commanded_n))
+        commanded_n = correction.force_n
+    times_s, factors = zip(*steps, strict=True)
+    assert factors == pytest.approx([STANDING_FACTOR] * len(steps))
+    assert len(steps) > 2
+    assert min(b - a for a, b in pairwise(times_s)) == pytest.approx(STANDING_EVERY_S)
+
+
+def test_what_the_next_motion_needs_is_asked_for_once_and_not_lowered_again():
+    correction, memory = act(replace(CALM, ahead_n=0.9))
+    assert (correction.act, correction.reason) == (Act.RAISE, "what is ahead")
+    assert correction.force_n == pytest.approx(0.9)
+    later = replace(CALM, t_s=11.0, captured_s=11.0, commanded_n=0.9, ahead_n=0.9, felt_n=1.3)
+    correction, _ = act(later, memory)
+    assert correction.act is Act.HOLD  # above the band of 1 N, as was asked for
+
+
+@given(ahead_n=st.floats(0.0, 1e6), felt_n=st.floats(0.01, 1.5))
+def test_no_motion_ahead_gets_more_than_the_limit(ahead_n, felt_n):
+    reading = replace(CALM, ahead_n=ahead_n, felt_n=felt_n, most_felt_n=100.0)
+    correction, _ = act(reading)
+    assert correction.force_n * felt_n / CALM.commanded_n <= TERMS.limit_n * (1 + 1e-9)

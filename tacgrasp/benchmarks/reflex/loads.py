@@ -24,7 +24,7 @@ from primitives.contract import Band, ForceTerms
 from sim.grasp.devices import ADJUST_S
 from sim.grasp.drawn_loads import STEP_S, DrawnLoad, LoadFrame, draw_load, follow
 from sim.grasp.pad_shear import SLIDING_STICK
-from tacgrasp.runtime.reflex_loop import QUIET_FRAMES
+from tacgrasp.runtime.reflex_hold import QUIET_FRAMES
 
 SLIP_MM = 0.1
 """Slide from which a load counts as one that slips [mm]. Our choice."""

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from sim.grasp.bodies import OBJECTS, draw_body
-from sim.grasp.fruit import BRUISE_FACTOR, KINDS, shape_of
+from sim.grasp.fruit import BRUISE_FACTOR, FRUIT_RIPENESS, KINDS, shape_of
 from sim.grasp.revolved import GRID_MM
 from sim.grasp.rig import PROGRAMME_M_S2, build, draw_holdable, slip_minimum_n
-from sim.grasp.ripeness import BRUISE_OVER_SLIP, LEAST_FRICTION, BerrySize
+from sim.grasp.ripeness import LEAST_FRICTION, BerrySize
 from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.runtime.verify import accelerations
 
@@ -35,17 +35,17 @@ def test_mass_and_friction_stay_in_their_ranges_and_none_bruises_too_soon(fruit)
 def test_a_fruit_that_bruises_too_soon_is_drawn_anew():
     first, later = np.random.default_rng(7), np.random.default_rng(7)
     kind = OBJECTS["fruit"]
-    strict = replace(kind, bruise_over_own_slip=6.0)  # few are so hardy
+    strict = replace(kind, bruise_over_own_slip=3.5)  # few are so hardy
     OBJECTS["fruit"] = strict
     try:
         body, num_redrawn = draw_holdable("fruit", first)
     finally:
         OBJECTS["fruit"] = kind
     assert num_redrawn > 0
-    assert body.bruise_n >= 6 * slip_minimum_n(body)
+    assert body.bruise_n >= 3.5 * slip_minimum_n(body)
     for _ in range(num_redrawn):
         rejected = draw_body("fruit", later)
-        assert rejected.bruise_n < 6 * slip_minimum_n(rejected)
+        assert rejected.bruise_n < 3.5 * slip_minimum_n(rejected)
     assert draw_body("fruit", later).mass_kg == body.mass_kg
 
 
@@ -71,7 +71,7 @@ def test_the_closed_forms_of_the_strawberry_hold_for_fruit(fruit):
 
 
 def test_the_stiffness_is_that_of_the_ripeness(fruit):
-    low, high = BRUISE_OVER_SLIP
+    low, high = FRUIT_RIPENESS
     for body in fruit:
         size = size_of(body)
         told = size.bruise_n(body.young_mpa) / size.slip_minimum_n(body.young_mpa)

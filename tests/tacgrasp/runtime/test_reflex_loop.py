@@ -17,7 +17,8 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
-from tacgrasp.runtime.reflex_loop import DECISION_S, QUIET_FRAMES, ReflexLoop
+from tacgrasp.runtime.reflex_hold import QUIET_FRAMES
+from tacgrasp.runtime.reflex_loop import DECISION_S, ReflexLoop
 from tests.fakes.contracts import contract as bands
 
 SEED, HEAVY = 3, 9

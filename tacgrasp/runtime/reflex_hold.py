@@ -1,0 +1,120 @@
+"""One hold under the reflex: its contract, what its frames tell, and what is asked of it.
+
+Not here: what is decided from a reading (``policies.reflex``), when it is made
+(``tacgrasp.runtime.reflex_loop``).
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+
+from cltp.tactile.shear.contact_shear import ShearCues, ShearWatch
+from cltp.tactile.shear.field import ShearField
+from cltp.tactile.shear.held_volume import HeldVolume
+from cltp.tactile.shear.reserve import Reserve, num_frames, reserve_model
+from cltp.tactile.shear.slip import SlipJudge, noise_of
+from policies.reflex import RESPONSE_S, ReflexMemory
+from primitives.contract import Contract
+from primitives.sense import Interval
+
+QUIET_FRAMES = 10
+"""Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
+tenth of a second with taxels."""
+
+LEAST_RESERVE = 0.1
+"""Low quantile of the reserve of a standing object, below which it counts as held too lightly. Our
+choice: a contact that slides seldom seems to have as much."""
+
+
+class ReflexHold:
+    """One hold: its contract, what the frames tell of it, and the reflex's memory.
+
+    Another thread may set ``standing`` and ``ahead_n``, and read ``still_s``, at any time.
+
+    Args:
+        contract: The contract that is kept.
+        felt: Force that was felt before it [N]; None where that is not known.
+        judge: Tells slips.
+        floor_n: Command that a hold before has asked for; it is not lowered below [N].
+
+    Attributes:
+        memory: What the reflex remembers.
+        standing: Whether a support still catches the object.
+        ahead_n: Command that the next motion needs [N]; 0 for none.
+        reserve: What a standing object could carry over its load; None until it is known.
+    """
+
+    def __init__(
+        self, contract: Contract, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
+    ) -> None:
+        self.contract, self.memory = contract, ReflexMemory(floor_n=floor_n)
+        self.standing, self.ahead_n = False, 0.0
+        self.reserve: Reserve | None = None
+        self._judge, self._felt_n = judge, None if felt is None else felt.value
+        self._quiet: list[ShearField] = []
+        self._watch: ShearWatch | None = None
+        self._volume: HeldVolume | None = None
+        self._slipped_s, self._seen_s = -math.inf, -math.inf
+        self._noise_mm: tuple[float, float] | None = None
+        self._frames: deque[ShearField] = deque()
+
+    @property
+    def still_s(self) -> float:
+        """Time from the last reading of a slip to the newest reading [s]; infinite without one."""
+        return self._seen_s - self._slipped_s
+
+    def felt_and_slip(
+        self, field: ShearField | None, now_s: float
+    ) -> tuple[float | None, float | None]:
+        """Force felt in a frame [N], and log odds of a slip over the unit's threshold.
+
+        None where it can't be told: no frame, no contact, or the unit's noise is still measured.
+        """
+        cues = None if field is None else self._see(field)
+        if field is None or cues is None:
+            return None, None
+        slip: float | None = self._judge.see(cues.values)
+        if self.standing:
+            self._read_reserve(field, now_s)
+            slip = None if self.reserve is None else LEAST_RESERVE - self.reserve.low
+        if slip is not None:
+            self._seen_s = now_s
+            self._slipped_s = now_s if slip > 0 else self._slipped_s
+        growth = None if self._volume is None else self._volume.growth(field)
+        felt_n = None if growth is None or self._felt_n is None else self._felt_n * growth
+        return felt_n, slip
+
+    def _read_reserve(self, field: ShearField, now_s: float) -> None:
+        """Read the reserve in the last frames; the first ones after a correction don't count."""
+        assert self._noise_mm is not None  # measured, since there are cues
+        if now_s - self.memory.raised_s <= RESPONSE_S:
+            return
+        self._frames.append(field)
+        if len(self._frames) > num_frames(field.sensor):
+            self._frames.popleft()
+        if len(self._frames) == num_frames(field.sensor):
+            model = reserve_model(field.sensor.name)
+            self.reserve = model.read(tuple(self._frames), self._noise_mm)
+
+    def _see(self, field: ShearField) -> ShearCues | None:
+        if self._watch is not None:
+            return self._watch.see(field)
+        self._quiet.append(field)
+        if len(self._quiet) < QUIET_FRAMES:
+            return None
+        self._noise_mm = noise_of(self._quiet)
+        self._watch = ShearWatch(field.sensor, *self._noise_mm)
+        for each in self._quiet:
+            cues = self._watch.see(each)
+        self._volume = HeldVolume(self._quiet)
+        return cues
+
+    def renew(self) -> None:
+        """A correction was commanded: the contact will change."""
+        if self._watch is not None:
+            self._watch.renew()
+        if self._volume is not None:
+            self._volume.renew()
+        self._frames.clear()
+        self.reserve = None
