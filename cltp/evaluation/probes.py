@@ -35,6 +35,8 @@ SCHEDULE = Schedule(steps=1500, batch_size=256, learning_rate=1e-3)
 COVERAGE = 0.9
 """Fraction of the true values that shall lie inside their intervals."""
 HIDDEN = 256
+LEAST_SPREAD = 1e-3
+"""Standard deviation below which a feature counts as constant: that of rounding to 16 bits."""
 
 _DEPTH = list(CLASSES).index("depth")
 
@@ -52,7 +54,9 @@ class _ScaledMlp(nn.Module):
     def __init__(self, pooled: Tensor, outputs: int) -> None:
         super().__init__()
         self.mean = pooled.mean(0)
-        self.spread = pooled.std(0).clamp_min(1e-4)
+        spread = pooled.std(0)
+        # What is the same in all that is learned from tells nothing: the pad of one sensor.
+        self.spread = torch.where(spread < LEAST_SPREAD, torch.inf, spread)
         self.mlp = nn.Sequential(
             nn.Linear(pooled.shape[1], HIDDEN), nn.GELU(), nn.Linear(HIDDEN, outputs)
         )
