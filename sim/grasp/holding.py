@@ -177,12 +177,46 @@ class Holding:
             raise ValueError(
                 f"a step needs dt_s > 0 and a load_n of shape (2,), all finite; got {dt_s}, {load}"
             )
-        if self._dropped:
-            pressed, self._shear = self._nothing(), self._layer.at_rest()
-        else:
-            slid_mm = self._offset_mm - self._pressed_mm
-            pressed = self._pressed(force_n).moved(slid_mm, self._layer.layer.pitch_mm)
+        pressed = self._now_pressed(force_n)
+        if not self._dropped:
             self._move(dt_s, pressed, np.append(load / 2, 0.0) + pressed.push_n)
+        return self._state(pressed)
+
+    def drag(self, force_n: float, motion_mm: FloatArray | tuple[float, float]) -> HoldState:
+        """Move the body by hand, as a support does on which it stands while the fingers rise.
+
+        It does not turn, and has no momentum afterwards.
+
+        Args:
+            force_n: As ``step`` takes it.
+            motion_mm: Shape (2,), motion of the body along the pad's x and y [mm].
+
+        Raises:
+            ValueError: A value is out of range or not finite.
+        """
+        _check_force(force_n)
+        motion = np.asarray(motion_mm, dtype=np.float64)
+        if motion.shape != (2,) or not np.isfinite(motion).all():
+            raise ValueError(f"a drag needs a motion_mm of shape (2,), all finite; got {motion}")
+        pressed = self._now_pressed(force_n)
+        if not self._dropped:
+            before, carried = self._shear, self._axes() @ np.append(motion, 0.0)
+            self._shear = self._layer.step(
+                before, pressed.pressure_kpa, torch.as_tensor(carried)[None]
+            )
+            self._velocity_mm_s = np.zeros(3)
+            self._slide(before, carried)
+        return self._state(pressed)
+
+    def _now_pressed(self, force_n: float) -> _Pressed:
+        """The contact under a force where the body is now; nothing of a dropped one."""
+        if self._dropped:
+            self._shear = self._layer.at_rest()
+            return self._nothing()
+        slid_mm = self._offset_mm - self._pressed_mm
+        return self._pressed(force_n).moved(slid_mm, self._layer.layer.pitch_mm)
+
+    def _state(self, pressed: _Pressed) -> HoldState:
         return HoldState(
             slipped_mm=self._slipped_mm,
             stick_fraction=float(self._shear.stick_fraction),

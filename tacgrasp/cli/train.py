@@ -219,27 +219,31 @@ class TrainSlipFlags:
 
     Attributes:
         out: Folder of the models, which must exist.
-        loads: Number of loads, one random seed each.
+        seeds: Number of random seeds of loads.
         units: Noisy units of each sensor that see a load.
+        loads: Folder where the simulated loads are kept; those that are there are taken.
         seed: Random seed of the weights.
     """
 
     out: Path
-    loads: int = 2000
-    units: int = 4
+    seeds: int = 2950
+    units: int = 2
+    loads: Path = Path("data/slip_loads")
     seed: int = 0
 
     def train(self) -> None:
         """Simulate, train and write."""
-        if self.loads < 8 or self.units < 1:
-            raise UsageError("--loads must be at least 8, --units at least 1")
+        if self.seeds < 8 or self.units < 1:
+            raise UsageError("--seeds must be at least 8, --units at least 1")
         if not self.out.is_dir():
             raise UsageError(f"--out {self.out} is no folder")
         from tacgrasp.console import make_console
         from tacgrasp.training.slip import SlipRequest, train
 
         console = make_console()
-        request = SlipRequest(loads=self.loads, units=self.units, out=self.out, seed=self.seed)
+        request = SlipRequest(
+            seeds=self.seeds, units=self.units, out=self.out, loads=self.loads, seed=self.seed
+        )
         for name, model in train(request, console).items():
             path = self.out / f"slip_{name}.npz"
             console.print(f"written   {path}; slips from {model.threshold:.2f} on")

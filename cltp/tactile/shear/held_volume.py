@@ -15,7 +15,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from cltp.tactile.cloud import FloatArray
-from cltp.tactile.shear.contact_shear import HEIGHT_MEMORY, grid_of
+from cltp.tactile.shear.contact_shape import grid_of
+from cltp.tactile.shear.contact_shear import HEIGHT_MEMORY
 from cltp.tactile.shear.field import ShearField
 
 LEVEL = 0.3

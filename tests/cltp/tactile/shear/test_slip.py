@@ -2,13 +2,15 @@
 
 import numpy as np
 import pytest
+import torch
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import sensor_named
-from cltp.tactile.shear.contact_shear import LAG, NUM_VALUES, ShearWatch
+from cltp.tactile.shear.contact_shear import LAG, MIRRORED, NUM_VALUES, ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import (
+    LARGEST_CUE,
     SlipJudge,
     SlipModel,
     noise_of,
@@ -20,6 +22,8 @@ from cltp.tactile.shear.slip import (
 SENSORS = ("taxels", "gelsight_mini_markers")
 SHIFT_CUE = -3
 """Place of the shift of the indentation among the cues [mm]."""
+SHIFT_SINCE_REST_CUE = -11
+"""Place of that since the hold began [mm]."""
 
 
 def positions_of(sensor):
@@ -99,6 +103,39 @@ def test_frames_are_kept_for_the_changes_alone():
     assert watch.num_frames == 2 * LAG + 1
 
 
+def mirrored(field):
+    """The field mirrored along x."""
+    rows, columns = field.sensor.shear_grid
+    moved = field.displacement_mm.reshape(rows, columns, 3)[::-1] * np.array([1, -1, 1])
+    return ShearField(
+        positions_mm=field.positions_mm,
+        displacement_mm=moved.reshape(-1, 3).astype(np.float32),
+        sensor=field.sensor,
+    )
+
+
+def test_a_mirror_changes_the_sign_of_the_mirrored_cues_alone():
+    sensor, rng = sensor_named("taxels"), np.random.default_rng(0)
+    noise = 0.004 * rng.standard_normal((4, 144, 3))
+    fields = [
+        field_of(sensor, along_mm=(0.1, 0.02 * k), at_mm=(0.3 * k, 0.5), noise=noise[k])
+        for k in range(4)
+    ]
+    before = watch_of(sensor, fields).values
+    after = watch_of(sensor, [mirrored(each) for each in fields]).values
+    sign = np.ones(NUM_VALUES)
+    sign[list(MIRRORED)] = -1
+    np.testing.assert_allclose(after, sign * before, atol=1e-4)
+    assert np.abs(before[list(MIRRORED)]).max() > 0.01
+
+
+def test_a_slow_slide_adds_up_against_the_hold_at_rest():
+    sensor = sensor_named("taxels")
+    slow = [field_of(sensor, at_mm=(0.02 * k, 0.0)) for k in range(40)]
+    values = watch_of(sensor, [*[field_of(sensor)] * 10, *slow]).values
+    assert values[SHIFT_SINCE_REST_CUE] > 1.5 * values[SHIFT_CUE] > 0
+
+
 @pytest.mark.parametrize("name", SENSORS)
 def test_the_noise_of_a_hold_is_that_of_its_frames(name):
     sensor, rng = sensor_named(name), np.random.default_rng(0)
@@ -126,11 +163,17 @@ def test_frames_without_a_common_point_tell_no_noise():
         noise_of(parts)
 
 
-def model_of(width=NUM_VALUES, weight=1.0):
+def model_of(cues=NUM_VALUES, weight=1.0, keep=0.0, frame_hz=100.0):
+    """One number is kept: half of the tanh of the sum of cues, at first."""
+    ones = np.full((3, 1), 1.0)
     return SlipModel(
-        mean=np.zeros(width),
-        spread=np.ones(width),
-        layers=((np.full((2, width), weight), np.zeros(2)), (np.ones((1, 2)), np.array([0.5]))),
+        mean=np.zeros(cues),
+        spread=np.ones(cues),
+        enter=(np.full((1, cues), weight), np.zeros(1)),
+        take=(ones * [[0.0], [0.0], [1.0]], np.zeros(3)),
+        keep=(ones * [[0.0], [0.0], [keep]], np.zeros(3)),
+        leave=(np.ones((1, 1)), np.array([0.5])),
+        frame_hz=frame_hz,
         threshold=1.0,
     )
 
@@ -138,28 +181,68 @@ def model_of(width=NUM_VALUES, weight=1.0):
 def test_a_score_is_that_of_the_network_worked_by_hand():
     values = np.zeros(NUM_VALUES)
     values[0] = 0.3
-    assert model_of().score(values) == pytest.approx(2 * np.tanh(0.3) + 0.5)
+    score, kept = model_of(keep=0.8).step(values, np.array([0.4]))
+    candidate = np.tanh(np.tanh(0.3) + 0.5 * 0.8 * 0.4)
+    assert kept == pytest.approx([0.5 * candidate + 0.5 * 0.4])
+    assert score == pytest.approx(float(kept[0]) + 0.5)
 
 
-def test_a_judge_takes_the_mean_of_the_frames_of_twenty_milliseconds_over_the_threshold():
-    low, high = np.zeros(NUM_VALUES), np.zeros(NUM_VALUES)
-    high[0] = 0.3
-    scores = model_of().score(low), model_of().score(high)
-    fast, slow = SlipJudge(model_of(), 100.0), SlipJudge(model_of(), 25.0, threshold=0.25)
-    assert [fast.see(each) for each in (low, high, high)] == pytest.approx(
-        [scores[0] - 1, sum(scores) / 2 - 1, scores[1] - 1]
+def test_the_network_is_the_recurrent_unit_of_torch():
+    torch.manual_seed(0)
+    unit, rng = torch.nn.GRU(3, 3), np.random.default_rng(0)
+    enter = rng.standard_normal((3, NUM_VALUES)) / 5, rng.standard_normal(3)
+    tensors = (
+        (unit.weight_ih_l0, unit.bias_ih_l0),
+        (unit.weight_hh_l0, unit.bias_hh_l0),
     )
-    assert [slow.see(each) for each in (low, high)] == pytest.approx(
-        [score - 0.25 for score in scores]
+    take, keep = (tuple(each.detach().double().numpy() for each in pair) for pair in tensors)
+    model = SlipModel(
+        mean=np.zeros(NUM_VALUES),
+        spread=np.ones(NUM_VALUES),
+        enter=enter,
+        take=take,
+        keep=keep,
+        leave=(np.ones((1, 3)), np.zeros(1)),
+        frame_hz=100.0,
+        threshold=0.0,
     )
+    values = rng.standard_normal((6, NUM_VALUES))
+    entered = torch.from_numpy(np.tanh(values @ enter[0].T + enter[1])).float()
+    expected = unit(entered)[0].sum(dim=1).detach().numpy()
+    judge = SlipJudge(model, 100.0)
+    assert [judge.see(each) for each in values] == pytest.approx(expected.tolist(), abs=1e-5)
+
+
+def test_a_judge_adds_up_what_its_frames_tell_over_the_threshold():
+    values = np.zeros(NUM_VALUES)
+    values[0] = 0.3
+    judge, calibrated = SlipJudge(model_of(), 100.0), SlipJudge(model_of(), 100.0, threshold=0.25)
+    part = np.tanh(np.tanh(0.3))
+    expected = [part / 2, 3 * part / 4, 7 * part / 8]
+    for each in expected:
+        assert judge.see(values) == pytest.approx(each + 0.5 - 1.0)
+        assert calibrated.see(values) == pytest.approx(each + 0.5 - 0.25)
+
+
+def test_one_wild_cue_is_cut():
+    values, more = np.zeros(NUM_VALUES), np.zeros(NUM_VALUES)
+    values[0], more[0] = LARGEST_CUE, 1e6
+    model = model_of(weight=0.1)
+    assert model.step(values, np.zeros(1)) == model.step(more, np.zeros(1))
+
+
+def test_a_model_of_another_rate_is_refused():
+    with pytest.raises(TouchError, match="trained at 100 frames a second, the sensor gives 25"):
+        SlipJudge(model_of(), 25.0)
 
 
 def test_a_written_model_reads_back(tmp_path):
     path = tmp_path / "slip.npz"
     write_model(path, model_of())
-    values = np.linspace(-1, 1, NUM_VALUES)
-    assert read_model(path).score(values) == pytest.approx(model_of().score(values), abs=1e-5)
-    assert read_model(path).threshold == 1.0
+    values, found = np.linspace(-1, 1, NUM_VALUES), read_model(path)
+    expected = model_of().step(values, np.ones(1))
+    assert found.step(values, np.ones(1))[0] == pytest.approx(expected[0], abs=1e-5)
+    assert (found.threshold, found.frame_hz) == (1.0, 100.0)
 
 
 @pytest.mark.parametrize("content", [b"", b"no model"])
@@ -170,15 +253,16 @@ def test_another_file_is_no_model(tmp_path, content):
         read_model(path)
 
 
-@pytest.mark.parametrize(("width", "weight"), [(NUM_VALUES - 1, 1.0), (NUM_VALUES, np.nan)])
-def test_a_model_of_another_shape_or_not_finite_is_refused(width, weight):
+@pytest.mark.parametrize(("cues", "weight"), [(NUM_VALUES - 1, 1.0), (NUM_VALUES, np.nan)])
+def test_a_model_of_another_shape_or_not_finite_is_refused(cues, weight):
     with pytest.raises(TouchError):
-        model_of(width, weight)
+        model_of(cues, weight)
 
 
 @pytest.mark.parametrize("name", SENSORS)
 def test_a_model_comes_along_for_each_sensor_of_shear(name):
-    assert np.isfinite(slip_model(name).score(np.zeros(NUM_VALUES)))
+    judge = SlipJudge(slip_model(name), sensor_named(name).frame_hz)
+    assert np.isfinite(judge.see(np.zeros(NUM_VALUES)))
 
 
 def test_no_model_for_a_sensor_without_shear():
