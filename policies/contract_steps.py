@@ -109,12 +109,27 @@ def softened(contract: Contract) -> Contract:
     )
 
 
-def refuted(contract: Contract, felt: Interval | None) -> dict[Primitive | None, str]:
+def refuted(
+    contract: Contract, felt: Interval | None, state: ContactState | None = None
+) -> dict[Primitive | None, str]:
     """Decisions that go against what is clearly felt, with the reason of each; None is success.
+
+    Args:
+        contract: The contract of the step.
+        felt: Force that is felt; None where that is not known.
+        state: What is measured of the contact; None where that shall not count.
 
     Raises:
         LimitError: The contract is refused.
     """
+    reasons = _against_force(contract, felt)
+    if state is not None and None not in reasons and (outside := _outside(contract, state)):
+        reasons[None] = outside
+    return reasons
+
+
+def _against_force(contract: Contract, felt: Interval | None) -> dict[Primitive | None, str]:
+    """The part of ``refuted`` that the felt force tells."""
     if felt is None:
         return {}
     band = contract.terms.force_n
@@ -145,10 +160,9 @@ def beyond(
     A decision is beyond when it goes against what is clearly felt: success outside the bands, more
     force above the band, less below it.
     """
-    is_success = action is None and success
-    if (action is not None or is_success) and (reason := refuted(contract, felt).get(action)):
-        return reason
-    return _outside(contract, state) if is_success and state is not None else ""
+    if action is None and not success:
+        return ""
+    return refuted(contract, felt, state).get(action, "")
 
 
 def _outside(contract: Contract, state: ContactState) -> str:

@@ -71,7 +71,7 @@ class ObjectNeeds:
     young_spread: float
 
 
-GREATEST_FRICTION = 0.8
+GREATEST_FRICTION = 0.55
 """Friction of the fruit that the least force holds. Source: the range drawn in ``sim.grasp``."""
 
 SURELY_UNBRUISED = 0.6
@@ -89,7 +89,7 @@ NEEDS: Mapping[str, ObjectNeeds] = {
         young_spread=0.14,
     ),
     "fruit": ObjectNeeds(
-        least_n=Law(value=0.108, size=2.669),
+        least_n=Law(value=0.157, size=2.669),
         most_n=Law(value=0.663, size=1.358, young=1.282),
         approach_mm=Law(value=0.833, size=-0.011, young=-0.761, force=0.641),
         young_mpa=Law(value=0.125, size=1.182),

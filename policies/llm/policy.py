@@ -24,6 +24,7 @@ from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
+from cltp.tactile.measure import contact_state
 from cltp.tactile.states import NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
@@ -156,7 +157,9 @@ class LlmPolicy:
             TouchError: The weights' heads have no intervals.
         """
         terms = contract.terms
-        barred = [f"<{a or 'none'}>" for a in refuted(contract, observation.felt_force_n)]
+        state = contact_state(observation.cloud, in_contact=observation.in_contact)
+        against = refuted(contract, observation.felt_force_n, state)
+        barred = [f"<{action or 'none'}>" for action in against]
         return self.follow(observation, terms.force_n, terms.limit_n, barred)
 
     def follow(
@@ -178,9 +181,12 @@ class LlmPolicy:
         """
         said = self.say(observation, force_n, limit_n, barred, request)
         replied = self._clock()
-        reply = said.reply
+        reply, felt = said.reply, observation.felt_force_n
         extraction = extract(reply.text)
-        hold = flag_reason(said.reading) or hold_reason(reply, extraction, self._abstain_below)
+        flags = flag_reason(said.reading)
+        if flags and felt is not None and felt.value < force_n.low:
+            return firmer(flags, felt, force_n)
+        hold = flags or hold_reason(reply, extraction, self._abstain_below)
         if not hold and extraction.action in PAD_DIRECTION:
             self._moves.append(extraction.action)
         if not hold:
@@ -310,6 +316,20 @@ def flag_reason(reading: TouchReading) -> str:
     if not reading.flags:
         return ""
     return f"what is felt can't be trusted: {', '.join(reading.flags)}"
+
+
+def firmer(flags: str, felt: Interval, force_n: Band) -> Decision:
+    """The decision on a contact that can't be read, and whose felt force is below the target.
+
+    It goes on with the approach, whose force is felt directly: a firmer contact can be read.
+    """
+    reason = f"{flags}; {felt.value:.2f} N is felt directly, below {force_n.low:.2f} N"
+    return Decision(
+        text=f"{reason[0].upper()}{reason[1:]}. Action: <{Primitive.INCREASE_FORCE}>.",
+        action=Primitive.INCREASE_FORCE,
+        success=False,
+        reason=reason,
+    )
 
 
 def repeated_moves(moves: Sequence[Primitive]) -> frozenset[str]:

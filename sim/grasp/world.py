@@ -102,7 +102,7 @@ class Grasp:
     @property
     def hangs(self) -> bool:
         """Whether the body has left its support in the fingers."""
-        return self.patch is not None and self._lifted_mm > 0
+        return self.patch is not None and bool(self._lifted_mm > 0)
 
     def close(self, force_n: float) -> None:
         """Close with, or adjust a grip to, a true force [N].

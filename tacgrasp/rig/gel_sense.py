@@ -14,10 +14,17 @@ from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
 from cltp.tactile.measure import contact_state
+from cltp.tactile.sensors import SensorSpec
 from primitives.sense import ContactSense, Interval
 from tacgrasp.rig.protocols import TactileSensor
 
 T = TypeVar("T")
+
+
+def frames_per_reading(sensor: SensorSpec) -> int:
+    """Frames that a reading is the mean of."""
+    return max(FRAMES_PER_READING, round(READING_S * sensor.frame_hz))
+
 
 FELT_SPREAD, CUT_SPREAD = 0.30, 0.5
 """Half width of the interval of a felt force, in ln F: of a contact on the pad, and of one that the
@@ -31,9 +38,13 @@ KEPT_RATIO = 0.6
 followed as drift (``cltp.tactile.contact_test.FOLLOWED_RATIO``)."""
 
 FRAMES_PER_READING = 4
-"""Frames that a reading of the closed or open fingers is the mean of: the fingers stand still
+"""Least frames that a reading of the closed or open fingers is the mean of: the fingers stand still
 meanwhile, 0.16 s at 25 Hz. Our choice: fine noise is halved, so that a berry is still felt at its
-first touch where a unit's noise is three times what was measured."""
+first touch where a unit's noise is three times what was measured. A faster sensor gives more frames
+in the same time."""
+
+READING_S = 0.16
+"""That time [s]."""
 
 CLEAR_N = 0.2
 """Felt force from which it is clear [nominal N: clear heights, whatever the gel's stiffness]."""
@@ -81,17 +92,18 @@ class GelSense:
             TouchError: The sensor gives no fresh cloud.
         """
         self._repeated(self._sensor.take_reference)
-        frames = [self._repeated(self._sensor.read) for _ in range(NUM_FRAMES)]
-        self._untouched = UntouchedGel(frames, averaged=FRAMES_PER_READING)
+        averaged = frames_per_reading(self._sensor.spec)
+        frames = [self._repeated(self._sensor.read) for _ in range(max(NUM_FRAMES, averaged))]
+        self._untouched = UntouchedGel(frames, averaged=averaged)
         self._cloud, self._in_contact = None, False
 
     def read(self) -> TactileCloud:
-        """Read the gel now: the mean of ``FRAMES_PER_READING`` new frames.
+        """Read the gel now: the mean of ``frames_per_reading`` new frames.
 
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        return self._sensor.read(FRAMES_PER_READING)
+        return self._sensor.read(frames_per_reading(self._sensor.spec))
 
     def read_contact(self) -> bool:
         """Read the gel and test it while the fingers close.

@@ -14,6 +14,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.sense import Interval
@@ -24,19 +27,37 @@ from tacgrasp.runtime.steps import Steps
 
 GRAVITY_M_S2 = 9.81
 
-RISES = 3
+RISES = 5
 """Most rises of ``verify.lift_off_mm`` until the object hangs still. Our choice: in a second a grip
 grows fivefold."""
+
+LEFT_BEHIND = 0.3
+"""Part of a rise by which the indentation may move along the pad if the object hangs. Our choice:
+twice the error of its place. One that stands stays behind by all of it."""
+
+HELD_TIGHTER = 1.1
+"""Factor on the force after a rise in which it was left behind and no slip was told."""
 
 STILL_S, STILL_FRAMES = 0.2, 6
 """Least time without a slip, and fewest frames of it, after which an object hangs still. Our
 choice: two means of the reflex."""
 
-MARGIN = 1.15
-"""Factor on the force that the motions ahead need. Our choice: the error of the reserve."""
+MARGIN = 1.1
+"""Factor on the force that the motions ahead need. Our choice: half the error of the reserve."""
+
+ROCKS = (0.3, 0.45, 0.6, 0.8, 1.0)
+"""Parts of the shake's acceleration and way by which a hanging object is rocked in turn. What hangs
+beside the middle of the grip turns in it, which no rest shows."""
+
+TURNING = 0.65
+"""Exponent of the force that keeps a contact from turning, over the moment: a patch of Hertz turns
+under F R ∝ F^(4/3), one of an elastic layer under F^1.54 (``sim.grasp.ripeness``), felt alike."""
+
+ROCKED, ROCKED_TIMES = 1.05, 3
+"""Factor beyond that after a rock in which the object slipped, and most rocks of one size."""
 
 SETTLE_S = 0.1
-"""Time that the gripper is given for the change [s]."""
+"""Time that the gripper is given for a change [s]."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -58,19 +79,19 @@ def lift_off(
     settings: VerifyConfig,
     contract: Contract,
     felt: Interval | None,
-    load_m_s2: float,
+    side_m: NDArray[np.float64],
 ) -> LiftOff:
-    """Rise until the object hangs still, then ask for the force that the next motions need.
+    """Rise until the object hangs still, then rock it ever harder, up to the shake.
 
     Without a reflex nothing moves.
 
     Args:
         rig: The devices.
         steps: Steps of the episode.
-        settings: Distance and speed.
+        settings: Distances, speeds and accelerations.
         contract: The contract that is kept.
         felt: Force that is felt before; None where that is not known.
-        load_m_s2: Largest acceleration that the object is held against afterwards, weight included.
+        side_m: Way of the shake, base frame [m].
 
     Raises:
         TouchError: The reflex had no reading for too long.
@@ -81,36 +102,81 @@ def lift_off(
     with steps.keeping(contract, felt, standing=True) as hold:
         if hold is None:
             return LiftOff()
+        rig.clock.sleep(still_s)
+        slid_n = 0.0  # the largest command under which it is known to have slid
         for rise in range(1, RISES + 1):
-            _rise(rig, start, rise * settings.lift_off_mm, settings)
+            before_mm = hold.place_mm
+            up_m = np.array([0.0, 0.0, rise * settings.lift_off_mm / 1000])
+            _go(rig, shifted(start, up_m), settings.lift_off_speed_m_s, settings.acceleration_m_s2)
             rig.clock.sleep(still_s)
-            if hold.still_s >= still_s:
+            if hold.still_s < still_s:
+                continue
+            if not _is_left_behind(before_mm, hold.place_mm, settings.lift_off_mm):
                 break
+            slid_n = rig.gripper.state().force_n
+            _raise(rig, hold, HELD_TIGHTER)
+            rig.clock.sleep(still_s)
         else:
             height_mm = RISES * settings.lift_off_mm
             return LiftOff(problem=f"it still slips {height_mm:g} mm above where it stood")
-        reserve = 0.0 if hold.reserve is None else max(0.0, hold.reserve.middle)
-        _prepare(rig, hold, MARGIN * load_m_s2 / GRAVITY_M_S2 / math.exp(reserve))
+        hold.rising = False
+        load_m_s2 = math.hypot(GRAVITY_M_S2, settings.shake_acceleration_m_s2)
+        factor = MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold, rig, slid_n)
+        _raise(rig, hold, max(1.0, factor))
+        if settings.shakes and settings.shake_mm > 0:
+            for part in ROCKS:
+                _rock(rig, hold, settings, part, side_m)
         return LiftOff(floor_n=hold.memory.floor_n)
 
 
-def _rise(rig: Rig, start: Pose, height_mm: float, settings: VerifyConfig) -> None:
-    position_m = start.position_m.copy()
-    position_m[2] += height_mm / 1000
-    rig.arm.move_to(
-        Pose(position_m=position_m, rotvec_rad=start.rotvec_rad),
-        speed_m_s=settings.lift_off_speed_m_s,
-        acceleration_m_s2=settings.acceleration_m_s2,
-    )
+def _is_left_behind(
+    before_mm: tuple[float, float] | None, after_mm: tuple[float, float] | None, rise_mm: float
+) -> bool:
+    """Whether the indentation has moved along the pad as that of a standing object would [mm]."""
+    if before_mm is None or after_mm is None:
+        return False
+    return math.dist(before_mm, after_mm) > LEFT_BEHIND * rise_mm
 
 
-def _prepare(rig: Rig, hold: ReflexHold, factor: float) -> None:
+def _reserve(hold: ReflexHold, rig: Rig, slid_n: float) -> float:
+    """What a hanging object could carry over its weight, at least 1.
+
+    No more than the command over the one under which it slid, where one is known [N].
+    """
+    read = 1.0 if hold.reserve is None else max(1.0, math.exp(hold.reserve.middle))
+    return read if slid_n <= 0 else min(read, max(1.0, rig.gripper.state().force_n / slid_n))
+
+
+def _rock(
+    rig: Rig,
+    hold: ReflexHold,
+    settings: VerifyConfig,
+    part: float,
+    side_m: NDArray[np.float64],
+) -> None:
+    """Rock by a part of the shake, there and back, until the object does not slip in it."""
+    here = rig.arm.pose()
+    acceleration_m_s2 = part * settings.shake_acceleration_m_s2
+    for _ in range(ROCKED_TIMES):
+        began_s = hold.seen_s
+        for pose in (shifted(here, part * side_m), here):
+            _go(rig, pose, settings.speed_m_s, acceleration_m_s2)
+        rig.clock.sleep(SETTLE_S)
+        if hold.slipped_s <= began_s:
+            return
+        _raise(rig, hold, ROCKED * (1 / part) ** TURNING)
+
+
+def _go(rig: Rig, pose: Pose, speed_m_s: float, acceleration_m_s2: float) -> None:
+    rig.arm.move_to(pose, speed_m_s=speed_m_s, acceleration_m_s2=acceleration_m_s2)
+
+
+def _raise(rig: Rig, hold: ReflexHold, factor: float) -> None:
     """Let the reflex multiply the force, once."""
-    hold.standing = False
-    hold.ahead_n = max(1.0, factor) * rig.gripper.state().force_n
+    hold.ahead_n = factor * rig.gripper.state().force_n
     rig.clock.sleep(SETTLE_S)
 
 
-def largest_load_m_s2(accelerations_m_s2: list[tuple[float, float]]) -> float:
-    """The largest of some accelerations, (sideways, upwards), with the weight [m/s²]."""
-    return max(math.hypot(side, GRAVITY_M_S2 + up) for side, up in accelerations_m_s2)
+def shifted(pose: Pose, offset_m: NDArray[np.float64]) -> Pose:
+    """A pose moved along the axes of its frame [m]."""
+    return Pose(position_m=pose.position_m + offset_m, rotvec_rad=pose.rotvec_rad)

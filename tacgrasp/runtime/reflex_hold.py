@@ -12,7 +12,13 @@ from collections import deque
 from cltp.tactile.shear.contact_shear import ShearCues, ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.held_volume import HeldVolume
-from cltp.tactile.shear.reserve import Reserve, num_frames, reserve_model
+from cltp.tactile.shear.reserve import (
+    Reserve,
+    mean_field,
+    num_frames,
+    place_mm,
+    reserve_model,
+)
 from cltp.tactile.shear.slip import SlipJudge, noise_of
 from policies.reflex import RESPONSE_S, ReflexMemory
 from primitives.contract import Contract
@@ -22,9 +28,9 @@ QUIET_FRAMES = 10
 """Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
 tenth of a second with taxels."""
 
-LEAST_RESERVE = 0.1
-"""Low quantile of the reserve of a standing object, below which it counts as held too lightly. Our
-choice: a contact that slides seldom seems to have as much."""
+LEAST_RESERVE = 0.15
+"""Reserve below which an object that is lifted off counts as held too lightly. Our choice: a
+contact that slides seldom seems to have as much."""
 
 
 class ReflexHold:
@@ -41,28 +47,34 @@ class ReflexHold:
     Attributes:
         memory: What the reflex remembers.
         standing: Whether a support still catches the object.
+        rising: Whether the fingers rise slowly, so that the reserve is to be kept too.
         ahead_n: Command that the next motion needs [N]; 0 for none.
         reserve: What a standing object could carry over its load; None until it is known.
+        place_mm: Middle of the indentation of an object that is lifted off, (x, y), gel frame [mm];
+            None until it is known.
+        seen_s, slipped_s: Time of the newest reading, and of the newest one of a slip [s].
     """
 
     def __init__(
         self, contract: Contract, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
     ) -> None:
         self.contract, self.memory = contract, ReflexMemory(floor_n=floor_n)
-        self.standing, self.ahead_n = False, 0.0
+        self.standing = self.rising = False
+        self.ahead_n = 0.0
         self.reserve: Reserve | None = None
+        self.place_mm: tuple[float, float] | None = None
         self._judge, self._felt_n = judge, None if felt is None else felt.value
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
         self._volume: HeldVolume | None = None
-        self._slipped_s, self._seen_s = -math.inf, -math.inf
+        self.slipped_s, self.seen_s = -math.inf, -math.inf
         self._noise_mm: tuple[float, float] | None = None
         self._frames: deque[ShearField] = deque()
 
     @property
     def still_s(self) -> float:
         """Time from the last reading of a slip to the newest reading [s]; infinite without one."""
-        return self._seen_s - self._slipped_s
+        return self.seen_s - self.slipped_s
 
     def felt_and_slip(
         self, field: ShearField | None, now_s: float
@@ -74,13 +86,13 @@ class ReflexHold:
         cues = None if field is None else self._see(field)
         if field is None or cues is None:
             return None, None
-        slip: float | None = self._judge.see(cues.values)
-        if self.standing:
+        slip, self.seen_s = self._judge.see(cues.values), now_s
+        if self.rising:
             self._read_reserve(field, now_s)
-            slip = None if self.reserve is None else LEAST_RESERVE - self.reserve.low
-        if slip is not None:
-            self._seen_s = now_s
-            self._slipped_s = now_s if slip > 0 else self._slipped_s
+            if self.reserve is not None:
+                slip = max(slip, LEAST_RESERVE - self.reserve.middle)
+        if slip > 0:
+            self.slipped_s = now_s
         growth = None if self._volume is None else self._volume.growth(field)
         felt_n = None if growth is None or self._felt_n is None else self._felt_n * growth
         return felt_n, slip
@@ -94,8 +106,9 @@ class ReflexHold:
         if len(self._frames) > num_frames(field.sensor):
             self._frames.popleft()
         if len(self._frames) == num_frames(field.sensor):
-            model = reserve_model(field.sensor.name)
-            self.reserve = model.read(tuple(self._frames), self._noise_mm)
+            mean = mean_field(tuple(self._frames))
+            self.reserve = reserve_model(field.sensor.name).read(mean, self._noise_mm)
+            self.place_mm = place_mm(mean)
 
     def _see(self, field: ShearField) -> ShearCues | None:
         if self._watch is not None:

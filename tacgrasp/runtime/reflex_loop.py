@@ -112,7 +112,7 @@ class ReflexLoop:
         hold = self._hold(contract, felt, floor_n)
         with self._beating(hold):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
-            hold.standing = standing
+            hold.standing = hold.rising = standing
             yield hold
 
     def _is_absent(self) -> bool:

@@ -18,7 +18,7 @@ from primitives.limits import check_workspace
 from tacgrasp.config.schema import PadConfig, RunConfig, VerifyConfig
 from tacgrasp.episodes.record import StepPhase
 from tacgrasp.rig.protocols import Rig
-from tacgrasp.runtime.lift_off import largest_load_m_s2, lift_off
+from tacgrasp.runtime.lift_off import lift_off, shifted
 from tacgrasp.runtime.outcome import EndOfEpisode, EndReason, Verification
 from tacgrasp.runtime.steps import Readings, Steps
 
@@ -43,16 +43,16 @@ def verify_by_lifting(
     """
     settings = config.verify
     start = rig.arm.pose()
-    lifted = _shifted(start, UP * settings.lift_mm / 1000)
-    sideways = _shifted(lifted, level_axis(start, config.pad) * settings.shake_mm / 1000)
+    lifted = shifted(start, UP * settings.lift_mm / 1000)
+    side_m = level_axis(start, config.pad) * settings.shake_mm / 1000
+    sideways = shifted(lifted, side_m)
     for pose in (lifted, sideways):
         check_workspace(pose, config.limits())
     before = steps.observe(StepPhase.VERIFY_BEFORE)
     shake = [sideways, lifted] * settings.shakes if settings.shake_mm > 0 else []
     floor_n = 0.0
     if settings.lift_off_mm > 0 and before.felt_force_n is not None:
-        load_m_s2 = largest_load_m_s2(accelerations(settings))
-        hangs = lift_off(rig, steps, settings, contract, before.felt_force_n, load_m_s2)
+        hangs = lift_off(rig, steps, settings, contract, before.felt_force_n, side_m)
         if hangs.problem:
             _move(rig, start, settings, settings.acceleration_m_s2)
             return Verification(passed=False, message=hangs.problem)
@@ -130,7 +130,3 @@ def not_lifted(rig: Rig, steps: Steps, config: RunConfig, contract: Contract) ->
 
 def _move(rig: Rig, pose: Pose, settings: VerifyConfig, acceleration_m_s2: float) -> None:
     rig.arm.move_to(pose, speed_m_s=settings.speed_m_s, acceleration_m_s2=acceleration_m_s2)
-
-
-def _shifted(pose: Pose, offset_m: NDArray[np.float64]) -> Pose:
-    return Pose(position_m=pose.position_m + offset_m, rotvec_rad=pose.rotvec_rad)

@@ -22,7 +22,7 @@ from rich.console import Console
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec, sensor_named
-from cltp.tactile.shear.contact_shear import grid_of
+from cltp.tactile.shear.contact_shape import grid_of
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from cltp.tactile.shear.reserve import (
@@ -30,6 +30,7 @@ from cltp.tactile.shear.reserve import (
     QUANTILES,
     ReserveModel,
     mean_cues,
+    mean_field,
     num_frames,
     write_reserve_model,
 )
@@ -168,7 +169,7 @@ def _seen_by(
     positions_mm = np.stack([grid.x, grid.y], axis=1).astype(np.float32)
     true = ShearField(sensor=sensor, positions_mm=positions_mm, displacement_mm=moved_mm)
     frames = [unit.apply(true, rng) for _ in range(num_frames(sensor))]
-    return mean_cues(frames, (unit.along_mm, unit.depth_mm))
+    return mean_cues(mean_field(frames), (unit.along_mm, unit.depth_mm))
 
 
 def fit(lessons: Lessons, seed: int) -> tuple[ReserveModel, ReserveErrors]:

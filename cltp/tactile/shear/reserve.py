@@ -21,7 +21,8 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.shear.contact_shear import NUM_VALUES, ShearWatch, grid_of
+from cltp.tactile.shear.contact_shape import ContactShape, grid_of
+from cltp.tactile.shear.contact_shear import NUM_VALUES, ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import MODELS
 
@@ -64,14 +65,14 @@ class ReserveModel:
     spread: FloatArray
     layers: tuple[tuple[FloatArray, FloatArray], ...]
 
-    def read(self, fields: Sequence[ShearField], noise_mm: tuple[float, float]) -> Reserve | None:
-        """The reserve in some frames of a contact that changes little; None without contact.
+    def read(self, mean: MeanField, noise_mm: tuple[float, float]) -> Reserve | None:
+        """The reserve in a mean field; None without contact.
 
         Args:
-            fields: Frames, at least one.
+            mean: Of frames of a contact that changes little.
             noise_mm: Standard deviation of a point along the gel and into it, of one frame [mm].
         """
-        cues = mean_cues(fields, noise_mm)
+        cues = mean_cues(mean, noise_mm)
         return None if cues is None else self.of_cues(cues)
 
     def of_cues(self, cues: FloatArray) -> Reserve:
@@ -84,13 +85,21 @@ class ReserveModel:
         return Reserve(float(low), float(middle))
 
 
-def mean_cues(fields: Sequence[ShearField], noise_mm: tuple[float, float]) -> FloatArray | None:
-    """Cues (NUM_VALUES,) of the mean of some frames; None where it shows no contact.
+class MeanField(NamedTuple):
+    """The mean of some frames.
 
-    Arguments are those of ``ReserveModel.read``.
+    Attributes:
+        field: Displacements at all points that any frame has found.
+        frames: Number of frames.
     """
-    sensor = fields[0].sensor
-    grid = grid_of(sensor)
+
+    field: ShearField
+    frames: int
+
+
+def mean_field(fields: Sequence[ShearField]) -> MeanField:
+    """The mean of some frames of one sensor, one at least."""
+    grid = grid_of(fields[0].sensor)
     total, counts = np.zeros((grid.count, 3)), np.zeros(grid.count)
     for each in fields:
         cells = grid.cells_of(each.positions_mm)
@@ -103,8 +112,25 @@ def mean_cues(fields: Sequence[ShearField], noise_mm: tuple[float, float]) -> Fl
         displacement_mm=(total[found] / counts[found, None]).astype(np.float32),
         force_n=None,
     )
-    along_mm, depth_mm = (each / len(fields) ** 0.5 for each in noise_mm)
-    cues = ShearWatch(sensor, along_mm, depth_mm).see(mean)
+    return MeanField(mean, len(fields))
+
+
+def place_mm(mean: MeanField) -> tuple[float, float] | None:
+    """Middle of the indentation, (x, y), gel frame [mm]; None without one."""
+    grid = grid_of(mean.field.sensor)
+    height_mm = np.zeros(grid.count)
+    height_mm[grid.cells_of(mean.field.positions_mm)] = mean.field.displacement_mm[:, 2]
+    shape = ContactShape.of(height_mm, grid)
+    return None if shape is None else shape.centre
+
+
+def mean_cues(mean: MeanField, noise_mm: tuple[float, float]) -> FloatArray | None:
+    """Cues (NUM_VALUES,) of a mean field; None where it shows no contact.
+
+    Arguments are those of ``ReserveModel.read``.
+    """
+    along_mm, depth_mm = (each / mean.frames**0.5 for each in noise_mm)
+    cues = ShearWatch(mean.field.sensor, along_mm, depth_mm).see(mean.field)
     return None if cues is None else cues.values
 
 
