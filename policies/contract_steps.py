@@ -68,6 +68,7 @@ def needed(contract: Contract, need: FeltNeed) -> Band:
     """
     band, lean = contract.terms.force_n, contract.lean
     middle = contract.scale * need.least_n ** (1 - lean) * need.most_n**lean
+    middle = min(middle, max(need.least_n, need.most_n) / TARGET_FACTOR)
     middle = min(
         max(middle, band.low * math.sqrt(TARGET_FACTOR)), band.high / math.sqrt(TARGET_FACTOR)
     )

@@ -1,7 +1,7 @@
 """A drawn load in real time, behind an emulated taxel array and an emulated gripper.
 
 For the time that a slip takes through the wire to the gripper's registers: the body is that of
-``sim.grasp.drawn_loads``, stepped with its inertia (``sim.grasp.holding``), and nothing but the
+``sim.grasp.drawn.loads``, stepped with its inertia (``sim.grasp.holding``), and nothing but the
 array's packets and the gripper's commands goes in or out.
 
 Not here: a whole rig's world (``sim.emulators.world``), the wires.
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from sim.grasp.devices import ADJUST_S
-from sim.grasp.drawn_loads import STEP_S, DrawnLoad, LoadFrame, LoadStepper
+from sim.grasp.drawn.loads import STEP_S, DrawnLoad, LoadFrame, LoadStepper
 
 
 class LoadWorld:

@@ -4,7 +4,7 @@ Grips are simulated once and kept in a folder; seeds that are there already are 
 Each is then seen by several noisy units. Seeds from ``FIRST_SEED`` on are for this alone;
 benchmarks begin at 1,000,000.
 
-Not here: the grips (``sim.grasp.drawn_grips``), the cues (``cltp.tactile.shear.contact_shear``).
+Not here: the grips (``sim.grasp.drawn.grips``), the cues (``cltp.tactile.shear.contact_shear``).
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from cltp.tactile.shear.reserve import (
     num_frames,
     write_reserve_model,
 )
-from sim.grasp.drawn_grips import drawn_grips
+from sim.grasp.drawn.grips import drawn_grips
 from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.console import count_progress
 
@@ -91,7 +91,7 @@ class ReserveErrors:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Lessons:
+class SeenGrips:
     """Cues (N, NUM_VALUES) of one sensor, reserves (N,), numbers of the bodies (N,)."""
 
     cues: FloatArray
@@ -144,7 +144,7 @@ def write_grips(folder: Path, seed: int) -> None:
     partly.replace(path)
 
 
-def _seen(request: ReserveRequest, name: str, paths: list[Path]) -> Lessons:
+def _seen(request: ReserveRequest, name: str, paths: list[Path]) -> SeenGrips:
     """All grips as noisy units of a sensor see them."""
     sensor, cues, reserves, bodies = sensor_named(name), [], [], []
     for body, path in enumerate(paths):
@@ -158,7 +158,7 @@ def _seen(request: ReserveRequest, name: str, paths: list[Path]) -> Lessons:
                     cues.append(each)
                     reserves.append(float(reserve))
                     bodies.append(body)
-    return Lessons(cues=np.array(cues), reserve=np.array(reserves), body=np.array(bodies))
+    return SeenGrips(cues=np.array(cues), reserve=np.array(reserves), body=np.array(bodies))
 
 
 def _seen_by(
@@ -172,21 +172,21 @@ def _seen_by(
     return mean_cues(mean_field(frames), (unit.along_mm, unit.depth_mm))
 
 
-def fit(lessons: Lessons, seed: int) -> tuple[ReserveModel, ReserveErrors]:
+def fit(seen: SeenGrips, seed: int) -> tuple[ReserveModel, ReserveErrors]:
     """Train on most bodies by the loss of quantiles; the others tell the errors.
 
     Raises:
         TouchError: No grip is left to learn from, or to measure with.
     """
-    is_held_out = lessons.body % HELD_OUT == 0
+    is_held_out = seen.body % HELD_OUT == 0
     if is_held_out.all() or not is_held_out.any():
-        raise TouchError(f"training needs bodies that are held, got {len(lessons.reserve)} grips")
-    cues, reserve = lessons.cues[~is_held_out], lessons.reserve[~is_held_out]
+        raise TouchError(f"training needs bodies that are held, got {len(seen.reserve)} grips")
+    cues, reserve = seen.cues[~is_held_out], seen.reserve[~is_held_out]
     mean, spread = cues.mean(axis=0), cues.std(axis=0) + 1e-6
     layers = _layers((cues - mean) / spread, reserve, seed)
     model = ReserveModel(mean=mean, spread=spread, layers=layers)
-    read = np.array([model.of_cues(each) for each in lessons.cues[is_held_out]])
-    truth = lessons.reserve[is_held_out]
+    read = np.array([model.of_cues(each) for each in seen.cues[is_held_out]])
+    truth = seen.reserve[is_held_out]
     errors = ReserveErrors(
         grips=len(truth),
         middle=float(np.abs(read[:, 1] - truth).mean()),

@@ -28,7 +28,7 @@ from cltp.tactile.shear.contact_shear import MIRRORED, NUM_VALUES, ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from cltp.tactile.shear.slip import SlipJudge, SlipModel, noise_of, write_model
-from sim.grasp.drawn_loads import STEP_S
+from sim.grasp.drawn.loads import STEP_S
 from sim.grasp.pad_shear import SLIDING_STICK
 from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.console import count_progress

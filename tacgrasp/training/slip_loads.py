@@ -4,7 +4,7 @@ Simulated once, seen by many noisy units. A block of seeds is a file; blocks tha
 are not simulated again. Seeds from ``FIRST_SEED`` on are for this alone; benchmarks begin at
 1,000,000.
 
-Not here: the loads (``sim.grasp.drawn_loads``, ``sim.grasp.drawn_drags``), noise, the training.
+Not here: the loads (``sim.grasp.drawn.loads``, ``sim.grasp.drawn.drags``), noise, the training.
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import sensor_named
 from sim.grasp.bodies import Range
 from sim.grasp.devices import ADJUST_S
-from sim.grasp.drawn_drags import draw_drag, follow_drag
-from sim.grasp.drawn_loads import STEP_S, draw_load, follow
+from sim.grasp.drawn.drags import draw_drag, follow_drag
+from sim.grasp.drawn.loads import STEP_S, draw_load, follow
 from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.console import count_progress
 

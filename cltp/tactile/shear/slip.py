@@ -148,7 +148,9 @@ def slip_model(sensor_name: str) -> SlipModel:
     """
     path = MODELS / f"slip_{sensor_name}.npz"
     if not path.is_file():
-        known = ", ".join(sorted(each.stem.removeprefix("slip_") for each in MODELS.glob("*.npz")))
+        known = ", ".join(
+            sorted(each.stem.removeprefix("slip_") for each in MODELS.glob("slip_*.npz"))
+        )
         raise TouchError(f"no slip model for {sensor_name!r}; known: {known}")
     return read_model(path)
 

@@ -22,7 +22,7 @@ from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
 from policies.reflex import Act, Correction, ReflexMemory, ReflexReading, correct
 from primitives.contract import Band, ForceTerms
 from sim.grasp.devices import ADJUST_S
-from sim.grasp.drawn_loads import STEP_S, DrawnLoad, LoadFrame, draw_load, follow
+from sim.grasp.drawn.loads import STEP_S, DrawnLoad, LoadFrame, draw_load, follow
 from sim.grasp.pad_shear import SLIDING_STICK
 from tacgrasp.runtime.reflex_hold import QUIET_FRAMES
 

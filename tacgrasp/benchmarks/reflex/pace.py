@@ -18,7 +18,7 @@ import numpy as np
 
 from cltp.tactile.shear.field import ShearField
 from policies import Observation
-from sim.grasp.drawn_loads import DrawnLoad, draw_load
+from sim.grasp.drawn.loads import DrawnLoad, draw_load
 from sim.grasp.rig import build
 from tacgrasp.benchmarks.reflex.loads import Keeper, noisy_frames
 from tacgrasp.config.layers import load

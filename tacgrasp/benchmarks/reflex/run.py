@@ -1,6 +1,6 @@
 """``tacgrasp bench reflex``: does the reflex see slips, how soon, and what does it hold?
 
-Each seed draws a body, a grip and a load (``sim.grasp.drawn_loads``), and a noisy unit of the
+Each seed draws a body, a grip and a load (``sim.grasp.drawn.loads``), and a noisy unit of the
 sensor. Followed once without corrections, the load is one that slips, one that holds, or one
 between, for which either answer is right. Beside the reflex stand detectors without touch of shear:
 always, never, and a threshold on displacement over indentation, chosen with hindsight.

@@ -34,7 +34,7 @@ from sim.emulators.process.lifetime import WORLD_PRIORITY, request_real_time
 from sim.emulators.rig import FINGERS, GRIPPER
 from sim.emulators.taxels.array import TaxelEmulator
 from sim.grasp.devices import START_POSE
-from sim.grasp.drawn_loads import draw_load
+from sim.grasp.drawn.loads import draw_load
 from tacgrasp.benchmarks.reflex.loads import LIMIT_FACTOR, SLIP_MM, onset_s, unit_of
 from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig

@@ -17,7 +17,7 @@ class Scaled:
     """A sensor whose clouds carry another scale."""
 
     def __init__(self, sensor, scale):
-        self._sensor, self._scale = sensor, scale
+        self._sensor, self._scale, self.spec = sensor, scale, sensor.spec
 
     def read(self, frames=1):
         return replace(self._sensor.read(frames), force_scale=self._scale)

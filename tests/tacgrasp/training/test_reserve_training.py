@@ -6,7 +6,7 @@ import pytest
 from cltp.errors import TouchError
 from cltp.tactile.shear.contact_shear import NUM_VALUES
 from cltp.tactile.shear.reserve import QUANTILES
-from tacgrasp.training.reserve import FIRST_SEED, MOST, SENSORS, STANDS, Lessons, fit, write_grips
+from tacgrasp.training.reserve import FIRST_SEED, MOST, SENSORS, STANDS, SeenGrips, fit, write_grips
 
 
 def lessons(count=2000, noise=0.2):
@@ -14,7 +14,7 @@ def lessons(count=2000, noise=0.2):
     rng = np.random.default_rng(0)
     cues = rng.standard_normal((count, NUM_VALUES))
     reserve = 0.5 * cues[:, 0] - 0.3 * cues[:, 1] + noise * rng.standard_normal(count)
-    return Lessons(cues=cues, reserve=reserve, body=np.arange(count) % 50)
+    return SeenGrips(cues=cues, reserve=reserve, body=np.arange(count) % 50)
 
 
 def test_quantiles_are_learned_and_the_errors_are_those_of_bodies_held_out():
@@ -27,7 +27,9 @@ def test_quantiles_are_learned_and_the_errors_are_those_of_bodies_held_out():
 def test_bodies_are_needed_to_learn_from_and_to_hold_out():
     one = lessons(20)
     with pytest.raises(TouchError, match="needs bodies"):
-        fit(Lessons(cues=one.cues, reserve=one.reserve, body=np.zeros(20, dtype=np.int64)), seed=0)
+        fit(
+            SeenGrips(cues=one.cues, reserve=one.reserve, body=np.zeros(20, dtype=np.int64)), seed=0
+        )
 
 
 def test_the_grips_of_a_body_are_kept_with_the_reserve_that_is_learned(tmp_path):

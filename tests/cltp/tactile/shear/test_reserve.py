@@ -12,7 +12,7 @@ from cltp.tactile.shear.contact_shape import grid_of
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
 from cltp.tactile.shear.reserve import mean_field, num_frames, place_mm, reserve_model
-from sim.grasp.drawn_grips import drawn_grips
+from sim.grasp.drawn.grips import drawn_grips
 
 TAXELS = sensor_named("taxels")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from cltp.tactile.sensors import sensor_named
-from sim.grasp.drawn_loads import FOLLOWED_MM, LoadKind, draw_load, follow
+from sim.grasp.drawn.loads import FOLLOWED_MM, LoadKind, draw_load, follow
 
 SLIPS, HOLDS = 103, 101
 """Seeds of a load that friction can't hold, and of one that it can."""

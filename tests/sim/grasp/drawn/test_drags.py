@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from sim.grasp.drawn_drags import AFTER_S, SPEED_MM_S, draw_drag, follow_drag
-from sim.grasp.drawn_loads import STEP_S
+from sim.grasp.drawn.drags import AFTER_S, SPEED_MM_S, draw_drag, follow_drag
+from sim.grasp.drawn.loads import STEP_S
 from sim.grasp.holding import Holding
 
 SLIDES, HOLDS = 100, 107

@@ -1,7 +1,7 @@
 """Grips that grow ever firmer on a standing body while the fingers rise: what the pad shows.
 
 For training what tells how much a held contact could still carry. Not here: faster loads
-(``sim.grasp.drawn_loads``), errors of a sensor.
+(``sim.grasp.drawn.loads``), errors of a sensor.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from cltp.tactile.shear.field import ShearField
 from sim.gel.shear.layer import Shear
 from sim.gel.shear.sensed import shear_field
 from sim.grasp.bodies import Range
-from sim.grasp.drawn_loads import BODIES
+from sim.grasp.drawn.loads import BODIES
 from sim.grasp.fingers import FlatFingers, Patch
 from sim.grasp.pad_shear import coarse
 from sim.grasp.rig import build

@@ -3,7 +3,7 @@
 The body neither accelerates nor turns; it moves along the pads at a constant speed, which shears
 the gel and then slides, or stops before that. For training what tells a slip.
 
-Not here: loads that friction alone holds (``sim.grasp.drawn_loads``), the contact itself
+Not here: loads that friction alone holds (``sim.grasp.drawn.loads``), the contact itself
 (``sim.grasp.holding``).
 """
 
@@ -19,7 +19,7 @@ from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import sensor_named
 from sim.gel.layer import gel_of
 from sim.grasp.bodies import Range, draw_body
-from sim.grasp.drawn_loads import BODIES, LEAST_GRIP_N, OFFSET_MM, STEP_S, LoadFrame
+from sim.grasp.drawn.loads import BODIES, LEAST_GRIP_N, OFFSET_MM, STEP_S, LoadFrame
 from sim.grasp.fingers import FlatFingers
 from sim.grasp.holding import Holding
 
