@@ -92,7 +92,7 @@ def test_gently_lies_below_the_usual_target_and_firmly_above_but_not_where_it_ma
     middles = [each.middle for each in targets]
     assert middles == sorted(middles)
     assert middles[0] < middles[1] < middles[2]
-    assert targets[-1].high < most_n
+    assert targets[-1].high <= most_n * (1 + 1e-9)
 
 
 def test_what_surely_does_not_bruise_is_the_foot_of_what_is_drawn():
