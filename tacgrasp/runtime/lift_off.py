@@ -27,15 +27,15 @@ from tacgrasp.runtime.steps import Steps
 
 GRAVITY_M_S2 = 9.81
 
-RISES = 5
+RISES = 10
 """Most rises of ``verify.lift_off_mm`` until the object hangs still. Our choice: in a second a grip
 grows fivefold."""
 
-LEFT_BEHIND = 0.3
-"""Part of a rise by which the indentation may move along the pad if the object hangs. Our choice:
-twice the error of its place. One that stands stays behind by all of it."""
+LEFT_BEHIND = 0.5
+"""Part of a rise by which the indentation may move along the pad if the object hangs. One that
+stands stays behind by all of it."""
 
-HELD_TIGHTER = 1.1
+HELD_TIGHTER = 1.15
 """Factor on the force after a rise in which it was left behind and no slip was told."""
 
 STILL_S, STILL_FRAMES = 0.2, 6
@@ -103,7 +103,7 @@ def lift_off(
         if hold is None:
             return LiftOff()
         rig.clock.sleep(still_s)
-        slid_n = 0.0  # the largest command under which it is known to have slid
+        has_slid = False
         for rise in range(1, RISES + 1):
             before_mm = hold.place_mm
             up_m = np.array([0.0, 0.0, rise * settings.lift_off_mm / 1000])
@@ -113,7 +113,7 @@ def lift_off(
                 continue
             if not _is_left_behind(before_mm, hold.place_mm, settings.lift_off_mm):
                 break
-            slid_n = rig.gripper.state().force_n
+            has_slid = True
             _raise(rig, hold, HELD_TIGHTER)
             rig.clock.sleep(still_s)
         else:
@@ -121,7 +121,7 @@ def lift_off(
             return LiftOff(problem=f"it still slips {height_mm:g} mm above where it stood")
         hold.rising = False
         load_m_s2 = math.hypot(GRAVITY_M_S2, settings.shake_acceleration_m_s2)
-        factor = MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold, rig, slid_n)
+        factor = MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold, has_slid)
         _raise(rig, hold, max(1.0, factor))
         if settings.shakes and settings.shake_mm > 0:
             for part in ROCKS:
@@ -138,13 +138,9 @@ def _is_left_behind(
     return math.dist(before_mm, after_mm) > LEFT_BEHIND * rise_mm
 
 
-def _reserve(hold: ReflexHold, rig: Rig, slid_n: float) -> float:
-    """What a hanging object could carry over its weight, at least 1.
-
-    No more than the command over the one under which it slid, where one is known [N].
-    """
-    read = 1.0 if hold.reserve is None else max(1.0, math.exp(hold.reserve.middle))
-    return read if slid_n <= 0 else min(read, max(1.0, rig.gripper.state().force_n / slid_n))
+def _reserve(hold: ReflexHold, has_slid: bool) -> float:
+    """What a hanging object could carry over its weight, 1 at least; no more if it has slid."""
+    return 1.0 if has_slid or hold.reserve is None else max(1.0, math.exp(hold.reserve.middle))
 
 
 def _rock(

@@ -63,6 +63,7 @@ class ReflexHold:
         self.ahead_n = 0.0
         self.reserve: Reserve | None = None
         self.place_mm: tuple[float, float] | None = None
+        self._began_n = 0.0
         self._judge, self._felt_n = judge, None if felt is None else felt.value
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
@@ -77,12 +78,15 @@ class ReflexHold:
         return self.seen_s - self.slipped_s
 
     def felt_and_slip(
-        self, field: ShearField | None, now_s: float
+        self, field: ShearField | None, now_s: float, commanded_n: float
     ) -> tuple[float | None, float | None]:
         """Force felt in a frame [N], and log odds of a slip over the unit's threshold.
 
         None where it can't be told: no frame, no contact, or the unit's noise is still measured.
+        While pads may slide along a standing object, the indentation changes with the place; its
+        force is then that at rest times the growth of the command.
         """
+        self._began_n = self._began_n or commanded_n
         cues = None if field is None else self._see(field)
         if field is None or cues is None:
             return None, None
@@ -94,6 +98,8 @@ class ReflexHold:
         if slip > 0:
             self.slipped_s = now_s
         growth = None if self._volume is None else self._volume.growth(field)
+        if self.standing:
+            growth = commanded_n / self._began_n
         felt_n = None if growth is None or self._felt_n is None else self._felt_n * growth
         return felt_n, slip
 

@@ -226,7 +226,7 @@ class ReflexLoop:
         self, hold: ReflexHold, field: ShearField | None, now_s: float, captured_s: float | None
     ) -> ReflexReading:
         commanded_n = self._executor.force_n
-        felt_n, slip = hold.felt_and_slip(field, now_s)
+        felt_n, slip = hold.felt_and_slip(field, now_s, commanded_n)
         return ReflexReading(
             t_s=now_s,
             captured_s=captured_s,
