@@ -21,7 +21,7 @@ SEED = 5
 SIDE_M = np.array([0.025, 0.0, 0.0])
 
 
-def lifted_off(part, sensor="taxels", limit_n=None):
+def lifted_off(part, sensor="taxels", limit_n=None, lift_off_mm=1.0):
     """A fruit gripped with a part of what holds its weight, after its lift-off."""
     config = RunConfig(**{**dict(load("fruit")[0]), "sensor": sensor, "seed": SEED})
     rig = build("fruit", SEED, sensor_name=sensor, start_offset_mm=(0.0, 0.0))
@@ -36,7 +36,8 @@ def lifted_off(part, sensor="taxels", limit_n=None):
     steps = Steps(rig, config.loop, NoRecorder(), [], reflex=ReflexLoop(rig, executor))
     force_n = rig.truth().force_n
     felt = Interval(value=force_n, low=0.8 * force_n, high=1.2 * force_n)
-    found = lift_off(rig, steps, config.verify, contract, felt, SIDE_M)
+    verify = config.verify.model_copy(update={"lift_off_mm": lift_off_mm})
+    found = lift_off(rig, steps, verify, contract, felt, SIDE_M)
     return rig, found, least_n
 
 
@@ -57,6 +58,12 @@ def test_a_grip_that_may_not_grow_is_reported_and_nothing_falls():
         assert "still slips" in found.problem
     assert not rig.truth().dropped
     assert rig.truth().peak_force_n <= least_n
+
+
+def test_a_lift_off_goes_no_higher_than_the_lift():
+    rig, _, _ = lifted_off(0.3, limit_n=0.05, lift_off_mm=9.0)
+    assert rig.arm.pose().position_m[2] < 0.24
+    assert not rig.truth().dropped
 
 
 def test_without_shear_nothing_moves():
