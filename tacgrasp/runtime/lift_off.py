@@ -45,7 +45,7 @@ choice: two means of the reflex."""
 MARGIN = 1.1
 """Factor on the force that the motions ahead need. Our choice: half the error of the reserve."""
 
-ROCKS = (0.3, 0.45, 0.6, 0.8, 1.0)
+ROCKS = (0.3, 0.45, 0.65, 1.0)
 """Parts of the shake's acceleration and way by which a hanging object is rocked in turn. What hangs
 beside the middle of the grip turns in it, which no rest shows."""
 
@@ -54,7 +54,15 @@ TURNING = 0.65
 the fit in ``sim.grasp.ripeness``."""
 
 ROCKED, ROCKED_TIMES = 1.05, 3
-"""Factor beyond that after a rock in which the object slipped, and most rocks of one size."""
+"""Factor beyond what the next rock needs after one in which the object slipped, and most rocks of
+one size."""
+
+ROCKED_MM = 0.6
+"""Way of the indentation along the pad that is a slip of a rocked object, told or not [mm]. Our
+choice: beyond the error of its place on most units."""
+
+SPARE = 1.08
+"""Factor on what holds through the last rock. Our choice: half a step."""
 
 SETTLE_S = 0.1
 """Time that the gripper is given for a change [s]."""
@@ -112,7 +120,7 @@ def lift_off(
             rig.clock.sleep(still_s)
             if hold.still_s < still_s:
                 continue
-            if not _is_left_behind(before_mm, hold.place_mm, settings.lift_off_mm):
+            if _moved_mm(before_mm, hold.place_mm) <= LEFT_BEHIND * settings.lift_off_mm:
                 break
             has_slid = True
             _raise(rig, hold, HELD_TIGHTER)
@@ -128,18 +136,19 @@ def lift_off(
         )
         factor = MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold, has_slid)
         _raise(rig, hold, max(1.0, factor))
-        for part in ROCKS if is_shaken else ():
-            _rock(rig, hold, settings, part, side_m)
+        for part, harder in zip(ROCKS, (*ROCKS[1:], ROCKS[-1]), strict=True):
+            if is_shaken:
+                factor = ROCKED * (harder / part) ** TURNING
+                _rock(rig, hold, settings, part, side_m, factor)
+        _raise(rig, hold, SPARE)
         return LiftOff(floor_n=hold.memory.floor_n)
 
 
-def _is_left_behind(
-    before_mm: tuple[float, float] | None, after_mm: tuple[float, float] | None, rise_mm: float
-) -> bool:
-    """Whether the indentation has moved along the pad as that of a standing object would [mm]."""
+def _moved_mm(before_mm: tuple[float, float] | None, after_mm: tuple[float, float] | None) -> float:
+    """Way of the indentation along the pad [mm]; 0 where it is not known."""
     if before_mm is None or after_mm is None:
-        return False
-    return math.dist(before_mm, after_mm) > LEFT_BEHIND * rise_mm
+        return 0.0
+    return math.dist(before_mm, after_mm)
 
 
 def _reserve(hold: ReflexHold, has_slid: bool) -> float:
@@ -153,18 +162,22 @@ def _rock(
     settings: VerifyConfig,
     part: float,
     side_m: NDArray[np.float64],
+    factor: float,
 ) -> None:
-    """Rock by a part of the shake, there and back, until the object does not slip in it."""
+    """Rock by a part of the shake, there and back, until the object does not slip in it.
+
+    After each rock in which it does, the force is multiplied.
+    """
     here = rig.arm.pose()
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
     for _ in range(ROCKED_TIMES):
-        began_s = hold.seen_s
+        began_s, before_mm = hold.seen_s, hold.place_mm
         for pose in (shifted(here, part * side_m), here):
             _go(rig, pose, settings.speed_m_s, acceleration_m_s2)
-        rig.clock.sleep(SETTLE_S)
-        if hold.slipped_s <= began_s:
+        rig.clock.sleep(max(STILL_S, STILL_FRAMES / rig.sensor.spec.frame_hz))
+        if hold.slipped_s <= began_s and _moved_mm(before_mm, hold.place_mm) < ROCKED_MM:
             return
-        _raise(rig, hold, ROCKED * (1 / part) ** TURNING)
+        _raise(rig, hold, factor)
 
 
 def _go(rig: Rig, pose: Pose, speed_m_s: float, acceleration_m_s2: float) -> None:

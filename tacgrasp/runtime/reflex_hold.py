@@ -91,9 +91,9 @@ class ReflexHold:
         if field is None or cues is None:
             return None, None
         slip, self.seen_s = self._judge.see(cues.values), now_s
-        if self.rising:
+        if self.standing:
             self._read_reserve(field, now_s)
-            if self.reserve is not None:
+            if self.rising and self.reserve is not None:
                 slip = max(slip, LEAST_RESERVE - self.reserve.middle)
         if slip > 0:
             self.slipped_s = now_s
