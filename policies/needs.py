@@ -3,8 +3,8 @@
 A berry's size tells about how heavy it is, its stiffness how ripe. Both are read from the gripper's
 opening under two forces, and from the felt force; ``TouchedObject`` weighs them against each other.
 Friction is not felt. A berry's least force is that at the least friction of its kind, so that it
-surely holds. A fruit's is that at the greatest friction, against weight alone: a grip that begins
-there is light, and slip tells what is missing.
+surely holds. A fruit's is that at a middle friction, against weight alone: a grip that begins there
+is light, and slip tells what is missing.
 
 Not here: where between the two the target lies (``policies.contract_steps``).
 """
@@ -57,7 +57,7 @@ class ObjectNeeds:
 
     Attributes:
         least_n: Least force that a grip begins with [N]: what holds one through the lift at the
-            least friction, or against its weight at the greatest.
+            least friction, or against its weight alone at a middle one.
         most_n: Largest such force [N]: what bruises one, or a part of it that surely does not.
         approach_mm: Approach of either gelled finger, flesh and gel together [mm].
         young_mpa: Young's modulus that goes with a size [MPa].
@@ -71,8 +71,9 @@ class ObjectNeeds:
     young_spread: float
 
 
-GREATEST_FRICTION = 0.55
-"""Friction of the fruit that the least force holds. Source: the range drawn in ``sim.grasp``."""
+MIDDLE_FRICTION = 0.55
+"""Friction of the fruit that the least force holds against its weight: the middle of the range
+drawn in ``sim.grasp``."""
 
 SURELY_UNBRUISED = 0.6
 """Force that no fruit of a ripeness bruises at, over what ripeness tells. Source: the range of

@@ -97,9 +97,10 @@ class ReflexHold:
                 slip = max(slip, LEAST_RESERVE - self.reserve.middle)
         if slip > 0:
             self.slipped_s = now_s
-        growth = None if self._volume is None else self._volume.growth(field)
         if self.standing:
-            growth = commanded_n / self._began_n
+            growth: float | None = commanded_n / self._began_n
+        else:
+            growth = None if self._volume is None else self._volume.growth(field)
         felt_n = None if growth is None or self._felt_n is None else self._felt_n * growth
         return felt_n, slip
 
@@ -109,10 +110,8 @@ class ReflexHold:
         if now_s - self.memory.raised_s <= RESPONSE_S:
             return
         self._frames.append(field)
-        if len(self._frames) > num_frames(field.sensor):
-            self._frames.popleft()
-        if len(self._frames) == num_frames(field.sensor):
-            mean = mean_field(tuple(self._frames))
+        if len(self._frames) == self._frames.maxlen:
+            mean = mean_field(self._frames)
             self.reserve = reserve_model(field.sensor.name).read(mean, self._noise_mm)
             self.place_mm = place_mm(mean)
 
@@ -123,6 +122,7 @@ class ReflexHold:
         if len(self._quiet) < QUIET_FRAMES:
             return None
         self._noise_mm = noise_of(self._quiet)
+        self._frames = deque(maxlen=num_frames(field.sensor))
         self._watch = ShearWatch(field.sensor, *self._noise_mm)
         for each in self._quiet:
             cues = self._watch.see(each)

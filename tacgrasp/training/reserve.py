@@ -19,6 +19,7 @@ import torch
 from numpy.typing import NDArray
 from rich.console import Console
 
+from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import SensorSpec, sensor_named
@@ -37,10 +38,9 @@ from cltp.tactile.shear.reserve import (
 from sim.grasp.drawn.grips import drawn_grips
 from tacgrasp.base.worker_pool import worker_pool
 from tacgrasp.console import count_progress
+from tacgrasp.training.slip_loads import SENSORS
 
 FIRST_SEED = 5000
-
-SENSORS = ("taxels", "gelsight_mini_markers")
 
 STANDS, MOST = -0.1, 1.3
 """Reserve that is learned of a contact that slides, and the largest one. Our choice: a sliding
@@ -108,7 +108,7 @@ def train(request: ReserveRequest, console: Console) -> dict[str, ReserveErrors]
     """
     request.grips.mkdir(parents=True, exist_ok=True)
     seeds = range(FIRST_SEED, FIRST_SEED + request.bodies)
-    paths = [request.grips / f"body_{seed}.npz" for seed in seeds]
+    paths = [_path(request.grips, seed) for seed in seeds]
     missing = [seed for seed, path in zip(seeds, paths, strict=True) if not path.is_file()]
     with worker_pool(request.workers) as pool, count_progress(console) as progress:
         done = pool.map(partial(write_grips, request.grips), missing)
@@ -137,11 +137,12 @@ def write_grips(folder: Path, seed: int) -> None:
     }
     reserves = [math.log(grip.reserve) if grip.hangs else STANDS for grip in grips]
     arrays["reserve"] = np.clip(reserves, STANDS, MOST).astype(np.float32)
-    path = folder / f"body_{seed}.npz"
-    partly = path.with_suffix(".part")
-    with partly.open("wb") as file:
+    with replacing(_path(folder, seed)) as part, part.open("wb") as file:
         np.savez(file, **arrays)  # type: ignore[arg-type]
-    partly.replace(path)
+
+
+def _path(folder: Path, seed: int) -> Path:
+    return folder / f"body_{seed}.npz"
 
 
 def _seen(request: ReserveRequest, name: str, paths: list[Path]) -> SeenGrips:

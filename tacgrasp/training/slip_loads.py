@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 from rich.console import Console
 
+from cltp.atomic_write import replacing
 from cltp.errors import TouchError
 from cltp.tactile.cloud import FloatArray
 from cltp.tactile.sensors import sensor_named
@@ -115,11 +116,8 @@ def write_block(folder: Path, first: int) -> None:
         [(e.seed, courses.index(e.course), e.commanded, len(e.stick)) for e in loads],
         dtype=np.int64,
     )
-    path = _path(folder, first)
-    partly = path.with_suffix(".part")
-    with partly.open("wb") as file:
+    with replacing(_path(folder, first)) as part, part.open("wb") as file:
         np.savez(file, **arrays)  # type: ignore[arg-type]
-    partly.replace(path)
 
 
 def read_block(path: Path) -> Iterator[TrueLoad]:

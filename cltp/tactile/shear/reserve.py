@@ -24,7 +24,7 @@ from cltp.tactile.sensors import SensorSpec
 from cltp.tactile.shear.contact_shape import ContactShape, grid_of
 from cltp.tactile.shear.contact_shear import NUM_VALUES, ShearWatch
 from cltp.tactile.shear.field import ShearField
-from cltp.tactile.shear.slip import MODELS
+from cltp.tactile.shear.slip import MODELS, Layer
 
 QUANTILES = (0.1, 0.5)
 """Quantiles of the reserve that are read: one that it seldom lies below, and the median."""
@@ -63,7 +63,7 @@ class ReserveModel:
 
     mean: FloatArray
     spread: FloatArray
-    layers: tuple[tuple[FloatArray, FloatArray], ...]
+    layers: tuple[Layer, ...]
 
     def read(self, mean: MeanField, noise_mm: tuple[float, float]) -> Reserve | None:
         """The reserve in a mean field; None without contact.

@@ -181,10 +181,14 @@ def run_seed(
         "on_failure": "hold",  # a release is no drop
     }
     config = config.model_copy(update=changes)
-    return [_run_one(config, arm, force_n) for force_n in forces_n]
+    fingers = build(config.object, seed, sensor_name=config.sensor).grasp.fingers
+    slip_minimum_n = fingers.slip_minimum_n(accelerations(config.verify))
+    return [_run_one(config, arm, force_n, slip_minimum_n) for force_n in forces_n]
 
 
-def _run_one(config: RunConfig, arm: GentleArm, force_n: float | None) -> GentleResult:
+def _run_one(
+    config: RunConfig, arm: GentleArm, force_n: float | None, slip_minimum_n: float
+) -> GentleResult:
     began_s = time.process_time()
 
     def make(*args: Any, **values: Any) -> SimRig:
@@ -193,8 +197,6 @@ def _run_one(config: RunConfig, arm: GentleArm, force_n: float | None) -> Gentle
             rig.grasp.shear = None  # nobody looks at it
         return replace(rig, gripper=TimedGripper(rig.gripper, rig))
 
-    fingers = build(config.object, config.seed, sensor_name=config.sensor).grasp.fingers
-    slip_minimum_n = fingers.slip_minimum_n(accelerations(config.verify))
     entered = enter(config, (arm.policy, force_n), slip_minimum_n, make)
     if arm.is_blanked:
         entered = replace(entered, policy=BlankedPolicy(entered.policy))

@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 from rich.console import Console
 
 from policies.needs import (
-    GREATEST_FRICTION,
+    MIDDLE_FRICTION,
     NEEDS,
     SIZE_MM,
     SURELY_UNBRUISED,
@@ -108,7 +108,7 @@ def drawn_body(name: str, seed: int) -> DrawnBody:
     least_n = _with_friction(fingers, LEAST_FRICTION).slip_minimum_n(loads)
     need_least_n, need_most_n = least_n, body.bruise_n
     if OBJECTS[name].bruise_factor is not None:  # begun lightly: slip and the reflex tell the rest
-        rough = _with_friction(fingers, GREATEST_FRICTION)
+        rough = _with_friction(fingers, MIDDLE_FRICTION)
         need_least_n, told = rough.slip_minimum_n([(0.0, 0.0)]), _told_bruise_n(body)
         need_most_n = SURELY_UNBRUISED * told
     forces = tuple(factor * least_n for factor in APPROACHES_N)

@@ -6,7 +6,8 @@ import pytest
 from cltp.errors import TouchError
 from cltp.tactile.shear.contact_shear import NUM_VALUES
 from cltp.tactile.shear.reserve import QUANTILES
-from tacgrasp.training.reserve import FIRST_SEED, MOST, SENSORS, STANDS, SeenGrips, fit, write_grips
+from tacgrasp.training.reserve import FIRST_SEED, MOST, STANDS, SeenGrips, fit, write_grips
+from tacgrasp.training.slip_loads import SENSORS
 
 
 def lessons(count=2000, noise=0.2):
