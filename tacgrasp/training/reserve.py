@@ -13,6 +13,7 @@ import math
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
+from zipfile import BadZipFile
 
 import numpy as np
 import torch
@@ -103,7 +104,7 @@ def train(request: ReserveRequest, console: Console) -> dict[str, ReserveErrors]
     """Simulate what is missing, train, write the models; their errors by sensor.
 
     Raises:
-        TouchError: Too few bodies are held at all.
+        TouchError: Too few bodies are held at all, or a file of grips is damaged.
         OSError: A file can't be read or written.
     """
     request.grips.mkdir(parents=True, exist_ok=True)
@@ -150,8 +151,11 @@ def _seen(request: ReserveRequest, name: str, paths: list[Path]) -> SeenGrips:
     sensor, cues, reserves, bodies = sensor_named(name), [], [], []
     for body, path in enumerate(paths):
         rng = np.random.default_rng([request.seed, body, 33])
-        with np.load(path, allow_pickle=False) as held:
-            fields, truth = held[name], held["reserve"]
+        try:
+            with np.load(path, allow_pickle=False) as held:
+                fields, truth = held[name], held["reserve"]
+        except (EOFError, BadZipFile, ValueError, KeyError) as error:
+            raise TouchError(f"{path} holds no grips: {error}; delete it") from None
         for moved_mm, reserve in zip(fields, truth, strict=True):
             for _ in range(request.units):
                 each = _seen_by(ShearUnit.draw(rng, sensor), sensor, moved_mm, rng)

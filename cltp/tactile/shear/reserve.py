@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import NamedTuple
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -148,7 +149,7 @@ def reserve_model(sensor_name: str) -> ReserveModel:
         count = len(arrays) // 2 - 1
         layers = tuple((arrays[f"weights_{i}"], arrays[f"biases_{i}"]) for i in range(count))
         model = ReserveModel(mean=arrays["mean"], spread=arrays["spread"], layers=layers)
-    except (OSError, ValueError, KeyError) as error:
+    except (OSError, EOFError, BadZipFile, ValueError, KeyError) as error:
         raise TouchError(f"no model of the reserve of {sensor_name!r} in {path}: {error}") from None
     if model.mean.shape != (NUM_VALUES,) or len(layers[-1][1]) != len(QUANTILES):
         raise TouchError(f"{path} is of another version: train anew (`tacgrasp train slip --help`)")

@@ -8,6 +8,7 @@ import pytest
 
 from cltp.errors import TouchError
 from cltp.tactile.sensors import sensor_named
+from cltp.tactile.shear import reserve as reserve_module
 from cltp.tactile.shear.contact_shape import grid_of
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
@@ -75,6 +76,14 @@ def test_firmer_grips_of_unseen_bodies_are_read_as_a_larger_reserve(name, grips)
         assert np.corrcoef(read, truth)[0, 1] > 0.8
         errors.append(np.abs(np.subtract(read, np.clip(truth, -0.1, 1.3))).mean())
     assert np.mean(errors) < 0.25
+
+
+@pytest.mark.parametrize("content", [b"", b"PK\x03\x04 and no more", b"no archive at all"])
+def test_a_damaged_model_is_refused_by_its_path(content, tmp_path, monkeypatch):
+    (tmp_path / "reserve_taxels.npz").write_bytes(content)
+    monkeypatch.setattr(reserve_module, "MODELS", tmp_path)
+    with pytest.raises(TouchError, match=r"reserve_taxels\.npz"):
+        reserve_model.__wrapped__("taxels")
 
 
 def test_a_sensor_without_a_model_is_refused_by_name():
