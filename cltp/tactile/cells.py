@@ -8,6 +8,7 @@ and the loop all come through that one function. Loads no torch.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator
 
-from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm
+from cltp.tactile.cloud import FloatArray, TactileCloud, grid_axes_mm, heights_at
 from cltp.tactile.markers import interpolated
 from cltp.tactile.point_layout import PointLayout
 from cltp.tactile.sensors import SensorSpec
@@ -89,6 +90,27 @@ def pictured_heights(cloud: TactileCloud) -> FloatArray:
     """Heights for pictures [mm], row 0 = top, none of them empty: finer where pixels allow it."""
     n = cells_of(cloud) if cloud.grid is None else PICTURE_CELLS
     return filled(cell_means(cloud, n))
+
+
+def less_heights(cloud: TactileCloud, cells_mm: FloatArray) -> TactileCloud:
+    """The cloud less the heights of n × n cells of the sensing area [mm], linear between them."""
+    points = cloud.points_mm.copy()
+    if cloud.grid is None:
+        x_mm, y_mm = points[:, 0].astype(np.float64), points[:, 1].astype(np.float64)
+        points[:, 2] -= heights_at(cells_mm, x_mm, y_mm, cloud.sensor)
+    else:
+        rows, columns = (_between(len(cells_mm), pixels) for pixels in cloud.grid)
+        points[:, 2] -= (rows @ cells_mm @ columns.T).ravel().astype(np.float32)
+    return replace(cloud, points_mm=points)
+
+
+@lru_cache(maxsize=16)
+def _between(n: int, pixels: int) -> FloatArray:
+    """Weights (pixels, n) of n equal cells in the middles of pixels, linear between the cells."""
+    place = np.clip((np.arange(pixels) + 0.5) * n / pixels - 0.5, 0, n - 1)
+    weights = np.clip(1 - np.abs(place[:, None] - np.arange(n)), 0.0, None)
+    weights.setflags(write=False)
+    return weights
 
 
 def smoothed(cells_mm: FloatArray, sensor: SensorSpec, scale_mm: float) -> FloatArray:

@@ -1,14 +1,14 @@
 """Whether anything touches the gel: tests of a cloud against the untouched gel.
 
 A contact is local: it has edges and slopes within millimetres. Drift, tilt and the loss of the zero
-are broad: over 5 to 10 mm and more. So a cloud is averaged in cells and passed through band filters
-(differences of Gaussians) of a few millimetres, which keep contacts and remove what is broad. A
-contact shows as a response that is far above the noise of the untouched gel somewhere on the pad.
+are broad: over 5 to 10 mm and more.
 
 ``UntouchedGel`` tests against frames of the open fingers of the same closing, which is the test of
-the loop: it measures the noise of those frames, and drift gets into it only as far as the gel
-creeps during a closing. While nothing touches it follows the drift, within bounds: see ``follow``.
-``touches_alone`` tests a single cloud, whose drift is unknown, and so needs a deeper contact.
+the loop: the likelihood ratio of a contact to noise and drift (``cltp.tactile.matched_filter``).
+While nothing touches it follows the drift, within bounds: see ``follow``. In a contact it tells the
+drift from what is around the contact: see ``without_drift``. ``touches_alone`` tests a single
+cloud, whose drift is unknown, and so needs a deeper contact: its cells pass through band filters
+(differences of Gaussians) of a few millimetres, which remove what is broad.
 
 Loads no torch. Not here: depth, position, area and force of a contact (``cltp.tactile.measure``).
 """
@@ -17,13 +17,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from cltp.errors import TouchError
-from cltp.tactile.cells import cell_means, cells_of, smoothed
-from cltp.tactile.cloud import FloatArray, TactileCloud, heights_at
+from cltp.tactile.cells import cell_means, cells_of, filled, less_heights, smoothed
+from cltp.tactile.cloud import FloatArray, TactileCloud
+from cltp.tactile.matched_filter import MOST_S, MatchedFilter, filter_noise_mm
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -35,28 +36,28 @@ NUM_FRAMES = 8
 """Frames of the untouched gel that a test is made from: their mean is as good as a reading of a few
 frames, and they take a third of a second at 25 Hz."""
 
-THRESHOLD = 8.5
-"""Noise's part of the least response of a contact, over the standard deviation of the noise.
+LEAST_GAIN = 65.0
+"""Least gain of a contact (``cltp.tactile.matched_filter.Bump``). Source: of approaches of three
+seconds in air, 0.1 % of 700 with taxels and 0.7 % of 300 with a GelSight Mini have more. It is
+large since drift is not all that a covariance says."""
 
-It is large because 1024 cells at three scales are looked at again and again in a closing (two
-seconds in air at 25 Hz). ``tacgrasp bench contact``: with ``CREEP_MM``, 1 of 600 closings has a
-false alarm; the largest response is 0.30 of the least of a contact in the median, 1.19 at most.
-"""
+MAX_CELLS = 16
+"""Most cells along either side of that test. Our choice: no bump is narrower than a cell."""
+
+THRESHOLD = 8.5
+"""Noise's part of the largest response of what is followed, over the standard deviation of the
+noise."""
 
 CREEP_MM = (0.005, 0.007, 0.0125)
-"""Drift's part of the least response of a contact, by scale [mm]: what the gel creeps during a
-closing and somewhat after it. Source: with (0.0005, 0.0035, 0.0105) more than 0.2 N is felt on
-9.5 % of nearly untouched frames, up to 30 s after their reference, with these on 3.7 % (``tacgrasp
-bench touch``); a berry at 0.1 N responds with (0.007, 0.010, 0.009) at least."""
-
+"""Drift's part of it, by scale [mm]: what the gel creeps during a closing. A berry at 0.1 N
+responds with (0.007, 0.010, 0.009) at least."""
 
 FOLLOWED_RATIO = 0.5
-"""Frames with a response below this part of a contact's least response are followed."""
+"""Frames with a ratio below this are followed (``ContactEvidence.ratio``)."""
 
 FOLLOWED_TOTAL = 1.0
-"""What has been followed responds with at most this part of a contact's least response. So a
-contact of twice the least response is found however slowly it came: none can be learned away. Our
-choice."""
+"""What has been followed responds with at most this part of the responses that noise and creep are
+given, so that no contact can be learned away, however slowly it came. Our choice."""
 
 FOLLOWED_PART = 0.5
 """Part of a change that one frame takes into the reference: its noise counts for little."""
@@ -109,17 +110,22 @@ class UntouchedGel:
                 f"the untouched gel needs at least 2 frames of one sensor, got {len(frames)}"
             )
         self._sensor = frames[0].sensor
-        self._cells = min(cells_of(frame) for frame in frames)  # frames can miss points
+        # Frames can miss points.
+        self._cells = min(MAX_CELLS, *(cells_of(frame) for frame in frames))
         cells = [cell_means(frame, self._cells) for frame in frames]
         self._mean = _mean(cells)
         count = len(frames)
-        noise = [_responses(frame - self._mean, self._sensor) for frame in cells]
+        noise = [filled(frame - self._mean) for frame in cells]
         # A frame of the mean differs less from it than a new frame does.
         factor = math.sqrt((1 / averaged + 1 / count) / (1 - 1 / count))
-        self._least_mm = THRESHOLD * factor * np.std(noise, axis=(0, 2, 3)) + np.array(CREEP_MM)
+        responses = [_responses(each, self._sensor) for each in noise]
+        least_mm = THRESHOLD * factor * np.std(responses, axis=(0, 2, 3))
+        self._most_followed_mm = FOLLOWED_TOTAL * (least_mm + np.array(CREEP_MM))
+        noise_mm = factor * filter_noise_mm(noise, self._sensor)
+        self._filter = MatchedFilter(self._sensor, self._cells, noise_mm)
         self._drift_mm = np.zeros_like(self._mean)
         stamp = frames[-1].stamp
-        self._last_s = None if stamp is None else stamp.monotonic_s
+        self._last_s = self._since_s = None if stamp is None else stamp.monotonic_s
 
     def test(self, cloud: TactileCloud) -> ContactEvidence:
         """Test whether something touches the gel now.
@@ -127,29 +133,28 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
-        return self._evidence(self._change_mm(cloud))
+        return self._evidence(self._change_mm(cloud), cloud)
 
     def follow(self, cloud: TactileCloud) -> None:
         """Let the reference follow slow drift towards a frame in which nothing touches.
 
-        A frame that responds with ``FOLLOWED_RATIO`` of a contact's least response, in either
-        direction, changes nothing. The reference moves by at most ``FOLLOWED_MM_S``, and in all
-        by what responds with at most ``FOLLOWED_TOTAL``: broad drift is followed all the way,
-        what is local only in part.
+        A frame whose ratio reaches ``FOLLOWED_RATIO``, in either direction, changes nothing. The
+        reference moves by at most ``FOLLOWED_MM_S``, and in all by what responds with at most
+        ``FOLLOWED_TOTAL``: broad drift is followed all the way, what is local only in part.
 
         Raises:
             TouchError: A cloud of another sensor.
         """
         change = self._change_mm(cloud)
-        if self._evidence(change).largest >= FOLLOWED_RATIO:
+        if self._evidence(change, cloud).largest >= FOLLOWED_RATIO:
             return
         most_mm = FOLLOWED_MM_S * self._seconds_to(cloud)
         for scale_mm in FOLLOWED_SCALES_MM:
             smooth = FOLLOWED_PART * smoothed(change, self._sensor, scale_mm)
             drift_mm = self._drift_mm + np.clip(smooth, -most_mm, most_mm)
             responses = np.abs(_responses(drift_mm, self._sensor)).max(axis=(1, 2))
-            if (responses <= FOLLOWED_TOTAL * self._least_mm).all():
-                self._drift_mm = drift_mm
+            if (responses <= self._most_followed_mm).all():
+                self._drift_mm, self._since_s = drift_mm, self._last_s
                 return
 
     def _seconds_to(self, cloud: TactileCloud) -> float:
@@ -161,27 +166,36 @@ class UntouchedGel:
             return FRAME_S
         return min(max(self._last_s - last_s, 0.0), FOLLOWED_PAUSE_S)
 
-    def without_drift(self, cloud: TactileCloud) -> TactileCloud:
-        """The cloud less the drift that has been followed since the reference.
+    def without_drift(self, cloud: TactileCloud, *, in_contact: bool = False) -> TactileCloud:
+        """The cloud less the drift since the reference.
+
+        Without contact that is what has been followed. In a contact it is also what the cells
+        around it show, continued under the contact: their own noise is left in.
 
         Raises:
             TouchError: A cloud of another sensor.
         """
-        self._check_sensor(cloud)
-        if not self._drift_mm.any():
-            return cloud
-        points = cloud.points_mm.astype(np.float64)
-        drift = heights_at(self._drift_mm, points[:, 0], points[:, 1], self._sensor)
-        points[:, 2] -= drift
-        return replace(cloud, points_mm=points.astype(np.float32))
+        change = self._change_mm(cloud)
+        drift = self._drift_mm
+        if in_contact:
+            bump = self._filter.fit(change, self._elapsed_s(cloud))
+            drift = drift + self._filter.drift_under(change, self._filter.region(change, bump))
+        return cloud if not drift.any() else less_heights(cloud, drift)
 
     def _change_mm(self, cloud: TactileCloud) -> FloatArray:
         """Cells of a cloud less the reference and the drift followed since, (n, n) [mm]."""
         self._check_sensor(cloud)
-        return cell_means(cloud, self._cells) - self._mean - self._drift_mm
+        return filled(cell_means(cloud, self._cells) - self._mean - self._drift_mm)
 
-    def _evidence(self, change_mm: FloatArray) -> ContactEvidence:
-        return _evidence(_responses(change_mm, self._sensor), self._least_mm)
+    def _elapsed_s(self, cloud: TactileCloud) -> float:
+        """Time since the reference, or since drift was followed last [s]."""
+        if cloud.stamp is None or self._since_s is None:
+            return MOST_S
+        return max(0.0, cloud.stamp.monotonic_s - self._since_s)
+
+    def _evidence(self, change_mm: FloatArray, cloud: TactileCloud) -> ContactEvidence:
+        bump = self._filter.fit(change_mm, self._elapsed_s(cloud))
+        return _compared(*(math.sqrt(g / LEAST_GAIN) for g in (bump.gain, bump.raised_gain)))
 
     def _check_sensor(self, cloud: TactileCloud) -> None:
         if cloud.sensor.name != self._sensor.name:
@@ -219,6 +233,11 @@ def _evidence(responses: FloatArray, least_mm: FloatArray) -> ContactEvidence:
     """Compare responses (scales, n, n) with the least ones of a contact (scales,)."""
     pressed = float((responses.max(axis=(1, 2)) / least_mm).max())
     raised = float((-responses.min(axis=(1, 2)) / least_mm).max())
+    return _compared(pressed, raised)
+
+
+def _compared(pressed: float, raised: float) -> ContactEvidence:
+    """Compare what is pressed in with what rises, each over the least of a contact."""
     is_inverted = raised >= 1 and pressed < MIN_PRESSED * raised
     return ContactEvidence(
         in_contact=pressed >= 1 and not is_inverted,

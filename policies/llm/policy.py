@@ -12,6 +12,7 @@ import copy
 import math
 import time
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
@@ -19,7 +20,7 @@ from typing import NamedTuple
 import torch
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
-from cltp.encoder.reader import TouchReading, reading_of
+from cltp.encoder.reader import Flag, TouchReading, reading_of
 from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
@@ -41,7 +42,7 @@ from policies.llm.text import (
 )
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.teacher import LESSON_MOVE_STEP_MM, force_goal, teacher
+from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_FRACTION, force_goal, teacher
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
 from primitives.sense import Interval
@@ -184,6 +185,8 @@ class LlmPolicy:
         reply, felt = said.reply, observation.felt_force_n
         extraction = extract(reply.text)
         flags = flag_reason(said.reading)
+        if felt is not None and (unread := unread_reason(said.reading, observation.in_contact)):
+            return self._directly(unread, observation, force_n, barred, reply)
         if flags and felt is not None and felt.value < force_n.low:
             return firmer(flags, felt, force_n)
         hold = flags or hold_reason(reply, extraction, self._abstain_below)
@@ -198,6 +201,41 @@ class LlmPolicy:
             reason=hold or extraction.reason,
             confidence=reply.confidence,
             stage_ms={**said.stage_ms, "extract": 1e3 * (self._clock() - replied)},
+        )
+
+    def _directly(
+        self,
+        unread: str,
+        observation: Observation,
+        force_n: Band,
+        barred: Sequence[str],
+        reply: Reply,
+    ) -> Decision:
+        """The teacher's decision on a contact that the model can't read, as it is measured.
+
+        Args:
+            unread: Why the model can't read it.
+            observation: What is felt.
+            force_n: The target [N].
+            barred: Tokens of actions that what is felt refutes.
+            reply: What the model said to it, which is not acted on.
+        """
+        state = contact_state(observation.cloud, in_contact=observation.in_contact)
+        if self._has_reset:  # a sliver at the edge is where the last reset has put it
+            state = replace(state, area_fraction=max(state.area_fraction, SLIVER_FRACTION))
+        advice = teacher(state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+        reason = f"{unread}; measured directly: {advice.reason}"
+        token = f"<{advice.action or 'none'}>"
+        if token in (*repeated_moves(self._moves), *barred):
+            return Decision(text=reply.text, action=None, success=False, reason=reason)
+        if advice.action in PAD_DIRECTION:
+            self._moves.append(advice.action)
+        self._has_reset = advice.action is Primitive.RESET
+        return Decision(
+            text=f"{reason[0].upper()}{reason[1:]}. {advice_text(advice)}",
+            action=advice.action,
+            success=advice.success,
+            reason=reason,
         )
 
     def say(
@@ -316,6 +354,19 @@ def flag_reason(reading: TouchReading) -> str:
     if not reading.flags:
         return ""
     return f"what is felt can't be trusted: {', '.join(reading.flags)}"
+
+
+def unread_reason(reading: TouchReading, in_contact: bool | None) -> str:
+    """Why the model can't read a contact that is felt by test; '' where it can.
+
+    Other flags stand for a cloud that lies outside of what was learned from; then what is measured
+    directly can't be trusted either.
+    """
+    if not in_contact or set(reading.flags) - {Flag.UNSURE}:
+        return ""
+    if not reading.state.in_contact:
+        return "the contact is too light to be read"
+    return flag_reason(reading)
 
 
 def firmer(flags: str, felt: Interval, force_n: Band) -> Decision:

@@ -98,23 +98,27 @@ class GelSense:
         self._cloud, self._in_contact = None, False
 
     def read(self) -> TactileCloud:
-        """Read the gel now: the mean of ``frames_per_reading`` new frames.
+        """Read the gel now: the mean of ``frames_per_reading`` new frames, tested for contact.
+
+        From the first reference on it is less the drift since then.
 
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        return self._sensor.read(frames_per_reading(self._sensor.spec))
+        cloud = self._sensor.read(frames_per_reading(self._sensor.spec))
+        if self._untouched is None:
+            return cloud
+        self._in_contact = self._tested(cloud, self._untouched, follow=True)
+        self._cloud = self._untouched.without_drift(cloud, in_contact=self._in_contact)
+        return self._cloud
 
     def read_contact(self) -> bool:
         """Read the gel and test it while the fingers close.
 
-        The reference stays as it is: drift does little in so short a time, and a contact that grows
-        in small steps would be taken for it.
-
         Raises:
             TouchError: The sensor gives no fresh cloud.
         """
-        return bool(self.in_contact(self._repeated(self.read), follow=False))
+        return bool(self.in_contact(self._repeated(self.read)))
 
     def _repeated(self, call: Callable[[], T]) -> T:
         for attempt in count(1):
@@ -124,18 +128,15 @@ class GelSense:
                 self.survive(error, attempt)
         raise AssertionError("unreachable")
 
-    def in_contact(self, cloud: TactileCloud, *, follow: bool = True) -> bool | None:
+    def in_contact(self, cloud: TactileCloud) -> bool | None:
         """Whether something touches the gel in a cloud; None before the first reference.
 
-        Args:
-            cloud: The cloud.
-            follow: Whether the reference may follow the drift in it.
+        A cloud that is not the last one read is tested as it is, and nothing is followed in it.
         """
-        if cloud is not self._cloud:  # the observation and the executor ask about the same frame
-            if self._untouched is not None:
-                self._in_contact = self._tested(cloud, self._untouched, follow=follow)
+        if cloud is not self._cloud and self._untouched is not None:
+            self._in_contact = self._tested(cloud, self._untouched, follow=False)
             self._cloud = cloud
-        return self._in_contact
+        return None if self._untouched is None else self._in_contact
 
     def _tested(self, cloud: TactileCloud, gel: UntouchedGel, *, follow: bool) -> bool:
         """Whether a contact begins, or goes on, in a new cloud; without one, the drift is followed.
@@ -152,10 +153,7 @@ class GelSense:
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
         """Force that a cloud suggests [N], within its unit's spread too; None without contact."""
-        in_contact = self.in_contact(cloud)
-        if self._untouched is not None:
-            cloud = self._untouched.without_drift(cloud)
-        state = contact_state(cloud, in_contact=in_contact)
+        state = contact_state(cloud, in_contact=self.in_contact(cloud))
         if not state.in_contact or state.force_n <= 0:
             return None
         scale = cloud.force_scale

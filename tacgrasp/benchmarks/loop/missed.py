@@ -97,10 +97,10 @@ class TrueSense(GelSense):
         self._rig = rig
         self._tests: list[tuple[TactileCloud, bool]] = []
 
-    def in_contact(self, cloud: TactileCloud, *, follow: bool = True) -> bool | None:
-        patch = self._rig.grasp.patch
+    def read(self) -> TactileCloud:
+        cloud, patch = super().read(), self._rig.grasp.patch
         self._tests.append((cloud, patch is not None and patch.force_n > 0))
-        return super().in_contact(cloud, follow=follow)
+        return cloud
 
     def was_touched(self, cloud: TactileCloud) -> bool:
         """Whether the body touched the gel when a cloud was first tested."""
