@@ -10,7 +10,6 @@ import pytest
 
 from cltp import TouchError
 from cltp.sensing.frames import jpeg_of
-from cltp.tactile.measure import contact_state
 from policies import PolicyError
 from primitives import LimitError, Primitive, RobotError
 from primitives.execution import APPROACH_FACTOR, APPROACH_STEP_N
@@ -33,7 +32,6 @@ from tests.fakes.loop_fakes import (
     config,
     play,
     slips,
-    touch,
     with_end,
 )
 
@@ -183,8 +181,9 @@ def test_asking_for_more_force_than_allowed_ends_with_limit() -> None:
 
 def test_a_change_that_the_goal_leaves_no_room_for_is_no_action() -> None:
     settings = config(max_asks=2)
-    felt_n = contact_state(touch()).force_n
-    tight = contract(felt_n / 2, felt_n * 1.0000001, 100.0)
+    felt, _, _ = play(Scripted("I don't know."), settings=settings)
+    assert felt.peak_felt_n is not None
+    tight = contract(felt.peak_felt_n / 2, felt.peak_felt_n * 1.0000001, 100.0)
     outcome, rig, _ = play(Scripted(LIGHT), settings=settings, contract=tight)
     assert outcome.reason in (EndReason.NO_ACTION, EndReason.MAX_STEPS)
     assert rig.gripper.forces_n[-1] == pytest.approx(rig.gripper.forces_n[0], rel=0.2)
