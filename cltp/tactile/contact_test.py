@@ -27,7 +27,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, cells_of, filled, less_heights, smoothed
 from cltp.tactile.cloud import FloatArray, TactileCloud
-from cltp.tactile.matched_filter import MOST_S, MatchedFilter, filter_noise_mm
+from cltp.tactile.matched_filter import MOST_S, BoolArray, MatchedFilter, filter_noise_mm
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -137,6 +137,7 @@ class UntouchedGel:
         noise_mm = factor * filter_noise_mm(noise, self._sensor)
         self._filter = MatchedFilter(self._sensor, self._cells, noise_mm)
         self._drift_mm = np.zeros_like(self._mean)
+        self._region: BoolArray | None = None  # cells of the contact that drift is followed around
         stamp = frames[-1].stamp
         self._last_s = self._since_s = None if stamp is None else stamp.monotonic_s
 
@@ -158,6 +159,7 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
+        self._region = None
         change = self._change_mm(cloud)
         if self._evidence(change, cloud).largest >= FOLLOWED_RATIO:
             return
@@ -179,28 +181,45 @@ class UntouchedGel:
             return FRAME_S
         return min(max(self._last_s - last_s, 0.0), FOLLOWED_PAUSE_S)
 
-    def without_drift(self, cloud: TactileCloud, *, in_contact: bool = False) -> TactileCloud:
-        """The cloud less the drift since the reference.
+    def follow_around(self, cloud: TactileCloud) -> None:
+        """Let the reference follow the drift in a frame of a light contact.
 
-        Without contact, and in a deep one, that is what has been followed. In a light one it is
-        also what is told from the heights around it.
+        The cells around the contact tell it, and it is continued under the contact, whose place is
+        that of the frame before. A deep contact is left as it is.
 
         Raises:
             TouchError: A cloud of another sensor.
         """
-        change, drift = self._change_mm(cloud), self._drift_mm
-        if in_contact and change.max() < LIGHT_MM:
-            drift = drift + self._drift_under(change, self._elapsed_s(cloud))
-        return cloud if not drift.any() else less_heights(cloud, drift)
+        change, elapsed_s = self._change_mm(cloud), self._elapsed_s(cloud)
+        region = self._region
+        depth_mm = change if region is None else change[region] - np.median(change[~region])
+        if depth_mm.max() >= LIGHT_MM:
+            self._region = None
+            return
+        if region is None:
+            region = self._filter.region(self._filter.fit(change, elapsed_s))
+        drift_mm = self._filter.drift_under(change, region)
+        if self._region is None and self._takes_away(change, drift_mm):
+            return
+        self._drift_mm, self._since_s = self._drift_mm + drift_mm, self._seen_s(cloud)
+        self._region = self._filter.region(self._filter.fit(change - drift_mm))
 
-    def _drift_under(self, change_mm: FloatArray, elapsed_s: float) -> FloatArray:
-        """Drift in the cells of a light contact [mm]; 0 where it is not told from the contact."""
-        drift_mm = self._filter.drift_under(change_mm, self._filter.fit(change_mm, elapsed_s))
+    def _takes_away(self, change_mm: FloatArray, drift_mm: FloatArray) -> bool:
+        """Whether what seems to be drift is part of the contact."""
         whole, left = (
             _responses(each, self._sensor).max(axis=(1, 2))
             for each in (change_mm, change_mm - drift_mm)
         )
-        return drift_mm if (left >= LEAST_LEFT * whole).all() else np.zeros_like(drift_mm)
+        return bool((left < LEAST_LEFT * whole).any())
+
+    def without_drift(self, cloud: TactileCloud) -> TactileCloud:
+        """The cloud less the drift that has been followed since the reference.
+
+        Raises:
+            TouchError: A cloud of another sensor.
+        """
+        self._check_sensor(cloud)
+        return cloud if not self._drift_mm.any() else less_heights(cloud, self._drift_mm)
 
     def _change_mm(self, cloud: TactileCloud) -> FloatArray:
         """Cells of a cloud less the reference and the drift followed since, (n, n) [mm]."""
@@ -209,9 +228,12 @@ class UntouchedGel:
 
     def _elapsed_s(self, cloud: TactileCloud) -> float:
         """Time since the reference, or since drift was followed last [s]."""
-        if cloud.stamp is None or self._since_s is None:
-            return MOST_S
-        return max(0.0, cloud.stamp.monotonic_s - self._since_s)
+        now_s = self._seen_s(cloud)
+        return MOST_S if now_s is None or self._since_s is None else max(0.0, now_s - self._since_s)
+
+    @staticmethod
+    def _seen_s(cloud: TactileCloud) -> float | None:
+        return None if cloud.stamp is None else cloud.stamp.monotonic_s
 
     def _evidence(self, change_mm: FloatArray, cloud: TactileCloud) -> ContactEvidence:
         elapsed_s = self._elapsed_s(cloud)

@@ -135,14 +135,18 @@ class MatchedFilter:
             contact_mm=best.contact_mm.reshape(heights_mm.shape),
         )
 
-    def drift_under(self, heights_mm: FloatArray, bump: Bump) -> FloatArray:
+    def region(self, bump: Bump) -> BoolArray:
+        """Cells (n, n) that a contact covers, with a rim."""
+        region = bump.contact_mm > REGION_PART * bump.contact_mm.max()
+        rim = max(1, round(RIM_MM * self._n / math.sqrt(self._sensor.area_mm2)))
+        return np.asarray(ndimage.binary_dilation(region, iterations=rim))
+
+    def drift_under(self, heights_mm: FloatArray, region: BoolArray) -> FloatArray:
         """The drift everywhere (n, n) [mm], as the cells outside a contact tell it.
 
         0 where too few cells are outside, or show what is no drift: a contact that is no bump.
         """
-        region = bump.contact_mm > REGION_PART * bump.contact_mm.max()
-        rim = max(1, round(RIM_MM * self._n / math.sqrt(self._sensor.area_mm2)))
-        outside = np.flatnonzero(~ndimage.binary_dilation(region, iterations=rim))
+        outside = np.flatnonzero(~region)
         if outside.size < LEAST_OUTSIDE * region.size:
             return np.zeros_like(heights_mm)
         seen = heights_mm.ravel()[outside]

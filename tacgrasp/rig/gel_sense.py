@@ -109,7 +109,9 @@ class GelSense:
         if self._untouched is None:
             return cloud
         self._in_contact = self._tested(cloud, self._untouched, follow=True)
-        self._cloud = self._untouched.without_drift(cloud, in_contact=self._in_contact)
+        if self._in_contact:
+            self._untouched.follow_around(cloud)
+        self._cloud = self._untouched.without_drift(cloud)
         return self._cloud
 
     def read_contact(self) -> bool:
