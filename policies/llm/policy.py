@@ -190,10 +190,8 @@ class LlmPolicy:
         if flags and felt is not None and felt.value < force_n.low:
             return firmer(flags, felt, force_n)
         hold = flags or hold_reason(reply, extraction, self._abstain_below)
-        if not hold and extraction.action in PAD_DIRECTION:
-            self._moves.append(extraction.action)
         if not hold:
-            self._has_reset = extraction.action is Primitive.RESET
+            self._remember(extraction.action)
         return Decision(
             text=reply.text,
             action=None if hold else extraction.action,
@@ -202,6 +200,14 @@ class LlmPolicy:
             confidence=reply.confidence,
             stage_ms={**said.stage_ms, "extract": 1e3 * (self._clock() - replied)},
         )
+
+    def _remember(self, action: Primitive | None) -> None:
+        """Remember an action that is taken; a reset goes back to before all moves."""
+        self._has_reset = action is Primitive.RESET
+        if self._has_reset:
+            self._moves.clear()
+        elif action in PAD_DIRECTION:
+            self._moves.append(action)
 
     def _directly(
         self,
@@ -223,14 +229,15 @@ class LlmPolicy:
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
         if self._has_reset:  # a sliver at the edge is where the last reset has put it
             state = replace(state, area_fraction=max(state.area_fraction, SLIVER_FRACTION))
-        advice = teacher(state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+        goal = force_goal(force_n)
+        advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
+        if f"<{advice.action}>" in repeated_moves(self._moves):  # it is as central as it can be
+            state = replace(state, x_mm=0.0, y_mm=0.0, cut=frozenset())
+            advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
         reason = f"{unread}; measured directly: {advice.reason}"
-        token = f"<{advice.action or 'none'}>"
-        if token in (*repeated_moves(self._moves), *barred):
+        if f"<{advice.action or 'none'}>" in barred:
             return Decision(text=reply.text, action=None, success=False, reason=reason)
-        if advice.action in PAD_DIRECTION:
-            self._moves.append(advice.action)
-        self._has_reset = advice.action is Primitive.RESET
+        self._remember(advice.action)
         return Decision(
             text=f"{reason[0].upper()}{reason[1:]}. {advice_text(advice)}",
             action=advice.action,
