@@ -60,8 +60,8 @@ def _raise(error: TouchError, attempt: int) -> None:
 class GelSense:
     """Contact and felt force of one sensor, against its gel with open fingers.
 
-    The reference follows slow drift in every frame that is clearly untouched, and never in one of
-    a contact (``cltp.tactile.contact_test.UntouchedGel.follow``).
+    The reference follows slow drift: in every frame that is clearly untouched, and around a light
+    contact (``cltp.tactile.contact_test.UntouchedGel``). What ``read`` gives is less that drift.
     """
 
     def __init__(self, sensor: TactileSensor) -> None:
@@ -108,9 +108,11 @@ class GelSense:
         cloud = self._sensor.read(frames_per_reading(self._sensor.spec))
         if self._untouched is None:
             return cloud
-        self._in_contact = self._tested(cloud, self._untouched, follow=True)
+        self._in_contact = self._tested(cloud, self._untouched)
         if self._in_contact:
             self._untouched.follow_around(cloud)
+        else:
+            self._untouched.follow(cloud)
         self._cloud = self._untouched.without_drift(cloud)
         return self._cloud
 
@@ -136,22 +138,18 @@ class GelSense:
         A cloud that is not the last one read is tested as it is, and nothing is followed in it.
         """
         if cloud is not self._cloud and self._untouched is not None:
-            self._in_contact = self._tested(cloud, self._untouched, follow=False)
+            self._in_contact = self._tested(cloud, self._untouched)
             self._cloud = cloud
         return None if self._untouched is None else self._in_contact
 
-    def _tested(self, cloud: TactileCloud, gel: UntouchedGel, *, follow: bool) -> bool:
-        """Whether a contact begins, or goes on, in a new cloud; without one, the drift is followed.
+    def _tested(self, cloud: TactileCloud, gel: UntouchedGel) -> bool:
+        """Whether a contact begins, or goes on, in a new cloud.
 
         A contact at the edge of what is felt would come and go with the noise.
         """
         evidence = gel.test(cloud)
         least = KEPT_RATIO if self._in_contact else 1.0
-        if evidence.ratio >= least and not evidence.is_inverted:
-            return True
-        if follow:
-            gel.follow(cloud)
-        return False
+        return evidence.ratio >= least and not evidence.is_inverted
 
     def felt_force(self, cloud: TactileCloud) -> Interval | None:
         """Force that a cloud suggests [N], within its unit's spread too; None without contact."""

@@ -22,6 +22,7 @@ from cltp.llm.generation import Felt, Reply
 from cltp.llm.tac3d_llm import Projector, Tac3dLlm
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.force_scale import ForceScale
+from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS, ContactState
 from cltp.texts.tokenizer import ACTIONS, Words
@@ -264,6 +265,92 @@ def test_what_can_t_be_trusted_is_not_acted_on(
         decision = policy.decide(Observation(cloud=touch()), wide_contract())
         assert decision.action is action
         assert ("noise, force" in decision.reason) is (action is None)
+
+
+def unread(
+    policy: LlmPolicy, monkeypatch: pytest.MonkeyPatch, *flags: Flag, state: ContactState
+) -> None:
+    """Let the model read a contact like this, and ask for a reset."""
+    monkeypatch.setattr(
+        policy.talker, "reply_to", lambda *_, **__: reply("Action: <reset>.", "<reset>")
+    )
+    reading = policies.llm.policy.reading_of
+    monkeypatch.setattr(
+        policies.llm.policy,
+        "reading_of",
+        lambda *a, **k: replace(reading(*a, **k), flags=flags, state=state),
+    )
+
+
+@pytest.mark.parametrize(
+    ("flags", "state", "action", "reason"),
+    [
+        ((), NO_CONTACT_STATE, Primitive.INCREASE_FORCE, "too light to be read"),
+        ((Flag.UNSURE,), HELD.state, Primitive.INCREASE_FORCE, "unsure"),
+        ((Flag.NOISE,), HELD.state, None, "noise"),
+        ((Flag.UNSURE, Flag.FORCE), HELD.state, None, "force"),
+        ((), HELD.state, Primitive.RESET, ""),
+    ],
+)
+def test_a_contact_that_is_felt_and_can_t_be_read_is_measured(
+    flags: tuple[Flag, ...],
+    state: ContactState,
+    action: Primitive | None,
+    reason: str,
+    untrained: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, *flags, state=state)
+    felt_n = contact_state(touch(), in_contact=True).force_n
+    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    observation = Observation(cloud=touch(), in_contact=True, felt_force_n=felt)
+    band = Band(low=0.9 * felt_n, high=1.1 * felt_n) if action is None else None
+    band = band or Band(low=1.1 * felt_n, high=1.4 * felt_n)
+    decision = policy.follow(observation, band, 10 * felt_n)
+    assert decision.action is action
+    assert reason in decision.reason
+    assert ("measured directly" in decision.reason) is (action is Primitive.INCREASE_FORCE)
+
+
+def test_nothing_is_measured_where_nothing_is_felt(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, state=NO_CONTACT_STATE)
+    decision = policy.follow(Observation(cloud=touch()), Band(low=0.4, high=0.5), 1.0)
+    assert decision.action is Primitive.RESET
+
+
+def test_what_is_measured_moves_neither_to_and_fro_nor_against_what_is_felt(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, state=NO_CONTACT_STATE)
+    y, x = np.mgrid[:76, :102]
+    cloud = cloud_from_heights(
+        0.4 * np.exp(-((x - 90) ** 2 + (y - 38) ** 2) / 60), SENSORS["gelsight_mini"]
+    )
+    felt_n = contact_state(cloud, in_contact=True).force_n
+    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    observation = Observation(cloud=cloud, in_contact=True, felt_force_n=felt)
+    band = Band(low=1.1 * felt_n, high=1.4 * felt_n)
+    assert policy.follow(observation, band, 9.0).action is Primitive.MOVE_RIGHT
+    policy._moves[:] = [Primitive.MOVE_RIGHT, Primitive.MOVE_LEFT]
+    assert policy.follow(observation, band, 9.0).action is Primitive.INCREASE_FORCE
+    barred = policy.follow(observation, band, 9.0, ["<increase_force>"])
+    assert barred.action is None
+    assert not barred.success
+
+
+def test_a_reset_forgets_the_moves_before_it(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, state=HELD.state)
+    policy._moves[:] = [Primitive.MOVE_RIGHT, Primitive.MOVE_LEFT]
+    policy.follow(Observation(cloud=touch()), Band(low=0.4, high=0.5), 1.0)
+    assert policy._moves == []
 
 
 @pytest.mark.parametrize(

@@ -88,8 +88,8 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
     assert {n: episode.end.truth[n] for n in truth if isinstance(truth[n], bool)} == {
         n: value for n, value in truth.items() if isinstance(value, bool)
     }
-    # what is felt scatters by an eighth from frame to frame, and sets the last force
-    assert episode.end.truth["force_n"] == pytest.approx(truth["force_n"], rel=0.2)
+    # what is felt scatters by an eighth from frame to frame; it sets target and last force of both
+    assert episode.end.truth["force_n"] == pytest.approx(truth["force_n"], rel=0.25)
     actions = [step.decision.action for step in episode.steps if step.decision is not None]
     assert abs(len(actions) - (outcome.num_actions + 1)) <= 2
 
