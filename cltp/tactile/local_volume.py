@@ -4,7 +4,7 @@ A contact is local: a plane and a quadratic surface, fitted to the cells around 
 and broad drift, and only the region around the strongest local response counts.
 
 Not here: the force that follows from it (``cltp.tactile.measure``), the test whether there is a
-contact at all (``cltp.tactile.contact_test``). Loads no torch.
+contact at all (``cltp.tactile.contact.contact_test``). Loads no torch.
 """
 
 from __future__ import annotations

@@ -48,7 +48,7 @@ def contact_state(cloud: TactileCloud, *, in_contact: bool | None = None) -> Con
     Args:
         cloud: The cloud.
         in_contact: Whether something touches the gel, where a test has shown it
-            (``cltp.tactile.contact_test``); None decides by the depth, ``NO_CONTACT_MM``.
+            (``cltp.tactile.contact.contact_test``); None decides by the depth, ``NO_CONTACT_MM``.
 
     The cloud's points are averaged in square-ish cells, so that any sampling density will do. Depth
     is the mean of the three deepest cells. Position is the centroid of what is deeper than half of

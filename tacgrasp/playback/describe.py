@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.contact_test import touches_alone
+from cltp.tactile.contact.contact_test import touches_alone
 from cltp.tactile.measure import contact_state
 from cltp.tactile.states import DIMENSIONS, NUMBERS
 from cltp.texts.captions import caption

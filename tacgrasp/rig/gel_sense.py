@@ -1,6 +1,6 @@
 """Touch as the executor and the loop need it: contact by test, and the felt force.
 
-Not here: how contact is tested (``cltp.tactile.contact_test``).
+Not here: how contact is tested (``cltp.tactile.contact.contact_test``).
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import TypeVar
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud
-from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
+from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec
 from primitives.sense import ContactSense, Interval
@@ -35,7 +35,7 @@ all."""
 
 KEPT_RATIO = 0.6
 """Least response of a contact that goes on, over that of one that begins. Our choice: above what is
-followed as drift (``cltp.tactile.contact_test.FOLLOWED_RATIO``)."""
+followed as drift (``cltp.tactile.contact.contact_test.FOLLOWED_RATIO``)."""
 
 FRAMES_PER_READING = 4
 """Least frames that a reading of the closed or open fingers is the mean of: the fingers stand still
@@ -60,8 +60,8 @@ def _raise(error: TouchError, attempt: int) -> None:
 class GelSense:
     """Contact and felt force of one sensor, against its gel with open fingers.
 
-    The reference follows slow drift: in every frame that is clearly untouched, and around a light
-    contact (``cltp.tactile.contact_test.UntouchedGel``). What ``read`` gives is less that drift.
+    The reference follows slow drift (``cltp.tactile.contact.contact_test.UntouchedGel``): in every
+    frame that is clearly untouched, and around a light contact. What ``read`` gives is without it.
     """
 
     def __init__(self, sensor: TactileSensor) -> None:

@@ -5,7 +5,7 @@ simulated sensor with its slow drift and fine noise of levels 1, 2 and 3. Missed
 counted by true force, in one frame each, at the positions that episodes start from. Beside them
 stands an ideal detector, which knows the shape of each contact: no test of one frame misses fewer.
 
-Not here: the test itself (``cltp.tactile.contact_test``).
+Not here: the test itself (``cltp.tactile.contact.contact_test``).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
-from cltp.tactile.contact_test import NUM_FRAMES, UntouchedGel
+from cltp.tactile.contact.contact_test import NUM_FRAMES, UntouchedGel
 from cltp.tactile.sensor_noise import NoiseUnit, spread_of
 from sim.grasp.bodies import OBJECTS
 from sim.grasp.devices import SimClock, SimSensor

@@ -22,7 +22,7 @@ from rich.console import Console
 from cltp.sensing.calibration import default_calibration, load_calibration
 from cltp.sensing.photometric import Photometer
 from cltp.tactile.cloud import cloud_from_heights
-from cltp.tactile.contact_test import touches_alone
+from cltp.tactile.contact.contact_test import touches_alone
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SensorSpec, sensor_named
 from tacgrasp.benchmarks.figures import number_table, write_figures

@@ -5,7 +5,7 @@ import pytest
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import TactileCloud, cloud_from_heights
-from cltp.tactile.contact_test import UntouchedGel
+from cltp.tactile.contact.contact_test import UntouchedGel
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
 from cltp.tactile.noise_levels import WIDE, NoiseLevels, NoiseRange

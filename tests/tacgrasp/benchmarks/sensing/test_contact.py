@@ -2,7 +2,7 @@
 
 import pytest
 
-from cltp.tactile.contact_test import UntouchedGel
+from cltp.tactile.contact.contact_test import UntouchedGel
 from sim.grasp.rig import build
 from tacgrasp.benchmarks.sensing import contact
 

@@ -10,8 +10,7 @@ Source of the method: S. M. Kay, Fundamentals of Statistical Signal Processing, 
 (generalised likelihood ratio); C. E. Rasmussen and C. K. I. Williams, Gaussian Processes for
 Machine Learning, 2006, section 2.2.
 
-Not here: the reference that heights are measured against (``cltp.tactile.contact_test``). Loads no
-torch.
+Not here: the reference that heights are measured against (``contact_test``). Loads no torch.
 """
 
 from __future__ import annotations

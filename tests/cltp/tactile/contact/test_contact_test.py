@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from cltp.errors import TouchError
 from cltp.tactile.cloud import Stamp, cloud_from_heights
-from cltp.tactile.contact_test import (
+from cltp.tactile.contact.contact_test import (
     FOLLOWED_MM_S,
     FOLLOWED_TOTAL,
     UntouchedGel,

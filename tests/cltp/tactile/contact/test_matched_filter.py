@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from cltp.tactile.cloud import grid_axes_mm
-from cltp.tactile.contact_test import LEAST_GAIN
-from cltp.tactile.matched_filter import MatchedFilter, filter_noise_mm
+from cltp.tactile.contact.contact_test import LEAST_GAIN
+from cltp.tactile.contact.matched_filter import MatchedFilter, filter_noise_mm
 from cltp.tactile.sensor_noise import smooth_field
 from cltp.tactile.sensors import sensor_named
 

@@ -5,7 +5,7 @@ are broad: over 5 to 10 mm and more.
 
 ``UntouchedGel`` tests against frames of the open fingers of the same closing, which is the test of
 the loop. Light contacts are bumps, and show by the likelihood ratio of a bump beside drift
-(``cltp.tactile.matched_filter``). Contacts of any shape show by band filters (differences of
+(``matched_filter``, beside this module). Contacts of any shape show by band filters (differences of
 Gaussians) of a few millimetres, which remove what is broad; their response has to be larger. Either
 will do. While nothing touches the reference follows the drift, within bounds: see ``follow``. In a
 contact the drift is told from what is around it: see ``without_drift``.
@@ -27,7 +27,7 @@ import numpy as np
 from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, cells_of, filled, less_heights, smoothed
 from cltp.tactile.cloud import FloatArray, TactileCloud
-from cltp.tactile.matched_filter import MOST_S, BoolArray, MatchedFilter, filter_noise_mm
+from cltp.tactile.contact.matched_filter import MOST_S, BoolArray, MatchedFilter, filter_noise_mm
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -40,9 +40,9 @@ NUM_FRAMES = 8
 frames, and they take a third of a second at 25 Hz."""
 
 LEAST_GAIN = 70.0
-"""Least gain of a contact (``cltp.tactile.matched_filter.Bump``). Source: of approaches of three
-seconds in air, 0.1 % of 700 with taxels and 0.7 % of 300 with a GelSight Mini have more. It is
-large since drift is not all that a covariance says."""
+"""Least gain of a contact (``matched_filter.Bump``). Source: of approaches of three seconds in air,
+0.1 % of 700 with taxels and 0.7 % of 300 with a GelSight Mini have more. It is large since drift is
+not all that a covariance says."""
 
 LIGHT_MM = 0.12
 """Depth below which the drift under a contact is told from what is around it [mm]. Our choice:
