@@ -8,7 +8,7 @@ the loop. Light contacts are bumps, and show by the likelihood ratio of a bump b
 (``matched_filter``, beside this module). Contacts of any shape show by band filters (differences of
 Gaussians) of a few millimetres, which remove what is broad; their response has to be larger. Either
 will do. While nothing touches the reference follows the drift, within bounds: see ``follow``. In a
-contact the drift is told from what is around it: see ``without_drift``.
+contact the drift is told from what is around it: see ``follow_around``.
 
 ``touches_alone`` tests a single cloud, whose drift is unknown, by the band filters alone, and so
 needs a deeper contact.
@@ -192,8 +192,9 @@ class UntouchedGel:
         """
         change, elapsed_s = self._change_mm(cloud), self._elapsed_s(cloud)
         region = self._region
-        depth_mm = change if region is None else change[region] - np.median(change[~region])
-        if depth_mm.max() >= LIGHT_MM:
+        around = change[:0] if region is None or region.all() else change[~region]
+        zero_mm = np.median(around) if around.size else 0.0
+        if (change if region is None else change[region]).max() - zero_mm >= LIGHT_MM:
             self._region = None
             return
         if region is None:
@@ -202,7 +203,8 @@ class UntouchedGel:
         if self._region is None and self._takes_away(change, drift_mm):
             return
         self._drift_mm, self._since_s = self._drift_mm + drift_mm, self._seen_s(cloud)
-        self._region = self._filter.region(self._filter.fit(change - drift_mm))
+        region = self._filter.region(self._filter.fit(change - drift_mm))
+        self._region = region if region.any() else None
 
     def _takes_away(self, change_mm: FloatArray, drift_mm: FloatArray) -> bool:
         """Whether what seems to be drift is part of the contact."""
@@ -240,7 +242,8 @@ class UntouchedGel:
         bump = self._filter.fit(change_mm, elapsed_s)
         of_bump = _compared(*(math.sqrt(g / LEAST_GAIN) for g in (bump.gain, bump.raised_gain)))
         of_bands = _evidence(_responses(change_mm, self._sensor), self._least_mm(elapsed_s))
-        return max(of_bands, of_bump, key=lambda evidence: evidence.largest)
+        pressed = max(of_bands.ratio, of_bump.ratio)
+        return _compared(pressed, max(of_bands.largest, of_bump.largest))
 
     def _least_mm(self, elapsed_s: float) -> FloatArray:
         """Least response of a contact to the band filters, by scale [mm]."""

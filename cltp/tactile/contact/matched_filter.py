@@ -202,7 +202,6 @@ class _Kind:
         self._modes = modes = _modes(sensor, n, local_part)
         drift = STRENGTHS_MM**2 * modes.variances[:, None]
         self._variances = noise_mm**2 + (ROUGH_PART * STRENGTHS_MM) ** 2 + drift
-        self._drift_part = drift / self._variances
         self._norms = modes.bumps**2 @ (1 / self._variances)
         self._log_volume = np.log(self._variances).sum(axis=0)
         broad_mm = STRENGTHS_MM / math.hypot(1, local_part)
@@ -255,7 +254,6 @@ class _Modes:
 
     Attributes:
         covariance: Shape (n², n²): of drift of variance 1.
-        plane: Shape (n², 3), orthonormal: mean and tilt.
         shapes: Shape (n², n² - 3), orthonormal.
         variances: Shape (n² - 3,): of each shape.
         heights: Shape (bumps, n²): bumps of height 1 [mm].
@@ -264,7 +262,6 @@ class _Modes:
     """
 
     covariance: FloatArray
-    plane: FloatArray
     shapes: FloatArray
     variances: FloatArray
     heights: FloatArray
@@ -282,8 +279,7 @@ def _modes(sensor: SensorSpec, n: int, local_part: float) -> _Modes:
 
     covariance = correlation(BROAD_MM) + local_part**2 * correlation(LOCAL_MM)
     covariance /= 1 + local_part**2
-    plane, _ = np.linalg.qr(np.stack([np.ones_like(x), x, y], axis=1))
-    rest = linalg.null_space(plane.T)
+    rest = linalg.null_space(np.stack([np.ones_like(x), x, y]))
     variances, turned = linalg.eigh(rest.T @ covariance @ rest)
     shapes = rest @ turned
     places = np.stack([axis.ravel() for axis in np.meshgrid(*_bump_axes_mm(sensor))], axis=1)
@@ -291,7 +287,6 @@ def _modes(sensor: SensorSpec, n: int, local_part: float) -> _Modes:
     heights = np.concatenate([np.exp(-0.5 * from_bump / width**2) for width in WIDTHS_MM])
     return _Modes(
         covariance=covariance,
-        plane=plane,
         shapes=shapes,
         variances=np.clip(variances, 0.0, None),
         heights=heights,

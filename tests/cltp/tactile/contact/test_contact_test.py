@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cltp.errors import TouchError
-from cltp.tactile.cloud import Stamp, cloud_from_heights
+from cltp.tactile.cloud import Stamp, cloud_from_heights, heights_at
 from cltp.tactile.contact.contact_test import (
     FOLLOWED_MM_S,
     FOLLOWED_TOTAL,
@@ -144,3 +144,36 @@ def test_the_reference_is_still_during_a_contact_and_follows_no_faster_than_its_
     gel.follow(raised)
     change = raised.points_mm[:, 2] - gel.without_drift(raised).points_mm[:, 2]
     np.testing.assert_allclose(change, FOLLOWED_MM_S * (0.7 - 0.16), rtol=1e-4)
+
+
+def held(contact, drift, t_s, rng):
+    """A frame of a contact on a gel that has drifted."""
+    return stamped(contact + drift + rng.normal(0, 0.002, SHAPE), t_s)
+
+
+def test_the_reference_follows_drift_around_a_light_contact_and_leaves_the_contact(rng):
+    contact, drift = bump(0.06, 2.0, 3.0, -1.0), 0.05 * smooth_field(SHAPE, MINI, 15.0, rng)
+    gel, t_s = gel_of_noise(0), 0.2
+    for part in np.linspace(0, 1, 10):
+        t_s += 0.5
+        gel.follow_around(held(contact, part * drift, t_s, rng))
+    now = held(contact, drift, t_s, rng)
+    x, y, z = gel.without_drift(now).points_mm.T.astype(float)
+    true = heights_at(contact, x, y, MINI)
+    assert np.std(z - true) < 0.3 * np.std(drift)
+    under = true > 0.02
+    assert abs((z - true)[under].mean()) < 0.2 * true[under].mean()
+
+
+def test_a_contact_that_stays_is_never_followed_away(rng):
+    contact, gel, t_s = bump(0.06, 2.0, 3.0, -1.0), gel_of_noise(0), 0.2
+    for _ in range(40):
+        t_s += 0.5
+        gel.follow_around(held(contact, 0.0, t_s, rng))
+    assert gel.test(held(contact, 0.0, t_s + 0.1, rng)).in_contact
+
+
+def test_a_deep_contact_is_left_as_it_is():
+    gel, touched = gel_of_noise(0), stamped(0.2 * np.exp(-(X**2) / 4), 2.2)
+    gel.follow_around(touched)
+    assert gel.without_drift(touched) is touched
