@@ -21,13 +21,20 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from cltp.errors import TouchError
 from cltp.tactile.cells import cell_means, cells_of, filled, less_heights, smoothed
 from cltp.tactile.cloud import FloatArray, TactileCloud
-from cltp.tactile.contact.matched_filter import MOST_S, BoolArray, MatchedFilter, filter_noise_mm
+from cltp.tactile.contact.matched_filter import (
+    MOST_S,
+    BoolArray,
+    Bump,
+    MatchedFilter,
+    filter_noise_mm,
+)
 from cltp.tactile.sensor_noise import spread_of
 from cltp.tactile.sensors import SensorSpec
 
@@ -41,7 +48,7 @@ frames, and they take a third of a second at 25 Hz."""
 
 LEAST_GAIN = 70.0
 """Least gain of a contact (``matched_filter.Bump``). Source: of approaches of three seconds in air,
-0.1 % of 700 with taxels and 0.7 % of 300 with a GelSight Mini have more. It is large since drift is
+0.3 % of 700 with taxels and 0.7 % of 300 with a GelSight Mini have more. It is large since drift is
 not all that a covariance says."""
 
 LIGHT_MM = 0.12
@@ -106,6 +113,16 @@ class ContactEvidence:
     is_inverted: bool = False
 
 
+class _Seen(NamedTuple):
+    """A cloud beside the reference and the drift followed: its change (n, n) [mm], and the test."""
+
+    cloud: TactileCloud
+    drift_mm: FloatArray
+    change_mm: FloatArray
+    bump: Bump
+    evidence: ContactEvidence
+
+
 class UntouchedGel:
     """The untouched gel of one closing, as the sensor sees it now."""
 
@@ -137,6 +154,7 @@ class UntouchedGel:
         noise_mm = factor * filter_noise_mm(noise, self._sensor)
         self._filter = MatchedFilter(self._sensor, self._cells, noise_mm)
         self._drift_mm = np.zeros_like(self._mean)
+        self._last_seen: _Seen | None = None
         self._region: BoolArray | None = None  # cells of the contact that drift is followed around
         stamp = frames[-1].stamp
         self._last_s = self._since_s = None if stamp is None else stamp.monotonic_s
@@ -147,7 +165,7 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
-        return self._evidence(self._change_mm(cloud), cloud)
+        return self._seen(cloud).evidence
 
     def follow(self, cloud: TactileCloud) -> None:
         """Let the reference follow slow drift towards a frame in which nothing touches.
@@ -160,12 +178,12 @@ class UntouchedGel:
             TouchError: A cloud of another sensor.
         """
         self._region = None
-        change = self._change_mm(cloud)
-        if self._evidence(change, cloud).largest >= FOLLOWED_RATIO:
+        seen = self._seen(cloud)
+        if seen.evidence.largest >= FOLLOWED_RATIO:
             return
         most_mm = FOLLOWED_MM_S * self._seconds_to(cloud)
         for scale_mm in FOLLOWED_SCALES_MM:
-            smooth = FOLLOWED_PART * smoothed(change, self._sensor, scale_mm)
+            smooth = FOLLOWED_PART * smoothed(seen.change_mm, self._sensor, scale_mm)
             drift_mm = self._drift_mm + np.clip(smooth, -most_mm, most_mm)
             responses = np.abs(_responses(drift_mm, self._sensor)).max(axis=(1, 2))
             if (responses <= FOLLOWED_TOTAL * self._least_mm(FOLLOWED_S)).all():
@@ -190,19 +208,17 @@ class UntouchedGel:
         Raises:
             TouchError: A cloud of another sensor.
         """
-        change, elapsed_s = self._change_mm(cloud), self._elapsed_s(cloud)
-        region = self._region
-        around = change[:0] if region is None or region.all() else change[~region]
-        zero_mm = np.median(around) if around.size else 0.0
-        if (change if region is None else change[region]).max() - zero_mm >= LIGHT_MM:
+        seen, region = self._seen(cloud), self._region
+        change = seen.change_mm
+        if _depth_mm(change, region) >= LIGHT_MM:
             self._region = None
             return
         if region is None:
-            region = self._filter.region(self._filter.fit(change, elapsed_s))
+            region = self._filter.region(seen.bump)
         drift_mm = self._filter.drift_under(change, region)
         if self._region is None and self._takes_away(change, drift_mm):
             return
-        self._drift_mm, self._since_s = self._drift_mm + drift_mm, self._seen_s(cloud)
+        self._drift_mm, self._since_s = self._drift_mm + drift_mm, _time_s(cloud)
         region = self._filter.region(self._filter.fit(change - drift_mm))
         self._region = region if region.any() else None
 
@@ -228,22 +244,22 @@ class UntouchedGel:
         self._check_sensor(cloud)
         return filled(cell_means(cloud, self._cells) - self._mean - self._drift_mm)
 
-    def _elapsed_s(self, cloud: TactileCloud) -> float:
-        """Time since the reference, or since drift was followed last [s]."""
-        now_s = self._seen_s(cloud)
-        return MOST_S if now_s is None or self._since_s is None else max(0.0, now_s - self._since_s)
-
-    @staticmethod
-    def _seen_s(cloud: TactileCloud) -> float | None:
-        return None if cloud.stamp is None else cloud.stamp.monotonic_s
-
-    def _evidence(self, change_mm: FloatArray, cloud: TactileCloud) -> ContactEvidence:
-        elapsed_s = self._elapsed_s(cloud)
-        bump = self._filter.fit(change_mm, elapsed_s)
+    def _seen(self, cloud: TactileCloud) -> _Seen:
+        """What a cloud shows beside the reference; the last one is kept."""
+        last = self._last_seen
+        if last is not None and last.cloud is cloud and last.drift_mm is self._drift_mm:
+            return last
+        change = self._change_mm(cloud)
+        now_s, elapsed_s = _time_s(cloud), MOST_S
+        if now_s is not None and self._since_s is not None:
+            elapsed_s = max(0.0, now_s - self._since_s)
+        bump = self._filter.fit(change, elapsed_s)
         of_bump = _compared(*(math.sqrt(g / LEAST_GAIN) for g in (bump.gain, bump.raised_gain)))
-        of_bands = _evidence(_responses(change_mm, self._sensor), self._least_mm(elapsed_s))
+        of_bands = _evidence(_responses(change, self._sensor), self._least_mm(elapsed_s))
         pressed = max(of_bands.ratio, of_bump.ratio)
-        return _compared(pressed, max(of_bands.largest, of_bump.largest))
+        evidence = _compared(pressed, max(of_bands.largest, of_bump.largest))
+        self._last_seen = _Seen(cloud, self._drift_mm, change, bump, evidence)
+        return self._last_seen
 
     def _least_mm(self, elapsed_s: float) -> FloatArray:
         """Least response of a contact to the band filters, by scale [mm]."""
@@ -255,6 +271,18 @@ class UntouchedGel:
             raise TouchError(
                 f"expected a cloud of {self._sensor.name}, got one of {cloud.sensor.name}"
             )
+
+
+def _time_s(cloud: TactileCloud) -> float | None:
+    """Time of a cloud on its monotonic clock [s]; None where it bears none."""
+    return None if cloud.stamp is None else cloud.stamp.monotonic_s
+
+
+def _depth_mm(change_mm: FloatArray, region: BoolArray | None) -> float:
+    """Depth of a contact (n, n) [mm], over what is around its cells where they are known."""
+    if region is None or region.all():
+        return float(change_mm.max())
+    return float(change_mm[region].max() - np.median(change_mm[~region]))
 
 
 def _mean(cells_mm: Sequence[FloatArray]) -> FloatArray:

@@ -126,7 +126,8 @@ class MatchedFilter:
         without = max(fit.without for fit in fits)
         bump = max(fits, key=lambda fit: fit.pressed).bump
         shape = _shape(self._sensor, self._n, bump)
-        best = max((kind.fit_shape(flat, shape, seconds) for kind in self._kinds), key=_gain)
+        shapes = [kind.fit_shape(flat, shape, seconds) for kind in self._kinds]
+        best = max(shapes, key=lambda fit: fit.gain)
         pressed = max(fit.pressed for fit in fits)
         return Bump(
             gain=max(best.gain, pressed) - without,
@@ -191,10 +192,6 @@ class _ShapeFit(NamedTuple):
     contact_mm: FloatArray
 
 
-def _gain(fit: _ShapeFit) -> float:
-    return fit.gain
-
-
 class _Kind:
     """One kind of drift, of a given local part and all strengths."""
 
@@ -209,10 +206,14 @@ class _Kind:
             (broad_mm - ALWAYS_MM) / BROAD_MM_S, (local_part * broad_mm - ALWAYS_MM) / LOCAL_MM_S
         )
 
+    def _num_strengths(self, elapsed_s: float) -> int:
+        """How many of ``STRENGTHS_MM``, which rise, drift may have reached."""
+        return max(1, int((self._grown_s <= elapsed_s).sum()))
+
     def fit(self, heights_mm: FloatArray, elapsed_s: float) -> _Fit:
         """The best bump on heights (n²,) [mm]."""
         modes = self._modes
-        count = max(1, int((self._grown_s <= elapsed_s).sum()))  # strengths are in rising order
+        count = self._num_strengths(elapsed_s)
         amplitudes = modes.shapes.T @ heights_mm
         whitened = amplitudes[:, None] / self._variances[:, :count]
         without = -(amplitudes @ whitened) - self._log_volume[:count]
@@ -229,10 +230,9 @@ class _Kind:
     def fit_shape(self, heights_mm: FloatArray, shape: FloatArray, elapsed_s: float) -> _ShapeFit:
         """The best contact of a shape (n², parts) on heights (n²,) [mm]."""
         modes = self._modes
-        count = max(1, int((self._grown_s <= elapsed_s).sum()))
         amplitudes, parts = modes.shapes.T @ heights_mm, modes.shapes.T @ shape
         best = _ShapeFit(-math.inf, np.zeros_like(heights_mm))
-        for strength in range(count):
+        for strength in range(self._num_strengths(elapsed_s)):
             whitened = parts / self._variances[:, strength, None]
             normal = whitened.T @ parts
             scale = 1 / np.sqrt(np.diag(normal))

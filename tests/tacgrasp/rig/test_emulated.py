@@ -90,6 +90,8 @@ def test_it_comes_to_the_same_end_and_truth_as_the_simulated_rig(printed_and_epi
     }
     # what is felt scatters by an eighth from frame to frame; it sets target and last force of both
     assert episode.end.truth["force_n"] == pytest.approx(truth["force_n"], rel=0.25)
+    felt = episode.steps[-1].felt_force_n
+    assert felt.low <= episode.end.truth["force_n"] <= felt.high
     actions = [step.decision.action for step in episode.steps if step.decision is not None]
     assert abs(len(actions) - (outcome.num_actions + 1)) <= 2
 
