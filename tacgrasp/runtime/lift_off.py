@@ -22,7 +22,7 @@ from primitives.devices import Pose
 from primitives.sense import Interval
 from tacgrasp.config.schema import VerifyConfig
 from tacgrasp.rig.protocols import Rig
-from tacgrasp.runtime.reflex_hold import ReflexHold
+from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
 from tacgrasp.runtime.steps import Steps
 
 GRAVITY_M_S2 = 9.81
@@ -43,23 +43,19 @@ STILL_S, STILL_FRAMES = 0.2, 6
 choice: two means of the reflex."""
 
 MARGIN = 1.1
-"""Factor on the force that the motions ahead need. Our choice: half the error of the reserve."""
+"""Factor on the force that the next motion needs. Our choice: half the error of the reserve."""
+
+CLEAR_MM = 5.0
+"""Least height above the support at which it is rocked, never above the lift [mm]. Our choice: more
+than slides away in a rock, since an object that stands again shows nothing."""
 
 ROCKS = (0.3, 0.45, 0.65, 1.0)
 """Parts of the shake's acceleration and way by which a hanging object is rocked in turn. What hangs
 beside the middle of the grip turns in it, which no rest shows."""
 
-TURNING = 0.65
-"""Exponent of the force by which a contact resists a moment: what it resists grows as F^1.54, by
-the fit in ``sim.grasp.ripeness``."""
-
-ROCKED, ROCKED_TIMES = 1.05, 3
-"""Factor beyond what the next rock needs after one in which the object slipped, and most rocks of
-one size."""
-
-ROCKED_MM = 0.6
-"""Way of the indentation along the pad that is a slip of a rocked object, told or not [mm]. Our
-choice: beyond the error of its place on most units."""
+ROCKED, ROCKED_TIMES = 1.15, 3
+"""Factor on the force after a rock in which the object slipped, and most rocks of one size. Our
+choice: less than most fruit bear beyond what holds them; a larger rock shows whether it does."""
 
 SPARE = 1.08
 """Factor on what holds through the last rock. Our choice: half a step."""
@@ -112,7 +108,6 @@ def lift_off(
         if hold is None:
             return LiftOff()
         rig.clock.sleep(still_s)
-        has_slid = False
         for rise in range(1, num_rises + 1):
             before_mm = hold.place_mm
             up_m = np.array([0.0, 0.0, rise * settings.lift_off_mm / 1000])
@@ -122,24 +117,24 @@ def lift_off(
                 continue
             if _moved_mm(before_mm, hold.place_mm) <= LEFT_BEHIND * settings.lift_off_mm:
                 break
-            has_slid = True
             _raise(rig, hold, HELD_TIGHTER)
             rig.clock.sleep(still_s)
         else:
             height_mm = num_rises * settings.lift_off_mm
             return LiftOff(problem=f"it still slips {height_mm:g} mm above where it stood")
-        hold.rising = False
         is_shaken = settings.shakes > 0 and settings.shake_mm > 0
-        side_m_s2 = settings.shake_acceleration_m_s2 if is_shaken else 0.0
+        side_m_s2 = ROCKS[0] * settings.shake_acceleration_m_s2 if is_shaken else 0.0
         load_m_s2 = max(
             math.hypot(GRAVITY_M_S2, side_m_s2), GRAVITY_M_S2 + settings.acceleration_m_s2
         )
-        factor = MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold, has_slid)
-        _raise(rig, hold, max(1.0, factor))
-        for part, harder in zip(ROCKS, (*ROCKS[1:], ROCKS[-1]), strict=True):
-            if is_shaken:
-                factor = ROCKED * (harder / part) ** TURNING
-                _rock(rig, hold, settings, part, side_m, factor)
+        _raise(rig, hold, max(1.0, MARGIN * load_m_s2 / GRAVITY_M_S2 / _reserve(hold)))
+        clear_mm = min(max(CLEAR_MM, rise * settings.lift_off_mm), settings.lift_mm)
+        clear = shifted(start, np.array([0.0, 0.0, clear_mm / 1000]))
+        _go(rig, clear, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
+        hold.hang()
+        rig.clock.sleep(max(still_s, QUIET_FRAMES / rig.sensor.spec.frame_hz))
+        for part in ROCKS if is_shaken else ():
+            _rock(rig, hold, settings, part, side_m)
         _raise(rig, hold, SPARE)
         return LiftOff(floor_n=hold.memory.floor_n)
 
@@ -151,33 +146,28 @@ def _moved_mm(before_mm: tuple[float, float] | None, after_mm: tuple[float, floa
     return math.dist(before_mm, after_mm)
 
 
-def _reserve(hold: ReflexHold, has_slid: bool) -> float:
-    """What a hanging object could carry over its weight, 1 at least; no more if it has slid."""
-    return 1.0 if has_slid or hold.reserve is None else max(1.0, math.exp(hold.reserve.middle))
+def _reserve(hold: ReflexHold) -> float:
+    """What a hanging object could carry over its weight, 1 at least."""
+    return 1.0 if hold.reserve is None else max(1.0, math.exp(hold.reserve.middle))
 
 
 def _rock(
-    rig: Rig,
-    hold: ReflexHold,
-    settings: VerifyConfig,
-    part: float,
-    side_m: NDArray[np.float64],
-    factor: float,
+    rig: Rig, hold: ReflexHold, settings: VerifyConfig, part: float, side_m: NDArray[np.float64]
 ) -> None:
     """Rock by a part of the shake, there and back, until the object does not slip in it.
 
-    After each rock in which it does, the force is multiplied.
+    After each rock in which it does, the force is raised.
     """
     here = rig.arm.pose()
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
     for _ in range(ROCKED_TIMES):
-        began_s, before_mm = hold.seen_s, hold.place_mm
+        began_s = hold.seen_s
         for pose in (shifted(here, part * side_m), here):
             _go(rig, pose, settings.speed_m_s, acceleration_m_s2)
         rig.clock.sleep(max(STILL_S, STILL_FRAMES / rig.sensor.spec.frame_hz))
-        if hold.slipped_s <= began_s and _moved_mm(before_mm, hold.place_mm) < ROCKED_MM:
+        if hold.slipped_s <= began_s:
             return
-        _raise(rig, hold, factor)
+        _raise(rig, hold, ROCKED)
 
 
 def _go(rig: Rig, pose: Pose, speed_m_s: float, acceleration_m_s2: float) -> None:

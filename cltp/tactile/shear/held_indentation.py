@@ -1,15 +1,17 @@
-"""How much a held contact has grown since it was at rest, without the gel's slow drift.
+"""How far a held contact has grown and moved since it was at rest, without the gel's slow drift.
 
 Heights drift within a hold: by as much as a light contact is deep, in four seconds. Drift is broad,
 a contact is not, so that a smooth surface through the change of the points around the contact is
 taken from all of them. What a sensor feels in one frame is then the force before, times the growth.
+An object that creeps, by so little in each frame that no frame shows it, has moved in the end.
 
-Not here: the force of a contact at rest (``cltp.tactile.measure``), the cues of slip
-(``cltp.tactile.shear.contact_shear``).
+Not here: the force of a contact at rest (``cltp.tactile.measure``), the cues of slip in single
+frames (``cltp.tactile.shear.contact_shear``).
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -28,12 +30,21 @@ CONTACT = 0.1
 MIN_AROUND = 36
 """Fewest points around a contact that tell the drift: six for each of the surface's numbers."""
 
+MEAN_FRAMES = 10
+"""Frames of a force that has changed after which the place is that of the mean. Our choice: those
+that the mean of heights remembers."""
 
-class HeldVolume:
+
+class HeldIndentation:
     """Follows the indentation of one hold.
 
     Args:
         quiet: Frames of the contact at rest, of one sensor, one at least.
+
+    Attributes:
+        growth: Volume over that at rest; None where nothing was indented at rest.
+        way_mm: How far its middle has moved along the pad since the force last changed [mm]; 0
+            while that is not known.
     """
 
     def __init__(self, quiet: Sequence[ShearField]) -> None:
@@ -48,22 +59,40 @@ class HeldVolume:
         self._rest_mm = total / np.maximum(counts, 1.0)
         self._height_mm, self._count = self._rest_mm.copy(), float(len(quiet))
         self._around = self._rest_mm < CONTACT * _depth(self._rest_mm)
-        self._rest_volume = _volume(self._rest_mm)
+        self._rest_volume, self._from_mm = self._measured(self._rest_mm)
+        self.growth = 1.0 if self._rest_volume > 0 else None
+        self.way_mm = 0.0
 
     def renew(self) -> None:
-        """Begin the mean of heights anew: the force is about to change."""
-        self._count = 0.0
+        """Begin mean and way anew: the force is about to change."""
+        self._count, self._from_mm, self.way_mm = 0.0, None, 0.0
 
-    def growth(self, field: ShearField) -> float | None:
-        """Volume over that at rest after another frame; None where nothing was indented at rest."""
+    def see(self, field: ShearField) -> None:
+        """Take another frame."""
         self._count += 1.0
         cells = self._grid.cells_of(field.positions_mm)
         weight = max(HEIGHT_MEMORY, 1.0 / self._count)
         self._height_mm[cells] += weight * (field.displacement_mm[:, 2] - self._height_mm[cells])
-        if self._rest_volume <= 0:
-            return None
         change = self._height_mm - self._rest_mm
-        return _volume(self._rest_mm + change - self._drift(change)) / self._rest_volume
+        volume, place_mm = self._measured(self._height_mm - self._drift(change))
+        if self._rest_volume > 0:
+            self.growth = volume / self._rest_volume
+        if self._from_mm is not None and place_mm is not None:
+            self.way_mm = math.dist(self._from_mm, place_mm)
+        elif self._count >= MEAN_FRAMES:
+            self._from_mm = place_mm
+
+    def _measured(self, height_mm: FloatArray) -> tuple[float, tuple[float, float] | None]:
+        """Sum of the heights above a fraction of the depth [mm], and their middle (x, y) [mm].
+
+        0 and None where nothing is indented.
+        """
+        height = height_mm - min(float(np.median(height_mm)), 0.0)
+        body = np.clip(height - LEVEL * max(_depth(height), 0.0), 0.0, None)
+        total = float(body.sum())
+        if _depth(height) <= 0 or total <= 0:
+            return 0.0, None
+        return total, (float(body @ self._grid.x) / total, float(body @ self._grid.y) / total)
 
     def _drift(self, change: FloatArray) -> FloatArray:
         """The smooth surface through the change around the contact; 0 with too little around it."""
@@ -75,10 +104,3 @@ class HeldVolume:
 
 def _depth(height_mm: FloatArray) -> float:
     return float(np.sort(height_mm)[-3:].mean())
-
-
-def _volume(height_mm: FloatArray) -> float:
-    """Sum of the heights above a fraction of the depth [mm]; 0 where nothing is indented."""
-    height = height_mm - min(float(np.median(height_mm)), 0.0)
-    depth = _depth(height)
-    return float(np.clip(height - LEVEL * depth, 0.0, None).sum()) if depth > 0 else 0.0
