@@ -29,6 +29,13 @@ from tacgrasp.episodes.record import PHASE_LABELS, Episode, StepPhase, StepRecor
 MAX_PICTURES = 24
 """Largest number of drawn clouds; more are thinned out evenly, first and last stay. Our choice."""
 
+MOST_SPAN = 2.5
+"""Largest ratio of goal and limit to the forces at which the axis reaches up to them. Our choice: a
+light hold stays readable under a limit of many times its force."""
+
+TITLE_LENGTH = 100
+"""Most characters of a title in this size on a picture of this width."""
+
 _COLUMNS = 6
 _HEAT = ListedColormap(DEPTH_PALETTE / 255)
 _FORCE, _DEPTH, _PATH, _MUTED = "#1f6f8b", "#c8553d", "#3d405b", "#8a8a8a"
@@ -98,9 +105,9 @@ def _title(figure: Figure, episode: Episode, name: str, height_in: float) -> Non
     outcome = f"{end_label(end.reason, end.truth)}: {end.message}" if end else "no end recorded"
     if not episode.complete:
         outcome += " (unfinished file)"
-    outcome = textwrap.shorten(outcome, 85, placeholder=" …")
     seed = "" if header.seed is None else f", seed {header.seed}"
     title = f"{header.task}, {header.policy}{seed} → {outcome}"
+    title = textwrap.shorten(title, TITLE_LENGTH, placeholder=" …")
     figure.text(0.04, 1 - 0.36 / height_in, title, fontsize=15, weight="bold")
     subtitle = f"“{header.instruction}”   {name}"
     if len(episode.steps) > MAX_PICTURES:
@@ -156,7 +163,6 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
     force.step(*stepped, where="post", color=_FORCE, lw=1.4, label="commanded")
     if traces:
         _draw_reflex(force, figure.add_subplot(grid[2, 0], sharex=force), traces, start_s)
-    limits_n = _draw_contract(force, episode, time_s)
     felt = [(at_s, s.felt_force_n) for at_s, s in zip(time_s, episode.steps, strict=True)]
     readings = [(at_s, reading) for at_s, reading in felt if reading is not None]
     if readings:
@@ -165,7 +171,8 @@ def _draw_curves(figure: Figure, grid: GridSpec, episode: Episode, contacts: Flo
         style: dict[str, Any] = {"fmt": "s-", "color": _DEPTH, "ms": 5, "lw": 1, "capsize": 3}
         force.errorbar(values[0], values[1], spans, label="felt", **style)
     force.set_ylabel(force_label(episode))
-    force.set_ylim(0, 1.2 * max(*stepped[1], *(r.high for _, r in readings), *limits_n, 0.1))
+    most_n = max(*stepped[1], *(r.high for _, r in readings), 0.1)
+    force.set_ylim(0, 1.2 * _draw_contract(force, episode, time_s, most_n))
     force.legend(loc="upper left", fontsize=8, ncols=4, frameon=False)
     _draw_end(force, episode)
     depth.plot(time_s, contacts[:, 2], "o-", color=_DEPTH, lw=2, ms=5)
@@ -219,7 +226,7 @@ def _draw_reflex(force: Axes, slip: Axes, traces: list[ReflexTrace], start_s: fl
     slip.spines[["top", "right"]].set_visible(False)
     corrected = sum(len(trace.corrections) for trace in traces)
     note = f"reflex: {corrected} corrections" if corrected != 1 else "reflex: 1 correction"
-    slip.annotate(note, (0.01, 0.9), xycoords="axes fraction", fontsize=8, va="top")
+    slip.annotate(note, (0.01, 0.05), xycoords="axes fraction", fontsize=8)
 
 
 def force_label(episode: Episode) -> str:
@@ -228,8 +235,11 @@ def force_label(episode: Episode) -> str:
     return "\n".join(["force [N]", *sorted(marks)])
 
 
-def _draw_contract(axes: Axes, episode: Episode, time_s: Sequence[float]) -> list[float]:
-    """The target band and the limit of each step; returns the limits [N]."""
+def _draw_contract(axes: Axes, episode: Episode, time_s: Sequence[float], most_n: float) -> float:
+    """The target band and the limit of each step; returns what the axis must show [N].
+
+    That is ``most_n`` at least. Of a limit far above it only the name is shown.
+    """
     contract, spans = episode.header.contract, []
     for step, at_s in zip(episode.steps, time_s, strict=True):
         contract = step.contract or contract
@@ -237,16 +247,19 @@ def _draw_contract(axes: Axes, episode: Episode, time_s: Sequence[float]) -> lis
             band = contract.terms.force_n if step.need is None else step.need.force_n
             spans.append((at_s, band.low, band.high, contract.terms.limit_n))
     if not spans:
-        return []
+        return most_n
     last_s = max(time_s[-1], _end_s(episode))
     at, low, high, limit = np.array([*spans, (last_s, *spans[-1][1:])]).T
     axes.fill_between(at, low, high, step="post", color=_GOOD, alpha=0.18, lw=0, label="goal")
-    axes.step(at, limit, where="post", color=_BAD, lw=1.2, ls="--", label="never above")
-    return [float(value) for value in limit]
+    edges_n = [float(each.max()) for each in (high, limit)]
+    is_far = float(limit.min()) > MOST_SPAN * most_n
+    label = f"never above {limit.min():.3g} N (beyond the axis)" if is_far else "never above"
+    axes.step(at, limit, where="post", color=_BAD, lw=1.2, ls="--", label=label)
+    return max([most_n, *(each for each in edges_n if each <= MOST_SPAN * most_n)])
 
 
 def _draw_end(axes: Axes, episode: Episode) -> None:
-    """The moment of the end, with its name."""
+    """The moment of the end, green for a success; the title names it."""
     if episode.end is None:
         return
     label, at_s = end_label(episode.end.reason, episode.end.truth), _end_s(episode)
@@ -259,7 +272,7 @@ def _draw_end(axes: Axes, episode: Episode) -> None:
         "fontsize": 8,
         "color": color,
     }
-    axes.annotate(label, (at_s, 0.97), xycoords=("data", "axes fraction"), **text)
+    axes.annotate("end", (at_s, 0.97), xycoords=("data", "axes fraction"), **text)
 
 
 def _end_s(episode: Episode) -> float:

@@ -102,10 +102,10 @@ class ReflexHold:
         slip, self.seen_s = self._judge.see(cues.values), now_s
         if self.standing:
             self._read_reserve(field, now_s)
-            if self.rising and self.reserve is not None:
+            if self.rising and self.reserve is not None and self.reserve.middle < LEAST_RESERVE:
                 slip = max(slip, LEAST_RESERVE - self.reserve.middle)
         held = self._indentation
-        if held is not None and not self.rising:
+        if held is not None and not self.rising and held.way_mm > CREPT_MM:
             slip = max(slip, held.way_mm / CREPT_MM - 1.0)
         if slip > 0:
             self.slipped_s = now_s

@@ -10,7 +10,8 @@ from rich.table import Table
 from primitives.primitive import Primitive
 from tacgrasp.episodes import EpisodeError, EpisodeWriter, StepPhase, read_episode
 from tacgrasp.episodes.listing import duration_s, info, list_episodes, table
-from tacgrasp.episodes.plot import MAX_PICTURES, draw_episode, plot_episode
+from tacgrasp.episodes.plot import MAX_PICTURES, TITLE_LENGTH, draw_episode, plot_episode
+from tests.fakes.contracts import contract
 from tests.fakes.episode_samples import end, header, record, step_record
 
 
@@ -109,6 +110,34 @@ def test_a_long_episode_is_thinned_to_its_first_and_last_touch(tmp_path: Path) -
     panels = [axes.get_title() for axes in figure.axes if axes.get_title()[:1].isdigit()]
     assert len(panels) == MAX_PICTURES
     assert panels[0].startswith("0 ") and panels[-1].startswith("9 ")
+
+
+@pytest.mark.parametrize(("limit_n", "named"), [(0.7, "never above"), (9.0, "never above 9 N")])
+def test_a_light_hold_stays_readable_under_a_limit_far_above_it(
+    tmp_path: Path, limit_n: float, named: str
+) -> None:
+    path, steps = tmp_path / "e.mcap", [step_record(0), step_record(1)]
+    with EpisodeWriter(path, replace(header(), contract=contract(0.2, 0.5, limit_n))) as writer:
+        for step in steps:
+            writer.write_step(step)
+    figure = draw_episode(read_episode(path), path.name)
+    force = next(axes for axes in figure.axes if axes.get_ylabel().startswith("force"))
+    legend = force.get_legend()
+    assert legend is not None
+    (label,) = [t.get_text() for t in legend.get_texts() if t.get_text().startswith("never")]
+    assert label.startswith(named)
+    commanded_n = steps[0].gripper.force_n
+    assert force.get_ylim()[1] < 3 * commanded_n
+    assert (force.get_ylim()[1] > limit_n) == (limit_n < 1)
+
+
+def test_a_long_title_ends_within_the_picture(tmp_path: Path) -> None:
+    path = tmp_path / "e.mcap"
+    with EpisodeWriter(path, header()) as writer:
+        writer.write_step(step_record(0))
+        writer.finish(replace(end(), message="the arm refused " * 20))
+    figure = draw_episode(read_episode(path), path.name)
+    assert len(figure.texts[0].get_text()) <= TITLE_LENGTH
 
 
 def test_the_picture_is_written_as_png(tmp_path: Path) -> None:
