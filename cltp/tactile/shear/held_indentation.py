@@ -40,15 +40,17 @@ class HeldIndentation:
 
     Args:
         quiet: Frames of the contact at rest, of one sensor, one at least.
+        noise_mm: Standard deviation of a point's height in one frame [mm].
 
     Attributes:
         growth: Volume over that at rest; None where nothing was indented at rest.
         way_mm: How far its middle has moved along the pad since the force last changed [mm]; 0
             while that is not known.
+        spread_mm: Standard deviation of the way that noise alone makes [mm].
     """
 
-    def __init__(self, quiet: Sequence[ShearField]) -> None:
-        self._grid = grid_of(quiet[0].sensor)
+    def __init__(self, quiet: Sequence[ShearField], noise_mm: float = 0.0) -> None:
+        self._grid, self._noise_mm = grid_of(quiet[0].sensor), noise_mm
         x, y = self._grid.x / self._grid.half[0], self._grid.y / self._grid.half[1]
         self._surface = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=1)
         total, counts = np.zeros(self._grid.count), np.zeros(self._grid.count)
@@ -61,7 +63,7 @@ class HeldIndentation:
         self._around = self._rest_mm < CONTACT * _depth(self._rest_mm)
         self._rest_volume, self._from_mm = self._measured(self._rest_mm)
         self.growth = 1.0 if self._rest_volume > 0 else None
-        self.way_mm = 0.0
+        self.way_mm = self.spread_mm = 0.0
 
     def renew(self) -> None:
         """Begin mean and way anew: the force is about to change."""
@@ -79,8 +81,16 @@ class HeldIndentation:
             self.growth = volume / self._rest_volume
         if self._from_mm is not None and place_mm is not None:
             self.way_mm = math.dist(self._from_mm, place_mm)
+            self.spread_mm = self._spread(place_mm, volume)
         elif self._count >= MEAN_FRAMES:
             self._from_mm = place_mm
+
+    def _spread(self, place_mm: tuple[float, float], volume: float) -> float:
+        """Standard deviation of the difference of two places, of means over ``MEAN_FRAMES``."""
+        x, y = self._grid.x - place_mm[0], self._grid.y - place_mm[1]
+        arm_mm2 = float((x * x + y * y)[self._inside].sum())
+        of_mean_mm = self._noise_mm / math.sqrt(MEAN_FRAMES)
+        return of_mean_mm * math.sqrt(2.0 * arm_mm2) / volume
 
     def _measured(self, height_mm: FloatArray) -> tuple[float, tuple[float, float] | None]:
         """Sum of the heights above a fraction of the depth [mm], and their middle (x, y) [mm].
@@ -92,6 +102,7 @@ class HeldIndentation:
         total = float(body.sum())
         if _depth(height) <= 0 or total <= 0:
             return 0.0, None
+        self._inside = body > 0
         return total, (float(body @ self._grid.x) / total, float(body @ self._grid.y) / total)
 
     def _drift(self, change: FloatArray) -> FloatArray:
