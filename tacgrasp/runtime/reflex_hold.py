@@ -38,9 +38,8 @@ Our choice: it seems to be 0.38 mm at most in 174 lifts of a fruit that did not 
 
 SURELY, MOST_SPREAD_MM = 4.0, 0.2
 """Standard deviations of its noise by which a way must exceed nothing, and the largest one of a
-contact that is told to creep [mm]. Our choice: of 236 holds of a fruit that did not move, none of a
-smaller one seems to move so far, and what is touched under 0.1 N by a noisy unit is placed anywhere.
-"""
+contact that is told to creep [mm]. Our choice: in none of 247 holds of a fruit that did not move
+does one of less seem to move so far; what a noisy unit feels under 0.1 N seems to be anywhere."""
 
 
 class ReflexHold:
