@@ -23,9 +23,9 @@ class Deaf:
         return -5.0
 
 
-def frame(rng, x_mm):
-    moved = 0.002 * rng.normal(size=(len(X), 3))
-    moved[:, 2] += 0.08 * np.exp(-((X - x_mm) ** 2 + Y**2) / 8.0)
+def frame(rng, x_mm, depth_mm=0.08, noise_mm=0.002):
+    moved = noise_mm * rng.normal(size=(len(X), 3))
+    moved[:, 2] += depth_mm * np.exp(-((X - x_mm) ** 2 + Y**2) / 8.0)
     positions = np.stack([X, Y], axis=1)
     return ShearField(positions_mm=positions, displacement_mm=moved, sensor=TAXELS, stamp=None)
 
@@ -39,9 +39,9 @@ def rng():
 def see(rng):
     """Shows a hold the frames of a contact at some places; returns the slips that were told."""
 
-    def see(hold, places_mm, since_s=0.0):
+    def see(hold, places_mm, **contact):
         told = [
-            hold.felt_and_slip(frame(rng, x_mm), since_s + i * PERIOD_S, 0.3)[1]
+            hold.felt_and_slip(frame(rng, x_mm, **contact), i * PERIOD_S, 0.3)[1]
             for i, x_mm in enumerate(places_mm)
         ]
         return [slip for slip in told if slip is not None]
@@ -84,3 +84,7 @@ def test_pads_that_rise_along_a_standing_object_do_not_creep(hold, see):
     hold.hang()
     assert max(see(hold, np.full(QUIET_FRAMES + 50, 1.0))) < 0
     assert max(see(hold, 1.0 + creep(1.0))) > 0
+
+
+def test_a_contact_that_noise_places_anywhere_does_not_creep(hold, see):
+    assert max(see(hold, np.zeros(1000), depth_mm=0.02, noise_mm=0.02)) < 0

@@ -105,3 +105,17 @@ def test_a_way_is_measured_from_where_the_contact_is_once_the_force_has_changed(
 
 def test_a_contact_that_is_gone_has_not_moved():
     assert way_mm(np.zeros_like(X)) == pytest.approx(0.0, abs=0.1)
+
+
+@pytest.mark.parametrize("depth", [1.0, 0.4])
+def test_the_spread_of_the_way_is_that_of_its_noise(depth):
+    rng, noise_mm, ways_mm, spreads_mm = np.random.default_rng(0), 0.008, [], []
+    for _ in range(200):
+        quiet = [frame(depth * BUMP_MM + noise_mm * rng.normal(size=len(X))) for _ in range(10)]
+        held = HeldIndentation(quiet, noise_mm)
+        for _ in range(30):
+            held.see(frame(depth * BUMP_MM + noise_mm * rng.normal(size=len(X))))
+        ways_mm.append(held.way_mm)
+        spreads_mm.append(held.spread_mm)
+    measured_mm = np.sqrt(np.mean(np.square(ways_mm)))
+    assert np.mean(spreads_mm) == pytest.approx(measured_mm, rel=0.35)
