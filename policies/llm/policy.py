@@ -42,7 +42,13 @@ from policies.llm.text import (
 )
 from policies.observation import Observation
 from policies.policy import Decision
-from policies.teacher import LESSON_MOVE_STEP_MM, SLIVER_FRACTION, force_goal, teacher
+from policies.teacher import (
+    LESSON_MOVE_STEP_MM,
+    SLIVER_FRACTION,
+    Advice,
+    force_goal,
+    teacher,
+)
 from primitives.contract import Band, Contract
 from primitives.primitive import PAD_DIRECTION, Primitive
 from primitives.sense import Interval
@@ -265,10 +271,12 @@ class LlmPolicy:
         contradiction = self._talker.model.heads.contradiction
         reading = reading_of(felt.readings, cloud, contradiction, commanded_force_n=commanded_n)
         numbers = numbers_as_read(reading)
-        draft = drafted(reading, numbers, force_n)
+        advice = teacher(reading.state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
+        draft = drafted(reading, numbers, force_n, advice)
         excluded = [*repeated_moves(self._moves), *barred]
-        if self._has_reset and observation.in_contact:
-            excluded.append(f"<{Primitive.RESET}>")  # it would end where it just began
+        is_missed = advice.action is Primitive.RESET and not self._has_reset
+        if observation.in_contact and not is_missed:
+            excluded.append(f"<{Primitive.RESET}>")  # it would end where it began
         if self._says_readings:
             excluded += denied(reading, force_n)
         grammar = step_grammar(
@@ -308,9 +316,10 @@ def numbers_as_read(reading: TouchReading) -> dict[str, str]:
     return said_numbers(reading.state, ends)
 
 
-def drafted(reading: TouchReading, numbers: Mapping[str, str], force_n: Band) -> str:
+def drafted(
+    reading: TouchReading, numbers: Mapping[str, str], force_n: Band, advice: Advice
+) -> str:
     """The reply that is expected: what the heads read, and the teacher's advice on it."""
-    advice = teacher(reading.state, force_goal(force_n), move_step_mm=LESSON_MOVE_STEP_MM)
     contact = contact_text(reading.state, numbers)
     return f"{contact} {goal_text(force_n)} {advice_text(advice)}"
 

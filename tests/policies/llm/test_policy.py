@@ -24,7 +24,7 @@ from cltp.tactile.cloud import TactileCloud, cloud_from_heights
 from cltp.tactile.force_scale import ForceScale
 from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
-from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS, ContactState
+from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS, ContactState, Side
 from cltp.texts.tokenizer import ACTIONS, Words
 from policies import Observation
 from policies.errors import PolicyError
@@ -39,6 +39,7 @@ from policies.llm.policy import (
     repeated_moves,
     with_felt_force,
 )
+from policies.teacher import SLIVER_FRACTION
 from primitives import Primitive
 from primitives.contract import Band
 from primitives.sense import Interval
@@ -203,10 +204,23 @@ def test_d_t_names_the_target_of_the_contract_and_no_other(untrained: Path) -> N
     assert parse_reply(said).goal == Band(low=0.95, high=1.9)
 
 
-def test_a_reset_that_found_the_contact_again_is_not_repeated(
-    untrained: Path, monkeypatch: pytest.MonkeyPatch
+SLIVER = replace(HELD.state, area_fraction=0.5 * SLIVER_FRACTION, cut=frozenset({Side.LEFT}))
+
+
+@pytest.mark.parametrize(
+    ("state", "barred"),
+    [(SLIVER, [False, False, True, False]), (HELD.state, [True, False, True, True])],
+)
+def test_a_contact_that_is_felt_is_reset_once_where_only_a_sliver_is_on_the_pad(
+    state: ContactState, barred: list[bool], untrained: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     is_barred: list[bool] = []
+    reading = policies.llm.policy.reading_of
+    monkeypatch.setattr(
+        policies.llm.policy,
+        "reading_of",
+        lambda *a, **k: replace(reading(*a, **k), state=state),
+    )
 
     def record(_sensor: object, band: Band, excluded: list[str], *, numbers: object) -> Grammar:
         is_barred.append("<reset>" in excluded)
@@ -221,7 +235,7 @@ def test_a_reset_that_found_the_contact_again_is_not_repeated(
     policy.say(found, band, 0.8)
     policy.start()
     policy.say(found, band, 0.8)
-    assert is_barred == [False, False, True, False]
+    assert is_barred == barred
 
 
 def test_what_is_read_is_said_as_it_is_unless_the_model_must_say_all(
