@@ -1,4 +1,4 @@
-"""One hold under the reflex: its contract, what its frames tell, and what is asked of it.
+"""One hold under the reflex: its terms, what its frames tell, and what is asked of it.
 
 Not here: what is decided from a reading (``policies.reflex``), when it is made
 (``tacgrasp.runtime.reflex_loop``).
@@ -21,7 +21,7 @@ from cltp.tactile.shear.reserve import (
 )
 from cltp.tactile.shear.slip import SlipJudge, noise_of
 from policies.reflex import RESPONSE_S, ReflexMemory
-from primitives.contract import Contract
+from primitives.contract import ForceTerms
 from primitives.sense import Interval
 
 QUIET_FRAMES = 10
@@ -43,12 +43,12 @@ does one of less seem to move so far; what a noisy unit feels under 0.1 N seems 
 
 
 class ReflexHold:
-    """One hold: its contract, what the frames tell of it, and the reflex's memory.
+    """One hold: its terms, what the frames tell of it, and the reflex's memory.
 
     Another thread may set ``standing`` and ``ahead_n``, and read ``still_s``, at any time.
 
     Args:
-        contract: The contract that is kept.
+        terms: Force terms of the contract that is kept.
         felt: Force that was felt before it [N]; None where that is not known.
         judge: Tells slips.
         floor_n: Command that a hold before has asked for; it is not lowered below [N].
@@ -58,6 +58,7 @@ class ReflexHold:
         standing: Whether a support still catches the object.
         rising: Whether the fingers rise slowly, so that the reserve is to be kept too.
         ahead_n: Command that the next motion needs [N]; 0 for none.
+        cues: Of the newest frame; None before there are any, and without contact.
         reserve: What a standing object could carry over its load; None until it is known.
         place_mm: Middle of the indentation of an object that is lifted off, (x, y), gel frame [mm];
             None until it is known.
@@ -65,12 +66,13 @@ class ReflexHold:
     """
 
     def __init__(
-        self, contract: Contract, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
+        self, terms: ForceTerms, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
     ) -> None:
-        self.contract, self.memory = contract, ReflexMemory(floor_n=floor_n)
+        self.terms, self.memory = terms, ReflexMemory(floor_n=floor_n)
         self.standing = self.rising = False
         self.ahead_n = 0.0
         self.reserve: Reserve | None = None
+        self.cues: ShearCues | None = None
         self.place_mm: tuple[float, float] | None = None
         self._began_n = 0.0
         self._judge, self._felt_n = judge, None if felt is None else felt.value
@@ -101,10 +103,10 @@ class ReflexHold:
         force is then that at rest times the growth of the command.
         """
         self._began_n = self._began_n or commanded_n
-        cues = None if field is None else self._see(field)
-        if field is None or cues is None:
+        self.cues = None if field is None else self._see(field)
+        if field is None or self.cues is None:
             return None, None
-        slip, self.seen_s = self._judge.see(cues.values), now_s
+        slip, self.seen_s = self._judge.see(self.cues.values), now_s
         if self.standing:
             self._read_reserve(field, now_s)
             if self.rising and self.reserve is not None and self.reserve.middle < LEAST_RESERVE:

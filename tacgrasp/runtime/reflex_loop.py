@@ -122,7 +122,7 @@ class ReflexLoop:
     def _hold(self, contract: Contract, felt: Interval | None, floor_n: float = 0.0) -> ReflexHold:
         spec = self._rig.sensor.spec
         judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
-        return ReflexHold(contract, felt, judge, floor_n)
+        return ReflexHold(contract.terms, felt, judge, floor_n)
 
     @contextmanager
     def _beating(self, hold: ReflexHold) -> Iterator[None]:
@@ -188,7 +188,7 @@ class ReflexLoop:
         Raises:
             TouchError: There was no reading for too long.
         """
-        correction, hold.memory = correct(reading, hold.contract.terms, hold.memory, self._period_s)
+        correction, hold.memory = correct(reading, hold.terms, hold.memory, self._period_s)
         if hold.memory.blind_s is not None:
             self._num_blind, self._blind = self._num_blind + 1, correction.reason
         else:

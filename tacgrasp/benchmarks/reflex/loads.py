@@ -15,16 +15,16 @@ from itertools import pairwise
 import numpy as np
 
 from cltp.tactile.sensors import SensorSpec
-from cltp.tactile.shear.contact_shear import ShearWatch
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.noise import ShearUnit
-from cltp.tactile.shear.slip import SlipJudge, noise_of, slip_model
-from policies.reflex import Act, Correction, ReflexMemory, ReflexReading, correct
+from cltp.tactile.shear.slip import SlipJudge, slip_model
+from policies.reflex import Act, Correction, ReflexReading, correct
 from primitives.contract import Band, ForceTerms
+from primitives.sense import Interval
 from sim.grasp.devices import ADJUST_S
 from sim.grasp.drawn.loads import STEP_S, DrawnLoad, LoadFrame, draw_load, follow
 from sim.grasp.pad_shear import SLIDING_STICK
-from tacgrasp.runtime.reflex_hold import QUIET_FRAMES
+from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
 
 SLIP_MM = 0.1
 """Slide from which a load counts as one that slips [mm]. Our choice."""
@@ -82,14 +82,12 @@ class Keeper:
 
     def __init__(self, sensor: SensorSpec, force_n: float) -> None:
         self._period_s = 1.0 / sensor.frame_hz
-        self._judge = SlipJudge(slip_model(sensor.name), sensor.frame_hz)
-        self._terms = ForceTerms(
+        terms = ForceTerms(
             force_n=Band(low=force_n / 2, high=2 * force_n), limit_n=LIMIT_FACTOR * force_n
         )
-        self._quiet: list[ShearField] = []
-        self._watch: ShearWatch | None = None
-        self._memory, self._grip_n = ReflexMemory(), force_n
-        self._volume_mm3 = 0.0
+        felt = Interval(value=force_n, low=force_n, high=force_n)
+        judge = SlipJudge(slip_model(sensor.name), sensor.frame_hz)
+        self._hold = ReflexHold(terms, felt, judge)
         self._changes: list[tuple[float, float]] = [(-math.inf, force_n)]
         self.raised_s: float | None = None
         self.ratios: list[float] = []
@@ -106,19 +104,13 @@ class Keeper:
 
     def see(self, frame: ShearField, t_s: float) -> Correction | None:
         """Take a noisy frame; the correction, None while the hold is quiet."""
-        began_s = time.perf_counter()
-        if self._watch is None:
-            self._quiet.append(frame)
-            if len(self._quiet) == QUIET_FRAMES:
-                self._begin()
-            return None
-        cues = self._watch.see(frame)
-        slip = felt_n = None
-        if cues is not None:
-            slip = self._judge.see(cues.values)
-            felt_n = self._grip_n * cues.volume_mm3 / max(self._volume_mm3, 1e-9)
-            self.ratios.append(math.hypot(*cues.along_mm) / max(cues.depth_mm, 1e-6))
+        began_s, hold = time.perf_counter(), self._hold
         commanded_n = self._changes[-1][1]
+        felt_n, slip = hold.felt_and_slip(frame, t_s, commanded_n)
+        if math.isinf(hold.seen_s):
+            return None
+        if hold.cues is not None:
+            self.ratios.append(math.hypot(*hold.cues.along_mm) / max(hold.cues.depth_mm, 1e-6))
         reading = ReflexReading(
             t_s=t_s,
             captured_s=t_s,
@@ -127,20 +119,14 @@ class Keeper:
             commanded_n=commanded_n,
             most_felt_n=2 * commanded_n,
         )
-        correction, self._memory = correct(reading, self._terms, self._memory, self._period_s)
+        correction, hold.memory = correct(reading, hold.terms, hold.memory, self._period_s)
         self.times_ms.append(1e3 * (time.perf_counter() - began_s))
         if correction.act in (Act.RAISE, Act.LOWER):
             self._changes.append((t_s + ADJUST_S, correction.force_n))
-            self._watch.renew()
+            hold.renew()
         if correction.act is Act.RAISE and self.raised_s is None:
             self.raised_s = t_s
         return correction
-
-    def _begin(self) -> None:
-        self._watch = ShearWatch(self._quiet[0].sensor, *noise_of(self._quiet))
-        for each in self._quiet:
-            cues = self._watch.see(each)
-        self._volume_mm3 = 0.0 if cues is None else cues.volume_mm3
 
 
 @dataclass(slots=True)

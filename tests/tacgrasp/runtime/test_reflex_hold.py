@@ -6,10 +6,10 @@ import pytest
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.shear.field import ShearField
-from tacgrasp.config.layers import load
-from tacgrasp.config.terms import contract_of
+from primitives.contract import Band, ForceTerms
 from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
 
+TERMS = ForceTerms(force_n=Band(low=0.1, high=2.0), limit_n=3.0)
 TAXELS = SENSORS["taxels"]
 X, Y = (axis.ravel() for axis in np.meshgrid(*grid_axes_mm(TAXELS, 12, 12)))
 PERIOD_S = 0.01
@@ -51,7 +51,7 @@ def see(rng):
 
 @pytest.fixture
 def hold():
-    return ReflexHold(contract_of(load("fruit")[0]), None, Deaf())
+    return ReflexHold(TERMS, None, Deaf())
 
 
 def creep(seconds):
