@@ -8,7 +8,7 @@ from __future__ import annotations
 import multiprocessing
 import os
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 
@@ -16,6 +16,10 @@ from contextlib import contextmanager
 def num_cores() -> int:
     """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0))
+
+
+THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Variables that bound the threads of numpy, scipy and torch in a process."""
 
 
 @contextmanager
@@ -28,11 +32,32 @@ def worker_pool(workers: int | None = None) -> Iterator[ProcessPoolExecutor]:
         workers: Number of processes; None for one a core.
     """
     spawn = multiprocessing.get_context("spawn")  # torch's threads don't survive a fork
-    pool = ProcessPoolExecutor(workers or num_cores(), mp_context=spawn, initializer=_start_worker)
+    with _inherited(dict.fromkeys(THREADS, "1")):
+        pool = ProcessPoolExecutor(
+            workers or num_cores(), mp_context=spawn, initializer=_start_worker
+        )
+        try:
+            yield pool
+        finally:
+            pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _inherited(variables: Mapping[str, str]) -> Iterator[None]:
+    """Set variables of the environment for processes that start in the block.
+
+    numpy's threads are counted as it is imported, before any code of a worker can say how many.
+    """
+    before = {name: os.environ.get(name) for name in variables}
+    os.environ.update(variables)
     try:
-        yield pool
+        yield
     finally:
-        pool.shutdown(cancel_futures=True)
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 def one_thread() -> None:

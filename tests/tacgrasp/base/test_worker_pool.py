@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tacgrasp.base.worker_pool import worker_pool
+from tacgrasp.base.worker_pool import THREADS, worker_pool
 from tests.paths import ROOT
 
 LONGEST_S = 5.0
@@ -80,3 +80,28 @@ def test_an_error_in_the_block_cancels_what_has_not_begun() -> None:
         raise RuntimeError("enough")
     assert time.monotonic() - began < 60  # of 200 s in all
     assert futures[-1].cancelled()
+
+
+def num_threads() -> int:
+    """Threads of this process once numpy has multiplied matrices."""
+    import numpy as np
+
+    square = np.ones((300, 300))
+    assert (square @ square).shape == square.shape
+    return len(list(Path("/proc/self/task").iterdir()))
+
+
+def variables() -> dict[str, str | None]:
+    return {name: os.environ.get(name) for name in THREADS}
+
+
+def test_each_worker_multiplies_with_one_thread_and_the_environment_is_left_as_it_was(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv(THREADS[0], raising=False)
+    monkeypatch.setenv(THREADS[1], "7")
+    before = variables()
+    with worker_pool(1) as pool:
+        assert set(pool.submit(variables).result().values()) == {"1"}
+        assert pool.submit(num_threads).result() <= 2  # one more waits for the parent's end
+    assert variables() == before
