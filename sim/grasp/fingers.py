@@ -64,9 +64,18 @@ _MOTIONS = _motions()
 
 def _neighbours(motion: FloatArray, spread: float) -> FloatArray:
     """Unit motions in a 5 × 5 grid of steps ``spread`` about one. Shape (25, 3)."""
-    first = np.cross(motion, np.eye(3)[int(np.argmin(np.abs(motion)))])
+    least = int(np.argmin(np.abs(motion)))
+    u, v = motion[(least + 1) % 3], motion[(least + 2) % 3]
+    first = np.zeros(3)  # the vector product with the axis that is farthest from the motion
+    first[(least + 1) % 3], first[(least + 2) % 3] = v, -u
     first /= np.linalg.norm(first)
-    second = np.cross(motion, first)
+    second = np.array(
+        [
+            motion[1] * first[2] - motion[2] * first[1],
+            motion[2] * first[0] - motion[0] * first[2],
+            motion[0] * first[1] - motion[1] * first[0],
+        ]
+    )
     steps = spread * np.arange(-2, 3)
     neighbours = motion + steps[:, None, None] * first + steps[:, None] * second
     neighbours = neighbours.reshape(-1, 3)
@@ -113,7 +122,11 @@ class Resistance:
 
 @dataclass(slots=True, kw_only=True)
 class _Friction:
-    """Loaded blocks of a patch about the centre of mass, and their dissipation in ``_MOTIONS``."""
+    """Loaded blocks of a patch about the centre of mass, and their dissipation in ``_MOTIONS``.
+
+    What it resists is kept for each load, (acceleration, share): a held body is asked the same at
+    every frame.
+    """
 
     patch: Patch
     force: FloatArray
@@ -121,6 +134,7 @@ class _Friction:
     y: FloatArray
     push: FloatArray
     dissipated: FloatArray = field(default_factory=lambda: np.zeros(0))
+    resisted: dict[tuple[tuple[float, float], float], Resistance] = field(default_factory=dict)
 
     def slide(self, motions: FloatArray) -> FloatArray:
         """Sum over the blocks of force times sliding speed, for each motion."""
@@ -283,6 +297,9 @@ class FlatFingers:
             share: Fraction of the weight that the fingers carry; a support carries the rest.
         """
         friction = self._friction_of(patch)
+        known = friction.resisted.get((acceleration_m_s2, share))
+        if known is not None:
+            return known
         load = self.load_on(patch, acceleration_m_s2, share)
         margin, motion, excess_n = _find_worst(_MOTIONS, friction.dissipated, load)
         for spread in (0.06, 0.015):  # half the distance of neighbours, then a quarter of that
@@ -290,7 +307,9 @@ class FlatFingers:
             dissipated = self.body.friction * friction.slide(near)
             margin, motion, excess_n = _find_worst(near, dissipated, load)
         speed = friction.patch_speed(motion)
-        return Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
+        found = Resistance(margin=margin, motion=motion, excess_n=excess_n, patch_speed=speed)
+        friction.resisted[acceleration_m_s2, share] = found
+        return found
 
     def load_on(
         self, patch: Patch, acceleration_m_s2: tuple[float, float], share: float = 1.0

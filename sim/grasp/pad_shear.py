@@ -9,6 +9,8 @@ Not here: a load that changes many times a second (``sim.grasp.holding``).
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import torch
 from torch import Tensor
@@ -73,6 +75,7 @@ class PadShear:
         self.shear: Shear | None = None
         self._patch: Patch | None = None
         self._load: FloatArray | None = None
+        self._seen: tuple[Shear | None, Patch | None, ShearField] | None = None
 
     def clear(self) -> None:
         """Nothing touches the pad any more."""
@@ -110,12 +113,21 @@ class PadShear:
 
     def field(self, stamp: Stamp | None = None) -> ShearField:
         """What the pad's markers or taxels see, without errors."""
+        if (
+            self._seen is None
+            or self._seen[0] is not self.shear
+            or self._seen[1] is not self._patch
+        ):
+            self._seen = self.shear, self._patch, self._field()
+        return replace(self._seen[2], stamp=stamp)
+
+    def _field(self) -> ShearField:
         layer, sensor = self._layer, self._fingers.sensor
         if self.shear is None or self._patch is None:
             rest = layer.at_rest()
-            return shear_field(layer, rest, rest.pressure_kpa, sensor, stamp=stamp)
+            return shear_field(layer, rest, rest.pressure_kpa, sensor)
         height_mm = coarse(self._fingers, self._patch.height_mm)
-        return shear_field(layer, self.shear, height_mm, sensor, stamp=stamp)
+        return shear_field(layer, self.shear, height_mm, sensor)
 
     def _step(self, patch: Patch, motion: FloatArray) -> None:
         move = torch.as_tensor(motion)[None]

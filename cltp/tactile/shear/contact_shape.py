@@ -54,6 +54,13 @@ class PointGrid:
         return (by_column / self.pitch_x).ravel(), (-by_row / self.pitch_y).ravel()
 
 
+def above_level(height_mm: FloatArray) -> tuple[FloatArray, float]:
+    """Heights (N,) above their median, where that is below 0, and the mean of the largest three."""
+    ordered = np.sort(height_mm)
+    level = min(0.0, float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2)
+    return height_mm - level, float((ordered[-3:] - level).mean())
+
+
 def _differences(grid: FloatArray) -> FloatArray:
     """Central differences along the rows' axis, one-sided at its ends."""
     change = np.empty_like(grid)
@@ -98,9 +105,7 @@ class ContactShape:
     @classmethod
     def of(cls, height_mm: FloatArray, grid: PointGrid) -> ContactShape | None:
         """The shape of mean heights; None where nothing is indented."""
-        level = float(np.median(height_mm))
-        height = height_mm - min(level, 0.0)
-        depth = float(np.sort(height)[-3:].mean())
+        height, depth = above_level(height_mm)
         if depth <= SMALL:
             return None
         body = np.clip(height - 0.3 * depth, 0.0, None)

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from cltp.tactile.cloud import FloatArray
-from cltp.tactile.shear.contact_shape import grid_of
+from cltp.tactile.shear.contact_shape import above_level, grid_of
 from cltp.tactile.shear.contact_shear import HEIGHT_MEMORY
 from cltp.tactile.shear.field import ShearField
 
@@ -47,6 +47,7 @@ class HeldIndentation:
         way_mm: How far its middle has moved along the pad since the force last changed [mm]; 0
             while that is not known.
         spread_mm: Standard deviation of the way that noise alone makes [mm].
+        place_mm: Its middle, (x, y), gel frame [mm]; None where nothing is indented.
     """
 
     def __init__(self, quiet: Sequence[ShearField], noise_mm: float = 0.0) -> None:
@@ -60,8 +61,12 @@ class HeldIndentation:
             counts[cells] += 1.0
         self._rest_mm = total / np.maximum(counts, 1.0)
         self._height_mm, self._count = self._rest_mm.copy(), float(len(quiet))
-        self._around = self._rest_mm < CONTACT * _depth(self._rest_mm)
+        self._around = self._rest_mm < CONTACT * float(np.sort(self._rest_mm)[-3:].mean())
+        self._fit = None  # of the smooth surface to the points around the contact, if they tell it
+        if int(self._around.sum()) >= MIN_AROUND:
+            self._fit = self._surface @ np.linalg.pinv(self._surface[self._around])
         self._rest_volume, self._from_mm = self._measured(self._rest_mm)
+        self.place_mm = self._from_mm
         self.growth = 1.0 if self._rest_volume > 0 else None
         self.way_mm = self.spread_mm = 0.0
 
@@ -77,6 +82,7 @@ class HeldIndentation:
         self._height_mm[cells] += weight * (field.displacement_mm[:, 2] - self._height_mm[cells])
         change = self._height_mm - self._rest_mm
         volume, place_mm = self._measured(self._height_mm - self._drift(change))
+        self.place_mm = place_mm
         if self._rest_volume > 0:
             self.growth = volume / self._rest_volume
         if self._from_mm is not None and place_mm is not None:
@@ -97,21 +103,16 @@ class HeldIndentation:
 
         0 and None where nothing is indented.
         """
-        height = height_mm - min(float(np.median(height_mm)), 0.0)
-        body = np.clip(height - LEVEL * max(_depth(height), 0.0), 0.0, None)
+        height, depth_mm = above_level(height_mm)
+        body = np.clip(height - LEVEL * max(depth_mm, 0.0), 0.0, None)
         total = float(body.sum())
-        if _depth(height) <= 0 or total <= 0:
+        if depth_mm <= 0 or total <= 0:
             return 0.0, None
         self._inside = body > 0
         return total, (float(body @ self._grid.x) / total, float(body @ self._grid.y) / total)
 
     def _drift(self, change: FloatArray) -> FloatArray:
         """The smooth surface through the change around the contact; 0 with too little around it."""
-        if int(self._around.sum()) < MIN_AROUND:
+        if self._fit is None:
             return np.zeros_like(change)
-        fit, *_ = np.linalg.lstsq(self._surface[self._around], change[self._around], rcond=None)
-        return np.asarray(self._surface @ fit)
-
-
-def _depth(height_mm: FloatArray) -> float:
-    return float(np.sort(height_mm)[-3:].mean())
+        return np.asarray(self._fit @ change[self._around])
