@@ -5,8 +5,9 @@ correction of the gripper's force, with its reason, and the next memory.
 
 * A slip raises the force by the least step; a slip that goes on, by ever larger ones, each after
   the gripper has had time to answer the one before.
-* While the fingers rise from the support (``standing``), what slips falls nowhere: steps up stay
+* While the object is lifted off (``standing``), what slips falls nowhere, or hardly: steps up stay
   small, and each waits until the one before is felt, so that the grip ends just above what slips.
+* Once that has found the force that holds (``is_found``), more than small steps need a sure slip.
 * What the next motion needs more than the weight (``ahead_n``) is asked for before it begins.
 * A felt force above the limit lowers it at once, whatever a slip asks for.
 * A felt force above the band lowers it, but not below what a slip has asked for.
@@ -42,9 +43,14 @@ body may be twice what friction holds; four steps then reach it."""
 MOST_FACTOR = 1.6
 """Largest factor of one step. Our choice: that of the teacher's ``increase_force``, nearly."""
 
-STANDING_FACTOR, STANDING_EVERY_S = 1.1, 0.06
-"""Factor of a step up while the object still stands, and least time between two [s]. Our choice:
-the grip ends within a step or two of what slips; command, gripper and two frames take the time."""
+SMALL_FACTOR, SMALL_EVERY_S = 1.1, 0.06
+"""Factor of a small step up, and least time between two [s]. Our choice: the grip ends within a
+step or two of what slips; command, gripper and two frames take the time."""
+
+SURE_SLIP, SURE_FACTOR = 1.5, 1.2
+"""Log odds over the unit's threshold from which a slip is sure, and the factor of a step up
+against one where the force that holds is nearly known. Our choice: a body that slides has fallen by
+millimetres in a tenth of a second and shows more, a jerk that only looks like a slip shows less."""
 
 FRESH_S = 0.3
 """Time after a step within which a further slip is the same one [s]. Our choice."""
@@ -103,7 +109,8 @@ class ReflexReading:
             sensor can't tell (it measures no shear, or nothing is touched).
         commanded_n: Force that the gripper was last commanded [N].
         most_felt_n: Largest felt force that this command can make [N].
-        standing: Whether a support still catches the object, from which the fingers rise slowly.
+        standing: Whether a support still catches the object while it is lifted off slowly.
+        is_found: Whether a lift-off has found about the force that holds it.
         ahead_n: Command that the next motion needs [N]; 0 for none.
     """
 
@@ -114,6 +121,7 @@ class ReflexReading:
     commanded_n: float
     most_felt_n: float
     standing: bool = False
+    is_found: bool = False
     ahead_n: float = 0.0
 
 
@@ -224,11 +232,13 @@ def _raise(
     reading: ReflexReading, terms: ForceTerms, memory: ReflexMemory
 ) -> tuple[Correction, ReflexMemory]:
     since_s = reading.t_s - memory.raised_s
-    every_s = STANDING_EVERY_S if reading.standing else RESPONSE_S
+    is_sure = reading.slip is not None and reading.slip >= SURE_SLIP
+    is_small = reading.standing or (reading.is_found and not is_sure)
+    every_s = SMALL_EVERY_S if is_small else RESPONSE_S
     if since_s < every_s - _ROUNDING_S:
         return _hold(reading, "slip, and the gripper is still answering"), memory
-    factor = STANDING_FACTOR if reading.standing else LEAST_FACTOR
-    if since_s < FRESH_S and not reading.standing:
+    factor = SMALL_FACTOR if is_small else SURE_FACTOR if reading.is_found else LEAST_FACTOR
+    if since_s < FRESH_S and not (reading.standing or reading.is_found):
         factor = min(MOST_FACTOR, 1 + GROWTH * (memory.factor - 1))
     force_n = _within_limit(reading, terms, reading.commanded_n * factor)
     if force_n <= reading.commanded_n:

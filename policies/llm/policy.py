@@ -20,13 +20,13 @@ from typing import NamedTuple
 import torch
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
-from cltp.encoder.reader import Flag, TouchReading, reading_of
+from cltp.encoder.reader import POSSIBLE_RATIO, Flag, TouchReading, reading_of
 from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.encoder_input import encoder_input
 from cltp.tactile.measure import contact_state
-from cltp.tactile.states import NUMBERS
+from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS
 from policies.contract_steps import refuted
 from policies.errors import PolicyError
 from policies.extraction import Extraction, extract
@@ -46,6 +46,7 @@ from policies.teacher import (
     LESSON_MOVE_STEP_MM,
     SLIVER_FRACTION,
     Advice,
+    Reason,
     force_goal,
     teacher,
 )
@@ -56,6 +57,10 @@ from primitives.sense import Interval
 ABSTAIN_BELOW = 0.3
 """Confidence below which the policy does nothing and is asked again. Chosen on seeds below
 1,000,000: at 0.5 one episode in eight ended with ``no_action``, undecided between good answers."""
+
+READABLE = 0.97
+"""Probability that anything touches, as the heads read it, from which they read a contact that is
+felt by test. Our choice: what they doubt altogether they place anywhere on the pad."""
 
 _FORCE = NUMBERS.index("force_n")
 
@@ -163,7 +168,9 @@ class LlmPolicy:
             LimitError: The contract is refused.
             TouchError: The weights' heads have no intervals.
         """
-        terms = contract.terms
+        terms, felt = contract.terms, observation.felt_force_n
+        if felt is not None and is_impossible(felt.value, observation.commanded_force_n):
+            observation = replace(observation, felt_force_n=None)
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
         against = refuted(contract, observation.felt_force_n, state)
         barred = [f"<{action or 'none'}>" for action in against]
@@ -191,7 +198,7 @@ class LlmPolicy:
         reply, felt = said.reply, observation.felt_force_n
         extraction = extract(reply.text)
         flags = flag_reason(said.reading)
-        if felt is not None and (unread := unread_reason(said.reading, observation.in_contact)):
+        if unread := unread_reason(said.reading, observation.in_contact):
             return self._directly(unread, observation, force_n, barred, reply)
         if flags and felt is not None and felt.value < force_n.low:
             return firmer(flags, felt, force_n)
@@ -233,10 +240,16 @@ class LlmPolicy:
             reply: What the model said to it, which is not acted on.
         """
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
+        if is_impossible(state.force_n, observation.commanded_force_n):
+            # it is the gel's drift: a reset takes the untouched gel anew, a firmer grip shows more
+            known_n = observation.commanded_force_n or 0.0
+            state = replace(state, force_n=known_n) if self._has_reset else NO_CONTACT_STATE
         if self._has_reset:  # a sliver at the edge is where the last reset has put it
             state = replace(state, area_fraction=max(state.area_fraction, SLIVER_FRACTION))
         goal = force_goal(force_n)
         advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
+        if advice.reason is Reason.OFF_CENTER:  # whatever the model has moved for before
+            self._moves.clear()
         if f"<{advice.action}>" in repeated_moves(self._moves):  # it is as central as it can be
             state = replace(state, x_mm=0.0, y_mm=0.0, cut=frozenset())
             advice = teacher(state, goal, move_step_mm=LESSON_MOVE_STEP_MM)
@@ -372,6 +385,11 @@ def flag_reason(reading: TouchReading) -> str:
     return f"what is felt can't be trusted: {', '.join(reading.flags)}"
 
 
+def is_impossible(felt_n: float, commanded_n: float | None) -> bool:
+    """Whether a felt force [N] is one that no gripper makes of a command [N]."""
+    return commanded_n is not None and felt_n > POSSIBLE_RATIO * commanded_n > 0
+
+
 def unread_reason(reading: TouchReading, in_contact: bool | None) -> str:
     """Why the model can't read a contact that is felt by test; '' where it can.
 
@@ -380,7 +398,7 @@ def unread_reason(reading: TouchReading, in_contact: bool | None) -> str:
     """
     if not in_contact or set(reading.flags) - {Flag.UNSURE}:
         return ""
-    if not reading.state.in_contact:
+    if reading.contact < READABLE:
         return "the contact is too light to be read"
     return flag_reason(reading)
 

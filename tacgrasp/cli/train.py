@@ -226,7 +226,7 @@ class TrainSlipFlags:
     """
 
     out: Path
-    seeds: int = 2950
+    seeds: int = 5000
     units: int = 2
     loads: Path = Path("data/slip_loads")
     seed: int = 0

@@ -49,13 +49,22 @@ CLEAR_MM = 5.0
 """Least height above the support at which it is rocked, never above the lift [mm]. Our choice: more
 than slides away in a rock, since an object that stands again shows nothing."""
 
-ROCKS = (0.3, 0.45, 0.65, 1.0)
-"""Parts of the shake's acceleration and way by which a hanging object is rocked in turn. What hangs
-beside the middle of the grip turns in it, which no rest shows."""
+ROCKS = ((0.3, 0.033), (0.45, 0.05), (0.65, 0.07), (0.82, 0.09), (1.0, 0.11), (1.0, 1.0))
+"""Parts of the shake's acceleration and of its way by which a hanging object is rocked in turn.
+What hangs beside the middle of the grip turns in it, which no rest shows. Our choice: what slides
+falls by the square of the time, so that all but the last take 0.03 s each way."""
 
-ROCKED, ROCKED_TIMES = 1.15, 3
-"""Factor on the force after a rock in which the object slipped, and most rocks of one size. Our
-choice: less than most fruit bear beyond what holds them; a larger rock shows whether it does."""
+ROCKED_TIMES = 3
+"""Most rocks of one size. Our choice: a larger one shows whether the force is enough."""
+
+ROCKED, SLID_PER_MM, MOST_ROCKED = 1.05, 0.15, 1.3
+"""Factor on the force after a rock in which the object slipped, what is added to it for each
+millimetre that it slid, and the largest factor. Our choice: what lacks much slides far, and a slide
+of 4 mm brings it to the pad's edge."""
+
+LEAST_SLID_MM = 0.2
+"""Way of the indentation in a rock from which it has slid, beside what noise makes of it [mm]. Our
+choice: half of what is a creep in a hold, since a rock is short."""
 
 SPARE = 1.08
 """Factor on what holds through the last rock. Our choice: half a step."""
@@ -123,7 +132,7 @@ def lift_off(
             height_mm = num_rises * settings.lift_off_mm
             return LiftOff(problem=f"it still slips {height_mm:g} mm above where it stood")
         is_shaken = settings.shakes > 0 and settings.shake_mm > 0
-        side_m_s2 = ROCKS[0] * settings.shake_acceleration_m_s2 if is_shaken else 0.0
+        side_m_s2 = ROCKS[0][0] * settings.shake_acceleration_m_s2 if is_shaken else 0.0
         load_m_s2 = max(
             math.hypot(GRAVITY_M_S2, side_m_s2), GRAVITY_M_S2 + settings.acceleration_m_s2
         )
@@ -133,8 +142,8 @@ def lift_off(
         _go(rig, clear, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
         hold.hang()
         rig.clock.sleep(max(still_s, QUIET_FRAMES / rig.sensor.spec.frame_hz))
-        for part in ROCKS if is_shaken else ():
-            _rock(rig, hold, settings, part, side_m)
+        for part, way in ROCKS if is_shaken else ():
+            _rock(rig, hold, settings, part, way * side_m)
         _raise(rig, hold, SPARE)
         return LiftOff(floor_n=hold.memory.floor_n)
 
@@ -154,20 +163,24 @@ def _reserve(hold: ReflexHold) -> float:
 def _rock(
     rig: Rig, hold: ReflexHold, settings: VerifyConfig, part: float, side_m: NDArray[np.float64]
 ) -> None:
-    """Rock by a part of the shake, there and back, until the object does not slip in it.
+    """Rock with a part of the shake's acceleration, there and back, until nothing slips in it.
 
-    After each rock in which it does, the force is raised.
+    Where the object does, the reflex raises the force; after the rock more is added for the way
+    that it slid.
     """
     here = rig.arm.pose()
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
     for _ in range(ROCKED_TIMES):
-        began_s = hold.seen_s
-        for pose in (shifted(here, part * side_m), here):
+        began_s, began_mm = hold.seen_s, hold.indented_mm
+        hold.is_rocked = True
+        for pose in (shifted(here, side_m), here):
             _go(rig, pose, settings.speed_m_s, acceleration_m_s2)
         rig.clock.sleep(max(STILL_S, STILL_FRAMES / rig.sensor.spec.frame_hz))
-        if hold.slipped_s <= began_s:
+        hold.is_rocked = False
+        slid_mm = max(0.0, _moved_mm(began_mm, hold.indented_mm) - 2 * hold.spread_mm)
+        if hold.slipped_s <= began_s and slid_mm < LEAST_SLID_MM:
             return
-        _raise(rig, hold, ROCKED)
+        _raise(rig, hold, min(MOST_ROCKED, ROCKED + SLID_PER_MM * slid_mm))
 
 
 def _go(rig: Rig, pose: Pose, speed_m_s: float, acceleration_m_s2: float) -> None:

@@ -20,7 +20,7 @@ from cltp.tactile.shear.reserve import (
     reserve_model,
 )
 from cltp.tactile.shear.slip import SlipJudge, noise_of
-from policies.reflex import RESPONSE_S, ReflexMemory
+from policies.reflex import RESPONSE_S, SURE_SLIP, ReflexMemory
 from primitives.contract import ForceTerms
 from primitives.sense import Interval
 
@@ -28,18 +28,18 @@ QUIET_FRAMES = 10
 """Frames of the hold at rest before anything moves, which tell the unit's noise. Our choice: a
 tenth of a second with taxels."""
 
-LEAST_RESERVE = 0.15
-"""Reserve below which an object that is lifted off counts as held too lightly. Our choice: a
-contact that slides seldom seems to have as much."""
+LEAST_RESERVE, DENIED = 0.05, -10.0
+"""Reserve below which an object that is lifted off counts as held too lightly, and log odds of a
+slip over the unit's threshold below which it does not. Our choice: on what is held by 0.1 N the
+reserve is hardly more than noise; what slides there stays behind as well."""
 
 CREPT_MM = 0.45
 """Way of the indentation along the pad that is a slip, whether or not any frame showed one [mm].
 Our choice: it seems to be 0.38 mm at most in 174 lifts of a fruit that did not move."""
 
-SURELY, MOST_SPREAD_MM = 4.0, 0.2
-"""Standard deviations of its noise by which a way must exceed nothing, and the largest one of a
-contact that is told to creep [mm]. Our choice: in none of 247 holds of a fruit that did not move
-does one of less seem to move so far; what a noisy unit feels under 0.1 N seems to be anywhere."""
+SURELY = 4.0
+"""Standard deviations of its noise by which a way must exceed nothing. Our choice: a hold has some
+hundred frames, of which no ten are independent."""
 
 
 class ReflexHold:
@@ -56,7 +56,10 @@ class ReflexHold:
     Attributes:
         memory: What the reflex remembers.
         standing: Whether a support still catches the object.
-        rising: Whether the fingers rise slowly, so that the reserve is to be kept too.
+        is_rocked: Whether the object is rocked, which looks like a slip in some frames; it then
+            takes a sure one.
+        is_found: Whether a lift-off before has found about the force that holds the object.
+        hanging: Whether nothing but the grip carries the object, so that a creep is a slip.
         ahead_n: Command that the next motion needs [N]; 0 for none.
         cues: Of the newest frame; None before there are any, and without contact.
         reserve: What a standing object could carry over its load; None until it is known.
@@ -69,7 +72,8 @@ class ReflexHold:
         self, terms: ForceTerms, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
     ) -> None:
         self.terms, self.memory = terms, ReflexMemory(floor_n=floor_n)
-        self.standing = self.rising = False
+        self.is_found, self.is_rocked = floor_n > 0, False
+        self.standing = self.hanging = False
         self.ahead_n = 0.0
         self.reserve: Reserve | None = None
         self.cues: ShearCues | None = None
@@ -88,9 +92,19 @@ class ReflexHold:
         """Time from the last reading of a slip to the newest reading [s]; infinite without one."""
         return self.seen_s - self.slipped_s
 
+    @property
+    def indented_mm(self) -> tuple[float, float] | None:
+        """Middle of the indentation, (x, y), gel frame [mm]; None while it is not known."""
+        return None if self._indentation is None else self._indentation.place_mm
+
+    @property
+    def spread_mm(self) -> float:
+        """Standard deviation of the difference of two such places [mm]."""
+        return 0.0 if self._indentation is None else self._indentation.spread_mm
+
     def hang(self) -> None:
         """The fingers have risen until the object hangs; it is at rest until the next motion."""
-        self.rising = False
+        self.hanging = True
         self._quiet, self._indentation = [], None
 
     def felt_and_slip(
@@ -107,14 +121,17 @@ class ReflexHold:
         if field is None or self.cues is None:
             return None, None
         slip, self.seen_s = self._judge.see(self.cues.values), now_s
-        if self.standing:
+        if self.is_rocked:
+            slip -= SURE_SLIP
+        if self.standing and not self.hanging:
             self._read_reserve(field, now_s)
-            if self.rising and self.reserve is not None and self.reserve.middle < LEAST_RESERVE:
+            if self.reserve is not None and slip > DENIED:
                 slip = max(slip, LEAST_RESERVE - self.reserve.middle)
         held = self._indentation
-        if held is not None and not self.rising:
-            creep = _creep(held)
-            slip = max(slip, creep) if creep > 0 else slip
+        if held is not None and self.hanging:
+            least_mm = max(CREPT_MM, SURELY * held.spread_mm)
+            if held.way_mm > least_mm:
+                slip = max(slip, held.way_mm / least_mm - 1.0)
         if slip > 0:
             self.slipped_s = now_s
         if self.standing:
@@ -161,10 +178,3 @@ class ReflexHold:
             self._indentation.renew()
         self._frames.clear()
         self.reserve = None
-
-
-def _creep(held: HeldIndentation) -> float:
-    """Way of an indentation over the one that is a slip, less 1; 0 where noise hides it."""
-    if held.spread_mm > MOST_SPREAD_MM:
-        return 0.0
-    return held.way_mm / max(CREPT_MM, SURELY * held.spread_mm) - 1.0

@@ -20,7 +20,7 @@ from cltp.errors import TouchError
 from cltp.tactile.shear.field import ShearField
 from cltp.tactile.shear.slip import SlipJudge, slip_model
 from cltp.tactile.shear.slip_calibration import load_slip_calibration
-from policies.reflex import Act, Correction, ReflexReading, correct
+from policies.reflex import IMPOSSIBLE, Act, Correction, ReflexReading, correct
 from policies.reflex_trace import NO_SLIP, ForceCorrection, ReflexTrace, absent_trace
 from primitives.contract import Contract
 from primitives.execution import Executor
@@ -112,7 +112,7 @@ class ReflexLoop:
         hold = self._hold(contract, felt, floor_n)
         with self._beating(hold):
             self._rig.clock.sleep((QUIET_FRAMES + 0.5) * self._period_s)
-            hold.standing = hold.rising = standing
+            hold.standing, hold.hanging = standing, not standing
             yield hold
 
     def _is_absent(self) -> bool:
@@ -121,6 +121,9 @@ class ReflexLoop:
 
     def _hold(self, contract: Contract, felt: Interval | None, floor_n: float = 0.0) -> ReflexHold:
         spec = self._rig.sensor.spec
+        most_n = IMPOSSIBLE * self._executor.most_felt_n(self._executor.force_n)
+        if felt is not None and felt.value > most_n:
+            felt = None  # what no command makes says nothing of the force; a slip is told without
         judge = SlipJudge(slip_model(spec.name), spec.frame_hz, self._threshold)
         return ReflexHold(contract.terms, felt, judge, floor_n)
 
@@ -235,6 +238,7 @@ class ReflexLoop:
             commanded_n=commanded_n,
             most_felt_n=self._executor.most_felt_n(commanded_n),
             standing=hold.standing,
+            is_found=hold.is_found,
             ahead_n=hold.ahead_n,
         )
 

@@ -19,8 +19,10 @@ from policies.reflex import (
     MOST_FACTOR,
     RELIEVED,
     RESPONSE_S,
-    STANDING_EVERY_S,
-    STANDING_FACTOR,
+    SMALL_EVERY_S,
+    SMALL_FACTOR,
+    SURE_FACTOR,
+    SURE_SLIP,
     Act,
     ReflexMemory,
     ReflexReading,
@@ -213,9 +215,36 @@ def test_while_the_object_stands_steps_up_stay_small_and_wait_for_what_is_felt()
             steps.append((t_s, correction.force_n / commanded_n))
         commanded_n = correction.force_n
     times_s, factors = zip(*steps, strict=True)
-    assert factors == pytest.approx([STANDING_FACTOR] * len(steps))
+    assert factors == pytest.approx([SMALL_FACTOR] * len(steps))
     assert len(steps) > 2
-    assert min(b - a for a, b in pairwise(times_s)) == pytest.approx(STANDING_EVERY_S)
+    assert min(b - a for a, b in pairwise(times_s)) == pytest.approx(SMALL_EVERY_S)
+
+
+@pytest.mark.parametrize(
+    ("slip", "factor", "every_s"),
+    [
+        (0.9 * SURE_SLIP, SMALL_FACTOR, SMALL_EVERY_S),
+        (1.1 * SURE_SLIP, SURE_FACTOR, RESPONSE_S),
+    ],
+)
+def test_after_a_lift_off_steps_do_not_grow_and_only_a_sure_slip_has_larger_ones(
+    slip, factor, every_s
+):
+    memory, commanded_n, steps = ReflexMemory(), 0.1, []
+    terms = ForceTerms(force_n=Band(low=0.05, high=1.0), limit_n=100.0)
+    for k in range(20):
+        t_s = 10.0 + 0.01 * k
+        slipping = replace(
+            CALM, t_s=t_s, captured_s=t_s, slip=slip, commanded_n=commanded_n, is_found=True
+        )
+        correction, memory = act(slipping, memory, terms)
+        if correction.act is Act.RAISE:
+            steps.append((t_s, correction.force_n / commanded_n))
+        commanded_n = correction.force_n
+    times_s, factors = zip(*steps, strict=True)
+    assert factors == pytest.approx([factor] * len(steps))
+    assert [b - a for a, b in pairwise(times_s)] == pytest.approx([every_s] * (len(steps) - 1))
+    assert len(steps) > 3
 
 
 def test_what_the_next_motion_needs_is_asked_for_once_and_not_lowered_again():

@@ -88,6 +88,7 @@ class Keeper:
         felt = Interval(value=force_n, low=force_n, high=force_n)
         judge = SlipJudge(slip_model(sensor.name), sensor.frame_hz)
         self._hold = ReflexHold(terms, felt, judge)
+        self._hold.hanging = True
         self._changes: list[tuple[float, float]] = [(-math.inf, force_n)]
         self.raised_s: float | None = None
         self.ratios: list[float] = []

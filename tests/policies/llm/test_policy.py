@@ -26,7 +26,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.states import NO_CONTACT_STATE, NUMBERS, ContactState, Side
 from cltp.texts.tokenizer import ACTIONS, Words
-from policies import Observation
+from policies import Decision, Observation
 from policies.errors import PolicyError
 from policies.extraction import extract
 from policies.llm.grammar import step_grammar
@@ -282,7 +282,11 @@ def test_what_can_t_be_trusted_is_not_acted_on(
 
 
 def unread(
-    policy: LlmPolicy, monkeypatch: pytest.MonkeyPatch, *flags: Flag, state: ContactState
+    policy: LlmPolicy,
+    monkeypatch: pytest.MonkeyPatch,
+    *flags: Flag,
+    state: ContactState,
+    contact: float = 1.0,
 ) -> None:
     """Let the model read a contact like this, and ask for a reset."""
     monkeypatch.setattr(
@@ -292,30 +296,32 @@ def unread(
     monkeypatch.setattr(
         policies.llm.policy,
         "reading_of",
-        lambda *a, **k: replace(reading(*a, **k), flags=flags, state=state),
+        lambda *a, **k: replace(reading(*a, **k), flags=flags, state=state, contact=contact),
     )
 
 
 @pytest.mark.parametrize(
-    ("flags", "state", "action", "reason"),
+    ("flags", "state", "contact", "action", "reason"),
     [
-        ((), NO_CONTACT_STATE, Primitive.INCREASE_FORCE, "too light to be read"),
-        ((Flag.UNSURE,), HELD.state, Primitive.INCREASE_FORCE, "unsure"),
-        ((Flag.NOISE,), HELD.state, None, "noise"),
-        ((Flag.UNSURE, Flag.FORCE), HELD.state, None, "force"),
-        ((), HELD.state, Primitive.RESET, ""),
+        ((), NO_CONTACT_STATE, 0.1, Primitive.INCREASE_FORCE, "too light to be read"),
+        ((), HELD.state, 0.9, Primitive.INCREASE_FORCE, "too light to be read"),
+        ((Flag.UNSURE,), HELD.state, 1.0, Primitive.INCREASE_FORCE, "unsure"),
+        ((Flag.NOISE,), HELD.state, 1.0, None, "noise"),
+        ((Flag.UNSURE, Flag.FORCE), HELD.state, 1.0, None, "force"),
+        ((), HELD.state, 1.0, Primitive.RESET, ""),
     ],
 )
 def test_a_contact_that_is_felt_and_can_t_be_read_is_measured(
     flags: tuple[Flag, ...],
     state: ContactState,
+    contact: float,
     action: Primitive | None,
     reason: str,
     untrained: Path,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     policy = LlmPolicy(untrained)
-    unread(policy, monkeypatch, *flags, state=state)
+    unread(policy, monkeypatch, *flags, state=state, contact=contact)
     felt_n = contact_state(touch(), in_contact=True).force_n
     felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
     observation = Observation(cloud=touch(), in_contact=True, felt_force_n=felt)
@@ -336,25 +342,61 @@ def test_nothing_is_measured_where_nothing_is_felt(
     assert decision.action is Primitive.RESET
 
 
+def pressed_along(first: int, last: int) -> TactileCloud:
+    """A ridge along x, in columns of 0.2 mm of a GelSight Mini from its left edge."""
+    y, x = np.mgrid[:76, :102]
+    beside = np.maximum(np.maximum(first - x, x - last), 0)
+    return cloud_from_heights(
+        0.4 * np.exp(-(beside**2 + (y - 38) ** 2) / 60), SENSORS["gelsight_mini"]
+    )
+
+
+def measured(policy: LlmPolicy, cloud: TactileCloud, *barred: str) -> Decision:
+    """What is decided on a cloud that is measured directly, and held a little too lightly."""
+    felt_n = contact_state(cloud, in_contact=True).force_n
+    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    observation = Observation(cloud=cloud, in_contact=True, felt_force_n=felt)
+    return policy.follow(observation, Band(low=1.1 * felt_n, high=1.4 * felt_n), 9.0, barred)
+
+
 def test_what_is_measured_moves_neither_to_and_fro_nor_against_what_is_felt(
     untrained: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     policy = LlmPolicy(untrained)
-    unread(policy, monkeypatch, state=NO_CONTACT_STATE)
-    y, x = np.mgrid[:76, :102]
-    cloud = cloud_from_heights(
-        0.4 * np.exp(-((x - 90) ** 2 + (y - 38) ** 2) / 60), SENSORS["gelsight_mini"]
-    )
-    felt_n = contact_state(cloud, in_contact=True).force_n
-    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
-    observation = Observation(cloud=cloud, in_contact=True, felt_force_n=felt)
-    band = Band(low=1.1 * felt_n, high=1.4 * felt_n)
-    assert policy.follow(observation, band, 9.0).action is Primitive.MOVE_RIGHT
+    unread(policy, monkeypatch, state=NO_CONTACT_STATE, contact=0.1)
+    cut = pressed_along(30, 101)
+    assert measured(policy, cut).action is Primitive.MOVE_RIGHT
     policy._moves[:] = [Primitive.MOVE_RIGHT, Primitive.MOVE_LEFT]
-    assert policy.follow(observation, band, 9.0).action is Primitive.INCREASE_FORCE
-    barred = policy.follow(observation, band, 9.0, ["<increase_force>"])
+    assert measured(policy, cut).action is Primitive.INCREASE_FORCE
+    barred = measured(policy, cut, "<increase_force>")
     assert barred.action is None
     assert not barred.success
+
+
+def test_what_is_measured_off_centre_is_moved_for_whatever_the_model_has_moved_for(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, state=NO_CONTACT_STATE, contact=0.1)
+    policy._moves[:] = [Primitive.MOVE_RIGHT, Primitive.MOVE_LEFT]
+    assert measured(policy, pressed_along(90, 90)).action is Primitive.MOVE_RIGHT
+    assert policy._moves == [Primitive.MOVE_RIGHT]
+
+
+def test_a_force_that_no_command_makes_is_none(
+    untrained: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    policy = LlmPolicy(untrained)
+    unread(policy, monkeypatch, state=NO_CONTACT_STATE, contact=0.1)
+    felt_n = contact_state(touch(), in_contact=True).force_n
+    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
+    observation = Observation(
+        cloud=touch(), in_contact=True, felt_force_n=felt, commanded_force_n=felt_n / 4
+    )
+    band = Band(low=0.5 * felt_n, high=0.7 * felt_n)
+    aim = contract(band.low, band.high, 2 * felt_n)
+    actions = [policy.decide(observation, aim).action for _ in range(2)]
+    assert actions == [Primitive.RESET, Primitive.INCREASE_FORCE]  # one reset is enough
 
 
 def test_a_reset_forgets_the_moves_before_it(

@@ -13,7 +13,14 @@ from tacgrasp.config.layers import load
 from tacgrasp.config.schema import RunConfig
 from tacgrasp.config.terms import contract_of
 from tacgrasp.rig.factory import make_executor
-from tacgrasp.runtime.lift_off import lift_off
+from tacgrasp.runtime.lift_off import (
+    MOST_ROCKED,
+    ROCKED,
+    ROCKED_TIMES,
+    SLID_PER_MM,
+    _rock,
+    lift_off,
+)
 from tacgrasp.runtime.reflex_loop import ReflexLoop
 from tacgrasp.runtime.steps import NoRecorder, Steps
 
@@ -50,6 +57,63 @@ def test_a_grip_that_is_too_light_is_raised_until_it_holds_through_the_shake(par
     assert rig.truth().force_n < 4 * least_n  # a firm grip at once would hold as well
     shaken = rig.grasp.fingers.resistance(rig.grasp.patch, (10.0, 0.0))
     assert shaken.margin > 0.9
+
+
+class RockedHold:
+    """A hold of what slides by some way in each rock, and notes what is asked of it.
+
+    Args:
+        slides_mm: Way in each rock [mm].
+        is_told: Whether the frames tell a slip too.
+    """
+
+    spread_mm = 0.02
+
+    def __init__(self, slides_mm, *, is_told):
+        self._slides_mm, self._is_told = list(slides_mm), is_told
+        self.seen_s, self.slipped_s = 0.0, -math.inf
+        self.indented_mm = (0.0, 0.0)
+        self.asked_n = []
+
+    @property
+    def is_rocked(self):
+        return False
+
+    @is_rocked.setter
+    def is_rocked(self, now):
+        if now:
+            return
+        slid_mm = self._slides_mm.pop(0)
+        self.indented_mm = (0.0, self.indented_mm[1] - slid_mm)
+        self.seen_s += 1.0
+        if self._is_told and slid_mm > 0:
+            self.slipped_s = self.seen_s
+
+    @property
+    def ahead_n(self):
+        return self.asked_n[-1]
+
+    @ahead_n.setter
+    def ahead_n(self, force_n):
+        self.asked_n.append(force_n)
+
+
+@pytest.mark.parametrize(
+    ("slides_mm", "is_told", "factors"),
+    [
+        ([0.0], True, []),
+        ([0.1], False, []),  # no more than noise
+        ([0.1, 0.0], True, [ROCKED + 0.06 * SLID_PER_MM]),
+        ([1.04, 0.0], False, [ROCKED + SLID_PER_MM]),
+        ([9.0, 9.0, 9.0], True, [MOST_ROCKED] * ROCKED_TIMES),
+    ],
+)
+def test_after_a_rock_the_force_is_raised_by_the_way_that_it_slid(slides_mm, is_told, factors):
+    rig = build("fruit", SEED, sensor_name="taxels")
+    rig.gripper.grip(0.2)
+    hold = RockedHold(slides_mm, is_told=is_told)
+    _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M)
+    assert hold.asked_n == pytest.approx([0.2 * factor for factor in factors])
 
 
 def test_a_grip_that_may_not_grow_is_reported_and_nothing_falls():

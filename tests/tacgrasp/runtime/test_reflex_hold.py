@@ -1,4 +1,4 @@
-"""One hold under the reflex: a creep that no frame shows is a slip, once the object hangs."""
+"""One hold under the reflex: what counts as a slip, in a hold, in a rise and in a rock."""
 
 import numpy as np
 import pytest
@@ -6,8 +6,11 @@ import pytest
 from cltp.tactile.cloud import grid_axes_mm
 from cltp.tactile.sensors import SENSORS
 from cltp.tactile.shear.field import ShearField
+from cltp.tactile.shear.reserve import Reserve
+from policies.reflex import SURE_SLIP
 from primitives.contract import Band, ForceTerms
-from tacgrasp.runtime.reflex_hold import QUIET_FRAMES, ReflexHold
+from tacgrasp.runtime import reflex_hold
+from tacgrasp.runtime.reflex_hold import DENIED, LEAST_RESERVE, QUIET_FRAMES, ReflexHold
 
 TERMS = ForceTerms(force_n=Band(low=0.1, high=2.0), limit_n=3.0)
 TAXELS = SENSORS["taxels"]
@@ -16,11 +19,18 @@ PERIOD_S = 0.01
 CREEP_MM_S = 1.0
 
 
-class Deaf:
-    """Tells no slip in any frame."""
+class Judge:
+    """Tells the same of every frame.
+
+    Args:
+        slip: Log odds of a slip over the threshold.
+    """
+
+    def __init__(self, slip=-5.0):
+        self.slip = slip
 
     def see(self, values):
-        return -5.0
+        return self.slip
 
 
 def frame(rng, x_mm, depth_mm=0.08, noise_mm=0.002):
@@ -51,7 +61,9 @@ def see(rng):
 
 @pytest.fixture
 def hold():
-    return ReflexHold(TERMS, None, Deaf())
+    hold = ReflexHold(TERMS, None, Judge())
+    hold.hanging = True
+    return hold
 
 
 def creep(seconds):
@@ -79,12 +91,53 @@ def test_after_a_correction_the_way_counts_anew(hold, see):
 
 def test_pads_that_rise_along_a_standing_object_do_not_creep(hold, see):
     see(hold, np.zeros(QUIET_FRAMES))
-    hold.standing = hold.rising = True
+    hold.standing, hold.hanging = True, False
     assert max(see(hold, creep(1.0))) < 0
     hold.hang()
     assert max(see(hold, np.full(QUIET_FRAMES + 50, 1.0))) < 0
     assert max(see(hold, 1.0 + creep(1.0))) > 0
 
 
-def test_a_contact_that_noise_places_anywhere_does_not_creep(hold, see):
-    assert max(see(hold, np.zeros(1000), depth_mm=0.02, noise_mm=0.02)) < 0
+def test_what_noise_makes_of_the_place_of_a_light_contact_is_no_creep(hold, see):
+    assert max(see(hold, np.zeros(1000), depth_mm=0.03, noise_mm=0.015)) < 0
+
+
+def test_what_stands_does_not_creep(hold, see):
+    see(hold, np.zeros(QUIET_FRAMES))
+    hold.hanging = False
+    assert max(see(hold, creep(1.0))) < 0
+
+
+@pytest.mark.parametrize(("slip", "is_told"), [(0.5 * SURE_SLIP, False), (1.5 * SURE_SLIP, True)])
+def test_in_a_rock_it_takes_a_sure_slip(slip, is_told, see):
+    hold = ReflexHold(TERMS, None, Judge(slip))
+    hold.hanging = hold.is_rocked = True
+    assert (max(see(hold, np.zeros(50))) > 0) is is_told
+    hold.is_rocked = False
+    assert max(see(hold, np.zeros(5))) > 0
+
+
+@pytest.mark.parametrize(
+    ("slip", "reserve", "is_told"),
+    [
+        (0.5 * DENIED, LEAST_RESERVE - 0.1, True),
+        (0.5 * DENIED, LEAST_RESERVE + 0.1, False),
+        (1.5 * DENIED, LEAST_RESERVE - 0.1, False),
+    ],
+)
+def test_too_little_reserve_counts_unless_the_frames_deny_a_slip(
+    slip, reserve, is_told, see, monkeypatch
+):
+    class Model:
+        def read(self, mean, noise_mm):
+            return Reserve(low=reserve - 0.2, middle=reserve)
+
+    monkeypatch.setattr(reflex_hold, "reserve_model", lambda name: Model())
+    hold = ReflexHold(TERMS, None, Judge(slip))
+    hold.standing = True
+    assert (max(see(hold, np.zeros(60))) > 0) is is_told
+
+
+def test_a_force_that_a_lift_off_has_found_is_known_in_the_next_hold():
+    assert ReflexHold(TERMS, None, Judge(), floor_n=0.2).is_found
+    assert not ReflexHold(TERMS, None, Judge()).is_found

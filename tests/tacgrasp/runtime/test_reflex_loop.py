@@ -219,3 +219,15 @@ def test_a_decided_change_is_made_of_the_force_that_was_felt_not_of_a_corrected_
         executor.execute(Primitive.DECREASE_FORCE)
         assert executor.force_n == pytest.approx(0.65 * before_n)
     assert forces[0] == pytest.approx(forces[1])
+
+
+def test_a_force_that_no_command_makes_is_not_known_and_the_hold_goes_on():
+    rig, executor, contract = hold()
+    reflex = ReflexLoop(rig, executor)
+    force_n = 100 * rig.truth().force_n
+    with reflex.keeping(contract, Interval(value=force_n, low=force_n, high=force_n)):
+        lift(rig)
+        rig.clock.sleep(2 * MAX_BLIND_S)
+    trace = reflex.take_trace()
+    assert trace.num_blind == 0
+    assert (trace.felt_n == 0).all()  # as where nothing is known of it
