@@ -8,6 +8,18 @@ from cltp.tactile.cloud import TactileCloud
 from cltp.tactile.shear.field import ShearField
 from primitives.sense import Interval
 
+POSSIBLE_RATIO = 3.0
+"""Largest ratio of a felt force to the commanded one that a gripper makes, as in
+``cltp.encoder.reader``. What is felt beyond that under a light grip is the gel's drift."""
+
+
+def is_impossible(felt_n: float, commanded_n: float | None) -> bool:
+    """Whether a felt force [N] is one that no gripper makes of a command [N].
+
+    False where no command is known, and with open fingers.
+    """
+    return commanded_n is not None and felt_n > POSSIBLE_RATIO * commanded_n > 0
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Observation:
@@ -19,7 +31,8 @@ class Observation:
             closing; None where no such test was possible (a file, an old episode).
         width_m: Opening of the gripper [m]; None where it is not known.
         commanded_force_n: Force last commanded [N], 0 when open; None where it is not known.
-        felt_force_n: Force that the contact suggests [N]; None without contact or reading.
+        felt_force_n: Force that the contact suggests [N]; None without contact or reading, and
+            where no gripper makes it of the command.
         shear: Displacements along the gel, of the same frame; None where the sensor gives none.
         t_s: Time since the episode began [s].
     """

@@ -14,7 +14,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.states import ContactState
 from policies.contract_steps import refuted, target_of
 from policies.extraction import extract
-from policies.observation import Observation
+from policies.observation import Observation, is_impossible
 from policies.policy import Decision
 from policies.speech import speak
 from policies.teacher import teacher
@@ -61,6 +61,9 @@ class RulesPolicy:
             state = self._measure(observation.cloud)
         else:
             state = contact_state(observation.cloud, in_contact=observation.in_contact)
+            commanded_n = observation.commanded_force_n
+            if commanded_n is not None and is_impossible(state.force_n, commanded_n):
+                state = replace(state, force_n=commanded_n)
         times_s.append(self._clock())
         goal = target_of(contract)
         advice = teacher(state, goal, move_step_mm=self._move_step_mm)

@@ -20,7 +20,7 @@ from typing import NamedTuple
 import torch
 
 from cltp.checkpoints.tac3d_llm import load_tac3d_llm
-from cltp.encoder.reader import POSSIBLE_RATIO, Flag, TouchReading, reading_of
+from cltp.encoder.reader import Flag, TouchReading, reading_of
 from cltp.encoder.readings import HeadReadings
 from cltp.llm.generation import Felt, Reply, Talker
 from cltp.tactile.cloud import TactileCloud
@@ -40,7 +40,7 @@ from policies.llm.text import (
     said_numbers,
     step_request,
 )
-from policies.observation import Observation
+from policies.observation import Observation, is_impossible
 from policies.policy import Decision
 from policies.teacher import (
     LESSON_MOVE_STEP_MM,
@@ -168,9 +168,7 @@ class LlmPolicy:
             LimitError: The contract is refused.
             TouchError: The weights' heads have no intervals.
         """
-        terms, felt = contract.terms, observation.felt_force_n
-        if felt is not None and is_impossible(felt.value, observation.commanded_force_n):
-            observation = replace(observation, felt_force_n=None)
+        terms = contract.terms
         state = contact_state(observation.cloud, in_contact=observation.in_contact)
         against = refuted(contract, observation.felt_force_n, state)
         barred = [f"<{action or 'none'}>" for action in against]
@@ -383,11 +381,6 @@ def flag_reason(reading: TouchReading) -> str:
     if not reading.flags:
         return ""
     return f"what is felt can't be trusted: {', '.join(reading.flags)}"
-
-
-def is_impossible(felt_n: float, commanded_n: float | None) -> bool:
-    """Whether a felt force [N] is one that no gripper makes of a command [N]."""
-    return commanded_n is not None and felt_n > POSSIBLE_RATIO * commanded_n > 0
 
 
 def unread_reason(reading: TouchReading, in_contact: bool | None) -> str:

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from cltp.tactile.shear.held_indentation import MEAN_FRAMES
 from primitives.contract import Contract
 from primitives.devices import Pose
 from primitives.sense import Interval
@@ -57,7 +58,7 @@ falls by the square of the time, so that all but the last take 0.03 s each way."
 ROCKED_TIMES = 3
 """Most rocks of one size. Our choice: a larger one shows whether the force is enough."""
 
-ROCKED, SLID_PER_MM, MOST_ROCKED = 1.05, 0.15, 1.3
+ROCKED, SLID_PER_MM, MOST_ROCKED = 1.05, 0.2, 1.3
 """Factor on the force after a rock in which the object slipped, what is added to it for each
 millimetre that it slid, and the largest factor. Our choice: what lacks much slides far, and a slide
 of 4 mm brings it to the pad's edge."""
@@ -140,8 +141,8 @@ def lift_off(
         clear_mm = min(max(CLEAR_MM, rise * settings.lift_off_mm), settings.lift_mm)
         clear = shifted(start, np.array([0.0, 0.0, clear_mm / 1000]))
         _go(rig, clear, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
-        hold.hang()
-        rig.clock.sleep(max(still_s, QUIET_FRAMES / rig.sensor.spec.frame_hz))
+        _hang(rig, hold)
+        rig.clock.sleep(still_s)
         for part, way in ROCKS if is_shaken else ():
             _rock(rig, hold, settings, part, way * side_m)
         _raise(rig, hold, SPARE)
@@ -175,12 +176,20 @@ def _rock(
         hold.is_rocked = True
         for pose in (shifted(here, side_m), here):
             _go(rig, pose, settings.speed_m_s, acceleration_m_s2)
-        rig.clock.sleep(max(STILL_S, STILL_FRAMES / rig.sensor.spec.frame_hz))
+        hold.rest()
+        rig.clock.sleep(max(STILL_S, (MEAN_FRAMES + 1) / rig.sensor.spec.frame_hz))
         hold.is_rocked = False
         slid_mm = max(0.0, _moved_mm(began_mm, hold.indented_mm) - 2 * hold.spread_mm)
         if hold.slipped_s <= began_s and slid_mm < LEAST_SLID_MM:
             return
         _raise(rig, hold, min(MOST_ROCKED, ROCKED + SLID_PER_MM * slid_mm))
+        _hang(rig, hold)  # elsewhere on the pad
+
+
+def _hang(rig: Rig, hold: ReflexHold) -> None:
+    """Wait until the place of what hangs at rest is known."""
+    hold.hang()
+    rig.clock.sleep((QUIET_FRAMES + 1) / rig.sensor.spec.frame_hz)
 
 
 def _go(rig: Rig, pose: Pose, speed_m_s: float, acceleration_m_s2: float) -> None:

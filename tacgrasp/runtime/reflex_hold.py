@@ -45,7 +45,7 @@ hundred frames, of which no ten are independent."""
 class ReflexHold:
     """One hold: its terms, what the frames tell of it, and the reflex's memory.
 
-    Another thread may set ``standing`` and ``ahead_n``, and read ``still_s``, at any time.
+    Another thread may set what is asked of it, call ``rest``, and read the rest at any time.
 
     Args:
         terms: Force terms of the contract that is kept.
@@ -72,7 +72,7 @@ class ReflexHold:
         self, terms: ForceTerms, felt: Interval | None, judge: SlipJudge, floor_n: float = 0.0
     ) -> None:
         self.terms, self.memory = terms, ReflexMemory(floor_n=floor_n)
-        self.is_found, self.is_rocked = floor_n > 0, False
+        self.is_found, self.is_rocked, self._rests = floor_n > 0, False, False
         self.standing = self.hanging = False
         self.ahead_n = 0.0
         self.reserve: Reserve | None = None
@@ -103,9 +103,13 @@ class ReflexHold:
         return 0.0 if self._indentation is None else self._indentation.spread_mm
 
     def hang(self) -> None:
-        """The fingers have risen until the object hangs; it is at rest until the next motion."""
+        """The object hangs, at rest until the next motion: its place is measured from now on."""
         self.hanging = True
         self._quiet, self._indentation = [], None
+
+    def rest(self) -> None:
+        """A motion has ended: what is measured from the next frame on is of where it rests."""
+        self._rests = True
 
     def felt_and_slip(
         self, field: ShearField | None, now_s: float, commanded_n: float
@@ -117,6 +121,9 @@ class ReflexHold:
         force is then that at rest times the growth of the command.
         """
         self._began_n = self._began_n or commanded_n
+        if self._rests:
+            self._rests = False
+            self.renew()
         self.cues = None if field is None else self._see(field)
         if field is None or self.cues is None:
             return None, None

@@ -19,6 +19,7 @@ from cltp.tactile.measure import contact_state
 from cltp.tactile.shear.field import ShearField
 from policies import Decision, Observation, PolicyError
 from policies.contract_steps import Aim, beyond, softened
+from policies.observation import is_impossible
 from primitives import Primitive
 from primitives.contract import Contract
 from primitives.devices import GripperState, Pose
@@ -79,13 +80,19 @@ class Readings:
     shear: ShearField | None = None
 
     def for_policy(self, t_s: float) -> Observation:
-        """What a policy is given of it, ``t_s`` seconds after the start of the episode."""
+        """What a policy is given of it, ``t_s`` seconds after the start of the episode.
+
+        A force that no gripper makes of the command is none.
+        """
+        felt, commanded_n = self.felt_force_n, self.gripper.force_n
+        if felt is not None and is_impossible(felt.value, commanded_n):
+            felt = None
         return Observation(
             cloud=self.cloud,
             in_contact=self.in_contact,
             width_m=self.gripper.width_m,
-            commanded_force_n=self.gripper.force_n,
-            felt_force_n=self.felt_force_n,
+            commanded_force_n=commanded_n,
+            felt_force_n=felt,
             shear=self.shear,
             t_s=t_s,
         )

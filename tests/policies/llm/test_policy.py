@@ -389,10 +389,7 @@ def test_a_force_that_no_command_makes_is_none(
     policy = LlmPolicy(untrained)
     unread(policy, monkeypatch, state=NO_CONTACT_STATE, contact=0.1)
     felt_n = contact_state(touch(), in_contact=True).force_n
-    felt = Interval(value=felt_n, low=felt_n / 1.3, high=felt_n * 1.3)
-    observation = Observation(
-        cloud=touch(), in_contact=True, felt_force_n=felt, commanded_force_n=felt_n / 4
-    )
+    observation = Observation(cloud=touch(), in_contact=True, commanded_force_n=felt_n / 4)
     band = Band(low=0.5 * felt_n, high=0.7 * felt_n)
     aim = contract(band.low, band.high, 2 * felt_n)
     actions = [policy.decide(observation, aim).action for _ in range(2)]

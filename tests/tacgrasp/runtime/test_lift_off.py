@@ -74,6 +74,13 @@ class RockedHold:
         self.seen_s, self.slipped_s = 0.0, -math.inf
         self.indented_mm = (0.0, 0.0)
         self.asked_n = []
+        self.num_rests = self.num_hung = 0
+
+    def rest(self):
+        self.num_rests += 1
+
+    def hang(self):
+        self.num_hung += 1
 
     @property
     def is_rocked(self):
@@ -114,6 +121,8 @@ def test_after_a_rock_the_force_is_raised_by_the_way_that_it_slid(slides_mm, is_
     hold = RockedHold(slides_mm, is_told=is_told)
     _rock(rig, hold, load("fruit")[0].verify, 1.0, 0.1 * SIDE_M)
     assert hold.asked_n == pytest.approx([0.2 * factor for factor in factors])
+    assert hold.num_hung == len(factors)  # its place is another one after each slide
+    assert hold.num_rests >= 1
 
 
 def test_a_grip_that_may_not_grow_is_reported_and_nothing_falls():
