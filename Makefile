@@ -17,6 +17,8 @@ PIP := $(BIN)/python -m pip install --disable-pip-version-check --progress-bar o
 
 # the processes that tests start share compiled modules
 unexport PYTHONDONTWRITEBYTECODE
+# tests run in a process for each core: more threads would wait for each other
+test: export OPENBLAS_NUM_THREADS = 1
 
 .PHONY: run test test-all docs test-lerobot test-openpi fuzz weights setup clean
 .DELETE_ON_ERROR:

@@ -50,10 +50,15 @@ CLEAR_MM = 5.0
 """Least height above the support at which it is rocked, never above the lift [mm]. Our choice: more
 than slides away in a rock, since an object that stands again shows nothing."""
 
-ROCKS = ((0.3, 0.033), (0.45, 0.05), (0.65, 0.07), (0.82, 0.09), (1.0, 0.11), (1.0, 1.0))
+ROCKS = ((0.45, 0.05), (0.65, 0.07), (0.82, 0.09), (1.0, 0.11), (1.0, 1.0))
 """Parts of the shake's acceleration and of its way by which a hanging object is rocked in turn.
 What hangs beside the middle of the grip turns in it, which no rest shows. Our choice: what slides
 falls by the square of the time, so that all but the last take 0.03 s each way."""
+
+PREPARED = 0.65
+"""Part of the shake's acceleration that the force is raised for before the first rock, as the
+reserve tells it. Our choice: less than the last rock needs; what holds little more than its weight
+slides on for centimetres once it slides."""
 
 ROCKED_TIMES = 3
 """Most rocks of one size. Our choice: a larger one shows whether the force is enough."""
@@ -63,9 +68,13 @@ ROCKED, SLID_PER_MM, MOST_ROCKED = 1.05, 0.2, 1.3
 millimetre that it slid, and the largest factor. Our choice: what lacks much slides far, and a slide
 of 4 mm brings it to the pad's edge."""
 
-LEAST_SLID_MM = 0.2
-"""Way of the indentation in a rock from which it has slid, beside what noise makes of it [mm]. Our
-choice: half of what is a creep in a hold, since a rock is short."""
+MOST_RISE_MM = 2.0
+"""Most that the fingers rise after a rock [mm]. Our choice: they stay below the lift's usual 40."""
+
+LEAST_SLID_MM, LEAST_SPREADS = 0.2, 1.5
+"""Way of the indentation in a rock from which it has slid [mm], and the same in standard deviations
+of what noise makes of it; half of both where a frame looked like a slip. Our choice: one rock in
+ten of a noisy unit then counts without a slip."""
 
 SPARE = 1.08
 """Factor on what holds through the last rock. Our choice: half a step."""
@@ -133,7 +142,7 @@ def lift_off(
             height_mm = num_rises * settings.lift_off_mm
             return LiftOff(problem=f"it still slips {height_mm:g} mm above where it stood")
         is_shaken = settings.shakes > 0 and settings.shake_mm > 0
-        side_m_s2 = ROCKS[0][0] * settings.shake_acceleration_m_s2 if is_shaken else 0.0
+        side_m_s2 = PREPARED * settings.shake_acceleration_m_s2 if is_shaken else 0.0
         load_m_s2 = max(
             math.hypot(GRAVITY_M_S2, side_m_s2), GRAVITY_M_S2 + settings.acceleration_m_s2
         )
@@ -167,7 +176,7 @@ def _rock(
     """Rock with a part of the shake's acceleration, there and back, until nothing slips in it.
 
     Where the object does, the reflex raises the force; after the rock more is added for the way
-    that it slid.
+    that it slid, and the fingers rise by as much: on its support it would show nothing more.
     """
     here = rig.arm.pose()
     acceleration_m_s2 = part * settings.shake_acceleration_m_s2
@@ -179,10 +188,15 @@ def _rock(
         hold.rest()
         rig.clock.sleep(max(STILL_S, (MEAN_FRAMES + 1) / rig.sensor.spec.frame_hz))
         hold.is_rocked = False
-        slid_mm = max(0.0, _moved_mm(began_mm, hold.indented_mm) - 2 * hold.spread_mm)
-        if hold.slipped_s <= began_s and slid_mm < LEAST_SLID_MM:
+        slid_mm = _moved_mm(began_mm, hold.indented_mm)
+        least_mm = max(LEAST_SLID_MM, LEAST_SPREADS * hold.spread_mm)
+        if hold.called_s > began_s:
+            least_mm /= 2
+        if hold.slipped_s <= began_s and slid_mm < least_mm:
             return
         _raise(rig, hold, min(MOST_ROCKED, ROCKED + SLID_PER_MM * slid_mm))
+        here = shifted(here, np.array([0.0, 0.0, min(slid_mm, MOST_RISE_MM) / 1000]))
+        _go(rig, here, settings.lift_off_speed_m_s, settings.acceleration_m_s2)
         _hang(rig, hold)  # elsewhere on the pad
 
 

@@ -66,6 +66,7 @@ class ReflexHold:
         place_mm: Middle of the indentation of an object that is lifted off, (x, y), gel frame [mm];
             None until it is known.
         seen_s, slipped_s: Time of the newest reading, and of the newest one of a slip [s].
+        called_s: The same of the newest frame that looks like a slip, in a rock too [s].
     """
 
     def __init__(
@@ -83,7 +84,7 @@ class ReflexHold:
         self._quiet: list[ShearField] = []
         self._watch: ShearWatch | None = None
         self._indentation: HeldIndentation | None = None
-        self.slipped_s, self.seen_s = -math.inf, -math.inf
+        self.slipped_s, self.seen_s, self.called_s = -math.inf, -math.inf, -math.inf
         self._noise_mm: tuple[float, float] | None = None
         self._frames: deque[ShearField] = deque()
 
@@ -128,6 +129,8 @@ class ReflexHold:
         if field is None or self.cues is None:
             return None, None
         slip, self.seen_s = self._judge.see(self.cues.values), now_s
+        if slip > 0:
+            self.called_s = now_s
         if self.is_rocked:
             slip -= SURE_SLIP
         if self.standing and not self.hanging:

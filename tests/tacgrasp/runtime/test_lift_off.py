@@ -64,14 +64,14 @@ class RockedHold:
 
     Args:
         slides_mm: Way in each rock [mm].
-        is_told: Whether the frames tell a slip too.
+        is_told: Whether a frame looks like a slip too.
     """
 
     spread_mm = 0.02
 
     def __init__(self, slides_mm, *, is_told):
         self._slides_mm, self._is_told = list(slides_mm), is_told
-        self.seen_s, self.slipped_s = 0.0, -math.inf
+        self.seen_s, self.slipped_s, self.called_s = 0.0, -math.inf, -math.inf
         self.indented_mm = (0.0, 0.0)
         self.asked_n = []
         self.num_rests = self.num_hung = 0
@@ -94,7 +94,7 @@ class RockedHold:
         self.indented_mm = (0.0, self.indented_mm[1] - slid_mm)
         self.seen_s += 1.0
         if self._is_told and slid_mm > 0:
-            self.slipped_s = self.seen_s
+            self.called_s = self.seen_s
 
     @property
     def ahead_n(self):
@@ -109,9 +109,9 @@ class RockedHold:
     ("slides_mm", "is_told", "factors"),
     [
         ([0.0], True, []),
-        ([0.1], False, []),  # no more than noise
-        ([0.1, 0.0], True, [ROCKED + 0.06 * SLID_PER_MM]),
-        ([1.04, 0.0], False, [ROCKED + SLID_PER_MM]),
+        ([0.15], False, []),  # no more than noise
+        ([0.15, 0.0], True, [ROCKED + 0.15 * SLID_PER_MM]),
+        ([1.0, 0.0], False, [ROCKED + SLID_PER_MM]),
         ([9.0, 9.0, 9.0], True, [MOST_ROCKED] * ROCKED_TIMES),
     ],
 )
