@@ -135,8 +135,9 @@ class ReflexHold:
             slip -= SURE_SLIP
         if self.standing and not self.hanging:
             self._read_reserve(field, now_s)
-            if self.reserve is not None and slip > DENIED:
-                slip = max(slip, LEAST_RESERVE - self.reserve.middle)
+            lacks = 0.0 if self.reserve is None else LEAST_RESERVE - self.reserve.middle
+            if lacks > 0 and slip > DENIED:
+                slip = max(slip, lacks)
         held = self._indentation
         if held is not None and self.hanging:
             least_mm = max(CREPT_MM, SURELY * held.spread_mm)
